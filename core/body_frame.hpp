@@ -1,0 +1,46 @@
+#pragma once
+// The rigid motion of a spinning body, carried apart from its nodes. [theory.md, Body frames]
+
+#include <cmath>
+
+#include "core/vec.hpp"
+
+namespace tread {
+
+/// A frame that moves with constant velocity and constant spin about +y between two re-anchorings. Nodes of the
+/// body store their displacement u in it and their velocity w relative to it, in local (t, y, r) components.
+struct BodyFrame {
+  Vec3 origin;      ///< point on the spin axis [m]
+  Vec3 velocity;    ///< of the origin [m/s]
+  double angle = 0; ///< about +y [rad]
+  double spin = 0;  ///< about +y [rad/s]
+
+  void advance(double dt) {
+    origin += dt * velocity;
+    angle += dt * spin;
+  }
+};
+
+/// Vector a turned by `angle` about +y, in components (t, y, r).
+inline Vec3 turn(const Vec3& a, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * a.x + s * a.z, a.y, -s * a.x + c * a.z};
+}
+
+/// spin * y-axis x a, in components (t, y, r).
+inline Vec3 spin_cross(double spin, const Vec3& a) { return {spin * a.z, 0, -spin * a.x}; }
+
+/// Components (t, y, r) at space angle `phi` to Cartesian axes, and back.
+inline Vec3 cylindrical_to_cartesian(double phi, const Vec3& a) {
+  const double c = std::cos(phi);
+  const double s = std::sin(phi);
+  return {-c * a.x - s * a.z, a.y, s * a.x - c * a.z};
+}
+inline Vec3 cartesian_to_cylindrical(double phi, const Vec3& a) {
+  const double c = std::cos(phi);
+  const double s = std::sin(phi);
+  return {-c * a.x + s * a.z, a.y, -s * a.x - c * a.z};
+}
+
+}  // namespace tread

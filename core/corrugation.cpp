@@ -1,0 +1,55 @@
+#include "core/corrugation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace tread {
+
+Corrugation::Corrugation(Sine sine, double start, double length, double centre, double width)
+    : sine_(sine),
+      first_(start),
+      last_(start + std::floor(length / sine.wavelength + 1e-9) * sine.wavelength),
+      centre_(centre),
+      width_(width),
+      deepest_(sine.depth) {}
+
+Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre, double width)
+    : first_(start + x.front()),
+      last_(start + x.back()),
+      centre_(centre),
+      width_(width),
+      deepest_(*std::max_element(depth.begin(), depth.end())),
+      x_(std::move(x)),
+      depth_(std::move(depth)) {
+  for (double& at : x_) at += start;
+  // Slopes of Fritsch and Carlson: the curve does not overshoot the measured depths.
+  const std::size_t n = x_.size();
+  slope_.assign(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double left = (depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]);
+    const double right = (depth_[i + 1] - depth_[i]) / (x_[i + 1] - x_[i]);
+    if (left * right > 0) slope_[i] = 2 * left * right / (left + right);
+  }
+}
+
+double Corrugation::profile(double x) const {
+  if (x <= first_ || x >= last_) return 0;
+  if (x_.empty())
+    return 0.5 * sine_.depth * (1 - std::cos(2 * std::numbers::pi * (x - first_) / sine_.wavelength));
+  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
+  const double h = x_[i + 1] - x_[i];
+  const double s = (x - x_[i]) / h;
+  const double r = 1 - s;
+  return depth_[i] * r * r * (1 + 2 * s) + depth_[i + 1] * s * s * (1 + 2 * r) +
+         h * s * r * (slope_[i] * r - slope_[i + 1] * s);
+}
+
+double Corrugation::depth(double x, double y) const {
+  const double across = (y - centre_) / width_;
+  if (x <= first_ || x >= last_ || std::abs(across) >= 1) return 0;
+  return profile(x) * (1 - across * across);
+}
+
+}  // namespace tread

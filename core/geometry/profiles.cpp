@@ -1,0 +1,208 @@
+#include "core/geometry/profiles.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+Point2 unit(Point2 a) {
+  return (1 / norm(a)) * a;
+}
+
+/// Continues `curve`, which ends on the line through `corner`, along that line, around the corner with the
+/// given radius and on to the tangent point of the line from `corner` to `next`.
+void round_corner(PlaneCurve& curve, Point2 corner, Point2 next, double radius) {
+  const Point2 in = unit(corner - curve.end()), out = unit(next - corner);
+  const double turn = std::atan2(cross(in, out), dot(in, out));
+  const double cut = radius * std::tan(std::abs(turn) / 2);
+  const Point2 centre = corner + (-cut) * in + std::copysign(radius, turn) * Point2{-in.y, in.x};
+  curve.line_to(corner + (-cut) * in).arc_to(corner + cut * out, centre);
+}
+
+/// Tangent circle in the void between a straight face and the web's arc.
+struct Fillet {
+  Point2 on_face, on_web, centre;
+};
+
+/// `face` lies on the face, `normal` points into the void; of the two circles the one nearer to the web is
+/// taken.
+Fillet web_fillet(Point2 face, Point2 normal, double radius, Point2 web_centre, double web_radius) {
+  const Point2 origin = face + radius * normal;
+  Point2 along = {-normal.y, normal.x};
+  if (along.x > 0) along = -1.0 * along;
+  const Point2 d = origin - web_centre;
+  const double reach = web_radius - radius;
+  const double b = dot(d, along);
+  const double t = -b + std::sqrt(b * b - dot(d, d) + reach * reach);
+  const Point2 centre = origin + t * along;
+  return {centre - radius * normal, web_centre + web_radius * unit(centre - web_centre), centre};
+}
+
+struct Cn60Head {
+  Point2 crown_end, shoulder_end, corner_end;  // joints R300-R80, R80-R13, R13-side face
+  Point2 crown, shoulder, corner;              // centres
+};
+
+Cn60Head cn60_head() {
+  Cn60Head head;
+  head.crown = {0, -300 * mm};
+  const Point2 to_crown_end = unit({10, std::sqrt(300.0 * 300 - 100)});
+  head.crown_end = head.crown + 300 * mm * to_crown_end;
+  head.shoulder = head.crown_end - 80 * mm * to_crown_end;
+  const double sine = (25.35 * mm - head.shoulder.x) / (80 * mm);
+  const Point2 to_shoulder_end = {sine, std::sqrt(1 - sine * sine)};
+  head.shoulder_end = head.shoulder + 80 * mm * to_shoulder_end;
+  head.corner = head.shoulder_end - 13 * mm * to_shoulder_end;
+  head.corner_end = head.corner + 13 * mm * unit({20, 1});
+  return head;
+}
+
+/// Point of the side face, 1 in 20 from the vertical, at height z.
+Point2 side_face(const Cn60Head& head, double z) {
+  return {head.corner_end.x + (head.corner_end.y - z) / 20, z};
+}
+
+PlaneCurve cn60_lower() {
+  const Cn60Head head = cn60_head();
+  const double height = 176 * mm;
+  const auto point = [&](double x, double above_base) { return Point2{x * mm, above_base * mm - height}; };
+
+  const Point2 web_centre = point(408.25, 79);
+  const Point2 under = point(0, 127.5);
+  const Point2 foot = point(46, 15.222), foot_edge = point(75, 12), foot_corner = point(75, 0);
+  const Fillet upper = web_fillet(under, unit({1, -3}), 12 * mm, web_centre, 400 * mm);
+  const Fillet lower = web_fillet(foot, unit({1, 3}), 20 * mm, web_centre, 400 * mm);
+
+  // The side face x = corner_end.x + (corner_end.y - z) / 20 meets the underside z = under.y + x / 3.
+  const double corner_x = (head.corner_end.x + (head.corner_end.y - under.y) / 20) / (1 + 1.0 / 60);
+  const Point2 head_corner = {corner_x, under.y + corner_x / 3};
+
+  PlaneCurve curve(head.corner_end);
+  round_corner(curve, head_corner, upper.on_face, 3 * mm);
+  curve.line_to(upper.on_face).arc_to(upper.on_web, upper.centre);
+  curve.arc_to(lower.on_web, web_centre).arc_to(lower.on_face, lower.centre);
+  round_corner(curve, foot, foot_edge, 40 * mm);
+  round_corner(curve, foot_edge, foot_corner, 4 * mm);
+  round_corner(curve, foot_corner, {0, -height}, 2 * mm);
+  curve.line_to({0, -height});
+  return curve;
+}
+
+RailProfile cn60_under(PlaneCurve running) {
+  RailProfile rail = {std::move(running), cn60_lower(), {}, 176 * mm};
+  const std::vector<double> s = rail.lower.joints(0, rail.lower.length());
+  const auto middle = [&](std::size_t i) { return 0.5 * (s[i] + s[i + 1]); };
+  rail.rounding = {middle(0), middle(2), middle(4), middle(8), middle(10)};
+  return rail;
+}
+
+}  // namespace
+
+RailProfile cn60() {
+  const Cn60Head head = cn60_head();
+  const auto left = [](Point2 a) { return Point2{-a.x, a.y}; };
+  PlaneCurve running(left(side_face(head, -kRailSideDepth)));
+  running.line_to(left(head.corner_end))
+      .arc_to(left(head.shoulder_end), left(head.corner))
+      .arc_to(left(head.crown_end), left(head.shoulder))
+      .arc_to(head.crown_end, head.crown)
+      .arc_to(head.shoulder_end, head.shoulder)
+      .arc_to(head.corner_end, head.corner)
+      .line_to(side_face(head, -kRailSideDepth));
+  return cn60_under(std::move(running));
+}
+
+RailProfile rail_with_head(std::span<const double> y, std::span<const double> z) {
+  const PlaneCurve measured = curve_through(y, z, "rail profile");
+  const double crown = measured.at(measured.at_x(0)).position.y;
+  std::vector<double> kept_y, kept_z;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (z[i] - crown > -18 * mm) {
+      kept_y.push_back(y[i]);
+      kept_z.push_back(z[i] - crown);
+    }
+  if (kept_y.size() < 3 || kept_y.front() > -30 * mm || kept_y.back() < 30 * mm ||
+      kept_y.front() < -37 * mm || kept_y.back() > 37 * mm)
+    throw InputError(
+        fmt::format("rail profile: the table spans y = {:.1f} ... {:.1f} mm above 18 mm below the crown; it "
+                    "has to end between 30 and "
+                    "37 mm on either side of the centre line (is y measured in the stated unit and from the "
+                    "centre line?)",
+                    kept_y.empty() ? 0 : kept_y.front() / mm, kept_y.empty() ? 0 : kept_y.back() / mm));
+
+  const Cn60Head head = cn60_head();
+  const auto left = [](Point2 a) { return Point2{-a.x, a.y}; };
+  PlaneCurve running(left(side_face(head, -kRailSideDepth)));
+  running.line_to(left(side_face(head, -20 * mm)))
+      .line_to({kept_y.front(), kept_z.front()})
+      .append(curve_through(kept_y, kept_z, "rail profile"))
+      .line_to(side_face(head, -20 * mm))
+      .line_to(side_face(head, -kRailSideDepth));
+  return cn60_under(std::move(running));
+}
+
+WheelProfile lma() {
+  // Centres to the micrometre from the standard; only the directions between them are used, so that the arcs
+  // are tangent to rounding. [TB/T 449]
+  const auto direction = [](Point2 from, Point2 to) { return unit(to - from); };
+  const Point2 c450_stated = {15.500, 449.733}, c90_stated = {-5.500, 90.347}, c14_stated = {-24.869, 16.856},
+               c15_stated = {-53.615, 13.025}, c12_stated = {-54.000, 16.000}, c25_stated = {-45.000, 6.619};
+  const Point2 c450 = {15.5 * mm, std::sqrt(450.0 * 450 - 15.5 * 15.5) * mm};
+  const Point2 u90 = direction(c450_stated, c90_stated), c90 = c450 + 360 * mm * u90;
+  const Point2 u14 = direction(c90_stated, c14_stated), c14 = c90 + 76 * mm * u14;
+  const Point2 u15 = direction(c14_stated, c15_stated), c15 = c14 + 29 * mm * u15;
+  const Point2 u12 = direction(c15_stated, c12_stated), c12 = c15 + 3 * mm * u12;
+  const Point2 u25 = direction(c25_stated, c12_stated), c25 = c12 - 13 * mm * u25;
+
+  PlaneCurve curve(c25 + Point2{-25 * mm, 0});
+  curve.arc_to(c25 + 25 * mm * u25, c25)
+      .arc_to(c15 + 15 * mm * u12, c12)
+      .arc_to(c14 + 14 * mm * u15, c15)
+      .arc_to(c90 + 90 * mm * u14, c14)
+      .arc_to(c450 + 450 * mm * u90, c90);
+  const Point2 cone = c450 + 450 * mm * unit({-1, -40});
+  const Point2 break_point = cone + (30 * mm - cone.x) * Point2{1, -1.0 / 40};
+  const Point2 edge = break_point + 35 * mm * Point2{1, -1.0 / 15};
+  curve.arc_to(cone, c450).line_to(break_point).line_to(edge);
+  return {curve};
+}
+
+WheelProfile wheel_from_table(std::span<const double> y, std::span<const double> z) {
+  const PlaneCurve raw = curve_through(y, z, "wheel profile");
+  if (!(y.front() < 0 && y.back() > 0))
+    throw InputError(fmt::format(
+        "wheel profile: the table spans y = {:.1f} ... {:.1f} mm and misses the nominal rolling circle y = 0",
+        y.front() / mm, y.back() / mm));
+  const double nominal = raw.at(raw.at_x(0)).position.y;
+  std::vector<double> shifted(z.begin(), z.end());
+  for (double& value : shifted) value -= nominal;
+  return {curve_through(y, shifted, "wheel profile")};
+}
+
+WheelProfile crowned(double width, double crown_radius) {
+  const double half = width / 2;
+  if (!(width > 0) || crown_radius < 0 || (crown_radius > 0 && crown_radius <= half))
+    throw InputError(
+        fmt::format("profile of width {} m with crown radius {} m: the radius must exceed half the width, or "
+                    "be 0 for a straight "
+                    "profile",
+                    width, crown_radius));
+  if (crown_radius == 0) {
+    PlaneCurve straight({-half, 0});
+    return {straight.line_to({half, 0})};
+  }
+  const double drop = half * half / (crown_radius + std::sqrt(crown_radius * crown_radius - half * half));
+  PlaneCurve arc({-half, -drop});
+  return {arc.arc_to({half, -drop}, {0, -crown_radius})};
+}
+
+}  // namespace tread

@@ -1,0 +1,17 @@
+#pragma once
+// Normal contact of two elastic half-spaces with quadratic gap. [Johnson, Contact Mechanics, ch. 4]
+
+namespace tread {
+
+struct HertzPatch {
+  double semi_axis_x = 0;   ///< along the rolling direction [m]
+  double semi_axis_y = 0;   ///< across [m]
+  double max_pressure = 0;  ///< [Pa]
+  double approach = 0;      ///< of distant points [m]
+};
+
+/// gap = x^2 / (2 radius_x) + y^2 / (2 radius_y); both radii positive [m]; `load` [N]; `contact_modulus`
+/// E* = 1 / ((1 - nu1^2) / E1 + (1 - nu2^2) / E2) [Pa].
+HertzPatch hertz(double radius_x, double radius_y, double contact_modulus, double load);
+
+}  // namespace tread

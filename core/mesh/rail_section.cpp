@@ -1,0 +1,216 @@
+#include "core/mesh/rail_section.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kTieDepth = 24e-3;      // [m]
+constexpr double kLargestColumn = 4e-3;  // on the cap's surface [m]: resolves the R13 corners
+constexpr double kCoarseRatio =
+    1.6;  // least ratio of coarse to surface size: several fine edges on a coarse one
+
+int count_of(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
+
+std::vector<Point2> along(const PlaneCurve& curve, double from, double to, int count) {
+  return positions(curve, evenly(from, to, count));
+}
+
+std::vector<Point2> mirrored(std::vector<Point2> points) {
+  for (Point2& point : points) point.x = -point.x;
+  std::reverse(points.begin(), points.end());
+  return points;
+}
+
+PatchSides mirrored(const PatchSides& sides) {
+  const auto flip = [](std::vector<Point2> points) {
+    for (Point2& point : points) point.x = -point.x;
+    return points;
+  };
+  return {mirrored(sides.bottom), mirrored(sides.top), flip(sides.right), flip(sides.left)};
+}
+
+/// A strip symmetric about x = 0 between two rows of points and the right outline with its mirror image.
+PatchSides strip(std::vector<Point2> bottom, std::vector<Point2> top, std::vector<Point2> right) {
+  PatchSides sides = {std::move(bottom), std::move(top), {}, std::move(right)};
+  for (Point2 point : sides.right) sides.left.push_back({-point.x, point.y});
+  return sides;
+}
+
+/// Node at the convex rounding with the middle `s`: on the bisector, between arc and sharp corner such that
+/// edges of a few radii keep the area. Fitted to the three corners of CN60: 0.59, 0.60 and 0.80 of the way.
+Point2 corner_node(const PlaneCurve& lower, double s) {
+  const auto before = lower.joints(0, s), after = lower.joints(s, lower.length());
+  const CurvePoint a = lower.at(before.back()), b = lower.at(after.front());
+  const double reach = cross(b.position - a.position, b.tangent) / cross(a.tangent, b.tangent);
+  const Point2 sharp = a.position + reach * a.tangent, middle = lower.at(s).position;
+  return middle + 0.6 * (sharp - middle);
+}
+
+/// Half the tie: x of the coarse nodes and the number of elements in the middle strip and in each wing.
+struct CoarseTie {
+  std::vector<double> x;  // all of them, left to right
+  double end = 0;         // on the side face
+  double strip = 0;       // half width of the middle strip
+  double s_end = 0;       // parameter of the end on `lower`
+  int middle = 0, wing = 0;
+};
+
+CoarseTie coarse_tie(const RailProfile& rail, const SectionSize& size) {
+  CoarseTie tie;
+  tie.s_end = rail.lower.first(0, rail.rounding[0],
+                               [](const CurvePoint& point) { return -kTieDepth - point.position.y; });
+  tie.end = rail.lower.at(tie.s_end).position.x;
+  const double web_width = 16.5e-3;
+  tie.middle = count_of(web_width, size.coarse, 2);
+  tie.strip = 0.95 * rail.lower.at(rail.rounding[1]).position.x;
+  tie.wing = count_of(tie.end - tie.strip, size.coarse, 1);
+  tie.x = evenly(-tie.end, -tie.strip, tie.wing);
+  const auto middle = evenly(-tie.strip, tie.strip, tie.middle), right = evenly(tie.strip, tie.end, tie.wing);
+  tie.x.insert(tie.x.end(), middle.begin() + 1, middle.end());
+  tie.x.insert(tie.x.end(), right.begin() + 1, right.end());
+  return tie;
+}
+
+PatchSides head_wing(const RailProfile& rail, const CoarseTie& tie, const std::vector<Point2>& strip_side) {
+  const double s_head = rail.rounding[0];
+  const Point2 tie_end = {tie.end, -kTieDepth};
+  PatchSides sides;
+  sides.left = strip_side;
+  sides.right = along(rail.lower, s_head, tie.s_end, static_cast<int>(strip_side.size()) - 1);
+  sides.bottom = along(rail.lower, rail.rounding[1], s_head, tie.wing);
+  sides.top = straight(strip_side.back(), tie_end, tie.wing);
+  sides.right.front() = sides.bottom.back() = corner_node(rail.lower, s_head);
+  sides.right.back() = tie_end;
+  return sides;
+}
+
+PatchSides foot_wing(const RailProfile& rail, const std::vector<Point2>& strip_side, int columns) {
+  const Point2 top = corner_node(rail.lower, rail.rounding[3]);
+  const Point2 bottom = {corner_node(rail.lower, rail.rounding[4]).x, -rail.height};
+  PatchSides sides;
+  sides.left = strip_side;
+  sides.right = straight(bottom, top, static_cast<int>(strip_side.size()) - 1);
+  sides.bottom = straight(strip_side.front(), bottom, columns);
+  sides.top = along(rail.lower, rail.rounding[2], rail.rounding[3], columns);
+  sides.top.back() = top;
+  return sides;
+}
+
+Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSize& size) {
+  const double s_web_top = rail.rounding[1], s_web_bottom = rail.rounding[2];
+  const Point2 web_top = rail.lower.at(s_web_top).position, web_bottom = rail.lower.at(s_web_bottom).position;
+  const Point2 tie_strip = {tie.strip, -kTieDepth}, foot_strip = {0.9 * web_bottom.x, -rail.height};
+  const int head_rows = std::max(1, static_cast<int>((tie_strip.y - web_top.y) / size.coarse));
+  const int web_rows = count_of(web_top.y - web_bottom.y, size.coarse, 4);
+  const int foot_rows = count_of(web_bottom.y + rail.height, 1.5 * size.coarse, 2);
+  const int foot_columns = count_of(rail.rounding[3] - s_web_bottom, size.coarse, 3);
+  const auto across = [&](Point2 right) { return straight({-right.x, right.y}, right, tie.middle); };
+
+  const auto head_side = straight(web_top, tie_strip, head_rows);
+  const auto foot_side = straight(foot_strip, web_bottom, foot_rows);
+  const PatchSides head = head_wing(rail, tie, head_side), foot = foot_wing(rail, foot_side, foot_columns);
+
+  SectionBuilder builder;
+  builder.add(fill(strip(across(web_top), across(tie_strip), head_side)));
+  builder.add(fill(head));
+  builder.add(fill(mirrored(head)));
+  builder.add(
+      fill(strip(across(web_bottom), across(web_top), along(rail.lower, s_web_bottom, s_web_top, web_rows))));
+  builder.add(fill(strip(across(foot_strip), across(web_bottom), foot_side)));
+  builder.add(fill(foot));
+  builder.add(fill(mirrored(foot)));
+
+  builder.path("tie", at_height(tie.x, -kTieDepth));
+  std::vector<Point2> line = mirrored(foot.bottom);
+  const auto middle = across(foot_strip);
+  line.insert(line.end(), middle.begin() + 1, middle.end());
+  line.insert(line.end(), foot.bottom.begin() + 1, foot.bottom.end());
+  builder.path("foot", line);
+  return builder.take();
+}
+
+/// Rows on the side face, as fractions from the tie up: growing upwards, so that the cell in the rounded
+/// corner is large enough to have an angle there.
+std::vector<double> side_rows(int rows) {
+  std::vector<double> result = {0.0};
+  for (int j = 0; j < rows; ++j) result.push_back(result.back() + 1 + 0.9 * (j + 0.5) / rows);
+  for (double& value : result) value /= result[static_cast<std::size_t>(rows)];
+  return result;
+}
+
+struct CapEdges {
+  double left, right;          // logical corners, where the surface is inclined by 45 degrees
+  double left_tie, right_tie;  // where the side faces meet the tie
+};
+
+CapEdges cap_edges(const PlaneCurve& running) {
+  const double middle = running.at_x(0), sine = std::sqrt(0.5);
+  const auto below = [](const CurvePoint& point) { return -kTieDepth - point.position.y; };
+  const auto rising = [&](const CurvePoint& point) { return point.tangent.y - sine; };
+  const auto falling = [&](const CurvePoint& point) { return -point.tangent.y - sine; };
+  return {running.first(middle, 0, rising), running.first(middle, running.length(), falling),
+          running.first(middle, 0, below), running.first(middle, running.length(), below)};
+}
+
+Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSize& size) {
+  const PlaneCurve& running = rail.running;
+  const CapEdges edges = cap_edges(running);
+  const auto s = graded(breaks_on(running, edges.left, edges.right),
+                        [&](double at) { return size.column(running.at(at).position.x, kLargestColumn); });
+
+  PatchSides sides;
+  sides.top = positions(running, s);
+  std::vector<double> wanted, weight;
+  for (const Point2& point : sides.top) {
+    const double reach = point.x < 0 ? -sides.top.front().x : sides.top.back().x;
+    wanted.push_back(point.x + (tie.end - reach) * std::pow(point.x / reach, 3));
+    weight.push_back(size.layer_weight(point.x, sides.top.front().x, sides.top.back().x));
+  }
+  const auto x = nested(wanted, tie.x, "rail head");
+  sides.bottom = at_height(x, -kTieDepth);
+  const auto layers = from_below(layer_depths(size, kTieDepth));
+  for (const double fraction : side_rows(static_cast<int>(layers.size()) - 1)) {
+    sides.left.push_back(running.at(edges.left_tie + fraction * (edges.left - edges.left_tie)).position);
+    sides.right.push_back(running.at(edges.right_tie + fraction * (edges.right - edges.right_tie)).position);
+  }
+
+  SectionBuilder builder;
+  builder.add(fill_layered(sides, layers, weight));
+  builder.surface(running, s);
+  builder.path("tie", sides.bottom);
+  return builder.take();
+}
+
+}  // namespace
+
+RailSections make_rail_sections(const RailProfile& profile, double inclination, const SectionSize& wanted) {
+  check(wanted, kTieDepth, "rail");
+  SectionSize size = wanted;
+  size.coarse = std::max(size.coarse, kCoarseRatio * size.surface);
+  if (!(std::abs(inclination) <= 0.2))
+    throw InputError(fmt::format("rail inclination {} is outside -0.2 ... 0.2 (1:40 is 0.025)", inclination));
+  const CoarseTie tie = coarse_tie(profile, size);
+  RailSections sections = {make_cap(profile, tie, size), make_base(profile, tie, size), kTieDepth};
+  for (Section* section : {&sections.cap, &sections.base}) rotate(*section, std::atan(inclination));
+  validate(sections.cap, "rail head");
+  validate(sections.base, "rail base");
+  return sections;
+}
+
+Section make_box_rail_section(double width, double height, double crown_radius, const SectionSize& size) {
+  Section section = block_under(crowned(width, crown_radius).surface, -height, size, "foot");
+  validate(section, "box rail");
+  return section;
+}
+
+}  // namespace tread

@@ -1,0 +1,123 @@
+#pragma once
+// Pieces from which the sections of rail and wheel are built: graded points, structured patches, sections.
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/plane_curve.hpp"
+#include "core/mesh/section.hpp"
+
+namespace tread {
+
+/// Element sizes of a section with a running surface.
+struct SectionSize {
+  double surface = 2.2e-3;     ///< contact elements: columns in the running band, rows of the top layers [m]
+  double coarse = 9e-3;        ///< elements away from the contact [m]
+  double band_centre = -3e-3;  ///< middle of the running band, coordinate p [m]
+  double band_half_width = 20e-3;  ///< [m]
+  int fine_layers = 2;             ///< rows of thickness `surface`
+
+  /// Wanted column width at p: `surface` in the running band, growing outside to `largest` [m].
+  double column(double p, double largest) const;
+
+  /// How far the rows at p keep the fine layers' thickness: 1 in the running band, falling to 0 at the ends
+  /// of the surface, `left` and `right`, over at least 10 mm. [-]
+  double layer_weight(double p, double left, double right) const;
+};
+
+/// Throws InputError when a size is not positive or the layers do not fit into `depth` [m]; `name` is the
+/// body.
+void check(const SectionSize& size, double depth, const std::string& name);
+
+/// Increasing parameters that contain every break and whose spacing follows size(parameter).
+std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size);
+
+/// count + 1 values from first to last, both exact.
+std::vector<double> evenly(double first, double last, int count);
+
+/// Depths below a surface, from 0 to `depth`: fine layers of equal thickness, then rows that grow up to
+/// size.coarse.
+std::vector<double> layer_depths(const SectionSize& size, double depth);
+
+/// `depths` as fractions of the height above the deepest, from 0 to 1.
+std::vector<double> from_below(std::span<const double> depths);
+
+/// Fine interface nodes that nest in coarse ones: fine.size() abscissae close to the wanted `fine` among
+/// which every value of `coarse` occurs exactly and which divide each coarse edge evenly. Both increase and
+/// share their ends. Throws InputError when there are fewer fine than coarse edges.
+std::vector<double> nested(std::span<const double> fine, std::span<const double> coarse,
+                           const std::string& name);
+
+/// Parameters from, every joint between, to: the breaks of graded() on a curve.
+std::vector<double> breaks_on(const PlaneCurve& curve, double from, double to);
+std::vector<Point2> positions(const PlaneCurve& curve, std::span<const double> parameters);
+std::vector<Point2> straight(Point2 first, Point2 last, int count);
+std::vector<Point2> at_height(std::span<const double> x, double y);
+
+/// (columns + 1) x (rows + 1) points; column i runs along increasing x, row j along increasing y.
+struct Patch {
+  Patch(int columns_, int rows_)
+      : columns(columns_), rows(rows_), points(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1))) {}
+  Point2& at(int i, int j) { return points[static_cast<std::size_t>(j * (columns + 1) + i)]; }
+  Point2 at(int i, int j) const { return points[static_cast<std::size_t>(j * (columns + 1) + i)]; }
+  int columns, rows;
+  std::vector<Point2> points;
+};
+
+/// The four sides of a patch: bottom and top by increasing i, left and right by increasing j; corners shared.
+struct PatchSides {
+  std::vector<Point2> bottom, top, left, right;
+};
+
+/// Transfinite interpolation between the sides.
+Patch fill(const PatchSides& sides);
+
+/// Columns are straight between bottom and top except near curved left and right sides. Their nodes stand at
+/// `layers` (fractions from the bottom, rows + 1 of them) where weight[i] = 1, and spaced as on the left and
+/// right sides where it is 0.
+Patch fill_layered(const PatchSides& sides, std::span<const double> layers, std::span<const double> weight);
+
+/// Collects patches into a section; nodes closer than 1e-7 m are one.
+class SectionBuilder {
+ public:
+  void add(const Patch& patch);
+  /// Nodes at the given points, which must exist.
+  std::vector<int> nodes_at(std::span<const Point2> points) const;
+  void path(const std::string& name, std::span<const Point2> points);
+  /// Makes the edges between consecutive parameters of the curve the running surface, with its one-sided
+  /// tangents.
+  void surface(const PlaneCurve& curve, std::span<const double> parameters);
+  Section take() { return std::move(section_); }
+
+ private:
+  int find(Point2 point) const;
+  Section section_;
+};
+
+/// Rotates the section about the origin, counter-clockwise, tangents included. [rad]
+void rotate(Section& section, double angle);
+void translate(Section& section, Point2 shift);
+
+/// Grid over p x q with paths "bottom", "top", "left" and "right".
+Section rectangle(std::span<const double> p, std::span<const double> q);
+Section rectangle(double p0, double p1, int columns, double q0, double q1, int rows);
+
+/// One structured block between a surface and the straight line q = bottom, with the surface's whole length
+/// as running surface and the line as path `bottom_name`.
+Section block_under(const PlaneCurve& surface, double bottom, const SectionSize& size,
+                    const std::string& bottom_name);
+
+/// Sum over the quads.
+AreaMoments area_moments(const Section& section);
+
+/// Of the body that the section sweeps in a full turn about q = 0.
+struct RevolvedMoments {
+  double volume = 0;  ///< [m3]
+  double polar = 0;   ///< integral of r^2 over the volume: moment of inertia about the axis / density [m5]
+};
+RevolvedMoments revolved_moments(const Section& section);
+
+}  // namespace tread

@@ -1,0 +1,119 @@
+#pragma once
+// A section swept along a line of stations, cut into tiles: the unit of storage and of parallel work.
+//
+// Local basis of a node, components 0, 1, 2 of every vector field:
+//   extruded: (x, y, z), the same for all nodes;
+//   revolved: (t, y, r) at the node's own angle phi about the y axis. phi = 0 points down (-z), phi grows with
+//             positive rotation about +y: r = (-sin phi, 0, -cos phi), t = (-cos phi, 0, sin phi), t x y = r.
+// Element coordinates (xi, eta, zeta): xi along the sweep, (eta, zeta) in the quad.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/material.hpp"
+#include "core/mesh/section.hpp"
+#include "core/vec.hpp"
+
+namespace tread {
+
+/// Stations per tile: lanes of one vector register in double precision.
+inline constexpr int kLanes = 8;
+
+enum class Sweep { extruded, revolved };
+
+/// A run of elements of one pitch along the sweep.
+struct Segment {
+  int elements = 0;
+  double pitch = 0;         ///< length [m] (extruded) or angle [rad] (revolved) of one element
+  int material_offset = 0;  ///< added to Section::quad_material here (slab gaps of another material)
+};
+
+/// Up to kLanes consecutive stations and the elements that start at them. Lane l holds station
+/// first_station + l; element l joins stations l and l + 1; the last element's far station is lane 0 of tile
+/// `next`. All elements of a tile share one pitch class.
+struct Tile {
+  int first_station = 0;
+  int stations = 0;  ///< used lanes, 1 ... kLanes
+  int elements = 0;  ///< `stations`, or 0 in the tile that only holds the last station of an open block
+  int pitch_class = 0;
+  int next = -1;  ///< tile that holds the station after this one's last element; -1 if none
+};
+
+/// (pitch, material) of the elements of a tile; coefficients are shared by all elements of (quad, class).
+struct PitchClass {
+  double pitch = 0;
+  int material_offset = 0;
+};
+
+struct SweptBlock {
+  std::string name;
+  Sweep sweep = Sweep::extruded;
+  bool closed = false;  ///< a full turn: the last element ends at station 0
+  Section section;
+  std::vector<Material> materials;
+
+  std::vector<double> stations;  ///< coordinate of each station along the sweep [m or rad]
+  std::vector<Tile> tiles;
+  std::vector<PitchClass> classes;
+  std::int64_t base = 0;  ///< slot of (tile 0, section node 0, lane 0) in the mesh's node fields
+
+  /// Displacement of nodes from their swept position, in their local basis [m], by slot relative to `base`
+  /// (corrugation by moved nodes; interface nodes that lie on the chords of a coarser block). Elements that
+  /// touch a shifted node carry coefficients of their own.
+  std::map<std::int64_t, Vec3> node_shift;
+
+  std::int64_t slots() const {
+    return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes;
+  }
+  std::int64_t nodes() const { return static_cast<std::int64_t>(stations.size()) * section.nodes(); }
+  std::int64_t elements() const;
+  int station_count() const { return static_cast<int>(stations.size()); }
+
+  /// Slot of a node relative to `base`: (tile * section nodes + section node) * kLanes + lane.
+  std::int64_t slot(int section_node, int station) const {
+    const int tile = tile_of_station[static_cast<std::size_t>(station)];
+    return (static_cast<std::int64_t>(tile) * section.nodes() + section_node) * kLanes +
+           (station - tiles[static_cast<std::size_t>(tile)].first_station);
+  }
+  std::vector<int> tile_of_station;
+
+  /// Material of the elements of (quad, class).
+  const Material& material(int quad, int pitch_class) const {
+    const auto index = section.quad_material[static_cast<std::size_t>(quad)] +
+                       classes[static_cast<std::size_t>(pitch_class)].material_offset;
+    return materials[static_cast<std::size_t>(index)];
+  }
+};
+
+/// Lays out stations and tiles. Extruded: stations start at `start` [m]. Revolved: at angle `start` [rad];
+/// closed when the segments add up to 2 pi (to 1e-9), then the last station is station 0 again.
+SweptBlock make_swept_block(std::string name, Sweep sweep, Section section, std::vector<Material> materials,
+                            double start, const std::vector<Segment>& segments);
+
+/// Position of a node (its shift included) in the body frame: extruded (x, y, z); revolved: relative to the
+/// axis, at frame angle 0.
+Vec3 position(const SweptBlock& block, int section_node, int station);
+
+/// Rotates a vector from the node's local basis to Cartesian axes, at frame angle `angle` [rad] (revolved; the
+/// identity for extruded blocks).
+Vec3 to_cartesian(const SweptBlock& block, int station, double angle, const Vec3& local);
+Vec3 to_local(const SweptBlock& block, int station, double angle, const Vec3& cartesian);
+
+/// The blocks of a model; node fields are contiguous over all of them, unused lanes hold zero.
+struct Mesh {
+  std::vector<SweptBlock> blocks;
+  std::int64_t slots = 0;  ///< node slots over all blocks, a multiple of kLanes
+
+  /// Appends a block and gives it its base; returns its index.
+  int add(SweptBlock block);
+};
+
+/// Index of a component of a node in a vector field of 3 * mesh.slots values: within a group of kLanes slots the
+/// components follow one another, lanes contiguous.
+inline std::int64_t dof(std::int64_t slot, int component) {
+  return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
+}
+
+}  // namespace tread

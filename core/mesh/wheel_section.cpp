@@ -1,0 +1,365 @@
+#include "core/mesh/wheel_section.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kTieDepth = 23e-3;  // tread tie below the nominal rolling circle [m]
+constexpr double kRimDepth = 65e-3;  // inner rim radius below the nominal rolling circle [m]
+constexpr double kRimSlant = 5e-3;   // the rim is thinner by this at its faces [m]
+constexpr double kFlare = 8e-3;      // widening of the web at rim and hub, each side [m]
+constexpr double kFlareLength = 25e-3;
+constexpr double kBrakeOuterDepth = 110e-3;  // brake ring below the nominal rolling circle [m]
+constexpr double kBrakeInnerRadius = 175e-3;
+constexpr double kBrakeGap = 10e-3;  // between web and brake ring, bridged at the bolt circle [m]
+constexpr double kHubOuterRadius = 145e-3, kHubTieRadius = 127e-3, kSeatRadius = 95e-3, kHubLength = 178e-3;
+constexpr double kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
+constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // y_wheel [m]
+
+constexpr double kFlangeSize = 4.2e-3;  // on the flange and its root [m]: two elements on half of the R14
+constexpr double kCoarseRatio = 1.6;    // least ratio of coarse to surface size
+constexpr double kAxleRatio = 2.3;      // axle to disc size
+
+int count_of(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
+
+std::vector<Point2> along(const PlaneCurve& curve, double from, double to, int count) {
+  return positions(curve, evenly(from, to, count));
+}
+
+void append(std::vector<double>& line, std::span<const double> more) {
+  line.insert(line.end(), more.begin() + 1, more.end());
+}
+
+/// Parameters on the profile: the two upper corners of the flange's patch and its foot in the root.
+struct Flange {
+  bool present = false;
+  double tip_back = 0, tip_front = 0, root = 0;
+};
+
+Flange find_flange(const PlaneCurve& profile) {
+  const double length = profile.length(), steep = std::sqrt(0.5);
+  Flange flange;
+  flange.tip_back = profile.first(0, length, [](const CurvePoint& point) { return 0.43 - point.tangent.y; });
+  flange.tip_front =
+      profile.first(flange.tip_back, length, [&](const CurvePoint& p) { return -p.tangent.y - steep; });
+  flange.present = flange.tip_front < length;
+  if (!flange.present) return flange;
+  flange.root = profile.first(flange.tip_front + 1e-4, length,
+                              [&](const CurvePoint& p) { return p.tangent.y + steep; });
+  if (!(flange.root < length) || profile.at(flange.root).position.x > 0)
+    throw InputError(
+        "wheel profile: no tread found beyond the flange; y has to grow from the flange back to the field "
+        "side and z "
+        "towards the flange tip");
+  return flange;
+}
+
+/// Bottom position wanted below a point of the tread: columns lean outward under the flange's root.
+double below(const Point2& top, const Point2& root) {
+  constexpr double reach = 20e-3;
+  const double lean = 0.35 * (root.y + kTieDepth);
+  return top.x - lean * std::clamp(1 - (top.x - root.x) / reach, 0.0, 1.0);
+}
+
+/// Tread ring in (y_wheel, z); `coarse` are the tie nodes of the disc.
+Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, const SectionSize& size) {
+  const Flange flange = find_flange(profile);
+  const double largest = std::max(kFlangeSize, 0.55 * size.coarse);
+  const auto column = [&](double s) {
+    const double x = profile.at(s).position.x;
+    return size.column(x, x < size.band_centre ? kFlangeSize : largest);
+  };
+  const auto flange_size = [&](double) { return std::max(kFlangeSize, size.surface); };
+
+  const auto tread = graded(breaks_on(profile, flange.root, profile.length()), column);
+  const Point2 root = profile.at(flange.root).position;
+  const Point2 low_left = {profile.start().x, -kTieDepth}, low_right = {profile.end().x, -kTieDepth};
+  PlaneCurve outline(low_left);
+  outline.line_to(profile.start()).append(profile);
+  const double start = norm(profile.start() - low_left);  // of the profile on the outline
+  const double join = outline.first(0, start + flange.tip_back + 1e-9, [&](const CurvePoint& point) {
+    return point.position.y - root.y + 1e-12;
+  });
+
+  const auto layers = from_below(layer_depths(size, kTieDepth));
+  const int rows = static_cast<int>(layers.size()) - 1;
+  PatchSides ring;
+  ring.left = along(outline, 0, join, rows);
+  ring.right = straight(low_right, profile.end(), rows);
+
+  SectionBuilder builder;
+  std::vector<double> surface = {flange.root};
+  std::vector<double> wanted;
+  if (flange.present) {
+    surface = graded(breaks_on(profile, flange.tip_back, flange.tip_front), flange_size);
+    const auto front = graded(breaks_on(profile, flange.tip_front, flange.root), flange_size);
+    PatchSides sides;
+    sides.top = positions(profile, surface);
+    sides.right = positions(profile, front);
+    std::reverse(sides.right.begin(), sides.right.end());
+    sides.left = along(outline, join, start + flange.tip_back, static_cast<int>(front.size()) - 1);
+    sides.bottom = straight(ring.left.back(), root, static_cast<int>(surface.size()) - 1);
+    builder.add(fill(sides));
+    ring.top.assign(sides.bottom.begin(), sides.bottom.end() - 1);
+    wanted = evenly(low_left.x, below(root, root), static_cast<int>(surface.size()) - 1);
+    wanted.pop_back();
+    append(surface, front);
+  }
+  for (const Point2& point : positions(profile, tread)) {
+    ring.top.push_back(point);
+    wanted.push_back(flange.present ? below(point, root) : point.x);
+  }
+  append(surface, tread);
+  ring.bottom = at_height(nested(wanted, coarse, "wheel tread"), -kTieDepth);
+  std::vector<double> weight;
+  for (const Point2& point : ring.top)
+    weight.push_back(point.x < root.x ? 0 : size.layer_weight(point.x, root.x, low_right.x));
+  builder.add(fill_layered(ring, layers, weight));
+  builder.surface(profile, surface);
+  builder.path("tie", ring.bottom);
+  return builder.take();
+}
+
+/// Axial lines of the disc, relative to the web's middle plane.
+struct DiscLines {
+  std::vector<double> rim, hub;  // tie nodes, left to right
+  std::vector<double> axle_hub;  // tie nodes of the axle
+  int web = 0;                   // columns through the web
+};
+
+/// Left wing, flared web and right wing over |x| <= half.
+std::vector<double> winged(double half, double web_half, int web, double size) {
+  const int wing = count_of(half - web_half, size, 1);
+  auto line = evenly(-half, -web_half, wing);
+  append(line, evenly(-web_half, web_half, web));
+  append(line, evenly(web_half, half, wing));
+  return line;
+}
+
+DiscLines disc_lines(double rim_width, const WheelShape& shape, const SectionSize& size) {
+  const double web_end = shape.web_thickness / 2 + kFlare;
+  DiscLines lines;
+  lines.web = count_of(shape.web_thickness, size.coarse, 2);
+  lines.rim = winged(rim_width / 2, web_end, lines.web, size.coarse);
+  lines.axle_hub = evenly(-kHubLength / 2, kHubLength / 2, count_of(kHubLength, kAxleRatio * size.coarse, 3));
+  lines.hub = winged(kHubLength / 2, web_end, lines.web, size.coarse);
+  return lines;
+}
+
+/// Radii of the web's rows, and the rows at which brake ring and bolt circle begin and end.
+struct WebRows {
+  std::vector<double> r;
+  int ring_first = 0, ring_last = 0, bolts_first = 0, bolts_last = 0;
+};
+
+WebRows web_rows(const WheelShape& shape, const SectionSize& size) {
+  const double outer = shape.diameter / 2 - kBrakeOuterDepth, inner = kBrakeInnerRadius;
+  const double height = outer - inner;
+  std::vector<double> breaks = {kHubOuterRadius, shape.diameter / 2 - kRimDepth};
+  if (shape.brake_ring_thickness > 0)
+    breaks = {breaks[0], inner, inner + height / 3, outer - height / 3, outer, breaks[1]};
+  WebRows rows;
+  rows.r = graded(breaks, [&](double) { return size.coarse; });
+  const auto row = [&](std::size_t k) {
+    return static_cast<int>(std::find(rows.r.begin(), rows.r.end(), breaks[k]) - rows.r.begin());
+  };
+  if (shape.brake_ring_thickness > 0) {
+    rows.ring_first = row(1);
+    rows.bolts_first = row(2);
+    rows.bolts_last = row(3);
+    rows.ring_last = row(4);
+  }
+  return rows;
+}
+
+/// Rectangular patch from x0 to x1 with the rows r[first] ... r[last].
+Patch plate(double x0, double x1, int columns, std::span<const double> r, int first, int last) {
+  const auto x = evenly(x0, x1, columns);
+  Patch patch(columns, last - first);
+  for (int j = 0; j <= patch.rows; ++j)
+    for (int i = 0; i <= columns; ++i)
+      patch.at(i, j) = {x[static_cast<std::size_t>(i)], r[static_cast<std::size_t>(first + j)]};
+  return patch;
+}
+
+/// Two ring plates that stand off the web and are joined to it over the middle third of their height.
+void add_brake_rings(SectionBuilder& builder, const WebRows& rows, const WheelShape& shape, double coarse) {
+  const double face = shape.web_thickness / 2, inside = face + kBrakeGap,
+               outside = inside + shape.brake_ring_thickness;
+  const int columns = count_of(shape.brake_ring_thickness, 1.5 * coarse, 1);
+  builder.add(plate(face, inside, 1, rows.r, rows.bolts_first, rows.bolts_last));
+  builder.add(plate(-inside, -face, 1, rows.r, rows.bolts_first, rows.bolts_last));
+  builder.add(plate(inside, outside, columns, rows.r, rows.ring_first, rows.ring_last));
+  builder.add(plate(-outside, -inside, columns, rows.r, rows.ring_first, rows.ring_last));
+}
+
+/// Disc in (y relative to the web's middle plane, r).
+Section make_disc(const DiscLines& lines, const WheelShape& shape, const SectionSize& size) {
+  const double tie = shape.diameter / 2 - kTieDepth, rim = shape.diameter / 2 - kRimDepth;
+  const double web_end = shape.web_thickness / 2 + kFlare;
+
+  PatchSides rim_sides;
+  rim_sides.top = at_height(lines.rim, tie);
+  for (const double x : lines.rim)
+    rim_sides.bottom.push_back(
+        {x, rim + kRimSlant * std::max(0.0, (std::abs(x) - web_end) / (lines.rim.back() - web_end))});
+  const int rim_count = count_of(tie - rim, size.coarse, 2);
+  rim_sides.left = straight(rim_sides.bottom.front(), rim_sides.top.front(), rim_count);
+  rim_sides.right = straight(rim_sides.bottom.back(), rim_sides.top.back(), rim_count);
+
+  const WebRows rows = web_rows(shape, size);
+  PatchSides web;
+  for (const double r : rows.r) {
+    const double reach = std::max(0.0, 1 - std::min(r - kHubOuterRadius, rim - r) / kFlareLength);
+    const double half = shape.web_thickness / 2 + kFlare * reach * reach;
+    web.left.push_back({-half, r});
+    web.right.push_back({half, r});
+  }
+  web.bottom = straight(web.left.front(), web.right.front(), lines.web);
+  web.top = straight(web.left.back(), web.right.back(), lines.web);
+
+  PatchSides hub;
+  hub.bottom = at_height(nested(lines.hub, lines.axle_hub, "wheel hub"), kHubTieRadius);
+  hub.top = at_height(lines.hub, kHubOuterRadius);
+  const int hub_count = count_of(kHubOuterRadius - kHubTieRadius, size.coarse, 1);
+  hub.left = straight(hub.bottom.front(), hub.top.front(), hub_count);
+  hub.right = straight(hub.bottom.back(), hub.top.back(), hub_count);
+
+  SectionBuilder builder;
+  for (const PatchSides* sides : {&rim_sides, &web, &hub}) builder.add(fill(*sides));
+  if (shape.brake_ring_thickness > 0) add_brake_rings(builder, rows, shape, size.coarse);
+  builder.path("tie_outer", rim_sides.top);
+  builder.path("tie_inner", hub.bottom);
+  return builder.take();
+}
+
+/// Outer surface of the axle without the hub core, y in wheel coordinates.
+std::vector<Point2> axle_outline(double hub_centre, std::span<const double> axle_hub, double size) {
+  const double left = hub_centre - kHubLength / 2, right = hub_centre + kHubLength / 2;
+  const Point2 before[] = {{kTrackCentre, kAxleRadius}, {left - 30e-3, kAxleRadius}, {left, kSeatRadius}};
+  const Point2 behind[] = {{right, kSeatRadius},
+                           {right + 20e-3, 82.5e-3},
+                           {right + 60e-3, 77.5e-3},
+                           {right + 78e-3, kJournalRadius},
+                           {kJournalCentre, kJournalRadius},
+                           {kAxleEnd, kJournalRadius}};
+  std::vector<Point2> line = {before[0]};
+  const auto extend = [&](std::span<const Point2> corners) {
+    for (std::size_t k = 1; k < corners.size(); ++k) {
+      const auto part =
+          straight(corners[k - 1], corners[k], count_of(corners[k].x - corners[k - 1].x, size, 1));
+      line.insert(line.end(), part.begin() + 1, part.end());
+    }
+  };
+  extend(before);
+  line.pop_back();
+  for (const double x : axle_hub) line.push_back({hub_centre + x, kSeatRadius});
+  extend(behind);
+  return line;
+}
+
+/// Axle with the core of the hub in (y_wheel, r).
+Section make_axle(const DiscLines& lines, double hub_centre, const WheelShape& shape, double size) {
+  const double bore = shape.axle_bore / 2;
+  const int rows = count_of(kSeatRadius - bore, size, 2);
+  PatchSides body;
+  body.top = axle_outline(hub_centre, lines.axle_hub, size);
+  for (const Point2& point : body.top) body.bottom.push_back({point.x, bore});
+  body.left = straight(body.bottom.front(), body.top.front(), rows);
+  body.right = straight(body.bottom.back(), body.top.back(), rows);
+
+  PatchSides core;
+  for (const double x : lines.axle_hub) {
+    core.bottom.push_back({hub_centre + x, kSeatRadius});
+    core.top.push_back({hub_centre + x, kHubTieRadius});
+  }
+  const int core_rows = count_of(kHubTieRadius - kSeatRadius, size, 1);
+  core.left = straight(core.bottom.front(), core.top.front(), core_rows);
+  core.right = straight(core.bottom.back(), core.top.back(), core_rows);
+
+  SectionBuilder builder;
+  builder.add(fill(body));
+  builder.add(fill(core));
+  builder.path("tie", core.top);
+  builder.path("symmetry_end", body.left);
+  const auto centre = std::find_if(body.top.begin(), body.top.end(), [](const Point2& point) {
+    return std::abs(point.x - kJournalCentre) < 1e-9;
+  });
+  builder.path("journal", std::span(centre - 1, centre + 2));
+  return builder.take();
+}
+
+void check_shape(const WheelShape& shape) {
+  const auto refuse = [](const char* key, double value, double least, double most, const char* reason) {
+    if (!(value >= least && value <= most))
+      throw InputError(
+          fmt::format("wheel.{} = {} m is outside {} ... {} m: {}", key, value, least, most, reason));
+  };
+  refuse("diameter", shape.diameter, 0.66, 1.4,
+         "rim, brake ring and hub need their room between tread and axle");
+  refuse("axle_bore", shape.axle_bore, 0.02, 0.11,
+         "the axle is swept about its axis and leaves a wall in the journal");
+  refuse("lateral_offset", shape.lateral_offset, -0.03, 0.03, "the rail has to lie under the tread");
+  refuse("web_thickness", shape.web_thickness, 0.01, 0.08, "the web has to fit between rim and hub");
+  refuse("brake_ring_thickness", shape.brake_ring_thickness, 0, 0.1,
+         "two rings of this thickness make up the mass");
+}
+
+}  // namespace
+
+WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape& shape,
+                                  const SectionSize& wanted) {
+  check(wanted, kTieDepth, "wheel");
+  check_shape(shape);
+  SectionSize size = wanted;
+  size.coarse = std::max(size.coarse, kCoarseRatio * size.surface);
+  size.band_centre += shape.lateral_offset;
+
+  const double left = profile.surface.start().x, right = profile.surface.end().x;
+  if (!(right - left > 0.09 && left < 0 && right > 0))
+    throw InputError(
+        fmt::format("wheel profile: spans y = {:.1f} ... {:.1f} mm; a wheel of a half wheelset needs the "
+                    "whole rim (shape \"tyre\" takes "
+                    "narrow profiles)",
+                    left * 1e3, right * 1e3));
+  const double middle = 0.5 * (left + right);
+  const DiscLines lines = disc_lines(right - left, shape, size);
+  std::vector<double> tie = lines.rim;
+  for (double& x : tie) x += middle;
+
+  WheelSections sections = {make_tread(profile.surface, tie, size), make_disc(lines, shape, size),
+                            make_axle(lines, middle, shape, kAxleRatio * size.coarse),
+                            shape.diameter / 2 - kTieDepth, kHubTieRadius};
+  translate(sections.tread, {-shape.lateral_offset, shape.diameter / 2});
+  translate(sections.disc, {middle - shape.lateral_offset, 0});
+  translate(sections.axle, {-shape.lateral_offset, 0});
+  validate(sections.tread, "wheel tread");
+  validate(sections.disc, "wheel disc");
+  validate(sections.axle, "axle");
+  return sections;
+}
+
+Section make_tyre_section(const WheelProfile& profile, double diameter, double lateral_offset,
+                          double thickness, const SectionSize& wanted) {
+  if (!(thickness > 0) || !(thickness < diameter / 2))
+    throw InputError(
+        fmt::format("tyre: thickness {} m does not fit into a wheel of {} m diameter", thickness, diameter));
+  SectionSize size = wanted;
+  size.band_centre += lateral_offset;
+  Section section = block_under(profile.surface, -thickness, size, "bore");
+  translate(section, {-lateral_offset, diameter / 2});
+  validate(section, "tyre");
+  return section;
+}
+
+}  // namespace tread

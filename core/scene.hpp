@@ -1,0 +1,159 @@
+#pragma once
+// What the user asked for, in SI units, as plain data. io fills it, drivers build the model from it. An
+// absent optional is a thing that the scene does not contain and does not pay for.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/material.hpp"
+
+namespace tread {
+
+/// [wheel]
+struct WheelSpec {
+  std::string shape = "half_wheelset";  ///< "half_wheelset" or "tyre" (a ring: profile of one arc)
+  std::string profile = "LMA";          ///< "LMA", "arc", "cylinder", or a file of two columns (y, z)
+  double diameter = 0.86;               ///< [m]
+  double lateral_offset = 6.5e-3;  ///< rail centre line in wheel coordinates, positive to the field side [m]
+  double mass = 586;               ///< mass that the brake disc ring is sized to reach [kg] (half_wheelset)
+  double axle_bore = 0.060;        ///< bore of the hollow axle [m] (half_wheelset)
+  double crown_radius = 0.43;      ///< lateral radius of the profile "arc" [m] (tyre)
+  double width = 0.060;            ///< width of the ring [m] (tyre)
+  double thickness = 0.060;        ///< radial thickness of the ring [m] (tyre)
+  std::vector<double> profile_y;   ///< first column of the profile's file, in its order [m]
+  std::vector<double> profile_z;   ///< second column [m]
+};
+
+/// [rail]
+struct RailSpec {
+  std::string profile = "CN60";        ///< "CN60", "box", or a file of two columns (y, z)
+  double inclination = 1.0 / 40;       ///< [-]
+  double length = 15.2;                ///< [m]
+  double origin = 6.1;                 ///< distance of x = 0 (initial wheel position A) from the left end [m]
+  std::string support = "fastenings";  ///< "fastenings", "rigid" (bottom fixed) or "free" (no support)
+  double width = 0.060;                ///< [m] (box)
+  double height = 0.060;               ///< [m] (box)
+  double crown_radius = 0;             ///< radius of the running surface across the rail, 0 = flat [m] (box)
+  std::vector<double> profile_y;       ///< first column of the profile's file, in its order [m]
+  std::vector<double> profile_z;       ///< second column [m]
+};
+
+/// [fastenings]
+struct FasteningSpec {
+  int count = 24;
+  double spacing = 0.65;     ///< [m]
+  double first = 0.125;      ///< distance of the first from the rail's left end [m]
+  double stiffness = 22e6;   ///< of one fastening, vertical [N/m]
+  double damping = 200e3;    ///< of one fastening, vertical [N s/m]
+  double pad_length = 0.17;  ///< along x: the columns stand at the thirds' centres [m]
+  double pad_width = 0.15;   ///< across: the rows stand at the quarters' centres [m]
+  int columns = 3;           ///< spring-dampers along x
+  int rows = 4;              ///< spring-dampers across
+};
+
+/// [slab]; without it the fastenings stand on rigid ground
+struct SlabSpec {
+  double pitch = 6.5;              ///< slab and gap together [m]
+  double gap = 0.05;               ///< [m]
+  double first_gap = 0;            ///< distance of the first gap's centre from the rail's left end [m]
+  double width = 1.275;            ///< of the half track [m]
+  double thickness = 0.20;         ///< [m]
+  double mortar_thickness = 0.03;  ///< [m]
+  double offset = 0;               ///< y of the slab's middle from the rail's centre line [m]
+};
+
+/// [vehicle]
+struct VehicleSpec {
+  double sprung_mass = 8000;            ///< M_c [kg]
+  double unsprung_mass = 340;           ///< M_a, attached to the wheelset [kg]
+  double suspension_stiffness = 880e3;  ///< K [N/m]
+  double suspension_damping = 4e3;      ///< C [N s/m]
+};
+
+/// [load]: a force pressed on the wheel instead of a vehicle
+struct LoadSpec {
+  double wheel_load = 0;  ///< downward force on the wheel's bore or journal [N]
+};
+
+/// [contact]
+struct ContactSpec {
+  double friction = 0.5;            ///< coefficient of friction f [-]
+  double penetration_ratio = 0.02;  ///< penetration / Hertz approach under the static wheel load [-]
+  double damping_ratio = 0;         ///< normal damping, fraction of critical [-]
+  std::string surface = "exact";    ///< "exact" (profile curves) or "facets"
+  int points = 2;                   ///< integration points per face and direction
+};
+
+/// [motion]; absent: the scene ends with its static state
+struct MotionSpec {
+  double speed = 300 / 3.6;               ///< [m/s]
+  double duration = 0.04;                 ///< [s]
+  std::optional<double> traction_mu;      ///< target traction coefficient; negative brakes [-]
+  std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
+  double ramp = 5e-3;                     ///< T1 [s]
+  bool spin_in_preload = true;
+  double step_safety = 0.98;  ///< fraction of the computed stable step
+};
+
+/// [corrugation]
+struct CorrugationSpec {
+  std::string kind = "sine";        ///< "sine" (eqs. 6 and 7) or "table"
+  double wavelength = 0.08;         ///< L [m]
+  double depth = 0.14e-3;           ///< d_m [m]
+  double width = 30e-3;             ///< W: depth is zero beyond |y - centre| = W [m]
+  double start = 2.4;               ///< x_s [m]
+  double length = 0.56;             ///< whole waves that fit are cut [m]
+  std::optional<double> centre;     ///< y of the deepest line; absent: the preload's pressure maximum [m]
+  std::string apply = "nodes";      ///< "nodes" (moved nodes) or "gap" (added to the contact gap)
+  std::string file;                 ///< table: two columns, x from `start` and depth, with a unit line
+  std::vector<double> table_x;      ///< [m]
+  std::vector<double> table_depth;  ///< positive downwards [m]
+};
+
+/// [pulse]: an initial velocity along x over one end of a bar (a box rail without a wheel)
+struct PulseSpec {
+  double velocity = 0;  ///< [m/s]
+  double length = 0;    ///< [m]
+};
+
+/// [output]
+struct OutputSpec {
+  double history_interval = 1e-5;  ///< [s]
+  double progress_interval = 2;    ///< wall clock [s]
+};
+
+struct Scene {
+  std::string title;
+  std::string quality = "draft";       ///< "draft", "standard" or "paper"
+  double zone_start = 2.4;             ///< solution zone [m]
+  double zone_length = 0.6;            ///< [m]
+  double gravity = 9.81;               ///< [m/s2]
+  std::optional<double> element_size;  ///< overrides the quality's contact element size [m]
+
+  /// A material that the scene does not contain has an empty name.
+  Material steel;
+  Material slab;
+  Material gap_filler;
+  Material mortar;
+  /// Fraction of critical damping at the highest frequency (LS-DYNA's positive COEF), by material. The
+  /// classical beta stands in the materials; at most one of the two is not zero. [-]
+  double steel_high_frequency_fraction = 0;
+  double slab_high_frequency_fraction = 0;
+  double gap_filler_high_frequency_fraction = 0;
+  double mortar_high_frequency_fraction = 0;
+
+  std::optional<WheelSpec> wheel;
+  std::optional<RailSpec> rail;
+  std::optional<FasteningSpec> fastenings;
+  std::optional<SlabSpec> slab_track;
+  std::optional<VehicleSpec> vehicle;
+  std::optional<LoadSpec> load;
+  std::optional<ContactSpec> contact;
+  std::optional<MotionSpec> motion;
+  std::optional<CorrugationSpec> corrugation;
+  std::optional<PulseSpec> pulse;
+  OutputSpec output;
+};
+
+}  // namespace tread

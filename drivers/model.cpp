@@ -1,0 +1,355 @@
+#include "drivers/model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/geometry/profiles.hpp"
+#include "core/mesh/rail_section.hpp"
+#include "core/mesh/structured.hpp"
+#include "core/mesh/wheel_section.hpp"
+#include "drivers/sections.hpp"
+
+namespace tread {
+
+std::vector<int> BlockIndex::wheel() const {
+  std::vector<int> blocks;
+  for (const int b : {tread, disc, axle})
+    if (b >= 0) blocks.push_back(b);
+  return blocks;
+}
+
+std::vector<int> BlockIndex::rail() const {
+  std::vector<int> blocks;
+  for (const int b : {rail_cap, rail_base})
+    if (b >= 0) blocks.push_back(b);
+  return blocks;
+}
+
+Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
+  const auto found = block.section.paths.find(path);
+  if (found == block.section.paths.end())
+    throw InputError(fmt::format("block '{}' has no line '{}' to attach to", block.name, path));
+  const auto& nodes = found->second;
+  const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
+  if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
+    throw InputError(fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
+                                 path, block.name, p(0), p(nodes.size() - 1)));
+  std::size_t i = 0;
+  while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
+  const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);
+  const auto cell = StationFinder(block).find(x);
+  if (cell.station < 0)
+    throw InputError(fmt::format("attachment at x = {:.4f} m lies beyond block '{}' ({:.4f} ... {:.4f} m)", x,
+                                 block.name, block.stations.front(), block.stations.back()));
+  const double along = cell.distance / cell.pitch;
+  Attachment at;
+  for (std::size_t k = 0; k < 4; ++k) {
+    at.slot[k] = block.base + block.slot(nodes[i + k % 2], k / 2 == 0 ? cell.station : cell.next);
+    at.weight[k] = (k % 2 == 0 ? 1 - across : across) * (k / 2 == 0 ? 1 - along : along);
+  }
+  return at;
+}
+
+Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
+  if (scene.rail) build_rail();
+  if (scene.slab_track) build_slab();
+  if (scene.wheel) build_wheel();
+  if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
+  if (!tie_specs.empty()) {
+    for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
+    ties.emplace(mesh, tie_specs);
+  }
+  internal = std::make_unique<InternalForce>(mesh);
+  restrain();
+  build_mass();
+  if (scene.fastenings && scene.rail) build_fastenings();
+  if (scene.wheel) build_wheel_parts();
+  if (scene.contact && scene.rail && scene.wheel) build_contact();
+}
+
+Span Model::run_span() const {
+  const double reach = scene.wheel ? patch_reach(wheel_radius()) + 0.02 : 0;
+  const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+  return {-reach, run + reach};
+}
+
+Span Model::zone_span() const {
+  const double margin = 0.03;
+  if (!scene.motion) return {run_span().first, run_span().last};
+  return {scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
+}
+
+void Model::build_rail() {
+  const RailSpec& rail = *scene.rail;
+  const Span length{-rail.origin, rail.length - rail.origin};
+  if (rail.profile == "box") {
+    NestedSegments plan;
+    if (scene.wheel)
+      plan = plan_rail(length, run_span(), zone_span(), sizes);
+    else
+      plan.fine.push_back({static_cast<int>(std::lround(rail.length / sizes.contact)), sizes.contact, 0});
+    if (!scene.wheel) plan.fine[0].pitch = rail.length / plan.fine[0].elements;
+    index.rail_cap = mesh.add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes), {scene.steel},
+                                               length.first, plan.fine));
+    return;
+  }
+  const NestedSegments plan = plan_rail(length, run_span(), zone_span(), sizes);
+  RailSections sections = rail_sections(scene, sizes);
+  index.rail_cap = mesh.add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
+                                             length.first, plan.fine));
+  index.rail_base = mesh.add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {scene.steel},
+                                              length.first, plan.coarse));
+  tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
+}
+
+void Model::build_slab() {
+  const SlabSpec& slab = *scene.slab_track;
+  const RailSpec& rail = *scene.rail;
+  const double left = -rail.origin;
+  // Alternating stretches of slab (material 0) and gap filler (1); mortar is material 2 of every quad below.
+  std::vector<Segment> segments;
+  const auto stretch = [&](double length, int material) {
+    if (length < 1e-9) return;
+    const int count = std::max(1, static_cast<int>(std::lround(length / sizes.slab)));
+    segments.push_back({count, length / count, material});
+  };
+  double at = 0;
+  for (double gap = slab.first_gap; gap - 0.5 * slab.gap < rail.length; gap += slab.pitch) {
+    const double first = std::clamp(gap - 0.5 * slab.gap, 0.0, rail.length);
+    const double last = std::clamp(gap + 0.5 * slab.gap, 0.0, rail.length);
+    stretch(first - at, 0);
+    stretch(last - first, 1);
+    at = last;
+  }
+  stretch(rail.length - at, 0);
+  index.slab = mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(scene, sizes),
+                                         {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
+}
+
+void Model::build_wheel() {
+  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
+  if (scene.wheel->shape == "tyre") {
+    index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
+                                            plan.start, plan.tread));
+    return;
+  }
+  WheelSections sections = wheel_sections(scene, sizes, plan);
+  index.tread = mesh.add(
+      make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel}, plan.start, plan.tread));
+  index.disc = mesh.add(
+      make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {scene.steel}, plan.start, plan.disc));
+  index.axle = mesh.add(
+      make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel}, plan.start, plan.axle));
+  tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
+  tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
+}
+
+void Model::restrain() {
+  const auto hold = [&](const SweptBlock& block, int node, int station, int component) {
+    restrained.push_back(dof(block.base + block.slot(node, station), component));
+  };
+  const auto hold_path = [&](const SweptBlock& block, const std::string& path, int component) {
+    for (const int node : block.section.paths.at(path))
+      for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, component);
+  };
+  for (const int b : index.rail()) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
+    if (scene.pulse) {  // a free bar that moves along x only
+      for (int station = 0; station < block.station_count(); ++station)
+        for (int node = 0; node < block.section.nodes(); ++node)
+          if (scene.rail->support == "guided")
+            for (int c = 1; c < 3; ++c) hold(block, node, station, c);
+      continue;
+    }
+    for (int node = 0; node < block.section.nodes(); ++node)
+      for (const int station : {0, block.station_count() - 1}) hold(block, node, station, 0);
+    if (block.section.paths.count("foot") == 0) continue;
+    if (scene.rail->support == "rigid") {
+      for (int c = 0; c < 3; ++c) hold_path(block, "foot", c);
+    } else if (scene.fastenings) {
+      // The foot cannot move sideways over the fastenings.
+      const FasteningSpec& f = *scene.fastenings;
+      for (int station = 0; station < block.station_count(); ++station) {
+        const double from_end = block.stations[static_cast<std::size_t>(station)] + scene.rail->origin - f.first;
+        const double nearest = std::clamp(std::round(from_end / f.spacing), 0.0, f.count - 1.0);
+        if (std::abs(from_end - nearest * f.spacing) <= 0.5 * f.pad_length)
+          for (const int node : block.section.paths.at("foot")) hold(block, node, station, 1);
+      }
+    }
+  }
+  if (index.slab >= 0) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(index.slab)];
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 2; ++c) hold(block, node, station, c);
+    hold_path(block, "bottom", 2);
+  }
+  if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
+  if (index.tread >= 0 && index.axle < 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
+  // Secondary nodes follow their primaries: their restraint would be a second opinion.
+  if (ties) {
+    std::vector<std::int64_t> tied;
+    for (const std::int64_t slot : ties->secondary_slots())
+      for (int c = 0; c < 3; ++c) tied.push_back(dof(slot, c));
+    std::sort(tied.begin(), tied.end());
+    std::erase_if(restrained, [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
+  }
+  std::sort(restrained.begin(), restrained.end());
+  restrained.erase(std::unique(restrained.begin(), restrained.end()), restrained.end());
+}
+
+void Model::build_mass() {
+  mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
+  internal->lumped_mass(mass.data());
+  if (ties) ties->gather_mass(mass.data());
+  inverse_mass.assign(mass.size(), 0.0);
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    if (mass[i] > 0) inverse_mass[i] = 1 / mass[i];
+
+  beta.assign(mesh.blocks.size(), 0.0);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const SweptBlock& block = mesh.blocks[b];
+    for (const Material& material : block.materials) beta[b] = std::max(beta[b], material.rayleigh_beta);
+    if (static_cast<int>(b) != index.slab && scene.steel_high_frequency_fraction > 0) {
+      // beta omega / 2 = fraction at the stiffest element of the block.
+      const double omega = internal->max_frequency().omega;
+      beta[b] = std::max(beta[b], 2 * scene.steel_high_frequency_fraction / omega);
+    }
+    internal->set_beta(static_cast<int>(b), beta[b]);
+  }
+}
+
+void Model::build_fastenings() {
+  const FasteningSpec& f = *scene.fastenings;
+  const SweptBlock& rail = mesh.blocks[static_cast<std::size_t>(index.rail_base >= 0 ? index.rail_base : index.rail_cap)];
+  const auto& foot = rail.section.paths.at("foot");
+  const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
+                               rail.section.p[static_cast<std::size_t>(foot.back())]);
+  std::vector<SpringDampers::Element> elements;
+  const int groups = f.columns * f.rows;
+  for (int i = 0; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      for (int row = 0; row < f.rows; ++row) {
+        const double x = -scene.rail->origin + f.first + i * f.spacing +
+                         f.pad_length * ((column + 0.5) / f.columns - 0.5);
+        const double y = middle + f.pad_width * ((row + 0.5) / f.rows - 0.5);
+        SpringDampers::Element element{attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
+        if (index.slab >= 0) element.lower = attach(mesh.blocks[static_cast<std::size_t>(index.slab)], "top", x, y);
+        elements.push_back(element);
+      }
+  fastenings.emplace(std::move(elements));
+}
+
+void Model::build_wheel_parts() {
+  wheelset.emplace(mesh, index.wheel(), mass.data());
+  const bool tyre = index.axle < 0;
+  const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(tyre ? index.tread : index.axle)];
+  journal = Journal(block, block.section.paths.at(tyre ? "bore" : "journal"), mass.data());
+  torque = AxleTorque(block, block.section.paths.at(tyre ? "bore" : "symmetry_end"), mass.data());
+}
+
+double Model::wheel_load() const {
+  if (!scene.wheel) return 0;
+  double load = scene.load ? scene.load->wheel_load : 0;
+  load += wheelset->mass() * scene.gravity;
+  if (scene.vehicle) load += (scene.vehicle->sprung_mass + scene.vehicle->unsprung_mass) * scene.gravity;
+  return load;
+}
+
+namespace {
+
+/// Lateral radius of the gap between two profiles about its lowest point: the parabola that fits it best within
+/// `half_width`.
+double lateral_radius(const SurfaceProfile& rail, const SurfaceProfile& wheel, double half_width) {
+  const auto height = [](const SurfaceProfile& profile, double p) {
+    const int edge = profile.edge_at(p);
+    double eta = (p - profile.edge_p(edge, 0)) / (profile.edge_p(edge, 1) - profile.edge_p(edge, 0));
+    for (int i = 0; i < 4; ++i) {
+      const auto at = profile.evaluate(edge, eta, SurfaceKind::exact);
+      eta -= (at.p - p) / at.dp;
+    }
+    return profile.evaluate(edge, eta, SurfaceKind::exact).q;
+  };
+  const double first = std::max(rail.first_p(), wheel.first_p());
+  const double last = std::min(rail.last_p(), wheel.last_p());
+  const auto gap = [&](double p) { return -height(rail, p) - height(wheel, p); };
+  double lowest = first;
+  constexpr int kSamples = 400;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double p = first + (last - first) * i / kSamples;
+    if (gap(p) < gap(lowest)) lowest = p;
+  }
+  double numerator = 0;
+  double denominator = 0;
+  for (int i = -20; i <= 20; ++i) {
+    const double s = half_width * i / 20;
+    const double p = std::clamp(lowest + s, first, last);
+    const double rise = gap(p) - gap(lowest);
+    numerator += rise * s * s;
+    denominator += s * s * s * s;
+  }
+  const double curvature = 2 * numerator / denominator;
+  return 1 / std::max(curvature, 1e-2);
+}
+
+}  // namespace
+
+void Model::build_contact() {
+  const ContactSpec& spec = *scene.contact;
+  const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
+  const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
+  hertz_radius_y = lateral_radius(rail, wheel, 5e-3);
+  const double modulus = scene.steel.youngs_modulus / (2 * (1 - scene.steel.poissons_ratio * scene.steel.poissons_ratio));
+  // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
+  hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
+
+  ContactOptions options;
+  options.rail_block = index.rail_cap;
+  options.wheel_block = index.tread;
+  options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
+  options.points = spec.points;
+  options.penalty = hertz_patch.max_pressure / (spec.penetration_ratio * hertz_patch.approach);
+  options.friction = spec.friction;
+  options.wheel_radius = wheel_radius();
+  if (spec.damping_ratio > 0) {
+    // Critical damping of two facing surface layers of one contact element's thickness, per area.
+    const double layer = 0.25 * scene.steel.density * sizes.contact;
+    options.damping = spec.damping_ratio * 2 * std::sqrt(options.penalty * layer);
+  }
+  contact = std::make_unique<Contact>(mesh, options, Corrugation{});
+}
+
+void Model::apply_corrugation(double centre) {
+  if (!scene.corrugation) return;
+  const CorrugationSpec& spec = *scene.corrugation;
+  const Corrugation shape =
+      spec.kind == "table"
+          ? Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width)
+          : Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
+  if (spec.apply == "nodes") {
+    SweptBlock& cap = mesh.blocks[static_cast<std::size_t>(index.rail_cap)];
+    shift_top_layers(cap, shape, 3 * sizes.contact);
+    internal = std::make_unique<InternalForce>(mesh);
+    build_mass();
+  }
+  ContactOptions options = contact->options();
+  contact = std::make_unique<Contact>(mesh, options, shape);
+}
+
+std::int64_t Model::elements() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.elements();
+  return sum;
+}
+
+std::int64_t Model::nodes() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.nodes();
+  return sum;
+}
+
+}  // namespace tread

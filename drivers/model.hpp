@@ -1,0 +1,89 @@
+#pragma once
+// The model of a scene: meshed bodies, their operators and what joins and loads them. Everything that a scene lacks
+// is absent here too.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/hertz.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "core/scene.hpp"
+#include "drivers/station_plan.hpp"
+#include "kernels/body_motion.hpp"
+#include "kernels/connectors.hpp"
+#include "kernels/contact.hpp"
+#include "kernels/internal_force.hpp"
+#include "kernels/tie.hpp"
+
+namespace tread {
+
+/// Indices into Mesh::blocks; -1: absent. A box rail and a tyre are one block each.
+struct BlockIndex {
+  int rail_cap = -1;   ///< carries the running surface
+  int rail_base = -1;  ///< tied under the cap
+  int slab = -1;
+  int tread = -1;      ///< carries the tread surface
+  int disc = -1;
+  int axle = -1;
+
+  std::vector<int> wheel() const;
+  std::vector<int> rail() const;
+};
+
+struct Model {
+  explicit Model(const Scene& scene);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  Scene scene;
+  MeshSizes sizes;
+  Mesh mesh;
+  BlockIndex index;
+  std::vector<TieSpec> tie_specs;
+  std::optional<Ties> ties;
+  std::unique_ptr<InternalForce> internal;
+  std::vector<std::int64_t> restrained;   ///< unknowns that stay zero
+  AlignedVector<double> mass;             ///< lumped, ties gathered; scalar node field [kg]
+  AlignedVector<double> inverse_mass;     ///< scalar node field, 0 where nothing moves by itself [1/kg]
+
+  std::vector<double> beta;               ///< stiffness-proportional damping by block [s]
+
+  std::optional<SpringDampers> fastenings;
+  std::optional<SpinningBody> wheelset;
+  Journal journal;      ///< carries vehicle or load; empty without a wheel
+  AxleTorque torque;
+  std::unique_ptr<Contact> contact;
+  HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
+  double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
+
+  double wheel_load() const;  ///< static vertical contact force [N]
+  double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
+  std::int64_t elements() const;
+  std::int64_t nodes() const;
+  bool vertical_only(int block) const { return block == index.slab; }
+
+  /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of its deepest
+  /// line. Rebuilds the coefficients where nodes moved.
+  void apply_corrugation(double centre);
+
+ private:
+  void build_rail();
+  void build_wheel();
+  void build_slab();
+  void restrain();
+  void build_mass();
+  void build_fastenings();
+  void build_wheel_parts();
+  void build_contact();
+  Span run_span() const;
+  Span zone_span() const;
+};
+
+/// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the block.
+Attachment attach(const SweptBlock& block, const std::string& path, double x, double y);
+
+}  // namespace tread

@@ -1,0 +1,185 @@
+#include "drivers/preload.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "drivers/static_system.hpp"
+#include "kernels/solver/chunks.hpp"
+#include "kernels/solver/two_level_preconditioner.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Gravity, centrifugal force and vehicle weight as an external force field.
+AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, double spin) {
+  AlignedVector<double> load(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (int station = 0; station < block.station_count(); ++station) {
+      const Vec3 down = to_local(block, station, 0, {0, 0, -model.scene.gravity});
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const double m = model.mass[static_cast<std::size_t>(slot)];
+        for (int c = 0; c < 3; ++c) load[static_cast<std::size_t>(dof(slot, c))] = m * down[c];
+        if (block.sweep == Sweep::revolved)
+          load[static_cast<std::size_t>(dof(slot, 2))] +=
+              m * spin * spin * block.section.q[static_cast<std::size_t>(node)];
+      }
+    }
+  if (!model.journal.empty()) {
+    const double weight =
+        model.scene.vehicle
+            ? (model.scene.vehicle->sprung_mass + model.scene.vehicle->unsprung_mass) * model.scene.gravity
+            : (model.scene.load ? model.scene.load->wheel_load : 0.0);
+    model.journal.add(load.data(), frame, {0, 0, -weight});
+  }
+  return load;
+}
+
+/// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean.
+std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<double>& diagonal) {
+  if (!model.wheelset) return std::nullopt;
+  const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
+  std::vector<AlignedVector<double>> motions(2, AlignedVector<double>(n, 0.0));
+  auto means = motions;
+  for (const int b : model.wheelset->blocks()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const Vec3 ahead = to_local(block, station, 0, {1, 0, 0});
+        const std::array<Vec3, 2> motion = {ahead, Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}};
+        for (std::size_t m = 0; m < 2; ++m)
+          for (int c = 0; c < 3; ++c) {
+            const auto unknown = static_cast<std::size_t>(dof(slot, c));
+            if (diagonal[unknown] <= 0) continue;
+            motions[m][unknown] = motion[m][c];
+            means[m][unknown] = model.mass[static_cast<std::size_t>(slot)] * motion[m][c];
+          }
+      }
+  }
+  return HeldMotions(std::move(motions), std::move(means));
+}
+
+std::vector<TiedSlot> tied_slots(const Model& model) {
+  return model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{};
+}
+
+void describe(const Model& model, Preload& out) {
+  const double* u = out.displacement.data();
+  if (model.index.tread >= 0) {
+    // Tilt: the tread's lateral displacement varies as r sin/cos over the circumference.
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+    double moment = 0;
+    double second = 0;
+    for (const SurfaceEdge& edge : block.section.surface)
+      for (int station = 0; station < block.station_count(); ++station) {
+        const double down = block.section.q[static_cast<std::size_t>(edge.node[0])] *
+                            std::cos(block.stations[static_cast<std::size_t>(station)]);
+        moment += down * u[dof(block.base + block.slot(edge.node[0], station), 1)];
+        second += down * down;
+      }
+    out.tilt = moment / second;
+  }
+  const int base = model.index.rail_base >= 0 ? model.index.rail_base : model.index.rail_cap;
+  if (base >= 0 && model.index.tread >= 0) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
+    out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);
+  }
+  if (model.index.slab >= 0)
+    out.slab_deflection = -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
+}
+
+}  // namespace
+
+Preload solve_preload(Model& model, double spin, const ProgressText& progress) {
+  constexpr int kMaxNewton = 40;
+  constexpr double kTolerance = 1e-8;
+  const StaticSystem system(model);
+  const auto n = static_cast<std::int64_t>(system.diagonal().size());
+
+  Preload out;
+  out.displacement.assign(static_cast<std::size_t>(n), 0.0);
+  if (model.contact) {
+    const double overlap = model.hertz_patch.approach;
+    const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
+    out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
+  }
+  AlignedVector<double> load = external_load(model, out.wheel, spin);
+  const auto held = held_wheel(model, system.diagonal());
+  double scale = model.wheel_load();
+  if (scale <= 0) {
+    AlignedVector<double> reduced = load;
+    system.reduce(reduced.data());
+    scale = std::sqrt(dot(n, reduced.data(), reduced.data()));
+  }
+
+  std::vector<Spring> fixed_springs;
+  if (model.fastenings) fixed_springs = model.fastenings->springs();
+  std::vector<Spring> springs;
+  const Operator elastic = [&](const double* x, double* y) { system.apply(x, y); };
+  const Operator tangent = [&](const double* x, double* y) {
+    system.apply(x, y);
+    add_springs(springs, x, y);
+  };
+  TwoLevelPreconditioner preconditioner(model.mesh, elastic, system.diagonal(), tied_slots(model), {});
+
+  AlignedVector<double> residual(static_cast<std::size_t>(n));
+  AlignedVector<double> correction(static_cast<std::size_t>(n));
+  double* u = out.displacement.data();
+  for (int iteration = 0;; ++iteration) {
+    system.expand(u);
+    springs = fixed_springs;
+    model.internal->apply(u, residual.data());
+    add_springs(fixed_springs, u, residual.data());
+    if (model.contact) {
+      model.contact->find_static({u, nullptr, &out.wheel});
+      model.contact->add_forces(residual.data());
+      for (Spring& spring : model.contact->springs()) springs.push_back(std::move(spring));
+      if (model.contact->points().empty())
+        throw NumericalError(fmt::format(
+            "preload: after {} iterations no point of the wheel touches the rail; check wheel.lateral_offset and the load",
+            iteration));
+    }
+    for_chunks(n, [&](std::int64_t first, std::int64_t last) {
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        residual[i] = load[i] - residual[i];
+    });
+    system.reduce(residual.data());
+    if (held) {
+      const auto work = held->work(residual.data());
+      out.held_force_x = work[0];
+      out.held_moment = work[1];
+      held->balance(residual.data());
+    }
+    out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
+    progress(fmt::format("preload: iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
+                         out.residual, model.contact ? model.contact->points().size() : 0,
+                         model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
+    out.newton_iterations = iteration;
+    if (out.residual < kTolerance) break;
+    if (iteration == kMaxNewton)
+      throw NumericalError(fmt::format("preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}); "
+                                       "a softer contact.penetration_ratio or a finer quality helps",
+                                       out.residual, iteration, kTolerance));
+    preconditioner.update(tangent, springs);
+    std::fill(correction.begin(), correction.end(), 0.0);
+    const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
+    const CgResult solved =
+        conjugate_gradients(tangent, &preconditioner, held ? &*held : nullptr, residual, correction, {wanted, 5000});
+    if (!solved.converged)
+      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
+                                       solved.relative_residual, solved.iterations));
+    out.cg_iterations += solved.iterations;
+    add_scaled(n, 1.0, correction.data(), u);
+  }
+  if (model.contact) out.contact = model.contact->totals();
+  describe(model, out);
+  return out;
+}
+
+}  // namespace tread

@@ -1,0 +1,220 @@
+#include "drivers/run_results.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "io/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+struct Column {
+  Channel channel;
+  double (*value)(const Sample&);
+};
+
+double traction(const Sample& s) { return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0; }
+
+const std::vector<Column>& wheel_columns() {
+  static const std::vector<Column> columns = {
+      {{"wheel_x", "m", "position of the wheel's axis along the rail"}, [](const Sample& s) { return s.wheel_x; }},
+      {{"vertical_force", "N", "F_N, contact force on the wheel, upwards"},
+       [](const Sample& s) { return s.vertical_force; }},
+      {{"longitudinal_force", "N", "F_L, contact force on the wheel, forwards"},
+       [](const Sample& s) { return s.longitudinal_force; }},
+      {{"lateral_force", "N", "contact force on the wheel, to the field side"},
+       [](const Sample& s) { return s.lateral_force; }},
+      {{"traction_coefficient", "-", "F_L / F_N"}, traction},
+      {{"patch_area", "m2", "area in contact"}, [](const Sample& s) { return s.patch_area; }},
+      {{"slip_area", "m2", "part of the patch that slips"}, [](const Sample& s) { return s.slip_area; }},
+      {{"max_pressure", "Pa", "largest contact pressure at a rail node"},
+       [](const Sample& s) { return s.max_pressure; }},
+      {{"max_shear", "Pa", "largest surface shear stress at a rail node"},
+       [](const Sample& s) { return s.max_shear; }},
+      {{"max_penetration", "m", "largest penetration at an integration point"},
+       [](const Sample& s) { return s.max_penetration; }},
+      {{"creepage_node", "-", "eq. (3) at the tread node that starts in the patch"},
+       [](const Sample& s) { return s.creepage_node; }},
+      {{"creepage_mean", "-", "eq. (3), mean of 28 tread nodes"}, [](const Sample& s) { return s.creepage_mean; }},
+      {{"torque", "N m", "on the axle"}, [](const Sample& s) { return s.torque; }},
+      {{"wheel_speed", "m/s", "mean forward speed of the wheelset"}, [](const Sample& s) { return s.wheel_speed; }},
+      {{"wheel_spin", "rad/s", "mean angular speed of the wheelset"}, [](const Sample& s) { return s.wheel_spin; }},
+      {{"wheel_z", "m", "height of the wheelset's mean axis above the crown"},
+       [](const Sample& s) { return s.wheel_z; }},
+      {{"corrugation_depth", "m", "of the rail under the wheel's axis"},
+       [](const Sample& s) { return s.corrugation_depth; }},
+      {{"penalty_energy", "J", "stored in the contact penalties"}, [](const Sample& s) { return s.energy.penalty; }},
+      {{"frictional_work", "J", "dissipated by friction since the start"},
+       [](const Sample& s) { return s.energy.frictional_work; }},
+      {{"torque_work", "J", "done by the torque"}, [](const Sample& s) { return s.energy.torque_work; }},
+  };
+  return columns;
+}
+
+const std::vector<Column>& body_columns() {
+  static const std::vector<Column> columns = {
+      {{"kinetic_energy", "J", "of all bodies"}, [](const Sample& s) { return s.energy.kinetic; }},
+      {{"strain_energy", "J", "elastic, hourglass part included"}, [](const Sample& s) { return s.energy.strain; }},
+      {{"connector_energy", "J", "in springs"}, [](const Sample& s) { return s.energy.connectors; }},
+      {{"gravity_energy", "J", "potential"}, [](const Sample& s) { return s.energy.gravity; }},
+      {{"connector_loss", "J", "dissipated in dampers"}, [](const Sample& s) { return s.energy.connector_loss; }},
+      {{"damping_loss", "J", "dissipated in contact damping"}, [](const Sample& s) { return s.energy.damping_loss; }},
+      {{"energy_residual", "J", "what the balance misses"}, [](const Sample& s) { return s.energy.residual; }},
+  };
+  return columns;
+}
+
+std::vector<Column> columns_of(const Model& model) {
+  std::vector<Column> columns;
+  if (model.contact) columns = wheel_columns();
+  columns.insert(columns.end(), body_columns().begin(), body_columns().end());
+  return columns;
+}
+
+template <class Value>
+Statistics statistics(const std::vector<Sample>& samples, double first, double last, Value value) {
+  Statistics s;
+  int count = 0;
+  for (const Sample& sample : samples) {
+    if (sample.wheel_x < first || sample.wheel_x > last) continue;
+    const double v = value(sample);
+    s.min = count == 0 ? v : std::min(s.min, v);
+    s.max = count == 0 ? v : std::max(s.max, v);
+    s.mean += v;
+    ++count;
+  }
+  if (count > 0) s.mean /= count;
+  return s;
+}
+
+}  // namespace
+
+std::vector<Channel> history_channels(const Model& model) {
+  std::vector<Channel> channels = {{"time", "s", "since the start of rolling"}};
+  for (const Column& column : columns_of(model)) channels.push_back(column.channel);
+  return channels;
+}
+
+std::vector<double> history_row(const Model& model, const Sample& sample) {
+  std::vector<double> row = {sample.time};
+  for (const Column& column : columns_of(model)) row.push_back(column.value(sample));
+  return row;
+}
+
+void evaluate(const Model& model, RunResults& r) {
+  if (r.samples.empty()) return;
+  const Scene& scene = model.scene;
+  const double reached = r.samples.back().wheel_x;
+
+  if (model.contact) {
+    const Corrugation& corrugation = model.contact->corrugation();
+    const double half_wave = scene.corrugation && scene.corrugation->kind == "sine" ? 0.5 * scene.corrugation->wavelength : 0;
+    r.evaluated_first = corrugation.smooth() ? scene.zone_start : corrugation.first() + half_wave;
+    r.evaluated_last =
+        std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.last() - half_wave);
+    if (r.evaluated_first > reached) r.evaluated_first = 0;
+    r.vertical_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
+                                  [](const Sample& s) { return s.vertical_force; });
+    r.longitudinal_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
+                                      [](const Sample& s) { return s.longitudinal_force; });
+
+    // Steady values: the last whole fastening span before the patch meets the corrugation.
+    const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
+    const double end = corrugation.smooth() ? reached : std::min(reached, corrugation.first() - 0.02);
+    r.steady_last = end;
+    r.steady_first = std::max(0.0, end - span);
+    const auto mean = [&](auto value) { return statistics(r.samples, r.steady_first, r.steady_last, value).mean; };
+    r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
+    const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
+    r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
+    r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
+    r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
+    r.max_shear = mean([](const Sample& s) { return s.max_shear; });
+    r.patch_area = mean([](const Sample& s) { return s.patch_area; });
+  }
+
+  double worst = 0;
+  double strain_low = r.samples.front().energy.strain;
+  double strain_high = strain_low;
+  for (std::size_t i = 0; i < r.samples.size(); ++i) {
+    const EnergyLedger& e = r.samples[i].energy;
+    worst = std::max(worst, std::abs(e.residual));
+    strain_low = std::min(strain_low, e.strain);
+    strain_high = std::max(strain_high, e.strain);
+    if (i > 0)
+      r.frictional_work_decrease = std::max(r.frictional_work_decrease,
+                                            r.samples[i - 1].energy.frictional_work - e.frictional_work);
+  }
+  const EnergyLedger& last = r.samples.back().energy;
+  const double scale = last.frictional_work + last.connector_loss + strain_high - strain_low;
+  r.energy_error = scale > 0 ? worst / scale : 0;
+  const Vec3 miss = r.momentum.impulse - r.momentum.change;
+  if (r.momentum.contact_impulse.z > 0) r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
+}
+
+std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
+  JsonWriter json;
+  json.begin_object();
+  json.member("title", std::string_view(resolved.scene.title));
+  json.member("quality", std::string_view(resolved.scene.quality));
+  json.member("elements", model.elements());
+  json.member("nodes", model.nodes());
+  json.member("steps", r.steps);
+  json.member("dt_s", r.dt);
+  json.member("dt_reason", std::string_view(r.limit.reason));
+  json.member("threads", threads());
+  json.member("mesh_s", r.seconds_mesh);
+  json.member("preload_s", r.seconds_preload);
+  json.member("rolling_s", r.seconds_rolling);
+  json.member("element_steps_per_s",
+              r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.steps) / r.seconds_rolling : 0.0);
+  json.member("preload_residual", r.preload.residual);
+  if (model.contact) {
+    json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);
+    json.member("static_max_pressure_Pa", r.preload.contact.max_pressure);
+    json.member("static_patch_area_m2", r.preload.contact.area);
+    json.member("static_penetration_m", r.preload.contact.max_penetration);
+    json.member("contact_centre_y_m", r.preload.contact.centre.y);
+    json.member("rail_deflection_m", r.preload.rail_deflection);
+    json.member("wheel_tilt_rad", r.preload.tilt);
+    json.member("wheelset_mass_kg", model.wheelset->mass());
+    json.member("wheelset_inertia_kg_m2", model.wheelset->inertia());
+    json.key("vertical_force_N").begin_object();
+    json.member("mean", r.vertical_force.mean).member("min", r.vertical_force.min).member("max", r.vertical_force.max);
+    json.end_object();
+    json.key("longitudinal_force_N").begin_object();
+    json.member("mean", r.longitudinal_force.mean)
+        .member("min", r.longitudinal_force.min)
+        .member("max", r.longitudinal_force.max);
+    json.end_object();
+    json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
+    json.key("steady_x_m").begin_array().value(r.steady_first).value(r.steady_last).end_array();
+    json.member("vertical_force_steady_N", r.vertical_force_steady);
+    json.member("traction_coefficient", r.traction_coefficient);
+    json.member("creepage_percent", 100 * r.creepage);
+    json.member("max_pressure_Pa", r.max_pressure);
+    json.member("max_shear_Pa", r.max_shear);
+    json.member("patch_area_m2", r.patch_area);
+    json.member("frictional_work_J", r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work);
+    json.member("frictional_work_decrease_J", r.frictional_work_decrease);
+    json.member("momentum_error", r.momentum_error);
+  }
+  json.member("energy_error", r.energy_error);
+  json.key("energy_by_body_J").begin_array();
+  for (std::size_t b = 0; b < r.block_energy.size(); ++b)
+    json.begin_object()
+        .member("body", std::string_view(model.mesh.blocks[b].name))
+        .member("strain", r.block_energy[b].strain)
+        .member("hourglass", r.block_energy[b].hourglass)
+        .end_object();
+  json.end_array();
+  json.member("state_hash", std::string_view(fmt::format("{:016x}", r.state_hash)));
+  json.end_object();
+  return json.text();
+}
+
+}  // namespace tread

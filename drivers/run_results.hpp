@@ -1,0 +1,55 @@
+#pragma once
+// What a run leaves: histories, summary, report.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "drivers/model.hpp"
+#include "drivers/preload.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "io/history_file.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+/// Channels of the histories and a sample's row in their order.
+std::vector<Channel> history_channels(const Model& model);
+std::vector<double> history_row(const Model& model, const Sample& sample);
+
+struct Statistics {
+  double mean = 0, min = 0, max = 0;
+};
+
+/// Everything that summary.json and the report state, in SI.
+struct RunResults {
+  Preload preload;
+  StepLimit limit;
+  std::vector<Sample> samples;
+  std::int64_t steps = 0;
+  double dt = 0;
+  double seconds_mesh = 0, seconds_preload = 0, seconds_rolling = 0;
+  std::uint64_t state_hash = 0;
+  MomentumCheck momentum;
+  std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
+
+  Statistics vertical_force;        ///< over evaluated() [N]
+  Statistics longitudinal_force;    ///< [N]
+  double traction_coefficient = 0;  ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double creepage = 0;              ///< mean of 28 nodes there [-]
+  double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
+  double vertical_force_steady = 0; ///< mean there [N]
+  double energy_error = 0;          ///< [-]
+  double momentum_error = 0;        ///< [-]
+  double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
+  double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
+  double frictional_work_decrease = 0;  ///< largest fall between two samples, 0 when monotone [J]
+};
+
+/// Fills the figures from the samples.
+void evaluate(const Model& model, RunResults& results);
+
+std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
+
+}  // namespace tread

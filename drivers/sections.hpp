@@ -1,0 +1,25 @@
+#pragma once
+// Sections of the scene's bodies and the shapes that moved nodes give them.
+
+#include "core/corrugation.hpp"
+#include "core/mesh/rail_section.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "core/mesh/wheel_section.hpp"
+#include "core/scene.hpp"
+#include "drivers/station_plan.hpp"
+
+namespace tread {
+
+RailSections rail_sections(const Scene& scene, const MeshSizes& sizes);
+Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
+Section slab_section(const Scene& scene, const MeshSizes& sizes);
+Section tyre_section(const Scene& scene, const MeshSizes& sizes);
+
+/// The brake disc ring is as thick as WheelSpec::mass needs with the plan's polygons. InputError if no ring does it.
+WheelSections wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
+
+/// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that fades to
+/// nothing over `fade` [m] (node_shift).
+void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);
+
+}  // namespace tread

@@ -1,0 +1,329 @@
+#include "drivers/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/solver/chunks.hpp"
+#include "kernels/time_update.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the wheel's mean motion
+constexpr int kCreepageNodes = 28;             ///< [paper, section 4.2]
+
+}  // namespace
+
+Simulation::Simulation(Model& model, const Preload& preload, double dt)
+    : model_(&model), dt_(dt), u_(preload.displacement), v_(u_.size(), 0.0), force_(u_.size(), 0.0), frame_(preload.wheel) {
+  const Scene& scene = model.scene;
+  if (model.wheelset) {
+    start_velocities();
+    model.wheelset->anchor(u_.data(), v_.data(), frame_, dt_);
+    if (model.ties) {
+      model.ties->follow(u_.data());
+      model.ties->follow(v_.data());
+    }
+    if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
+    if (scene.motion && scene.motion->traction_mu) {
+      const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
+      const double radius = model.wheel_radius();
+      max_torque_ = *scene.motion->traction_mu * model.wheel_load() * radius *
+                    (1 + model.wheelset->inertia() / (mass * radius * radius));
+    }
+    // Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+    const double y = preload.contact.centre.y;
+    int nearest = block.section.surface.front().node[0];
+    for (const SurfaceEdge& edge : block.section.surface)
+      for (const int node : edge.node)
+        if (std::abs(block.section.p[static_cast<std::size_t>(node)] - y) <
+            std::abs(block.section.p[static_cast<std::size_t>(nearest)] - y))
+          nearest = node;
+    const StationFinder finder(block);
+    for (int k = 0; k < kCreepageNodes; ++k) {
+      const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
+      creepage_slots_.push_back(block.base + block.slot(nearest, station));
+      creepage_radius_.push_back(block.section.q[static_cast<std::size_t>(nearest)]);
+    }
+  }
+  if (scene.vehicle) {
+    const VehicleSpec& vehicle = *scene.vehicle;
+    sprung_.mass = vehicle.sprung_mass;
+    sprung_.stiffness = vehicle.suspension_stiffness;
+    sprung_.damping = vehicle.suspension_damping;
+    const Vec3 journal = frame_.origin + model.journal.displacement(u_.data(), frame_);
+    sprung_.free_length_height = sprung_.mass * scene.gravity / sprung_.stiffness;
+    sprung_.height = journal.z;
+  }
+  if (scene.pulse) {
+    for (const SweptBlock& block : model.mesh.blocks)
+      for (int station = 0; station < block.station_count(); ++station)
+        if (block.stations[static_cast<std::size_t>(station)] < block.stations.front() + scene.pulse->length)
+          for (int node = 0; node < block.section.nodes(); ++node)
+            v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] = scene.pulse->velocity;
+  }
+  start_momentum_ = vehicle_momentum();
+}
+
+void Simulation::start_velocities() {
+  const double speed = model_->scene.motion ? model_->scene.motion->speed : 0.0;
+  frame_.velocity = {speed, 0, 0};
+  frame_.spin = speed / model_->wheel_radius();
+}
+
+double Simulation::torque_at(double time) const {
+  if (!model_->scene.motion || max_torque_ == 0) return 0;
+  const double ramp = model_->scene.motion->ramp;
+  return max_torque_ * (ramp > 0 ? std::min(time / ramp, 1.0) : 1.0);
+}
+
+void Simulation::step() {
+  sampled_ = steps_ % sampling_ == 0;
+  // 1  internal force K (u + beta v) of every block; secondary nodes hand theirs to the primaries
+  model_->internal->apply_damped(u_.data(), v_.data(), force_.data());
+  if (sampled_) begin_sample();
+  if (model_->ties) model_->ties->gather(force_.data());
+  // 2  fastenings, primary suspension
+  connect();
+  // 3  contact: search, gap, penalty, friction, frictional work
+  roll();
+  // 4  torque; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the update)
+  drive();
+  carry();
+  // 5  velocities, constraints, displacements, frames
+  advance();
+  // 6  samples
+  if (sampled_) end_sample();
+  if (steps_ % kAnchorInterval == 0) anchor();
+}
+
+void Simulation::connect() {
+  if (model_->fastenings) model_->fastenings->apply(u_.data(), v_.data(), dt_, force_.data());
+  if (sprung_.mass > 0) {
+    const double height = frame_.origin.z + model_->journal.displacement(u_.data(), frame_).z;
+    const double speed = model_->journal.velocity(u_.data(), v_.data(), frame_).z;
+    const double up = sprung_.force(height, speed);
+    model_->journal.add(force_.data(), frame_, {0, 0, up});
+    const double rate = sprung_.speed - speed;
+    sprung_.dissipated += sprung_.damping * rate * rate * dt_;
+    sprung_.advance(up, model_->scene.gravity, dt_);
+    impulse_.z += dt_ * (0 - sprung_.mass * model_->scene.gravity);
+  } else if (model_->scene.load && !model_->journal.empty()) {
+    model_->journal.add(force_.data(), frame_, {0, 0, model_->scene.load->wheel_load});
+    impulse_.z -= dt_ * model_->scene.load->wheel_load;
+  }
+}
+
+void Simulation::roll() {
+  if (!model_->contact) return;
+  model_->contact->advance({u_.data(), v_.data(), &frame_}, time_, dt_);
+  model_->contact->add_forces(force_.data());
+  const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
+  impulse_ += dt_ * on_wheel;
+  contact_impulse_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
+}
+
+void Simulation::drive() {
+  if (max_torque_ == 0) return;
+  torque_ = torque_at(time_);
+  const double spin = frame_.spin + model_->torque.apply(torque_, v_.data(), force_.data());
+  torque_work_ += 0.5 * (torque_before_ + torque_) * spin * dt_;
+  torque_before_ = torque_;
+}
+
+void Simulation::carry() {
+  if (!model_->scene.vehicle) return;
+  const double added = model_->scene.vehicle->unsprung_mass;
+  const Vec3 total = model_->journal.total(force_.data(), frame_);
+  model_->journal.add(force_.data(), frame_, (-added / (model_->journal.mass() + added)) * total);
+}
+
+void Simulation::advance() {
+  const UpdateFields fields{u_.data(), v_.data(), force_.data(), model_->inverse_mass.data()};
+  const double gravity = model_->scene.gravity;
+  for (std::size_t b = 0; b < model_->mesh.blocks.size(); ++b) {
+    const SweptBlock& block = model_->mesh.blocks[b];
+    if (block.sweep == Sweep::revolved)
+      update_spinning_block(block, fields, frame_, gravity, dt_);
+    else
+      update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
+  }
+  for (const std::int64_t unknown : model_->restrained)
+    u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
+  if (model_->ties) {
+    model_->ties->follow(u_.data());
+    model_->ties->follow(v_.data());
+  }
+  if (model_->wheelset)
+    impulse_.z -= dt_ * gravity *
+                  (model_->wheelset->mass() + (model_->scene.vehicle ? model_->scene.vehicle->unsprung_mass : 0.0));
+  frame_.advance(dt_);
+  time_ += dt_;
+  ++steps_;
+}
+
+void Simulation::anchor() {
+  if (!model_->wheelset) return;
+  model_->wheelset->anchor(u_.data(), v_.data(), frame_, dt_);
+  if (model_->ties) {
+    model_->ties->follow(u_.data());
+    model_->ties->follow(v_.data());
+  }
+}
+
+double Simulation::fixed_kinetic_energy() const {
+  double sum = 0;
+  for (const SweptBlock& block : model_->mesh.blocks) {
+    if (block.sweep == Sweep::revolved) continue;
+    const std::int64_t first_group = block.base / kLanes;
+    sum += sum_chunks(block.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
+      double part = 0;
+      for (std::int64_t g = first_group + first; g < first_group + last; ++g)
+        for (int l = 0; l < kLanes; ++l) {
+          const double m = model_->mass[static_cast<std::size_t>(g * kLanes + l)];
+          for (int c = 0; c < 3; ++c) {
+            const double v = v_[static_cast<std::size_t>((g * 3 + c) * kLanes + l)];
+            part += 0.5 * m * v * v;
+          }
+        }
+      return part;
+    });
+  }
+  return sum;
+}
+
+double Simulation::kinetic_energy() const {
+  double sum = fixed_kinetic_energy();
+  if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_.data(), v_.data(), frame_);
+  if (model_->scene.vehicle) {
+    const Vec3 v = model_->journal.velocity(u_.data(), v_.data(), frame_);
+    sum += 0.5 * model_->scene.vehicle->unsprung_mass * dot(v, v) + 0.5 * sprung_.mass * sprung_.speed * sprung_.speed;
+  }
+  return sum;
+}
+
+double Simulation::gravity_potential() const {
+  const double g = model_->scene.gravity;
+  double sum = 0;
+  for (const SweptBlock& block : model_->mesh.blocks) {
+    if (block.sweep == Sweep::revolved) continue;
+    const std::int64_t first_group = block.base / kLanes;
+    sum += sum_chunks(block.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
+      double part = 0;
+      for (std::int64_t k = first_group + first; k < first_group + last; ++k)
+        for (int l = 0; l < kLanes; ++l)
+          part += g * model_->mass[static_cast<std::size_t>(k * kLanes + l)] *
+                  u_[static_cast<std::size_t>((k * 3 + 2) * kLanes + l)];
+      return part;
+    });
+  }
+  if (model_->wheelset) {
+    const double height = frame_.origin.z + model_->wheelset->mean_motion(u_.data(), v_.data(), frame_).displacement.z;
+    sum += g * model_->wheelset->mass() * height;
+  }
+  if (!model_->journal.empty()) {
+    const double height = frame_.origin.z + model_->journal.displacement(u_.data(), frame_).z;
+    if (model_->scene.vehicle) sum += g * model_->scene.vehicle->unsprung_mass * height + g * sprung_.mass * sprung_.height;
+    if (model_->scene.load) sum += model_->scene.load->wheel_load * height;
+  }
+  return sum;
+}
+
+Vec3 Simulation::vehicle_momentum() const {
+  Vec3 sum;
+  if (model_->wheelset) sum += model_->wheelset->momentum(u_.data(), v_.data(), frame_);
+  if (model_->scene.vehicle) {
+    sum += model_->scene.vehicle->unsprung_mass * model_->journal.velocity(u_.data(), v_.data(), frame_);
+    sum.z += sprung_.mass * sprung_.speed;
+  }
+  return sum;
+}
+
+MomentumCheck Simulation::momentum_check() const {
+  return {impulse_, vehicle_momentum() - start_momentum_, contact_impulse_};
+}
+
+double Simulation::creepage(std::int64_t slot, double radius) const {
+  const double speed = v_[static_cast<std::size_t>(dof(slot, 0))] +
+                       frame_.spin * (radius + u_[static_cast<std::size_t>(dof(slot, 2))]);
+  const double v = frame_.velocity.x;
+  return (speed - v) / (0.5 * (speed + v));
+}
+
+void Simulation::begin_sample() {
+  EnergyLedger& energy = sample_.energy;
+  // force_ still holds K (u + beta v) alone; u . K u / 2 is the energy of strain and hourglass (prestress included).
+  energy.strain = 0.5 * dot(static_cast<std::int64_t>(u_.size()), u_.data(), force_.data());
+  kinetic_before_ = kinetic_energy();
+  energy.gravity = gravity_potential();
+  energy.connectors = model_->fastenings ? model_->fastenings->energy(u_.data()) : 0.0;
+  if (sprung_.mass > 0) {
+    const double stretch = sprung_.height - frame_.origin.z -
+                           model_->journal.displacement(u_.data(), frame_).z - sprung_.free_length_height;
+    energy.connectors += 0.5 * sprung_.stiffness * stretch * stretch;
+  }
+  sample_.time = time_;
+  sample_.wheel_x = frame_.origin.x;
+  sample_.wheel_z = frame_.origin.z;
+}
+
+void Simulation::end_sample() {
+  EnergyLedger& energy = sample_.energy;
+  energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy());
+  energy.torque_work = torque_work_;
+  energy.connector_loss = (model_->fastenings ? model_->fastenings->dissipated() : 0.0) + sprung_.dissipated;
+  if (model_->contact) {
+    const ContactTotals& totals = model_->contact->totals();
+    energy.penalty = totals.penalty_energy;
+    energy.frictional_work = model_->contact->frictional_work();
+    energy.damping_loss = model_->contact->damping_work();
+    const auto tractions = model_->contact->max_nodal_tractions();
+    sample_.vertical_force = -totals.force_on_rail.z;
+    sample_.longitudinal_force = -totals.force_on_rail.x;
+    sample_.lateral_force = -totals.force_on_rail.y;
+    sample_.patch_area = totals.area;
+    sample_.slip_area = totals.slip_area;
+    sample_.max_pressure = tractions[0];
+    sample_.max_shear = tractions[1];
+    sample_.max_penetration = totals.max_penetration;
+    const Corrugation& corrugation = model_->contact->corrugation();
+    sample_.corrugation_depth = corrugation.depth(sample_.wheel_x, corrugation.centre());
+  }
+  if (model_->wheelset) {
+    sample_.wheel_speed = frame_.velocity.x;
+    sample_.wheel_spin = frame_.spin;
+    double sum = 0;
+    for (std::size_t k = 0; k < creepage_slots_.size(); ++k) sum += creepage(creepage_slots_[k], creepage_radius_[k]);
+    sample_.creepage_node = creepage(creepage_slots_.front(), creepage_radius_.front());
+    sample_.creepage_mean = sum / static_cast<double>(creepage_slots_.size());
+    sample_.torque = torque_;
+  }
+  const double closed = energy.kinetic + energy.strain + energy.connectors + energy.penalty + energy.gravity +
+                        energy.frictional_work + energy.connector_loss + energy.damping_loss - energy.torque_work;
+  if (!have_start_energy_) {
+    start_energy_ = closed;
+    have_start_energy_ = true;
+  }
+  energy.residual = closed - start_energy_;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ bits) * 1099511628211ULL;
+    hash ^= hash >> 29;
+  };
+  for (const double value : u_) mix(value);
+  for (const double value : v_) mix(value);
+  for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,
+                             frame_.velocity.x, sprung_.height, sprung_.speed})
+    mix(value);
+  return hash;
+}
+
+}  // namespace tread

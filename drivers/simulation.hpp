@@ -1,0 +1,114 @@
+#pragma once
+// Step 2: explicit rolling by central difference. [theory.md, Time step]
+
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/body_frame.hpp"
+#include "drivers/model.hpp"
+#include "drivers/preload.hpp"
+
+namespace tread {
+
+/// Energies and works by kind [J]; `residual` closes the balance.
+struct EnergyLedger {
+  double kinetic = 0;
+  double strain = 0;            ///< one-point stress and hourglass, all bodies
+  double connectors = 0;        ///< springs of fastenings and suspension
+  double penalty = 0;           ///< stored in contact
+  double gravity = 0;           ///< potential
+  double frictional_work = 0;   ///< dissipated
+  double connector_loss = 0;    ///< dissipated in dampers of fastenings and suspension
+  double damping_loss = 0;      ///< dissipated in material and contact damping
+  double torque_work = 0;       ///< done by the torque
+  double residual = 0;          ///< stored + dissipated - torque work - stored at the start
+};
+
+/// What one sample of the histories shows.
+struct Sample {
+  double time = 0;
+  double wheel_x = 0, wheel_z = 0;         ///< of the frame's origin [m]
+  double wheel_speed = 0, wheel_spin = 0;  ///< [m/s], [rad/s]
+  double vertical_force = 0;               ///< F_N, on the wheel, upwards [N]
+  double longitudinal_force = 0;           ///< F_L, on the wheel, forwards [N]
+  double lateral_force = 0;                ///< on the wheel, to the field side [N]
+  double patch_area = 0, slip_area = 0;    ///< [m2]
+  double max_pressure = 0, max_shear = 0;  ///< nodal averages [Pa]
+  double max_penetration = 0;              ///< [m]
+  double creepage_node = 0;                ///< eq. (3) at the node that starts in the patch [-]
+  double creepage_mean = 0;                ///< mean of 28 nodes [-]
+  double torque = 0;                       ///< [N m]
+  double corrugation_depth = 0;            ///< below the wheel [m]
+  EnergyLedger energy;
+};
+
+/// How far impulses and momentum of wheelset, unsprung and sprung mass agree.
+struct MomentumCheck {
+  Vec3 impulse;   ///< of all external forces [N s]
+  Vec3 change;    ///< of the momentum [N s]
+  Vec3 contact_impulse;  ///< size of the contact's impulse, the scale of the error [N s]
+};
+
+class Simulation {
+ public:
+  /// Starts from a preload at the scene's speed. `dt`: the step [s].
+  Simulation(Model& model, const Preload& preload, double dt);
+
+  double time() const { return time_; }
+  double dt() const { return dt_; }
+  std::int64_t steps() const { return steps_; }
+
+  /// One step. Sampled steps fill sample().
+  void step();
+  void set_sampling_interval(std::int64_t steps) { sampling_ = steps; }
+  bool sampled() const { return sampled_; }
+  const Sample& sample() const { return sample_; }
+
+  MomentumCheck momentum_check() const;
+  std::uint64_t state_hash() const;
+  double strain_energy_of(int block, bool hourglass) const;
+  const AlignedVector<double>& displacement() const { return u_; }
+  const AlignedVector<double>& velocity() const { return v_; }
+  const BodyFrame& wheel() const { return frame_; }
+  double torque_at(double time) const;
+
+ private:
+  void connect();
+  void roll();
+  void drive();
+  void carry();
+  void advance();
+  void begin_sample();
+  void end_sample();
+  void start_velocities();
+  double kinetic_energy() const;
+  double fixed_kinetic_energy() const;
+  double gravity_potential() const;
+  Vec3 vehicle_momentum() const;
+  double creepage(std::int64_t slot, double radius) const;
+  void anchor();
+
+  Model* model_;
+  double dt_;
+  double time_ = 0;
+  std::int64_t steps_ = 0;
+  std::int64_t sampling_ = 100;
+  bool sampled_ = false;
+
+  AlignedVector<double> u_, v_, force_;
+  BodyFrame frame_;
+  SprungMass sprung_;
+  double max_torque_ = 0;
+  double torque_ = 0, torque_before_ = 0;
+  double torque_work_ = 0;
+  Vec3 impulse_, contact_impulse_, start_momentum_;
+  std::vector<std::int64_t> creepage_slots_;
+  std::vector<double> creepage_radius_;
+
+  Sample sample_;
+  double kinetic_before_ = 0;
+  double start_energy_ = 0;
+  bool have_start_energy_ = false;
+};
+
+}  // namespace tread

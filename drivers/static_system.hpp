@@ -1,0 +1,45 @@
+#pragma once
+// The constrained stiffness operator of a model: elasticity on the free unknowns, secondary nodes eliminated.
+
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "drivers/model.hpp"
+#include "kernels/solver/linear_operator.hpp"
+
+namespace tread {
+
+class StaticSystem {
+ public:
+  explicit StaticSystem(const Model& model);
+
+  /// y = T^T K T x on the free unknowns, springs not included.
+  void apply(const double* x, double* y) const;
+
+  /// Zero at secondary nodes and restrained unknowns: forces of secondary nodes go to their primaries first.
+  void reduce(double* force) const;
+
+  /// Fills the secondary nodes of a displacement field.
+  void expand(double* field) const;
+
+  /// Diagonal of the operator, 0 where an unknown is not free [N/m].
+  const AlignedVector<double>& diagonal() const { return diagonal_; }
+
+ private:
+  const Model* model_;
+  AlignedVector<double> diagonal_;
+  mutable AlignedVector<double> full_;
+};
+
+/// What limits the time step, for the report.
+struct StepLimit {
+  double stable_step = 0;         ///< largest stable step, penalty and damping included [s]
+  double without_contact = 0;     ///< of the elastic bodies alone [s]
+  double omega = 0;               ///< highest frequency with contact [rad/s]
+  ElementFrequency element;       ///< the element with the highest frequency of its own
+  std::string reason;             ///< one sentence
+};
+
+StepLimit step_limit(const Model& model);
+
+}  // namespace tread

@@ -1,0 +1,106 @@
+#include "drivers/station_plan.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+MeshSizes mesh_sizes(const Scene& scene) {
+  MeshSizes sizes;
+  if (scene.quality == "draft") {
+    sizes = {2.2e-3, 26e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+  } else if (scene.quality == "standard") {
+    sizes = {1.6e-3, 20e-3, 8e-3, 50e-3, 2, 4, 4, 16e-3};
+  } else {
+    throw InputError(fmt::format("scene.quality = \"{}\": draft and standard are available", scene.quality));
+  }
+  if (scene.element_size) {
+    const double scale = *scene.element_size / sizes.contact;
+    sizes.contact *= scale;
+    sizes.section = std::min(sizes.section * scale, 12e-3);
+    sizes.band_half_width = std::max(sizes.band_half_width, 6 * sizes.contact);
+  }
+  return sizes;
+}
+
+double patch_reach(double wheel_radius) { return std::sqrt(2 * wheel_radius * 6e-4); }
+
+namespace {
+
+/// Appends `count` coarse elements of one pitch, each cut into `ratio` fine ones.
+void append(NestedSegments& plan, int count, double pitch, int ratio) {
+  plan.coarse.push_back({count, pitch, 0});
+  plan.fine.push_back({count * ratio, pitch / ratio, 0});
+}
+
+void append_uniform(NestedSegments& plan, Span span, double pitch, int ratio) {
+  if (span.last - span.first < 1e-9) return;
+  const double length = span.last - span.first;
+  const int count = std::max(1, static_cast<int>(std::ceil(length / pitch - 1e-6)));
+  append(plan, count, length / count, ratio);
+}
+
+/// Pitches that grow from `pitch` to `far` over `length`, four elements of each.
+std::vector<Segment> graded(double length, double pitch, double far) {
+  std::vector<Segment> segments;
+  double left = length;
+  for (double p = 1.3 * pitch; p < far && left > 4 * p + 4 * far; p *= 1.3) {
+    segments.push_back({4, p, 0});
+    left -= 4 * p;
+  }
+  if (left > 1e-9) {
+    const double target = segments.empty() ? std::min(far, 1.3 * pitch) : far;
+    const int count = std::max(1, static_cast<int>(std::ceil(left / target - 1e-6)));
+    segments.push_back({count, left / count, 0});
+  }
+  return segments;
+}
+
+}  // namespace
+
+NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes) {
+  run.first = std::max(run.first, rail.first);
+  run.last = std::min(run.last, rail.last);
+  zone.first = std::max(zone.first, run.first);
+  zone.last = std::min(zone.last, run.last);
+  if (zone.empty()) zone = {run.last, run.last};
+  const double coarse = sizes.contact * sizes.coarse_ratio;
+  const int approach = std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+
+  NestedSegments plan;
+  auto before = graded(run.first - rail.first, coarse, sizes.far);
+  std::reverse(before.begin(), before.end());
+  for (const Segment& s : before) append(plan, s.elements, s.pitch, 1);
+  append_uniform(plan, {run.first, zone.first}, coarse, approach);
+  append_uniform(plan, zone, coarse, sizes.coarse_ratio);
+  append_uniform(plan, {zone.last, run.last}, coarse, approach);
+  for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far)) append(plan, s.elements, s.pitch, 1);
+  return plan;
+}
+
+WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
+  constexpr double turn = 2 * std::numbers::pi;
+  // Whole axle elements around, each of axle_ratio disc elements of coarse_ratio tread elements.
+  const int axle =
+      static_cast<int>(std::lround(turn * radius / (sizes.contact * sizes.coarse_ratio * sizes.axle_ratio)));
+  const int disc = axle * sizes.axle_ratio;
+  const double pitch = turn / disc;
+  const int fine =
+      zone.empty() ? 0 : std::min(disc, static_cast<int>(std::ceil((zone.last - zone.first) / (radius * pitch))));
+  const int approach = std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+
+  WheelPlan plan;
+  plan.start = zone.empty() ? 0 : -zone.last / radius;
+  plan.axle.push_back({axle, turn / axle, 0});
+  plan.disc.push_back({disc, pitch, 0});
+  if (fine > 0) plan.tread.push_back({fine * sizes.coarse_ratio, pitch / sizes.coarse_ratio, 0});
+  if (fine < disc) plan.tread.push_back({(disc - fine) * approach, pitch / approach, 0});
+  return plan;
+}
+
+}  // namespace tread

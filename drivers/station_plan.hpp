@@ -1,0 +1,55 @@
+#pragma once
+// Where the stations of the swept blocks stand: fine where the patch passes, coarse elsewhere, nested for the ties.
+
+#include <vector>
+
+#include "core/mesh/swept_block.hpp"
+#include "core/scene.hpp"
+
+namespace tread {
+
+/// Element sizes that a quality stands for.
+struct MeshSizes {
+  double contact = 0;         ///< h: in the patch, solution zone [m]
+  double far = 0;             ///< largest pitch along the rail [m]
+  double section = 0;         ///< coarse quads of rail base, disc and axle [m]
+  double slab = 0;            ///< pitch and quads of slab and mortar [m]
+  int approach_ratio = 2;     ///< pitch along AB is this many h
+  int coarse_ratio = 4;       ///< tied coarse blocks have this many h per element in the solution zone
+  int axle_ratio = 4;         ///< axle elements per disc element along the sweep
+  double band_half_width = 0; ///< of the fine running band [m]
+};
+
+/// Throws InputError for an unknown quality.
+MeshSizes mesh_sizes(const Scene& scene);
+
+/// An interval of x.
+struct Span {
+  double first = 0, last = 0;
+  bool empty() const { return !(last > first); }
+};
+
+/// Segments of the fine block and of the coarse block tied to it; they cover the same length and nest.
+struct NestedSegments {
+  std::vector<Segment> fine;
+  std::vector<Segment> coarse;
+};
+
+/// Along the rail: h in `zone`, approach pitch in the rest of `run`, growing to the far pitch outside of it.
+NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes);
+
+/// Around the wheel.
+struct WheelPlan {
+  double start = 0;                ///< angle of the first station [rad]
+  std::vector<Segment> tread;
+  std::vector<Segment> disc;
+  std::vector<Segment> axle;
+};
+
+/// h over the arc that meets `zone` and, where it starts, the first patch; approach pitch over the rest of the turn.
+WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
+
+/// Half length of the stretch of track that a wheel in contact can touch [m].
+double patch_reach(double wheel_radius);
+
+}  // namespace tread

@@ -1,0 +1,71 @@
+#pragma once
+// HDF5 files behind one class: objects are named by path, groups on the way are made as needed.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tread {
+
+/// An open HDF5 file. The element type T of data is double, float, std::int64_t, std::int32_t or
+/// std::uint8_t. Errors name the file, the object and the system's reason: InputError where a file or object
+/// is read that is missing or of another shape, ResourceError where something cannot be written. Move-only.
+class Hdf5File {
+ public:
+  /// Starts an empty file in place of whatever stood there.
+  static Hdf5File create(const std::filesystem::path& path);
+  static Hdf5File open_to_read(const std::filesystem::path& path);
+  static Hdf5File open_to_extend(const std::filesystem::path& path);
+
+  Hdf5File(Hdf5File&& other) noexcept;
+  Hdf5File& operator=(Hdf5File&& other) noexcept;
+  ~Hdf5File();
+
+  void make_group(const std::string& name);
+
+  /// Writes a dataset of the given shape (row-major; {values.size()} if empty).
+  template <class T>
+  void write(const std::string& name, std::span<const T> values, std::vector<std::uint64_t> shape = {});
+
+  /// Makes an empty dataset of shape {0, ...row_shape} that `append` lengthens, stored in chunks of `chunk`
+  /// rows.
+  template <class T>
+  void make_extendible(const std::string& name, std::uint64_t chunk,
+                       const std::vector<std::uint64_t>& row_shape = {});
+
+  /// Adds whole rows at the end of a dataset made by make_extendible. Where that fails for want of room the
+  /// dataset may have grown by rows that hold zeros.
+  template <class T>
+  void append(const std::string& name, std::span<const T> rows);
+
+  /// Attributes of a group or dataset: an array, or a null-padded ASCII string of fixed length.
+  template <class T>
+  void write_attribute(const std::string& object, const std::string& name, std::span<const T> values);
+  void write_attribute(const std::string& object, const std::string& name, const std::string& text);
+
+  /// Makes `name` stand for an object of another file; a relative path is relative to this file's folder.
+  void link_external(const std::string& name, const std::filesystem::path& file, const std::string& object);
+
+  bool contains(const std::string& name) const;
+  std::vector<std::uint64_t> shape(const std::string& name) const;
+  template <class T>
+  std::vector<T> read(const std::string& name) const;
+  template <class T>
+  std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
+  std::string read_text_attribute(const std::string& object, const std::string& name) const;
+
+  /// Hands everything written so far to the operating system; the file can be read from here on.
+  void flush();
+  /// Closes the file and reports what could not be written; the destructor closes without a report.
+  void close();
+
+ private:
+  Hdf5File(std::int64_t id, std::filesystem::path path) : id_(id), path_(std::move(path)) {}
+
+  std::int64_t id_ = -1;
+  std::filesystem::path path_;
+};
+
+}  // namespace tread

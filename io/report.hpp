@@ -1,0 +1,75 @@
+#pragma once
+// A report in one HTML file that needs no network and prints well.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/report/chart.hpp"
+#include "io/report/drawing.hpp"
+
+namespace tread {
+
+/// One paragraph.
+struct Text {
+  std::string text;
+};
+
+enum class Align { left, right };
+
+struct Column {
+  std::string title;
+  Align align = Align::left;
+};
+
+struct Table {
+  std::string title;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string>> rows;  ///< one cell per column
+};
+
+/// A number that the reader should see first.
+struct KeyFigure {
+  std::string label;
+  std::string value;
+  std::string unit;
+};
+
+using KeyFigures = std::vector<KeyFigure>;
+using Drawings = std::vector<Drawing>;  ///< side by side where the page is wide enough
+
+using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings>;
+
+struct Chapter {
+  std::string title;
+  std::vector<Block> blocks;
+};
+
+struct Report {
+  std::string title;
+  std::string subtitle;
+  std::vector<Chapter> chapters;
+  std::string footer;
+};
+
+/// A quantity of ours beside that of a reference.
+struct Comparison {
+  std::string quantity;
+  std::string unit;
+  std::optional<double> reference;
+  std::optional<double> ours;
+  std::string remark;
+};
+
+/// Columns: quantity, unit, reference, ours, difference in per cent of the reference, remark.
+Table comparison_table(std::string title, const std::string& reference, const std::vector<Comparison>& rows);
+
+/// The report as HTML. All text is plain; "F_N" and the like are set with subscripts.
+std::string report_html(const Report& report);
+
+/// Writes the report. Throws ResourceError; an older file stays until the new one is complete.
+void write_report(const std::filesystem::path& path, const Report& report);
+
+}  // namespace tread

@@ -1,0 +1,321 @@
+#include "io/report/chart.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <stdexcept>
+
+#include "io/report/markup.hpp"
+
+namespace tread {
+
+namespace {
+
+// Page geometry [px].
+constexpr double kWidth = 920;
+constexpr double kLeft = 72;
+constexpr double kRight = 14;
+constexpr double kTop = 18;     // holds the labels of bands and positions
+constexpr double kGap = 16;     // between panels
+constexpr double kBottom = 46;  // tick labels and the label of the abscissa
+constexpr std::size_t kGroups = 1000;
+constexpr int kColours = 6;
+
+/// A linear map from values to pixels.
+struct Scale {
+  Range value;
+  Range pixel;
+  double operator()(double v) const {
+    return pixel[0] + (v - value[0]) / (value[1] - value[0]) * (pixel[1] - pixel[0]);
+  }
+};
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  void add(double v) {
+    if (!std::isfinite(v)) return;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  /// As a range of positive length, whatever was added.
+  Range range() const {
+    if (low > high) return {0, 1};
+    if (low == high)
+      return {low - (low == 0 ? 1 : std::abs(low) / 10), high + (low == 0 ? 1 : std::abs(low) / 10)};
+    return {low, high};
+  }
+};
+
+double tick_step(double low, double high, int count) {
+  const double rough = (high - low) / count;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * decade >= rough * 0.999) return factor * decade;
+  return 10 * decade;
+}
+
+int tick_count(double height) {
+  return std::max(3, static_cast<int>(height / 45));
+}
+
+Range x_range(const Figure& figure) {
+  if (figure.x_range) return *figure.x_range;
+  Extent extent;
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series)
+      for (const double x : series.x) extent.add(x);
+  return extent.range();
+}
+
+/// Range of the visible values and levels, widened to whole ticks.
+Range y_range(const Panel& panel, const Range& x) {
+  if (panel.y_range) return *panel.y_range;
+  Extent extent;
+  for (const Series& series : panel.series)
+    for (std::size_t i = 0; i < series.x.size(); ++i)
+      if (series.x[i] >= x[0] && series.x[i] <= x[1]) extent.add(series.y[i]);
+  for (const Marker& level : panel.levels) extent.add(level.at);
+  const Range range = extent.range();
+  const double step = tick_step(range[0], range[1], tick_count(panel.height));
+  return {std::floor(range[0] / step + 1e-9) * step, std::ceil(range[1] / step - 1e-9) * step};
+}
+
+/// Writes tick values with the digits that their spacing needs, over a common power of ten.
+class TickFormat {
+ public:
+  explicit TickFormat(const std::vector<double>& values) {
+    double largest = 0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    if (largest >= 1e5 || (largest > 0 && largest < 1e-2))
+      exponent_ = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+    const double step = values.size() < 2 ? largest : (values[1] - values[0]) * std::pow(10.0, -exponent_);
+    if (step > 0) decimals_ = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  }
+  std::string operator()(double v) const {
+    const double scaled = v * std::pow(10.0, -exponent_);
+    return (v < 0 ? "−" : "") + fmt::format("{:.{}f}", std::abs(scaled), decimals_);
+  }
+  /// For the axis label: " × 10⁶", or nothing.
+  std::string factor_text() const { return exponent_ == 0 ? "" : " × " + power_of_ten(exponent_); }
+  double factor() const { return std::pow(10.0, exponent_); }
+
+ private:
+  int exponent_ = 0;
+  int decimals_ = 0;
+};
+
+std::string line(const char* style, double x1, double y1, double x2, double y2) {
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style,
+                     x1, y1, x2, y2);
+}
+
+std::string label(const char* style, double x, double y, const std::string& text) {
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style, x, y, svg_text(text));
+}
+
+const char* stroke_class(Stroke stroke) {
+  switch (stroke) {
+    case Stroke::dashed:
+      return "dashed";
+    case Stroke::dotted:
+      return "dotted";
+    default:
+      return "solid";
+  }
+}
+
+/// The part of a curve inside the range and one point beyond on either side, thinned.
+std::string path_data(const Series& series, const Scale& x, const Scale& y) {
+  const auto inside = [&](std::size_t i) {
+    return i < series.x.size() && series.x[i] >= x.value[0] && series.x[i] <= x.value[1];
+  };
+  std::vector<double> xs;
+  std::vector<double> ys;
+  for (std::size_t i = 0; i < series.x.size(); ++i)
+    if (inside(i) || inside(i + 1) || (i > 0 && inside(i - 1))) {
+      xs.push_back(series.x[i]);
+      ys.push_back(series.y[i]);
+    }
+  std::string path;
+  bool pen_down = false;
+  for (const std::size_t i : thinned(ys, kGroups)) {
+    const bool drawn = std::isfinite(xs[i]) && std::isfinite(ys[i]);
+    if (drawn) path += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", x(xs[i]), y(ys[i]));
+    pen_down = drawn;
+  }
+  return path;
+}
+
+struct Layout {
+  Scale x;
+  double top = 0;     ///< of the panel [px]
+  double bottom = 0;  ///< of the panel [px]
+  int first_colour = 0;
+};
+
+/// A window that clips what is drawn in it and leaves the coordinates as they are.
+std::string clipped(double top, double bottom, const std::string& content) {
+  return fmt::format(
+      "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
+      "viewBox=\"{0:.1f} {1:.1f} {2:.1f} {3:.1f}\"><g class=\"moves\">\n{4}</g></svg>\n",
+      kLeft, top, kWidth - kLeft - kRight, bottom - top, content);
+}
+
+std::string curves_svg(const Panel& panel, const Layout& at, const Scale& y) {
+  std::string svg;
+  int colour = at.first_colour;
+  for (const Series& series : panel.series)
+    svg += fmt::format("<path class=\"curve c{} {}\" d=\"{}\"/>\n", colour++ % kColours,
+                       stroke_class(series.stroke), path_data(series, at.x, y));
+  return clipped(at.top, at.bottom, svg);
+}
+
+std::string panel_svg(const Panel& panel, const Layout& at) {
+  const Scale y{y_range(panel, at.x.value), {at.bottom, at.top}};
+  std::string svg = fmt::format(
+      "<g class=\"panel\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-top=\"{:.1f}\" "
+      "data-bottom=\"{:.1f}\">\n",
+      y.value[0], y.value[1], at.top, at.bottom);
+  const std::vector<double> values = ticks(y.value[0], y.value[1], tick_count(panel.height));
+  const TickFormat format(values);
+  for (const double v : values) {
+    svg += line("grid", kLeft, y(v), kWidth - kRight, y(v));
+    svg += label("tick right", kLeft - 8, y(v) + 4, format(v));
+  }
+  svg += curves_svg(panel, at, y);
+  for (const Marker& level : panel.levels)
+    svg += line("level", kLeft, y(level.at), kWidth - kRight, y(level.at));
+  svg += line("axis", kLeft, at.top, kLeft, at.bottom) +
+         line("axis", kLeft, at.bottom, kWidth - kRight, at.bottom);
+  svg += fmt::format("<text class=\"name middle\" transform=\"translate(15 {:.1f}) rotate(-90)\">{}</text>\n",
+                     (at.top + at.bottom) / 2, svg_text(panel.y_label + format.factor_text()));
+  return svg + "</g>\n";
+}
+
+std::string abscissa_svg(const Figure& figure, const Scale& x, double bottom) {
+  const std::vector<double> values = ticks(x.value[0], x.value[1], 9);
+  const TickFormat format(values);
+  std::string svg = fmt::format("<g class=\"abscissa\" data-factor=\"{:g}\">\n", format.factor());
+  for (const double v : values) {
+    svg += line("axis xtick", x(v), bottom, x(v), bottom + 5);
+    svg += label("tick middle xtick", x(v), bottom + 18, format(v));
+  }
+  svg +=
+      label("name middle", (kLeft + kWidth - kRight) / 2, bottom + 38, figure.x_label + format.factor_text());
+  return svg + "</g>\n";
+}
+
+std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
+  std::string shapes;
+  std::string labels;
+  const auto note = [&](double at, const std::string& text) {
+    if (at > kLeft && at < kWidth - kRight) labels += label("note middle follows", at, kTop - 5, text);
+  };
+  for (const Band& band : figure.bands) {
+    shapes +=
+        fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
+                    x(band.from), kTop, x(band.to) - x(band.from), bottom - kTop);
+    note((std::max(x(band.from), kLeft) + std::min(x(band.to), kWidth - kRight)) / 2, band.label);
+  }
+  for (const Marker& position : figure.positions) {
+    shapes += line("position", x(position.at), kTop, x(position.at), bottom);
+    note(x(position.at), position.label);
+  }
+  return clipped(kTop, bottom, shapes) + labels;
+}
+
+/// The first key shows the abscissa while a reader points at the chart; curves have an output for their
+/// value.
+std::string legend_html(const Figure& figure) {
+  const auto key = [](const std::string& style, const std::string& text, const char* output) {
+    return fmt::format(
+        "<span class=\"key\"><svg width=\"26\" height=\"8\"><path class=\"{}\" d=\"M0 "
+        "4H26\"/></svg>{}{}</span>\n",
+        style, html_text(text), output);
+  };
+  std::string html = "<span class=\"key at\"><output></output></span>\n";
+  int colour = 0;
+  for (const Panel& panel : figure.panels) {
+    for (const Series& series : panel.series)
+      html += key(fmt::format("curve c{} {}", colour++ % kColours, stroke_class(series.stroke)), series.label,
+                  "<output></output>");
+    for (const Marker& level : panel.levels)
+      if (!level.label.empty()) html += key("level", level.label, "");
+  }
+  return "<div class=\"legend\">\n" + html + "</div>\n";
+}
+
+}  // namespace
+
+std::vector<std::size_t> thinned(std::span<const double> values, std::size_t groups) {
+  std::vector<std::size_t> kept;
+  const std::size_t n = values.size();
+  if (n <= 2 * groups) {
+    for (std::size_t i = 0; i < n; ++i) kept.push_back(i);
+    return kept;
+  }
+  const auto keep = [&](std::initializer_list<std::size_t> candidates) {
+    std::vector<std::size_t> sorted(candidates);
+    std::sort(sorted.begin(), sorted.end());
+    for (const std::size_t i : sorted)
+      if (i < n && (kept.empty() || i > kept.back())) kept.push_back(i);
+  };
+  keep({0});
+  for (std::size_t group = 0; group < groups; ++group) {
+    std::size_t lowest = n;
+    std::size_t highest = n;
+    std::size_t gap = n;
+    for (std::size_t i = group * n / groups; i < (group + 1) * n / groups; ++i) {
+      if (!std::isfinite(values[i])) {
+        gap = i;
+        continue;
+      }
+      if (lowest == n || values[i] < values[lowest]) lowest = i;
+      if (highest == n || values[i] > values[highest]) highest = i;
+    }
+    keep({lowest, highest, gap});
+  }
+  keep({n - 1});
+  return kept;
+}
+
+std::vector<double> ticks(double low, double high, int count) {
+  const double step = tick_step(low, high, count);
+  std::vector<double> values;
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
+    values.push_back(i == 0 ? 0.0 : i * step);
+  return values;
+}
+
+std::string figure_html(const Figure& figure) {
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series)
+      if (series.x.size() != series.y.size())
+        throw std::logic_error("figure '" + figure.title + "': x and y of '" + series.label +
+                               "' differ in length");
+
+  const Scale x{x_range(figure), {kLeft, kWidth - kRight}};
+  std::string panels;
+  Layout at{x, kTop, kTop, 0};
+  for (const Panel& panel : figure.panels) {
+    if (at.bottom > kTop) at.top = at.bottom + kGap;
+    at.bottom = at.top + panel.height;
+    panels += panel_svg(panel, at);
+    at.first_colour += static_cast<int>(panel.series.size());
+  }
+  const std::string caption =
+      figure.caption.empty() ? "" : "<p class=\"caption\">" + html_text(figure.caption) + "</p>\n";
+  return fmt::format(
+      "<figure class=\"chart\">\n<figcaption>{}</figcaption>\n{}"
+      "<svg viewBox=\"0 0 {:.0f} {:.0f}\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-left=\"{:.0f}\" "
+      "data-right=\"{:.0f}\">\n{}{}{}</svg>\n{}</figure>\n",
+      html_text(figure.title), legend_html(figure), kWidth, at.bottom + kBottom, x.value[0], x.value[1],
+      kLeft, kWidth - kRight, bands_svg(figure, x, at.bottom), panels, abscissa_svg(figure, x, at.bottom),
+      caption);
+}
+
+}  // namespace tread

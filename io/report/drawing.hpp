@@ -1,0 +1,49 @@
+#pragma once
+// Meshes drawn to scale as SVG.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/section.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "core/vec.hpp"
+
+namespace tread {
+
+using Polygon = std::vector<std::array<double, 2>>;  ///< horizontal and vertical coordinate [m]
+
+/// What is drawn in one colour.
+struct Layer {
+  std::string label;
+  std::vector<Polygon> cells;  ///< closed and tinted
+  std::vector<Polygon> lines;  ///< open
+};
+
+/// Lower left and upper right corner. [m]
+struct Window {
+  std::array<double, 2> low;
+  std::array<double, 2> high;
+};
+
+struct Drawing {
+  std::string title;
+  std::vector<Layer> layers;
+  std::optional<Window> window;  ///< absent: everything
+  double width = 440;            ///< [px of a page 920 px wide]
+};
+
+/// The quads of a section seen along x, y to the right and z up: an extruded section at `origin` (y, z), a
+/// revolved one below its axis at `origin`.
+Layer section_layer(std::string label, const Section& section, Sweep sweep,
+                    std::array<double, 2> origin = {0, 0});
+
+/// The stations of a block seen from the side, x to the right and z up: lines across the section's outline
+/// and along its ends, at the frame angle 0 and moved to `origin`.
+Layer side_layer(std::string label, const SweptBlock& block, const Vec3& origin = {});
+
+/// A `figure` element: title, SVG with a scale bar, legend.
+std::string drawing_html(const Drawing& drawing);
+
+}  // namespace tread

@@ -1,0 +1,96 @@
+#include "io/report/markup.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace tread {
+
+namespace {
+
+bool alphanumeric(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Length of the subscript that follows text[i] = letter and text[i + 1] = '_'; 0 if there is none.
+std::size_t subscript_length(std::string_view text, std::size_t i) {
+  const auto at = [&](std::size_t k) { return k < text.size() ? text[k] : ' '; };
+  const bool starts_word = i == 0 || (!alphanumeric(text[i - 1]) && text[i - 1] != '_');
+  if (!starts_word || std::isalpha(static_cast<unsigned char>(text[i])) == 0 || at(i + 1) != '_') return 0;
+  std::size_t length = 0;
+  while (alphanumeric(at(i + 2 + length))) ++length;
+  return length <= 2 && at(i + 2 + length) != '_' ? length : 0;
+}
+
+std::string escaped(char c) {
+  switch (c) {
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return "&gt;";
+    case '"':
+      return "&quot;";
+    default:
+      return {c};
+  }
+}
+
+std::string marked_up(std::string_view text, std::string_view open, std::string_view close) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    out += escaped(text[i]);
+    if (const std::size_t length = subscript_length(text, i)) {
+      out += fmt::format("{}{}{}", open, text.substr(i + 2, length), close);
+      i += 1 + length;
+    }
+  }
+  return out;
+}
+
+/// "3.020" as "3.02", "12.00" as "12".
+std::string without_end_zeros(std::string decimal) {
+  if (decimal.find('.') == std::string::npos) return decimal;
+  decimal.erase(decimal.find_last_not_of('0') + 1);
+  if (decimal.back() == '.') decimal.pop_back();
+  return decimal;
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+  return marked_up(text, "<sub>", "</sub>");
+}
+
+std::string svg_text(std::string_view text) {
+  // The zero-width space carries the baseline back: SVG has no other way that all browsers know.
+  return marked_up(text, "<tspan dy=\".25em\" font-size=\"75%\">",
+                   "</tspan><tspan dy=\"-.19em\">&#8203;</tspan>");
+}
+
+std::string power_of_ten(int exponent) {
+  static constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent)))
+    out += kDigits[static_cast<std::size_t>(digit - '0')];
+  return out;
+}
+
+std::string readable(double value, int digits) {
+  if (!std::isfinite(value)) return "–";
+  const std::string sign = value < 0 ? "−" : "";
+  // Rounded first, so that 999.96 counts as 1000.
+  const std::string scientific = fmt::format("{:.{}e}", std::abs(value), digits - 1);
+  const std::size_t e = scientific.find('e');
+  const int exponent = std::stoi(scientific.substr(e + 1));
+  if (exponent < -3 || exponent > 6)
+    return sign + without_end_zeros(scientific.substr(0, e)) + "×" + power_of_ten(exponent);
+  return sign +
+         without_end_zeros(fmt::format("{:.{}f}", std::abs(value), std::max(0, digits - 1 - exponent)));
+}
+
+}  // namespace tread

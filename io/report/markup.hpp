@@ -1,0 +1,23 @@
+#pragma once
+// Text of reports: escaping, subscripts, readable numbers.
+
+#include <string>
+#include <string_view>
+
+namespace tread {
+
+/// Text for HTML: special characters escaped; a single letter with a subscript of one or two characters
+/// ("F_N", "d_m") is set as such, other underscores ("vertical_force") stay.
+std::string html_text(std::string_view text);
+
+/// The same for the content of an SVG text element.
+std::string svg_text(std::string_view text);
+
+/// A number for reading, to the given significant digits and without zeros at the end: "193.2", "0.276", and
+/// "8.9×10⁻⁸" outside 10⁻³ ... 10⁷; an en dash where it is not finite.
+std::string readable(double value, int digits = 4);
+
+/// Powers of ten in superscript digits: "10⁻⁸".
+std::string power_of_ten(int exponent);
+
+}  // namespace tread

@@ -1,0 +1,201 @@
+#include "io/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "io/schema.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kRailEndMargin =
+    0.02;  ///< the wheel's contact point stays this far from the rail's ends [m]
+constexpr double kLengthTolerance = 1e-9;  ///< lengths that differ by less are equal [m]
+
+class Checker {
+ public:
+  explicit Checker(const Scene& scene) : scene_(scene) {}
+
+  std::vector<SceneProblem> run() {
+    check_values();
+    check_components();
+    check_materials();
+    if (scene_.wheel) check_wheel(*scene_.wheel);
+    if (scene_.rail) check_rail(*scene_.rail);
+    if (scene_.motion) check_motion(*scene_.motion);
+    if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
+    if (scene_.rail && scene_.pulse) {
+      require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
+              "the pulse is longer than the bar");
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  /// Adds a problem unless the condition holds or one of the keys is already known to be wrong.
+  void require(bool condition, std::vector<std::string> keys, std::string message) {
+    const auto wrong = [&](const std::string& key) { return wrong_.count(key) > 0; };
+    if (condition || std::any_of(keys.begin(), keys.end(), wrong)) return;
+    problems_.push_back({std::move(keys), std::move(message)});
+  }
+
+  void check_values() {
+    Scene copy = scene_;
+    for (const Key& key : scene_keys()) {
+      if (!key.locate) continue;
+      const std::optional<double> value = number_at(key.locate(copy));
+      if (!value || key.range.contains(*value)) continue;
+      const std::string text =
+          key.unit.empty() ? fmt::format("{:.6g}", *value) : format_quantity(*value, key.unit);
+      require(false, {key.path}, fmt::format("{} is not allowed; it must be {}", text, describe_range(key)));
+      wrong_.insert(key.path);
+    }
+  }
+
+  void check_components() {
+    const Scene& s = scene_;
+    require(!s.fastenings || s.rail, {"fastenings"}, "fastenings need a rail; add [rail]");
+    require(!s.slab_track || s.fastenings, {"slab"}, "a slab needs fastenings; add [fastenings]");
+    require(!s.vehicle || s.wheel, {"vehicle"}, "a vehicle needs a wheel; add [wheel]");
+    require(!s.load || s.wheel, {"load"}, "a load needs a wheel; add [wheel]");
+    require(!s.vehicle || !s.load, {"load", "vehicle"},
+            "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
+    require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
+    require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
+    require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
+    require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
+    require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
+    require(!s.motion || s.pulse || (s.wheel && s.rail && s.contact), {"motion"},
+            "motion needs [wheel], [rail] and [contact], or [pulse]");
+    require(s.wheel || s.rail, {"scene.based_on"},
+            "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
+  }
+
+  void check_materials() {
+    const auto need = [&](const Material& material, const std::string& name, const std::string& user) {
+      require(!material.name.empty(), {"material." + name},
+              fmt::format("the {} needs [material.{}]", user, name));
+    };
+    if (scene_.wheel || scene_.rail) need(scene_.steel, "steel", scene_.wheel ? "wheel" : "rail");
+    if (!scene_.slab_track) return;
+    need(scene_.slab, "slab", "slab");
+    need(scene_.gap_filler, "gap_filler", "slab");
+    need(scene_.mortar, "mortar", "slab");
+    require(scene_.slab_track->gap < scene_.slab_track->pitch, {"slab.gap", "slab.pitch"},
+            "the gap is not shorter than the pitch of slab and gap together");
+  }
+
+  void check_wheel(const WheelSpec& wheel) {
+    const bool arc = wheel.profile == "arc" || wheel.profile == "cylinder";
+    if (wheel.shape == "tyre") {
+      require(arc, {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
+      require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
+              "the ring is thicker than the wheel's radius");
+      require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
+              {"wheel.width", "wheel.crown_radius", "wheel.profile"},
+              "the ring is wider than the arc of its profile");
+    } else {
+      require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA or a file");
+    }
+  }
+
+  void check_rail(const RailSpec& rail) {
+    require(rail.origin <= rail.length, {"rail.origin", "rail.length"}, "x = 0 lies beyond the rail's end");
+    require(rail.crown_radius == 0 || rail.width < 2 * rail.crown_radius, {"rail.width", "rail.crown_radius"},
+            "the box is wider than its running surface's arc");
+    const bool fastened = rail.support == "fastenings";
+    require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
+            "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
+    require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
+            fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
+                        rail.support));
+    if (scene_.fastenings) check_fastenings(rail, *scene_.fastenings);
+    if (!scene_.wheel) return;
+    const double left = -rail.origin;
+    const double right = rail.length - rail.origin;
+    const double zone_end = scene_.zone_start + scene_.zone_length;
+    require(scene_.zone_start >= left - kLengthTolerance && zone_end <= right + kLengthTolerance,
+            {"solution_zone.start", "solution_zone.length", "rail.length", "rail.origin"},
+            fmt::format(
+                "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
+                scene_.zone_start, zone_end, left, right));
+    require(rail.origin >= kRailEndMargin, {"rail.origin"},
+            fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
+    const double run = scene_.motion ? scene_.motion->speed * scene_.motion->duration : 0;
+    require(run <= right - kRailEndMargin, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
+            fmt::format(
+                "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
+                run, right - kRailEndMargin, kRailEndMargin));
+  }
+
+  void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {
+    const double half = fastenings.pad_length / 2;
+    const double last = fastenings.first + (fastenings.count - 1) * fastenings.spacing;
+    require(fastenings.first - half >= -kLengthTolerance, {"fastenings.first", "fastenings.pad_length"},
+            "the first fastening's pad begins before the rail's left end");
+    require(last + half <= rail.length + kLengthTolerance,
+            {"fastenings.count", "fastenings.spacing", "fastenings.first", "fastenings.pad_length",
+             "rail.length"},
+            fmt::format("the last fastening's pad ends at {:.6g} m, beyond the rail of {:.6g} m", last + half,
+                        rail.length));
+    require(fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
+            {"fastenings.pad_length", "fastenings.spacing"}, "the pads of neighbouring fastenings overlap");
+    require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
+            {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
+  }
+
+  void check_motion(const MotionSpec& motion) {
+    require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
+            "state the traction by mu or by torque, not both");
+    if (!motion.traction_mu || !scene_.contact) return;
+    require(
+        std::abs(*motion.traction_mu) <= scene_.contact->friction, {"motion.traction.mu", "contact.friction"},
+        fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
+                    *motion.traction_mu, scene_.contact->friction));
+  }
+
+  void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
+    const bool sine = corrugation.kind == "sine";
+    if (sine) {
+      require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
+              {"corrugation.wavelength", "corrugation.length"},
+              "not one wave fits into the corrugation's length");
+    } else if (corrugation.table_x.empty()) {
+      return;
+    }
+    const double first = corrugation.start + (sine ? 0 : corrugation.table_x.front());
+    const double last = corrugation.start + (sine ? corrugation.length : corrugation.table_x.back());
+    const auto inside = [&](double left, double right) {
+      return first >= left - kLengthTolerance && last <= right + kLengthTolerance;
+    };
+    const std::string extent = fmt::format("the corrugation, x = {:.6g} m to {:.6g} m,", first, last);
+    std::vector<std::string> keys{"corrugation.start", sine ? "corrugation.length" : "corrugation.file"};
+    const bool on_rail = inside(-rail.origin, rail.length - rail.origin);
+    const double zone_end = scene_.zone_start + scene_.zone_length;
+    require(!on_rail || inside(scene_.zone_start, zone_end),
+            {keys[0], keys[1], "solution_zone.start", "solution_zone.length"},
+            fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, scene_.zone_start,
+                        zone_end));
+    require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
+            fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
+                        rail.length - rail.origin));
+  }
+
+  const Scene& scene_;
+  std::set<std::string> wrong_;
+  std::vector<SceneProblem> problems_;
+};
+
+}  // namespace
+
+std::vector<SceneProblem> validate(const Scene& scene) {
+  return Checker(scene).run();
+}
+
+}  // namespace tread

@@ -1,0 +1,50 @@
+#pragma once
+// From a scene file to a Scene, and back to a file that states every value.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+
+namespace tread {
+
+/// The text of a scene and where it stands.
+struct SceneSource {
+  std::string name;              ///< as messages call it: the path that the user gave
+  std::string text;              ///< TOML
+  std::filesystem::path folder;  ///< files that the scene names are relative to it
+};
+
+/// Reads the file's text. Throws InputError when it is missing, unreadable, not text, or larger than 1 MB.
+SceneSource load_scene_source(const std::filesystem::path& path);
+
+/// One value of a scene.
+struct Entry {
+  std::string path;         ///< "rail.length"
+  std::string value;        ///< in SI, "15.2"
+  std::string unit;         ///< "m"; empty for texts and pure numbers
+  std::string source;       ///< "scenes/x.toml:12", "--set", "highspeed-slab-2014: Table 1", or "default"
+  std::string description;  ///< what the key means
+};
+
+struct ResolvedScene {
+  Scene scene;
+  std::string name;            ///< of the source
+  std::vector<Entry> entries;  ///< every value that has an effect, in the order of the schema
+};
+
+/// Reads, completes and checks a scene. Values come from, in rising order: the defaults, the library entry
+/// that scene.based_on names, the source, and the overrides ("motion.speed=250 km/h"). A table that is named
+/// at one level brings in the whole table with the values of the levels below it; `present = false` leaves it
+/// out. Throws ProblemsError with every problem found, or its base InputError.
+ResolvedScene resolve_scene(const SceneSource& source, const std::vector<std::string>& overrides = {});
+ResolvedScene resolve_scene(const std::filesystem::path& path,
+                            const std::vector<std::string>& overrides = {});
+
+Scene read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+
+/// The scene as a file that stands alone: every value in SI with its source. Reading it gives the same Scene.
+std::string resolved_toml(const ResolvedScene& resolved);
+
+}  // namespace tread

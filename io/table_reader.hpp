@@ -1,0 +1,33 @@
+#pragma once
+// Two-column text files: profiles and measured corrugation depths.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/problems.hpp"
+
+namespace tread {
+
+/// What a two-column file must be like. Both columns are lengths.
+struct TableRules {
+  bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
+  bool increasing = false;   ///< the first column must grow from row to row
+};
+
+struct TwoColumns {
+  std::vector<double> first;   ///< [m]
+  std::vector<double> second;  ///< [m]
+};
+
+/// Reads two numbers a line, separated by blanks, commas or semicolons; '#' starts a comment. A line before
+/// the numbers that holds two bracketed units declares them; without it, where the rules allow, both are
+/// millimetres. Every bad line is added to `problems` with its number; a file that cannot be read throws
+/// InputError.
+TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules,
+                            std::vector<Problem>& problems);
+
+/// The same, throwing ProblemsError where there are any.
+TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules);
+
+}  // namespace tread

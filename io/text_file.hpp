@@ -1,0 +1,14 @@
+#pragma once
+// Whole text files into memory, with a reason where that fails.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace tread {
+
+/// Reads a text file of at most `limit` bytes. Throws InputError when the file is missing, unreadable, not a
+/// regular file, larger than the limit, or binary (contains NUL bytes).
+std::string read_text_file(const std::filesystem::path& path, std::size_t limit);
+
+}  // namespace tread

@@ -1,0 +1,91 @@
+#include "io/toml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "io/problems.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 2000;  // [bytes]
+
+/// Keys of thousands of parts would exhaust the stack of the TOML parser.
+void refuse_long_lines(const std::string& text, const std::string& file) {
+  int line = 1;
+  for (std::size_t start = 0; start < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    if (end - start > kLongestLine) {
+      throw ProblemsError(
+          {{file, line, 0, "", fmt::format("the line has more than {} bytes", kLongestLine)}});
+    }
+    start = end + 1;
+  }
+}
+
+/// Number of the line at which the parser's assertion fails: the shortest run of lines that makes it fail
+/// ends there.
+int faulty_line(const std::string& text) {
+  std::vector<std::size_t> ends;
+  for (std::size_t at = 0; at < text.size(); at = ends.back())
+    ends.push_back(std::min(text.find('\n', at), text.size() - 1) + 1);
+  const auto faults = [&](std::size_t end) {
+    try {
+      (void)toml::parse(std::string_view(text).substr(0, end));
+    } catch (const toml::parse_error&) {
+    } catch (const TomlFault&) {
+      return true;
+    }
+    return false;
+  };
+  const auto first =
+      std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !faults(end); });
+  return static_cast<int>(first - ends.begin()) + 1;
+}
+
+}  // namespace
+
+void throw_toml_fault() {
+  throw TomlFault{};
+}
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+  refuse_long_lines(text, file);
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw ProblemsError({{file, static_cast<int>(at.line), static_cast<int>(at.column), "",
+                          std::string(error.description())}});
+  } catch (const TomlFault&) {
+    throw ProblemsError({{file, faulty_line(text), 0, "", "the line is not valid TOML"}});
+  }
+}
+
+std::unique_ptr<toml::node> parse_plain_value(const std::string& text, bool takes_string) {
+  refuse_long_lines(text, "--set");
+  const bool quoted = text.size() > 1 && text.front() == '"';
+  if (!takes_string || quoted) {
+    try {
+      const toml::table table = toml::parse("value = " + text);
+      if (table.size() == 1) return clone(*table.get("value"));
+    } catch (const toml::parse_error&) {
+    } catch (const TomlFault&) {
+    }
+  }
+  return std::make_unique<toml::value<std::string>>(text);
+}
+
+std::unique_ptr<toml::node> clone(const toml::node& node) {
+  return node.visit([](const auto& typed) -> std::unique_ptr<toml::node> {
+    return std::make_unique<std::decay_t<decltype(typed)>>(typed);
+  });
+}
+
+}  // namespace tread

@@ -1,0 +1,52 @@
+#pragma once
+// Mean motion of a spinning body and the re-anchoring of its frame. [theory.md, Body frames]
+
+#include <vector>
+
+#include "core/body_frame.hpp"
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// Mass-weighted mean motion of a body relative to its frame, Cartesian.
+struct MeanMotion {
+  Vec3 displacement;     ///< of the mass centre [m]
+  Vec3 velocity;         ///< relative to the frame [m/s]
+  double rotation = 0;   ///< about +y [rad]
+  double spin = 0;       ///< about +y, relative to the frame's [rad/s]
+};
+
+class SpinningBody {
+ public:
+  SpinningBody() = default;
+  /// `mass`: lumped nodal masses, scalar node field [kg].
+  SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass);
+
+  double mass() const { return mass_; }
+  double inertia() const { return inertia_; }          ///< about the axis [kg m2]
+  double transverse_inertia() const { return transverse_; }  ///< about a diameter through the mass centre [kg m2]
+  double centre_y() const { return centre_y_; }        ///< of mass, on the axis [m]
+  const std::vector<int>& blocks() const { return blocks_; }
+
+  /// u, w: displacement and relative velocity fields.
+  MeanMotion mean_motion(const double* u, const double* w, const BodyFrame& frame) const;
+
+  /// Kinetic energy in inertial axes [J].
+  double kinetic_energy(const double* u, const double* w, const BodyFrame& frame) const;
+  Vec3 momentum(const double* u, const double* w, const BodyFrame& frame) const;
+
+  /// Moves the frame onto the body's mean motion; absolute positions at the time of u and absolute velocities at
+  /// the half step before it (`dt` [s] long) stay what they are.
+  void anchor(double* u, double* w, BodyFrame& frame, double dt) const;
+
+ private:
+  template <class Visit>
+  void for_each_node(Visit visit) const;
+
+  const Mesh* mesh_ = nullptr;
+  std::vector<int> blocks_;
+  const double* nodal_mass_ = nullptr;
+  double mass_ = 0, inertia_ = 0, transverse_ = 0, centre_y_ = 0;
+};
+
+}  // namespace tread

@@ -1,0 +1,121 @@
+#pragma once
+// Discrete elements between bodies: spring-dampers, the primary suspension, the unsprung mass, the axle's torque.
+// [theory.md, Connectors]
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/body_frame.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/solver/linear_operator.hpp"
+
+namespace tread {
+
+/// A point on a face of a block: a weighted mean of up to four nodes. Slot -1 marks unused entries; all unused: ground.
+struct Attachment {
+  std::array<std::int64_t, 4> slot = {-1, -1, -1, -1};
+  std::array<double, 4> weight = {0, 0, 0, 0};
+
+  double value(const double* field, int component) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (slot[k] >= 0) sum += weight[k] * field[dof(slot[k], component)];
+    return sum;
+  }
+  void add(double* field, int component, double load) const {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (slot[k] >= 0) field[dof(slot[k], component)] += weight[k] * load;
+  }
+};
+
+/// Vertical springs and dampers between points of extruded blocks (fastenings).
+class SpringDampers {
+ public:
+  struct Element {
+    Attachment upper, lower;
+    double stiffness;  ///< [N/m]
+    double damping;    ///< [N s/m]
+  };
+  explicit SpringDampers(std::vector<Element> elements) : elements_(std::move(elements)) {}
+
+  bool empty() const { return elements_.empty(); }
+  const std::vector<Element>& elements() const { return elements_; }
+
+  /// force += K u + C v; the dampers' loss over dt is added to dissipated().
+  void apply(const double* u, const double* v, double dt, double* force);
+  std::vector<Spring> springs() const;
+  double energy(const double* u) const;             ///< [J]
+  double dissipated() const { return dissipated_; }  ///< [J]
+
+ private:
+  std::vector<Element> elements_;
+  double dissipated_ = 0;
+};
+
+/// A ring of nodes of a spinning block whose mass-weighted mean motion carries vehicle parts.
+class Journal {
+ public:
+  Journal() = default;
+  /// All stations of the section nodes `path` of a revolved block; weights by `mass` (scalar node field).
+  Journal(const SweptBlock& block, const std::vector<int>& path, const double* mass);
+
+  /// Mean displacement from the axis and mean velocity, Cartesian [m], [m/s].
+  Vec3 displacement(const double* u, const BodyFrame& frame) const;
+  Vec3 velocity(const double* u, const double* w, const BodyFrame& frame) const;
+  Vec3 total(const double* force, const BodyFrame& frame) const;
+
+  /// Spreads a Cartesian force over the nodes: field += sign of the caller.
+  void add(double* field, const BodyFrame& frame, const Vec3& load) const;
+  double mass() const { return mass_; }
+  bool empty() const { return nodes_.empty(); }
+
+ private:
+  struct Node {
+    std::int64_t slot;
+    double weight, cosine, sine;  ///< of the node's own angle
+  };
+  std::vector<Node> nodes_;
+  double mass_ = 0;
+};
+
+/// Sprung mass M_c on the primary suspension; moves vertically and is carried along.
+struct SprungMass {
+  double mass = 0;       ///< M_c [kg]
+  double stiffness = 0;  ///< K [N/m]
+  double damping = 0;    ///< C [N s/m]
+  double free_length_height = 0;  ///< height of M_c above the journal at which the spring is free [m]
+  double height = 0;     ///< z of M_c [m]
+  double speed = 0;      ///< vertical, at the half step [m/s]
+  double dissipated = 0; ///< in the damper [J]
+
+  /// Upward force on M_c from the suspension [N].
+  double force(double journal_height, double journal_speed) const {
+    return -stiffness * (height - journal_height - free_length_height) - damping * (speed - journal_speed);
+  }
+  void advance(double upward_force, double gravity, double dt) {
+    speed += dt * (upward_force / mass - gravity);
+    height += dt * speed;
+  }
+};
+
+/// Torque on the nodes of a section line of a revolved block, as tangential forces proportional to mass and radius.
+class AxleTorque {
+ public:
+  AxleTorque() = default;
+  AxleTorque(const SweptBlock& block, const std::vector<int>& path, const double* mass);
+
+  /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns the mean spin relative to the
+  /// frame of the loaded nodes [rad/s], the torque's conjugate.
+  double apply(double torque, const double* w, double* force) const;
+
+ private:
+  struct Node {
+    std::int64_t slot;
+    double lever;  ///< force per torque [1/m]
+  };
+  std::vector<Node> nodes_;
+};
+
+}  // namespace tread

@@ -1,0 +1,422 @@
+#include "kernels/contact.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace tread {
+
+namespace {
+
+Vec3 read(const double* field, std::int64_t slot) {
+  return {field[dof(slot, 0)], field[dof(slot, 1)], field[dof(slot, 2)]};
+}
+
+void subtract(double* field, std::int64_t slot, const Vec3& value) {
+  field[dof(slot, 0)] -= value.x;
+  field[dof(slot, 1)] -= value.y;
+  field[dof(slot, 2)] -= value.z;
+}
+
+/// Local (t, y, r) components at the space angle with this cosine and sine.
+Vec3 localise(double c, double s, const Vec3& v) { return {-c * v.x + s * v.z, v.y, -s * v.x - c * v.z}; }
+Vec3 globalise(double c, double s, const Vec3& v) { return {-c * v.x - s * v.z, v.y, s * v.x - c * v.z}; }
+
+/// Points and weights of Gauss on [0, 1].
+std::vector<std::array<double, 2>> gauss(int points) {
+  switch (points) {
+    case 1:
+      return {{0.5, 1.0}};
+    case 2: {
+      const double a = 0.5 / std::sqrt(3.0);
+      return {{0.5 - a, 0.5}, {0.5 + a, 0.5}};
+    }
+    case 3: {
+      const double a = 0.5 * std::sqrt(0.6);
+      return {{0.5 - a, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + a, 5.0 / 18}};
+    }
+    case 4: {
+      const double a = 0.5 * std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
+      const double b = 0.5 * std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
+      const double wa = (18 + std::sqrt(30.0)) / 72;
+      const double wb = (18 - std::sqrt(30.0)) / 72;
+      return {{0.5 - b, wb}, {0.5 - a, wa}, {0.5 + a, wa}, {0.5 + b, wb}};
+    }
+    default:
+      throw InputError(fmt::format("contact.points = {}: 1 to 4 integration points per direction are available", points));
+  }
+}
+
+/// Half length of the search window: where a circle of the wheel's radius lies `gap` above its lowest point.
+double reach(double radius, double gap) { return std::sqrt(2 * radius * gap); }
+
+}  // namespace
+
+Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation corrugation)
+    : mesh_(&mesh),
+      rail_(&mesh.blocks[static_cast<std::size_t>(options.rail_block)]),
+      wheel_(&mesh.blocks[static_cast<std::size_t>(options.wheel_block)]),
+      options_(options),
+      corrugation_(std::move(corrugation)),
+      rail_profile_(rail_->section),
+      wheel_profile_(wheel_->section),
+      rail_stations_(*rail_),
+      wheel_stations_(*wheel_),
+      friction_{options.friction, options.penalty},
+      points_per_face_(options.points * options.points) {
+  const auto line = gauss(options.points);
+  for (const auto& along : line)
+    for (const auto& across : line) quadrature_.push_back({along[0], across[0], along[1] * across[1]});
+
+  // Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
+  double closest = 1e30;
+  std::vector<double> gap(static_cast<std::size_t>(rail_profile_.edges()), 1e30);
+  for (int edge = 0; edge < rail_profile_.edges(); ++edge) {
+    const auto at = rail_profile_.evaluate(edge, 0.5, options_.surface);
+    if (at.p <= wheel_profile_.first_p() || at.p >= wheel_profile_.last_p()) continue;
+    const int over = wheel_profile_.edge_at(at.p);
+    const double p0 = wheel_profile_.edge_p(over, 0);
+    const double eta = (at.p - p0) / (wheel_profile_.edge_p(over, 1) - p0);
+    gap[static_cast<std::size_t>(edge)] = -at.q - wheel_profile_.evaluate(over, eta, options_.surface).q;
+    closest = std::min(closest, gap[static_cast<std::size_t>(edge)]);
+  }
+  touching_height_ = -closest;
+  const double lateral_reach = 1.5 * options_.reach_gap + corrugation_.deepest();
+  first_edge_ = rail_profile_.edges();
+  for (int edge = 0; edge < rail_profile_.edges(); ++edge)
+    if (gap[static_cast<std::size_t>(edge)] < closest + lateral_reach) {
+      first_edge_ = std::min(first_edge_, edge);
+      last_edge_ = edge + 1;
+    }
+  if (first_edge_ >= last_edge_) throw InputError("contact: the wheel's profile does not lie over the rail's");
+
+  history_.resize(static_cast<std::size_t>(history_index(rail_->station_count(), 0, 0)));
+  wake_time_.assign(static_cast<std::size_t>(rail_->station_count() * rail_profile_.edges()),
+                    -std::numeric_limits<double>::infinity());
+  const double window = 2 * reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  double pitch = 1e30;
+  for (const PitchClass& c : rail_->classes) pitch = std::min(pitch, c.pitch);
+  columns_.resize(static_cast<std::size_t>(window / pitch) + 3);
+  const auto capacity = static_cast<std::size_t>((last_edge_ - first_edge_) * points_per_face_);
+  for (Column& column : columns_) column.points.reserve(capacity);
+  points_.reserve(capacity * columns_.size());
+}
+
+void Contact::update_window(double wheel_x) {
+  const double half = reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  const auto low = rail_stations_.find(wheel_x - half);
+  const auto high = rail_stations_.find(wheel_x + half);
+  if (low.station < 0 || high.station < 0)
+    throw NumericalError(fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
+                                     "m); shorten motion.duration or lengthen rail.length",
+                                     wheel_x, rail_->stations.front(), rail_->stations.back()));
+  window_first_ = low.station;
+  window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
+}
+
+double Contact::probe(const ContactState& state, const Candidate& where, ContactPoint& point) const {
+  const auto& [along, across, weight] = quadrature_[static_cast<std::size_t>(where.point)];
+  const double* u = state.displacement;
+  const bool exact = options_.surface == SurfaceKind::exact;
+
+  // The rail point.
+  const auto profile = rail_profile_.evaluate(where.edge, across, options_.surface);
+  const double x0 = rail_->stations[static_cast<std::size_t>(where.station)];
+  const double length = rail_->stations[static_cast<std::size_t>(where.station) + 1] - x0;
+  Vec3 x{x0 + along * length, profile.p, profile.q};
+  x.z -= corrugation_.depth(x.x, x.y);
+  for (int corner = 0; corner < 4; ++corner) {
+    const auto k = static_cast<std::size_t>(corner);
+    const int end = corner % 2;
+    const int station = where.station + corner / 2;
+    point.rail_slot[k] = rail_->base + rail_->slot(rail_profile_.node(where.edge, end), station);
+    point.rail_weight[k] = (corner / 2 == 0 ? 1 - along : along) * (end == 0 ? 1 - across : across);
+    x += point.rail_weight[k] * read(u, point.rail_slot[k]);
+  }
+  point.position = x;
+  point.face = {where.station, where.edge};
+  point.area = weight * length * std::hypot(profile.dp, profile.dq);
+
+  // The wheel point whose deformed position is closest.
+  const Vec3 d = x - state.wheel->origin;
+  double phi = std::atan2(-d.x, -d.z);
+  int edge = wheel_profile_.edge_at(d.y);
+  double eta = (d.y - wheel_profile_.edge_p(edge, 0)) /
+               (wheel_profile_.edge_p(edge, 1) - wheel_profile_.edge_p(edge, 0));
+  double gap = std::numeric_limits<double>::max();
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
+    const auto cell = wheel_stations_.find(phi - state.wheel->angle);
+    const double fraction = cell.distance / cell.pitch;
+    const auto p = wheel_profile_.evaluate(edge, eta, options_.surface);
+    std::array<Vec3, 4> corner{};
+    for (int k = 0; k < 4; ++k) {
+      const int end = k % 2;
+      const int station = k / 2 == 0 ? cell.station : cell.next;
+      const int node = wheel_profile_.node(edge, end);
+      const auto i = static_cast<std::size_t>(k);
+      point.wheel_slot[i] = wheel_->base + wheel_->slot(node, station);
+      point.wheel_weight[i] = (k / 2 == 0 ? 1 - fraction : fraction) * (end == 0 ? 1 - eta : eta);
+      Vec3 value = read(u, point.wheel_slot[i]);
+      if (!exact)
+        value += {0, wheel_->section.p[static_cast<std::size_t>(node)], wheel_->section.q[static_cast<std::size_t>(node)]};
+      corner[i] = turn(value, -(k / 2 == 0 ? cell.distance : cell.distance - cell.pitch));
+    }
+    Vec3 surface = exact ? Vec3{0, p.p, p.q} : Vec3{};
+    for (std::size_t i = 0; i < 4; ++i) surface += point.wheel_weight[i] * corner[i];
+
+    const Vec3 e = cartesian_to_cylindrical(phi, d) - surface;
+    const double shift = (e.y * p.dp + e.z * p.dq) / (p.dp * p.dp + p.dq * p.dq);
+    const Vec3 side = (1 - eta) * (corner[2] - corner[0]) + eta * (corner[3] - corner[1]);
+    const Vec3 across_tangent = (1 - fraction) * (corner[1] - corner[0]) + fraction * (corner[3] - corner[2]) +
+                                (exact ? Vec3{0, p.dp, p.dq} : Vec3{});
+    const Vec3 along_tangent = exact ? Vec3{1, 0, 0} + (1 / (p.q * cell.pitch)) * side : side;
+    const Vec3 normal = cross(along_tangent, across_tangent);
+    const double size = norm(normal);
+    gap = dot(e, normal) / size;
+    if (std::abs(e.x) < 1e-9 && std::abs(shift) < 1e-7) {
+      point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
+      break;
+    }
+    point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
+    if (gap > 0.5 * options_.reach_gap) break;  // far away: no need for more digits
+    phi += e.x / p.q;
+    eta += shift;
+    if (eta < 0 || eta > 1) {
+      const double target = p.p + shift * p.dp;
+      edge = wheel_profile_.edge_at(target);
+      eta = (target - wheel_profile_.edge_p(edge, 0)) /
+            (wheel_profile_.edge_p(edge, 1) - wheel_profile_.edge_p(edge, 0));
+    }
+  }
+  point.gap = gap;
+  if (gap < 0)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto cell = wheel_stations_.find(phi - state.wheel->angle);
+      const double space = phi - cell.distance + (k == 0 ? 0.0 : cell.pitch);
+      point.wheel_cosine[k] = std::cos(space);
+      point.wheel_sine[k] = std::sin(space);
+    }
+  return gap;
+}
+
+Vec3 Contact::rail_velocity(const ContactState& state, const ContactPoint& point) const {
+  Vec3 v;
+  for (std::size_t k = 0; k < 4; ++k) v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
+  return v;
+}
+
+Vec3 Contact::wheel_velocity(const ContactState& state, const ContactPoint& point) const {
+  Vec3 v;
+  for (std::size_t k = 0; k < 4; ++k)
+    v += point.wheel_weight[k] *
+         globalise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], read(state.velocity, point.wheel_slot[k]));
+  const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
+  return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
+}
+
+void Contact::load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point,
+                         double* work) const {
+  const Vec3 relative = wheel_velocity(state, point) - rail_velocity(state, point);
+  const double closing = dot(relative, point.normal);
+  const double elastic = -options_.penalty * point.gap;
+  point.pressure = std::max(0.0, elastic + options_.damping * closing);
+  work[1] += (point.pressure - elastic) * closing * dt * point.area;
+
+  const Vec3 ahead{1, 0, 0};
+  const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
+  point.along = (1 / norm(along)) * along;
+  point.across = cross(point.along, point.normal);
+  point.slip_speed = {dot(relative, point.along), dot(relative, point.across)};
+  const auto result =
+      friction_.advance(history, {point.slip_speed.along * dt, point.slip_speed.across * dt}, point.pressure);
+  history = result.traction;
+  point.shear = result.traction;
+  point.slips = result.slips;
+  work[0] += result.dissipation * point.area;
+}
+
+void Contact::visit_column(const ContactState& state, int station, double time, double dt) {
+  Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
+  column.points.clear();
+  column.friction_work = column.damping_work = 0;
+  const bool dynamic = state.velocity != nullptr;
+  for (int edge = first_edge_; edge < last_edge_; ++edge) {
+    double& wake = wake_time_[static_cast<std::size_t>(station * rail_profile_.edges() + edge)];
+    if (dynamic && time < wake) continue;
+    double smallest = std::numeric_limits<double>::max();
+    for (int k = 0; k < points_per_face_; ++k) {
+      ContactPoint point{};
+      const double gap = probe(state, {station, edge, k}, point);
+      smallest = std::min(smallest, gap);
+      Traction& history = history_[static_cast<std::size_t>(history_index(station, edge, k))];
+      double work[2] = {0, 0};
+      if (gap < 0) {
+        if (dynamic)
+          load_point(state, dt, history, point, work);
+        else
+          point.pressure = -options_.penalty * gap;
+        column.points.push_back(point);
+      } else if (history.along != 0 || history.across != 0) {
+        // The point leaves contact: what the stick had stored is released.
+        column.friction_work += 0.5 * (history.along * history.along + history.across * history.across) /
+                                friction_.tangential_penalty * point.area;
+        history = {};
+      }
+      column.friction_work += work[0];
+      column.damping_work += work[1];
+    }
+    if (dynamic) wake = smallest > 0 ? time + smallest / closing_speed_ : time;
+  }
+}
+
+void Contact::collect() {
+  points_.clear();
+  totals_ = {};
+  for (int station = window_first_; station < window_last_; ++station) {
+    const Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
+    frictional_work_ += column.friction_work;
+    damping_work_ += column.damping_work;
+    for (const ContactPoint& point : column.points) {
+      points_.push_back(point);
+      const Vec3 traction =
+          point.pressure * point.normal + point.shear.along * point.along + point.shear.across * point.across;
+      totals_.force_on_rail += point.area * traction;
+      totals_.area += point.area;
+      if (point.slips) totals_.slip_area += point.area;
+      totals_.centre += point.area * point.pressure * point.position;
+      if (point.pressure > totals_.max_pressure) {
+        totals_.max_pressure = point.pressure;
+        totals_.pressure_peak = point.position;
+      }
+      const double shear2 = point.shear.along * point.shear.along + point.shear.across * point.shear.across;
+      totals_.max_shear = std::max(totals_.max_shear, std::sqrt(shear2));
+      totals_.max_penetration = std::max(totals_.max_penetration, -point.gap);
+      totals_.penalty_energy += 0.5 * point.area *
+                                (options_.penalty * point.gap * point.gap + shear2 / friction_.tangential_penalty);
+    }
+  }
+  double load = 0;
+  for (const ContactPoint& point : points_) load += point.area * point.pressure;
+  if (load > 0) totals_.centre = (1 / load) * totals_.centre;
+}
+
+void Contact::find_static(const ContactState& state) {
+  update_window(state.wheel->origin.x);
+  for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0, 0);
+  collect();
+}
+
+void Contact::advance(const ContactState& state, double time, double dt) {
+  update_window(state.wheel->origin.x);
+  const double half = reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  closing_speed_ = 1.5 * norm(state.wheel->velocity) * half / options_.wheel_radius + 5;
+  parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      visit_column(state, window_first_ + static_cast<int>(i), time, dt);
+  });
+  collect();
+}
+
+void Contact::add_forces(double* force) const {
+  for (const ContactPoint& point : points_) {
+    const Vec3 load = point.area * (point.pressure * point.normal + point.shear.along * point.along +
+                                    point.shear.across * point.across);
+    for (std::size_t k = 0; k < 4; ++k) {
+      subtract(force, point.rail_slot[k], point.rail_weight[k] * load);
+      subtract(force, point.wheel_slot[k],
+               -point.wheel_weight[k] * localise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], load));
+    }
+  }
+}
+
+std::vector<Spring> Contact::springs() const {
+  std::vector<Spring> springs;
+  for (const ContactPoint& point : points_) {
+    Spring spring;
+    spring.stiffness = options_.penalty * point.area;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 wheel_normal = localise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], point.normal);
+      for (int c = 0; c < 3; ++c) {
+        spring.dofs.push_back(dof(point.rail_slot[k], c));
+        spring.weights.push_back(point.rail_weight[k] * point.normal[c]);
+        spring.dofs.push_back(dof(point.wheel_slot[k], c));
+        spring.weights.push_back(-point.wheel_weight[k] * wheel_normal[c]);
+      }
+    }
+    springs.push_back(std::move(spring));
+  }
+  return springs;
+}
+
+std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& block, const SurfaceProfile& profile,
+                                                          int first, int last) const {
+  std::map<std::int64_t, double> stiffness;
+  const int cells = block.closed ? block.station_count() : block.station_count() - 1;
+  for (int station = 0; station < cells; ++station) {
+    const Tile& tile = block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(station)])];
+    const double pitch = block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+    const int next = station + 1 < block.station_count() ? station + 1 : 0;
+    for (int edge = first; edge < last; ++edge) {
+      const auto middle = profile.evaluate(edge, 0.5, options_.surface);
+      const double length = block.sweep == Sweep::revolved ? pitch * middle.q : pitch;
+      const double share = 0.25 * options_.penalty * length * std::hypot(middle.dp, middle.dq);
+      for (const int at : {station, next})
+        for (int end = 0; end < 2; ++end) stiffness[block.base + block.slot(profile.node(edge, end), at)] += share;
+    }
+  }
+  return stiffness;
+}
+
+void Contact::add_grounded_stiffness(const double* mass, double* stiffness) const {
+  const int low = wheel_profile_.edge_at(rail_profile_.edge_p(first_edge_, 0));
+  const int high = wheel_profile_.edge_at(rail_profile_.edge_p(last_edge_ - 1, 1));
+  const auto rail = surface_stiffness(*rail_, rail_profile_, first_edge_, last_edge_);
+  const auto wheel = surface_stiffness(*wheel_, wheel_profile_, low, high + 1);
+  const auto lightest = [&](const auto& side) {
+    double least = std::numeric_limits<double>::max();
+    for (const auto& [slot, k] : side) least = std::min(least, mass[slot] / k);
+    return least;
+  };
+  const double rail_least = lightest(rail);
+  const double wheel_least = lightest(wheel);
+  for (const auto& [slot, k] : rail) stiffness[slot] += k * (1 + mass[slot] / k / wheel_least);
+  for (const auto& [slot, k] : wheel) stiffness[slot] += k * (1 + mass[slot] / k / rail_least);
+}
+
+std::array<double, 2> Contact::max_nodal_tractions() const {
+  const int rows = last_edge_ - first_edge_ + 1;
+  const int columns = window_last_ - window_first_ + 1;
+  std::vector<Vec3> sum(static_cast<std::size_t>(rows * columns));
+  std::vector<double> area(sum.size(), 0.0);
+  const auto index = [&](int station, int edge) {
+    return static_cast<std::size_t>((station - window_first_) * rows + edge - first_edge_);
+  };
+  for (int station = window_first_; station < window_last_; ++station)
+    for (int edge = first_edge_; edge < last_edge_; ++edge) {
+      const auto middle = rail_profile_.evaluate(edge, 0.5, options_.surface);
+      const double length = rail_->stations[static_cast<std::size_t>(station) + 1] -
+                            rail_->stations[static_cast<std::size_t>(station)];
+      const double share = 0.25 * length * std::hypot(middle.dp, middle.dq);
+      for (int corner = 0; corner < 4; ++corner) area[index(station + corner / 2, edge + corner % 2)] += share;
+    }
+  for (const ContactPoint& point : points_)
+    for (int corner = 0; corner < 4; ++corner)
+      sum[index(point.face[0] + corner / 2, point.face[1] + corner % 2)] +=
+          point.area * point.rail_weight[static_cast<std::size_t>(corner)] *
+          Vec3{point.pressure, point.shear.along, point.shear.across};
+  std::array<double, 2> largest{};
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    if (area[i] <= 0) continue;
+    largest[0] = std::max(largest[0], sum[i].x / area[i]);
+    largest[1] = std::max(largest[1], std::hypot(sum[i].y, sum[i].z) / area[i]);
+  }
+  return largest;
+}
+
+}  // namespace tread

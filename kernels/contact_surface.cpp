@@ -1,0 +1,107 @@
+#include "kernels/contact_surface.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+SurfaceProfile::SurfaceProfile(const Section& section) {
+  double shortest = 1e30;
+  for (const SurfaceEdge& source : section.surface) {
+    Edge edge{};
+    edge.node = source.node;
+    for (std::size_t end = 0; end < 2; ++end) {
+      edge.p[end] = section.p[static_cast<std::size_t>(source.node[end])];
+      edge.q[end] = section.q[static_cast<std::size_t>(source.node[end])];
+    }
+    const double chord = std::hypot(edge.p[1] - edge.p[0], edge.q[1] - edge.q[0]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      edge.tp[end] = chord * source.tangent[end][0];
+      edge.tq[end] = chord * source.tangent[end][1];
+    }
+    const double width = edge.p[1] - edge.p[0];
+    if (!(width > 0))
+      throw InputError(fmt::format("running surface: edge {} does not advance across the profile (from {:.6f} to "
+                                   "{:.6f} m); leave out vertical parts",
+                                   edges_.size(), edge.p[0], edge.p[1]));
+    shortest = std::min(shortest, width);
+    edges_.push_back(edge);
+  }
+  if (edges_.empty()) throw InputError("the section has no running surface for contact");
+  const double span = last_p() - first_p();
+  const int buckets = static_cast<int>(span / shortest) + 1;
+  bucket_width_ = span / buckets;
+  int edge = 0;
+  for (int b = 0; b < buckets; ++b) {
+    while (edge + 1 < edges() && edge_p(edge, 1) <= first_p() + b * bucket_width_) ++edge;
+    bucket_.push_back(edge);
+  }
+}
+
+SurfaceProfile::Point SurfaceProfile::evaluate(int edge, double eta, SurfaceKind kind) const {
+  const Edge& e = edges_[static_cast<std::size_t>(edge)];
+  if (kind == SurfaceKind::facets) {
+    const double dp = e.p[1] - e.p[0];
+    const double dq = e.q[1] - e.q[0];
+    return {e.p[0] + eta * dp, e.q[0] + eta * dq, dp, dq};
+  }
+  const double r = 1 - eta;
+  const std::array<double, 4> h = {r * r * (1 + 2 * eta), eta * r * r, eta * eta * (1 + 2 * r), -eta * eta * r};
+  const std::array<double, 4> d = {-6 * eta * r, r * (1 - 3 * eta), 6 * eta * r, eta * (3 * eta - 2)};
+  return {h[0] * e.p[0] + h[1] * e.tp[0] + h[2] * e.p[1] + h[3] * e.tp[1],
+          h[0] * e.q[0] + h[1] * e.tq[0] + h[2] * e.q[1] + h[3] * e.tq[1],
+          d[0] * e.p[0] + d[1] * e.tp[0] + d[2] * e.p[1] + d[3] * e.tp[1],
+          d[0] * e.q[0] + d[1] * e.tq[0] + d[2] * e.q[1] + d[3] * e.tq[1]};
+}
+
+int SurfaceProfile::edge_at(double p) const {
+  const int last = static_cast<int>(bucket_.size()) - 1;
+  const int b = std::clamp(static_cast<int>((p - first_p()) / bucket_width_), 0, last);
+  int edge = bucket_[static_cast<std::size_t>(b)];
+  while (edge + 1 < edges() && edge_p(edge, 1) < p) ++edge;
+  return edge;
+}
+
+StationFinder::StationFinder(const SweptBlock& block) : block_(&block), first_(block.stations.front()) {
+  double pitch = 1e30;
+  span_ = 0;
+  for (const Tile& tile : block.tiles) {
+    const double p = block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+    if (tile.elements > 0) pitch = std::min(pitch, p);
+    span_ += tile.elements * p;
+  }
+  const int buckets = static_cast<int>(span_ / pitch) + 1;
+  width_ = span_ / buckets;
+  int station = 0;
+  for (int b = 0; b < buckets; ++b) {
+    while (station + 1 < block.station_count() &&
+           block.stations[static_cast<std::size_t>(station + 1)] <= first_ + b * width_)
+      ++station;
+    bucket_.push_back(station);
+  }
+}
+
+StationFinder::Cell StationFinder::find(double coordinate) const {
+  double at = coordinate - first_;
+  if (block_->closed) {
+    at -= span_ * std::floor(at / span_);
+    if (at >= span_) at = 0;
+  } else if (at < 0 || at > span_) {
+    return {-1, -1, 0, 0};
+  }
+  const int last = static_cast<int>(bucket_.size()) - 1;
+  int station = bucket_[static_cast<std::size_t>(std::min(static_cast<int>(at / width_), last))];
+  const int count = block_->station_count();
+  const int cells = block_->closed ? count : count - 1;
+  while (station + 1 < cells && block_->stations[static_cast<std::size_t>(station + 1)] - first_ <= at) ++station;
+  const Tile& tile = block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(station)])];
+  const double pitch = block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+  return {station, station + 1 < count ? station + 1 : 0, pitch,
+          at - (block_->stations[static_cast<std::size_t>(station)] - first_)};
+}
+
+}  // namespace tread

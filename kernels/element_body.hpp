@@ -1,0 +1,262 @@
+#pragma once
+// The element's arithmetic, once: on scalars (tests, one index) and on vectors of lanes. V is a floating-point type or
+// a vector of them; everything is inlined into its caller and so takes that caller's instruction set.
+//
+// A quad's eight nodal values enter as s_j = left + right and d_j = right - left at its four corners j, which is the
+// first stage of the butterfly to the modal amplitudes.
+
+#include "kernels/element.hpp"
+
+#define TREAD_INLINE [[gnu::always_inline]] constexpr inline
+
+namespace tread {
+
+/// Displacement gradient g[i][j] and hourglass amplitudes q[i][alpha] of an element, or the generalised forces
+/// conjugate to them.
+template <class V>
+struct Strain {
+  V g[3][3];
+  V q[3][kHourglassModes];
+};
+
+/// Modal amplitudes A_m of one component, m as in Mode.
+template <class V>
+TREAD_INLINE void to_modes(const V (&s)[4], const V (&d)[4], V (&a)[kModes]) {
+  const V s10 = s[1] - s[0];
+  const V s23 = s[2] - s[3];
+  a[mode_eta] = s10 + s23;
+  a[mode_h1] = s23 - s10;
+  a[mode_zeta] = (s[2] + s[3]) - (s[1] + s[0]);
+  const V d10 = d[1] - d[0];
+  const V d23 = d[2] - d[3];
+  a[mode_h3] = d10 + d23;
+  a[mode_h4] = d23 - d10;
+  const V front = d[1] + d[0];
+  const V back = d[2] + d[3];
+  a[mode_xi] = back + front;
+  a[mode_h2] = back - front;
+}
+
+/// Transpose of to_modes.
+template <class V>
+TREAD_INLINE void from_modes(const V (&a)[kModes], V (&s)[4], V (&d)[4]) {
+  const V p = a[mode_eta] - a[mode_h1];
+  const V r = a[mode_eta] + a[mode_h1];
+  s[0] = -p - a[mode_zeta];
+  s[1] = p - a[mode_zeta];
+  s[2] = r + a[mode_zeta];
+  s[3] = a[mode_zeta] - r;
+  const V front = a[mode_xi] - a[mode_h2];
+  const V back = a[mode_xi] + a[mode_h2];
+  const V dp = a[mode_h3] - a[mode_h4];
+  const V dr = a[mode_h3] + a[mode_h4];
+  d[0] = front - dp;
+  d[1] = front + dp;
+  d[2] = back + dr;
+  d[3] = back - dr;
+}
+
+/// Strains of the elements of one (quad, pitch class): the shape is symmetric about xi = 0. In extruded elements the
+/// distortion stays in the section.
+template <Sweep sweep, class Real>
+struct SweptElement {
+  const SweptConstants<Real>& c;
+
+  template <class V>
+  TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {
+    const V x = c.gradient_x[0] * a[mode_xi] + c.gradient_x[1] * a[mode_h2] + c.gradient_x[2] * a[mode_h3];
+    V y = c.gradient_y[0] * a[mode_eta] + c.gradient_y[1] * a[mode_zeta];
+    V z = c.gradient_z[0] * a[mode_eta] + c.gradient_z[1] * a[mode_zeta];
+    if constexpr (sweep == Sweep::revolved) {
+      y += c.gradient_y[2] * a[mode_h1];
+      z += c.gradient_z[2] * a[mode_h1];
+    }
+    e.g[i][0] = x;
+    e.g[i][1] = y;
+    e.g[i][2] = z;
+    e.q[i][0] = a[mode_h1] - c.position_y * y - c.position_z * z;
+    for (int m = 1; m < kHourglassModes; ++m) {
+      e.q[i][m] = a[mode_h1 + m];
+      if constexpr (sweep == Sweep::revolved) e.q[i][m] -= c.position_x[m - 1] * x;
+    }
+  }
+
+  /// Transpose of `strain`.
+  template <class V>
+  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&a)[kModes]) const {
+    V x = f.g[i][0];
+    const V y = f.g[i][1] - c.position_y * f.q[i][0];
+    const V z = f.g[i][2] - c.position_z * f.q[i][0];
+    if constexpr (sweep == Sweep::revolved)
+      x -= c.position_x[0] * f.q[i][1] + c.position_x[1] * f.q[i][2] + c.position_x[2] * f.q[i][3];
+    a[mode_xi] = c.gradient_x[0] * x;
+    a[mode_h2] = f.q[i][1] + c.gradient_x[1] * x;
+    a[mode_h3] = f.q[i][2] + c.gradient_x[2] * x;
+    a[mode_h4] = f.q[i][3];
+    a[mode_eta] = c.gradient_y[0] * y + c.gradient_z[0] * z;
+    a[mode_zeta] = c.gradient_y[1] * y + c.gradient_z[1] * z;
+    a[mode_h1] = f.q[i][0];
+    if constexpr (sweep == Sweep::revolved) a[mode_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
+  }
+
+  TREAD_INLINE void scale_by_volume(auto& /*f*/) const {}
+};
+
+/// a x b of two rows of vectors.
+template <class V>
+TREAD_INLINE void cross_product(const V (&a)[3], const V (&b)[3], V (&result)[3]) {
+  result[0] = a[1] * b[2] - a[2] * b[1];
+  result[1] = a[2] * b[0] - a[0] * b[2];
+  result[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/// Strains of perturbed elements, each lane with positions of its own; V covers the lanes from `lane` on. Gradients are
+/// formed here, as in element_geometry: reading them would cost more time than these products.
+template <class V, class Real>
+struct PerturbedElement {
+  V position[kModes][3];
+  V gradient[kGradientModes][3];
+  V volume_ratio;  ///< by the volume of the swept shape
+
+  TREAD_INLINE PerturbedElement(const LanePositions<Real>& lanes, int lane, const SweptConstants<Real>& swept) {
+    for (int m = 0; m < kModes; ++m)
+      for (int j = 0; j < 3; ++j) __builtin_memcpy(&position[m][j], lanes.position[m][j] + lane, sizeof(V));
+    const Real third = Real(1) / 3;
+    set_linear(mode_xi, third);
+    set_linear(mode_eta, third);
+    set_linear(mode_zeta, third);
+    set_hourglass(mode_xi, third);
+    set_hourglass(mode_eta, third);
+    set_hourglass(mode_zeta, third);
+    V triple = position[mode_xi][0] * gradient[mode_xi][0] + position[mode_h1][0] * gradient[mode_h1][0];
+    for (int j = 1; j < 3; ++j)
+      triple += position[mode_xi][j] * gradient[mode_xi][j] + position[mode_h1][j] * gradient[mode_h1][j];
+    volume_ratio = triple * (swept.inverse_volume / 64);
+    const V inverse = 1 / triple;
+    for (int m = 0; m < kGradientModes; ++m)
+      for (int j = 0; j < 3; ++j) gradient[m][j] *= inverse;
+  }
+
+  TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {
+    for (int j = 0; j < 3; ++j) {
+      V sum = gradient[0][j] * a[0];
+      for (int m = 1; m < kGradientModes; ++m) sum += gradient[m][j] * a[m];
+      e.g[i][j] = sum;
+    }
+    for (int m = 0; m < kHourglassModes; ++m) {
+      const V(&x)[3] = position[mode_h1 + m];
+      e.q[i][m] = a[mode_h1 + m] - x[0] * e.g[i][0] - x[1] * e.g[i][1] - x[2] * e.g[i][2];
+    }
+  }
+
+  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&a)[kModes]) const {
+    V t[3];
+    for (int j = 0; j < 3; ++j) {
+      t[j] = f.g[i][j];
+      for (int m = 0; m < kHourglassModes; ++m) t[j] -= position[mode_h1 + m][j] * f.q[i][m];
+    }
+    for (int m = 0; m < kModes; ++m) {
+      a[m] = m < mode_h1 ? V{} : f.q[i][m < mode_h1 ? 0 : m - mode_h1];
+      if (m < kGradientModes) a[m] += gradient[m][0] * t[0] + gradient[m][1] * t[1] + gradient[m][2] * t[2];
+    }
+  }
+
+  /// The material constants hold the swept volume; the hourglass stiffness stays that of the swept shape.
+  TREAD_INLINE void scale_by_volume(Strain<V>& f) const {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) f.g[i][j] *= volume_ratio;
+  }
+
+ private:
+  /// Of xi, eta or zeta; the hourglass mode h_k has no gradient along xi_k.
+  TREAD_INLINE void set_linear(int k, Real third) {
+    const int k1 = (k + 1) % 3;
+    const int k2 = (k + 2) % 3;
+    V hourglass[3];
+    cross_product(position[k1], position[k2], gradient[k]);
+    cross_product(position[mode_h1 + k2], position[mode_h1 + k1], hourglass);
+    for (int j = 0; j < 3; ++j) gradient[k][j] += third * hourglass[j];
+  }
+
+  /// Of h1, h2 or h3.
+  TREAD_INLINE void set_hourglass(int k, Real third) {
+    const int k1 = (k + 1) % 3;
+    const int k2 = (k + 2) % 3;
+    V other[3];
+    cross_product(position[k2], position[mode_h1 + k1], gradient[mode_h1 + k]);
+    cross_product(position[mode_h1 + k2], position[k1], other);
+    for (int j = 0; j < 3; ++j) gradient[mode_h1 + k][j] = third * (gradient[mode_h1 + k][j] + other[j]);
+  }
+};
+
+/// Stress times volume: lambda tr(eps) I + 2 mu eps.
+template <class V, class Real>
+TREAD_INLINE void stress_forces(const SweptConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
+  const V pressure = c.lambda * (e.g[0][0] + e.g[1][1] + e.g[2][2]);
+  const Real two_mu = c.mu + c.mu;
+  for (int i = 0; i < 3; ++i) {
+    f.g[i][i] = pressure + two_mu * e.g[i][i];
+    for (int j = i + 1; j < 3; ++j) f.g[i][j] = f.g[j][i] = c.mu * (e.g[i][j] + e.g[j][i]);
+  }
+}
+
+/// Geometric force of an initial stress: adds V g_ik sigma0_kj.
+template <class V, class Real>
+TREAD_INLINE void add_geometric_forces(const InitialStress<Real>& s, const Strain<V>& e, Strain<V>& f) {
+  for (int i = 0; i < 3; ++i) {
+    f.g[i][0] += s.xx * e.g[i][0];
+    f.g[i][1] += s.yy * e.g[i][1] + s.yz * e.g[i][2];
+    f.g[i][2] += s.yz * e.g[i][1] + s.zz * e.g[i][2];
+  }
+}
+
+template <class V, class Real>
+TREAD_INLINE void hourglass_forces(const HourglassConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
+  const V &x2 = e.q[0][1], &x3 = e.q[0][2], &y1 = e.q[1][0], &z1 = e.q[2][0];
+  f.q[0][1] = c.even_diagonal[0] * x2 + c.x2_y1 * y1 + c.x2_z1 * z1;
+  f.q[0][2] = c.even_diagonal[1] * x3 + c.x3_y1 * y1 + c.x3_z1 * z1;
+  f.q[1][0] = c.even_diagonal[2] * y1 + c.x2_y1 * x2 + c.x3_y1 * x3 + c.y1_z1 * z1;
+  f.q[2][0] = c.even_diagonal[3] * z1 + c.x2_z1 * x2 + c.x3_z1 * x3 + c.y1_z1 * y1;
+  f.q[0][3] = c.x4 * e.q[0][3];
+  f.q[1][3] = c.y4 * e.q[1][3] + c.y4_z4 * e.q[2][3];
+  f.q[2][3] = c.z4 * e.q[2][3] + c.y4_z4 * e.q[1][3];
+
+  const V &x1 = e.q[0][0], &y2 = e.q[1][1], &z2 = e.q[2][1], &y3 = e.q[1][2], &z3 = e.q[2][2];
+  const Real* d = c.odd_diagonal;
+  const Real* u = c.odd_upper;
+  f.q[0][0] = d[0] * x1 + u[0] * y2 + u[1] * z2 + u[2] * y3 + u[3] * z3;
+  f.q[1][1] = d[1] * y2 + u[0] * x1 + u[4] * z2 + u[5] * y3 + u[6] * z3;
+  f.q[2][1] = d[2] * z2 + u[1] * x1 + u[4] * y2 + u[7] * y3 + u[8] * z3;
+  f.q[1][2] = d[3] * y3 + u[2] * x1 + u[5] * y2 + u[7] * z2 + u[9] * z3;
+  f.q[2][2] = d[4] * z3 + u[3] * x1 + u[6] * y2 + u[8] * z2 + u[9] * y3;
+}
+
+/// Rotation between the sum and difference a, b of a node's values at the two ends of an element, in the nodes' own
+/// bases, and the same (s, d) in the basis of the middle angle; c, w: cosine and sine of half the pitch.
+/// Component 0 is t, 2 is r; y does not turn.
+template <class V, class Real>
+TREAD_INLINE void turn_to_middle(Real c, Real w, V (&s)[3], V (&d)[3]) {
+  const V s_t = c * s[0] + w * d[2];
+  const V s_r = c * s[2] - w * d[0];
+  const V d_t = c * d[0] + w * s[2];
+  const V d_r = c * d[2] - w * s[0];
+  s[0] = s_t;
+  s[2] = s_r;
+  d[0] = d_t;
+  d[2] = d_r;
+}
+
+/// Transpose of turn_to_middle.
+template <class V, class Real>
+TREAD_INLINE void turn_to_nodes(Real c, Real w, V (&s)[3], V (&d)[3]) {
+  const V s_t = c * s[0] - w * d[2];
+  const V s_r = c * s[2] + w * d[0];
+  const V d_t = c * d[0] - w * s[2];
+  const V d_r = c * d[2] + w * s[0];
+  s[0] = s_t;
+  s[2] = s_r;
+  d[0] = d_t;
+  d[2] = d_r;
+}
+
+}  // namespace tread

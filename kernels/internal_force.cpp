@@ -1,0 +1,630 @@
+#include "kernels/internal_force.hpp"
+
+#include <fmt/core.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "kernels/element_body.hpp"
+
+namespace tread {
+
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// Collects what is wrong with elements and throws it as one error.
+class ElementFaults {
+ public:
+  explicit ElementFaults(const SweptBlock& block) : block_(block) {}
+
+  /// Degenerate corners (an edge on the axis) pass, negative ones do not.
+  void check(const ElementGeometry& geometry, int quad, int station) {
+    constexpr double kRounding = 1e-9;
+    if (geometry.volume > 0 && geometry.smallest_jacobian > -kRounding) return;
+    if (++count_ > 10) return;
+    text_ += fmt::format("\n  quad {} from station {} ({:.6g}): volume {:.3e} m3, smallest corner Jacobian {:.2g} of the mean",
+                         quad, station, block_.stations[index(station)], geometry.volume,
+                         geometry.smallest_jacobian);
+  }
+
+  void raise(const std::string& reason) const {
+    if (count_ == 0) return;
+    throw InputError(fmt::format("block '{}': {} elements are turned inside out; {}:{}{}", block_.name, count_, reason,
+                                 text_, count_ > 10 ? "\n  ..." : ""));
+  }
+
+ private:
+  const SweptBlock& block_;
+  int count_ = 0;
+  std::string text_;
+};
+
+int far_station(const SweptBlock& block, int station) {
+  return station + 1 == block.station_count() ? 0 : station + 1;
+}
+
+/// Turns a vector from the basis of a node to that of a middle angle which lies `angle` before it.
+Vec3 turned(const Vec3& v, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
+}
+
+template <class Element, class Real>
+Strain<Real> element_strain(const Element& element, const Real (&s)[4][3], const Real (&d)[4][3]) {
+  Strain<Real> result;
+  for (int i = 0; i < 3; ++i) {
+    const Real sum[4] = {s[0][i], s[1][i], s[2][i], s[3][i]};
+    const Real difference[4] = {d[0][i], d[1][i], d[2][i], d[3][i]};
+    Real a[kModes];
+    to_modes(sum, difference, a);
+    element.strain(i, a, result);
+  }
+  return result;
+}
+
+template <class Element, class Real>
+void element_forces(const Element& element, const Strain<Real>& force, Real (&s)[4][3], Real (&d)[4][3]) {
+  for (int i = 0; i < 3; ++i) {
+    Real a[kModes];
+    Real sum[4];
+    Real difference[4];
+    element.forces(i, force, a);
+    from_modes(a, sum, difference);
+    for (int j = 0; j < 4; ++j) {
+      s[j][i] = sum[j];
+      d[j][i] = difference[j];
+    }
+  }
+}
+
+}  // namespace
+
+double von_mises(const std::array<double, 6>& s) {
+  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
+  return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+template <class Real>
+BasicInternalForce<Real>::BasicInternalForce(const Mesh& mesh)
+    : mesh_(mesh), forces_(tile_forces().front()), blocks_(mesh.blocks.size()), carries_(mesh.blocks.size()) {
+  cost_.push_back(0);
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
+    build_swept(block);
+    build_perturbed(block);
+    const SweptBlock& swept = mesh.blocks[index(block)];
+    BlockData& data = blocks_[index(block)];
+    data.carry_stride = index(3 * swept.section.nodes() + kLanes);
+    carries_[index(block)].assign(swept.tiles.size() * data.carry_stride, 0);
+    no_carry_.resize(std::max(no_carry_.size(), data.carry_stride), 0);
+    data.first_item = items_.size();
+    for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
+      items_.push_back({block, tile});
+      const auto quads = static_cast<std::int64_t>(swept.section.quads.size());
+      cost_.push_back(cost_.back() + (swept.tiles[index(tile)].elements > 0 ? quads : 1));
+    }
+  }
+  pending_.resize(items_.size(), 0);
+}
+
+template <class Real>
+void BasicInternalForce<Real>::build_swept(int block) {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  BlockData& data = blocks_[index(block)];
+  data.plan = make_front_plan(swept.section);
+  data.place.resize(swept.section.quads.size());
+  for (std::size_t place = 0; place < data.plan.quads.size(); ++place)
+    data.place[index(data.plan.quads[place].quad)] = static_cast<int>(place);
+  data.previous.assign(swept.tiles.size(), -1);
+  for (std::size_t tile = 0; tile < swept.tiles.size(); ++tile)
+    if (swept.tiles[tile].elements > 0) data.previous[index(swept.tiles[tile].next)] = static_cast<int>(tile);
+
+  ElementFaults faults(swept);
+  for (int pitch_class = 0; pitch_class < static_cast<int>(swept.classes.size()); ++pitch_class) {
+    const double pitch = swept.classes[index(pitch_class)].pitch;
+    ClassData& elements = data.classes.emplace_back();
+    if (swept.sweep == Sweep::revolved) {
+      elements.cosine = static_cast<Real>(std::cos(pitch / 2));
+      elements.sine = static_cast<Real>(std::sin(pitch / 2));
+    }
+    for (const FrontPlan::Quad& entry : data.plan.quads) {
+      const HexNodes nodes = swept_nodes(swept.section, entry.quad, swept.sweep, pitch);
+      const ElementGeometry& shape = elements.geometry.emplace_back(element_geometry(nodes));
+      const Material& material = swept.material(entry.quad, pitch_class);
+      faults.check(shape, entry.quad, 0);
+      elements.constants.push_back(
+          swept_constants<Real>(shape, hourglass_matrix(nodes, shape.volume, material), material));
+    }
+  }
+  faults.raise("a revolved section must lie on the positive side of its axis");
+}
+
+template <class Real>
+void BasicInternalForce<Real>::build_perturbed(int block) {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  BlockData& data = blocks_[index(block)];
+  data.perturbed_row.assign(swept.tiles.size(), -1);
+  if (swept.node_shift.empty()) return;
+
+  std::vector<std::vector<int>> quads_of_node(swept.section.p.size());
+  for (std::size_t quad = 0; quad < swept.section.quads.size(); ++quad)
+    for (const int node : swept.section.quads[quad]) quads_of_node[index(node)].push_back(static_cast<int>(quad));
+
+  const std::size_t quads = swept.section.quads.size();
+  const auto mark = [&](int tile, int node) {
+    if (tile < 0 || swept.tiles[index(tile)].elements == 0) return;
+    int& row = data.perturbed_row[index(tile)];
+    if (row < 0) {
+      row = static_cast<int>(data.perturbed.size() / quads);
+      data.perturbed.resize(data.perturbed.size() + quads, -1);
+    }
+    for (const int quad : quads_of_node[index(node)]) data.perturbed[index(row) * quads + index(data.place[index(quad)])] = 0;
+  };
+  for (const auto& [slot, shift] : swept.node_shift) {
+    const auto row = static_cast<int>(slot / kLanes);
+    const int tile = row / swept.section.nodes();
+    const int node = row % swept.section.nodes();
+    mark(tile, node);
+    if (slot % kLanes == 0) mark(data.previous[index(tile)], node);
+  }
+
+  ElementFaults faults(swept);
+  for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
+    if (data.perturbed_row[index(tile)] < 0) continue;
+    const Tile& at = swept.tiles[index(tile)];
+    for (std::size_t place = 0; place < quads; ++place) {
+      int& entry = data.perturbed[index(data.perturbed_row[index(tile)]) * quads + place];
+      if (entry < 0) continue;
+      entry = static_cast<int>(data.lanes.size());
+      LanePositions<Real>& lanes = data.lanes.emplace_back();
+      const int quad = data.plan.quads[place].quad;
+      for (int lane = 0; lane < at.elements; ++lane) {
+        const Place element = locate(block, quad, at.first_station + lane);
+        const ElementGeometry shape = geometry(block, element);
+        faults.check(shape, quad, element.station);
+        for (std::size_t m = 0; m < kModes; ++m)
+          for (int j = 0; j < 3; ++j)
+            std::fill(lanes.position[m][j] + lane, lanes.position[m][j] + kLanes,
+                      static_cast<Real>(shape.position[m][j]));
+      }
+    }
+  }
+  faults.raise("reduce the shift of their nodes or make the elements larger");
+}
+
+template <class Real>
+void BasicInternalForce<Real>::set_beta(int block, double beta) {
+  blocks_[index(block)].beta = static_cast<Real>(beta);
+}
+
+template <class Real>
+void BasicInternalForce<Real>::set_initial_stress(int block, const std::vector<std::array<double, 4>>& stress) {
+  BlockData& data = blocks_[index(block)];
+  data.prestressed = !stress.empty();
+  for (ClassData& elements : data.classes) {
+    elements.initial_stress.clear();
+    if (stress.empty()) continue;
+    for (std::size_t place = 0; place < data.plan.quads.size(); ++place) {
+      const auto& s = stress.at(index(data.plan.quads[place].quad));
+      const double volume = elements.geometry[place].volume;
+      elements.initial_stress.push_back({static_cast<Real>(s[0] * volume), static_cast<Real>(s[1] * volume),
+                                         static_cast<Real>(s[2] * volume), static_cast<Real>(s[3] * volume)});
+    }
+  }
+}
+
+template <class Real>
+void BasicInternalForce<Real>::apply_block(int block, const Real* u, const Real* v, Real* f) const {
+  const std::size_t first = blocks_[index(block)].first_item;
+  evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, f});
+}
+
+template <class Real>
+Real* BasicInternalForce<Real>::carry(const Item& item) const {
+  return carries_[index(item.block)].data() + index(item.tile) * blocks_[index(item.block)].carry_stride + kLanes;
+}
+
+template <class Real>
+void BasicInternalForce<Real>::evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
+  const auto begin = cost_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto end = cost_.begin() + static_cast<std::ptrdiff_t>(last);
+  const auto item_at = [&](std::int64_t cost) {
+    return static_cast<std::size_t>(std::lower_bound(begin, end, *begin + cost) - cost_.begin());
+  };
+  parallel_ranges(*end - *begin, [&](std::int64_t from, std::int64_t to) {
+    evaluate_items(item_at(from), item_at(to), fields);
+  });
+  for (std::size_t i = first; i < last; ++i) {
+    if (!pending_[i]) continue;
+    const auto [block, tile] = items_[i];
+    const BlockData& data = blocks_[index(block)];
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    const Real* carry = this->carry({block, data.previous[index(tile)]});
+    Real* f = fields.f + dof(swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes, 0);
+    for (int value = 0; value < 3 * swept.section.nodes(); ++value) f[std::ptrdiff_t{value} * kLanes] += carry[value];
+  }
+}
+
+template <class Real>
+void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const {
+  // Grows in the first call of each thread only.
+  thread_local AlignedVector<Real> front;
+  for (std::size_t i = first; i < last; ++i) {
+    const Item item = items_[i];
+    const BlockData& data = blocks_[index(item.block)];
+    front.resize(std::max(front.size(), index(data.plan.slots) * kFrontValues));
+    const int previous = data.previous[index(item.tile)];
+    const bool at_hand = i > first && previous >= 0 && items_[i - 1].block == item.block &&
+                         items_[i - 1].tile == previous;
+    pending_[i] = previous >= 0 && !at_hand;
+    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, fields, front.data());
+  }
+}
+
+template <class Real>
+void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields,
+                                             Real* front) const {
+  const SweptBlock& swept = mesh_.blocks[index(item.block)];
+  const BlockData& data = blocks_[index(item.block)];
+  const Tile& tile = swept.tiles[index(item.tile)];
+  const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
+  const std::int64_t own = dof(swept.base + item.tile * slots, 0);
+  if (tile.elements == 0) {
+    std::fill_n(fields.f + own, 3 * slots, Real{0});
+    for (std::int64_t value = 0; value < 3 * swept.section.nodes(); ++value)
+      fields.f[own + value * kLanes] = carry_in[value];
+    return;
+  }
+  const std::int64_t next = dof(swept.base + tile.next * slots, 0);
+  const ClassData& elements = data.classes[index(tile.pitch_class)];
+  const bool damped = fields.v != nullptr && data.beta != 0;
+
+  TileView<Real> view;
+  view.u = fields.u + own;
+  view.u_next = fields.u + next;
+  if (damped) {
+    view.v = fields.v + own;
+    view.v_next = fields.v + next;
+  }
+  view.f = fields.f + own;
+  view.carry_in = carry_in;
+  view.carry_out = carry(item);
+  view.elements = tile.elements;
+
+  TileElements<Real> made_of;
+  made_of.quads = data.plan.quads.data();
+  made_of.open = data.plan.open.data();
+  made_of.close = data.plan.close.data();
+  made_of.quad_count = static_cast<int>(data.plan.quads.size());
+  made_of.swept = elements.constants.data();
+  made_of.initial_stress = elements.initial_stress.data();
+  const int row = data.perturbed_row[index(item.tile)];
+  if (row >= 0) made_of.perturbed = data.perturbed.data() + index(row) * data.plan.quads.size();
+  made_of.lanes = data.lanes.data();
+  made_of.beta = data.beta;
+  made_of.cosine = elements.cosine;
+  made_of.sine = elements.sine;
+  forces_->get({swept.sweep, damped, data.prestressed}, Real{})(made_of, view, front);
+}
+
+template <class Real>
+typename BasicInternalForce<Real>::Place BasicInternalForce<Real>::locate(int block, int quad, int station) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const BlockData& data = blocks_[index(block)];
+  const int tile = swept.tile_of_station[index(station)];
+  Place at;
+  at.quad = quad;
+  at.station = station;
+  at.place = data.place[index(quad)];
+  at.pitch_class = swept.tiles[index(tile)].pitch_class;
+  at.lane = station - swept.tiles[index(tile)].first_station;
+  const int row = data.perturbed_row[index(tile)];
+  if (row >= 0) at.lanes = data.perturbed[index(row) * data.plan.quads.size() + index(at.place)];
+  return at;
+}
+
+template <class Real>
+HexNodes BasicInternalForce<Real>::element_nodes(int block, const Place& at) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const double pitch = swept.classes[index(at.pitch_class)].pitch;
+  HexNodes nodes = swept_nodes(swept.section, at.quad, swept.sweep, pitch);
+  if (at.lanes < 0) return nodes;
+  for (int node = 0; node < 8; ++node) {
+    const int station = node < 4 ? at.station : far_station(swept, at.station);
+    const auto shift = swept.node_shift.find(swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station));
+    if (shift == swept.node_shift.end()) continue;
+    const double angle = swept.sweep == Sweep::extruded ? 0 : (node < 4 ? -pitch / 2 : pitch / 2);
+    nodes[index(node)] += turned(shift->second, angle);
+  }
+  return nodes;
+}
+
+template <class Real>
+ElementGeometry BasicInternalForce<Real>::geometry(int block, const Place& at) const {
+  if (at.lanes >= 0) return element_geometry(element_nodes(block, at));
+  return blocks_[index(block)].classes[index(at.pitch_class)].geometry[index(at.place)];
+}
+
+template <class Real>
+Strain<Real> BasicInternalForce<Real>::strain(int block, const Place& at, const Real (&u)[8][3]) const {
+  const BlockData& data = blocks_[index(block)];
+  const ClassData& elements = data.classes[index(at.pitch_class)];
+  const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
+  Real s[4][3];
+  Real d[4][3];
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      s[j][i] = u[j][i] + u[j + 4][i];
+      d[j][i] = u[j + 4][i] - u[j][i];
+    }
+    if (revolved) turn_to_middle(elements.cosine, elements.sine, s[j], d[j]);
+  }
+  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
+  if (at.lanes >= 0) return element_strain(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), s, d);
+  if (revolved) return element_strain(SweptElement<Sweep::revolved, Real>{constants}, s, d);
+  return element_strain(SweptElement<Sweep::extruded, Real>{constants}, s, d);
+}
+
+template <class Real>
+Strain<Real> BasicInternalForce<Real>::conjugate(int block, const Place& at, const Strain<Real>& strain) const {
+  const BlockData& data = blocks_[index(block)];
+  const ClassData& elements = data.classes[index(at.pitch_class)];
+  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
+  Strain<Real> force;
+  stress_forces(constants, strain, force);
+  if (data.prestressed) add_geometric_forces(elements.initial_stress[index(at.place)], strain, force);
+  if (at.lanes >= 0) PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants).scale_by_volume(force);
+  hourglass_forces(constants.hourglass, strain, force);
+  return force;
+}
+
+template <class Real>
+void BasicInternalForce<Real>::nodal_forces(int block, const Place& at, const Strain<Real>& force,
+                                            Real (&f)[8][3]) const {
+  const BlockData& data = blocks_[index(block)];
+  const ClassData& elements = data.classes[index(at.pitch_class)];
+  const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
+  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
+  Real s[4][3];
+  Real d[4][3];
+  if (at.lanes >= 0)
+    element_forces(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), force, s, d);
+  else if (revolved)
+    element_forces(SweptElement<Sweep::revolved, Real>{constants}, force, s, d);
+  else
+    element_forces(SweptElement<Sweep::extruded, Real>{constants}, force, s, d);
+  for (int j = 0; j < 4; ++j) {
+    if (revolved) turn_to_nodes(elements.cosine, elements.sine, s[j], d[j]);
+    for (int i = 0; i < 3; ++i) {
+      f[j][i] = s[j][i] - d[j][i];
+      f[j + 4][i] = s[j][i] + d[j][i];
+    }
+  }
+}
+
+template <class Real>
+void BasicInternalForce<Real>::gather(int block, const Place& at, const Real* u, Real (&values)[8][3]) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  for (int node = 0; node < 8; ++node) {
+    const int station = node < 4 ? at.station : far_station(swept, at.station);
+    const std::int64_t slot = swept.base + swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station);
+    for (int i = 0; i < 3; ++i) values[node][i] = u[dof(slot, i)];
+  }
+}
+
+template <class Real>
+template <class Visit>
+void BasicInternalForce<Real>::for_each_element(int block, const Visit& visit) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  for (const Tile& tile : swept.tiles)
+    for (const FrontPlan::Quad& entry : blocks_[index(block)].plan.quads)
+      for (int lane = 0; lane < tile.elements; ++lane)
+        visit(locate(block, entry.quad, tile.first_station + lane));
+}
+
+template <class Real>
+DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  std::vector<DeformationEnergy> partial(swept.tiles.size());
+  const auto tile_energy = [&](int tile) {
+    DeformationEnergy sum;
+    for (const FrontPlan::Quad& entry : blocks_[index(block)].plan.quads)
+      for (int lane = 0; lane < swept.tiles[index(tile)].elements; ++lane) {
+        const Place at = locate(block, entry.quad, swept.tiles[index(tile)].first_station + lane);
+        Real values[8][3];
+        gather(block, at, u, values);
+        const Strain<Real> e = strain(block, at, values);
+        const Strain<Real> force = conjugate(block, at, e);
+        for (int i = 0; i < 3; ++i) {
+          for (int j = 0; j < 3; ++j) sum.strain += 0.5 * e.g[i][j] * force.g[i][j];
+          for (int m = 0; m < kHourglassModes; ++m) sum.hourglass += 0.5 * e.q[i][m] * force.q[i][m];
+        }
+      }
+    return sum;
+  };
+  parallel_ranges(static_cast<std::int64_t>(partial.size()), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t tile = first; tile < last; ++tile)
+      partial[static_cast<std::size_t>(tile)] = tile_energy(static_cast<int>(tile));
+  });
+  DeformationEnergy total;
+  for (const DeformationEnergy& part : partial) {
+    total.strain += part.strain;
+    total.hourglass += part.hourglass;
+  }
+  return total;
+}
+
+template <class Real>
+std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int station, const Real* u) const {
+  const Place at = locate(block, quad, station);
+  Real values[8][3];
+  gather(block, at, u, values);
+  const Strain<Real> e = strain(block, at, values);
+  const Material& material = mesh_.blocks[index(block)].material(quad, at.pitch_class);
+  const double mu = material.shear_modulus();
+  const double pressure = material.lame_lambda() * (e.g[0][0] + e.g[1][1] + e.g[2][2]);
+  return {pressure + 2 * mu * e.g[0][0], pressure + 2 * mu * e.g[1][1], pressure + 2 * mu * e.g[2][2],
+          mu * (e.g[1][2] + e.g[2][1]),  mu * (e.g[2][0] + e.g[0][2]),  mu * (e.g[0][1] + e.g[1][0])};
+}
+
+template <class Real>
+void BasicInternalForce<Real>::lumped_mass(double* mass) const {
+  std::fill_n(mass, mesh_.slots, 0.0);
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    for_each_element(block, [&](const Place& at) {
+      const double density = swept.material(at.quad, at.pitch_class).density;
+      const ElementGeometry shape = geometry(block, at);
+      for (int node = 0; node < 8; ++node) {
+        const int station = node < 4 ? at.station : far_station(swept, at.station);
+        const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
+        mass[swept.base + swept.slot(section_node, station)] += density * shape.nodal_volume[index(node)];
+      }
+    });
+  }
+}
+
+template <class Real>
+void BasicInternalForce<Real>::diagonal(double* d) const {
+  std::fill_n(d, 3 * mesh_.slots, 0.0);
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    const std::size_t quads = swept.section.quads.size();
+    const auto diagonal_of = [&](const Place& at) {
+      const ElementStiffness k = stiffness(block, at);
+      std::array<double, 24> values{};
+      for (std::size_t i = 0; i < 24; ++i) values[i] = k[i][i];
+      return values;
+    };
+    std::vector<std::optional<std::array<double, 24>>> known(quads * swept.classes.size());
+    for_each_element(block, [&](const Place& at) {
+      std::array<double, 24> values;
+      if (at.lanes >= 0) {
+        values = diagonal_of(at);
+      } else {
+        auto& shared = known[index(at.pitch_class) * quads + index(at.quad)];
+        if (!shared) shared = diagonal_of(at);
+        values = *shared;
+      }
+      for (int node = 0; node < 8; ++node) {
+        const int station = node < 4 ? at.station : far_station(swept, at.station);
+        const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
+        const std::int64_t slot = swept.base + swept.slot(section_node, station);
+        for (int i = 0; i < 3; ++i) d[dof(slot, i)] += values[index(3 * node + i)];
+      }
+    });
+  }
+}
+
+template <class Real>
+ElementStiffness BasicInternalForce<Real>::stiffness(int block, const Place& at) const {
+  ElementStiffness k;
+  for (int column = 0; column < 24; ++column) {
+    Real u[8][3] = {};
+    Real f[8][3];
+    u[column / 3][column % 3] = 1;
+    nodal_forces(block, at, conjugate(block, at, strain(block, at, u)), f);
+    for (int row = 0; row < 24; ++row) k[index(row)][index(column)] = f[row / 3][row % 3];
+  }
+  return k;
+}
+
+template <class Real>
+ElementStiffness BasicInternalForce<Real>::element_stiffness(int block, int quad, int station) const {
+  return stiffness(block, locate(block, quad, station));
+}
+
+template <class Real>
+double BasicInternalForce<Real>::frequency(int block, const Place& at) const {
+  const ElementStiffness k = stiffness(block, at);
+  const ElementGeometry shape = geometry(block, at);
+  const double density = mesh_.blocks[index(block)].material(at.quad, at.pitch_class).density;
+  Eigen::Matrix<double, 24, 24> pencil;
+  for (int row = 0; row < 24; ++row)
+    for (int column = 0; column < 24; ++column)
+      pencil(row, column) = k[index(row)][index(column)] /
+                            (density * std::sqrt(shape.nodal_volume[index(row / 3)] * shape.nodal_volume[index(column / 3)]));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solver(pencil, Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues()(23));
+}
+
+template <class Real>
+double BasicInternalForce<Real>::element_frequency(int block, int quad, int station) const {
+  return frequency(block, locate(block, quad, station));
+}
+
+template <class Real>
+ElementFrequency BasicInternalForce<Real>::max_frequency() const {
+  std::vector<std::pair<int, Place>> candidates;
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    const std::size_t quads = swept.section.quads.size();
+    std::vector<bool> seen(quads * swept.classes.size(), false);
+    for_each_element(block, [&](const Place& at) {
+      const std::size_t shared = index(at.pitch_class) * quads + index(at.quad);
+      if (at.lanes < 0 && seen[shared]) return;
+      if (at.lanes < 0) seen[shared] = true;
+      candidates.emplace_back(block, at);
+    });
+  }
+  std::vector<double> omega(candidates.size());
+  parallel_ranges(static_cast<std::int64_t>(omega.size()), [&](std::int64_t first, std::int64_t last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      omega[i] = frequency(candidates[i].first, candidates[i].second);
+  });
+  const auto highest = std::max_element(omega.begin(), omega.end());
+  if (highest == omega.end()) return {};
+  const auto& [block, at] = candidates[static_cast<std::size_t>(highest - omega.begin())];
+  return {*highest, block, at.quad, at.station};
+}
+
+template <class Real>
+std::int64_t BasicInternalForce<Real>::perturbed_elements() const {
+  std::int64_t count = 0;
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block)
+    for_each_element(block, [&](const Place& at) { count += at.lanes >= 0; });
+  return count;
+}
+
+template <class Real>
+std::int64_t BasicInternalForce<Real>::bytes() const {
+  std::size_t sum = 0;
+  for (std::size_t block = 0; block < blocks_.size(); ++block) {
+    const BlockData& data = blocks_[block];
+    sum += data.lanes.size() * sizeof(LanePositions<Real>) + data.perturbed.size() * sizeof(int) +
+           carries_[block].size() * sizeof(Real);
+    for (const ClassData& elements : data.classes)
+      sum += elements.constants.size() * (sizeof(SweptConstants<Real>) + sizeof(ElementGeometry)) +
+             elements.initial_stress.size() * sizeof(InitialStress<Real>);
+  }
+  return static_cast<std::int64_t>(sum);
+}
+
+template <class Real>
+std::vector<const char*> BasicInternalForce<Real>::instruction_sets() {
+  std::vector<const char*> names;
+  for (const TileForces* forces : tile_forces()) names.push_back(forces->name);
+  return names;
+}
+
+template <class Real>
+void BasicInternalForce<Real>::use_instruction_set(const char* name) {
+  for (const TileForces* forces : tile_forces())
+    if (std::strcmp(forces->name, name) == 0) {
+      forces_ = forces;
+      return;
+    }
+  throw InputError(fmt::format("instruction set '{}' is not available on this processor", name));
+}
+
+template class BasicInternalForce<double>;
+template class BasicInternalForce<float>;
+
+}  // namespace tread

@@ -1,0 +1,171 @@
+#pragma once
+// Internal force f = K u of the blocks of a mesh: elasticity of total form at small strain, Rayleigh damping in the same
+// evaluation, and what follows from the same elements (mass, energies, stresses, frequencies).
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+
+template <class V>
+struct Strain;
+
+/// Rows and columns [3 node + component]: element nodes as in kernels/element.hpp, components in the nodes' local
+/// bases. [N/m]
+using ElementStiffness = std::array<std::array<double, 24>, 24>;
+
+/// Strain and hourglass energy. [J]
+struct DeformationEnergy {
+  double strain = 0;     ///< of the one-point stress, with the work of an initial stress
+  double hourglass = 0;
+};
+
+/// The element with the largest natural frequency.
+struct ElementFrequency {
+  double omega = 0;  ///< [rad/s]
+  int block = -1;
+  int quad = -1;
+  int station = -1;  ///< where the element starts
+};
+
+/// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
+double von_mises(const std::array<double, 6>& stress);
+
+/// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases; unused lanes
+/// hold zero on entry and on return. Results are the same bits for any number of threads. One object serves one
+/// caller at a time: applying it uses buffers of its own.
+template <class Real>
+class BasicInternalForce {
+ public:
+  /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their nodes, turns
+  /// inside out.
+  explicit BasicInternalForce(const Mesh& mesh);
+
+  /// Damping of a block: forces are those of u + beta v. [s]
+  void set_beta(int block, double beta);
+
+  /// Stress that the undeformed block carries: (tt, yy, rr, yr) of each section quad, constant along the sweep
+  /// (extruded: xx, yy, zz, yz). It is in equilibrium with loads that are not applied here: only its geometric
+  /// stiffness acts. An empty list removes it. [Pa] [theory.md, Spin prestress]
+  void set_initial_stress(int block, const std::vector<std::array<double, 4>>& stress);
+
+  /// f = K u, overwritten. [N]
+  void apply(const Real* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f}); }
+  /// f = K (u + beta v), overwritten. [N]
+  void apply_damped(const Real* u, const Real* v, Real* f) const { evaluate(0, items_.size(), {u, v, f}); }
+  /// The same for the slots of one block; v may be null. Pointers are those of the whole fields.
+  void apply_block(int block, const Real* u, const Real* v, Real* f) const;
+
+  /// Energy of u. [J]
+  DeformationEnergy energy(int block, const Real* u) const;
+
+  /// Stress at the element's centre in its middle frame, (xx, yy, zz, yz, zx, xy) with x the sweep direction; without the
+  /// initial stress. [Pa]
+  std::array<double, 6> stress(int block, int quad, int station, const Real* u) const;
+
+  /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
+  void lumped_mass(double* mass) const;
+
+  /// Diagonal of K: 3 * mesh.slots values. [N/m]
+  void diagonal(double* d) const;
+
+  ElementStiffness element_stiffness(int block, int quad, int station) const;
+
+  /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
+  double element_frequency(int block, int quad, int station) const;
+
+  /// Maximum over all elements: a bound from above on the frequencies of the assembled blocks.
+  ElementFrequency max_frequency() const;
+
+  /// Elements with coefficients of their own (whole lanes of a tile's quad).
+  std::int64_t perturbed_elements() const;
+
+  /// Bytes of coefficients and buffers.
+  std::int64_t bytes() const;
+
+  /// Instruction sets to choose from, and a choice among them (for tests and benchmarks).
+  static std::vector<const char*> instruction_sets();
+  void use_instruction_set(const char* name);
+  const char* instruction_set() const { return forces_->name; }
+
+ private:
+  struct Item {
+    int block = 0;
+    int tile = 0;
+  };
+  /// Elements of one pitch class, in the order of the plan's quads.
+  struct ClassData {
+    Real cosine = 1;  ///< of half the pitch
+    Real sine = 0;
+    std::vector<ElementGeometry> geometry;
+    AlignedVector<SweptConstants<Real>> constants;
+    std::vector<InitialStress<Real>> initial_stress;
+  };
+  struct BlockData {
+    FrontPlan plan;
+    std::vector<int> place;  ///< of each quad in the plan's order
+    std::vector<ClassData> classes;
+    std::vector<int> previous;       ///< tile whose last element ends in this tile, or -1
+    std::vector<int> perturbed_row;  ///< by tile: row of `perturbed`, or -1
+    std::vector<int> perturbed;      ///< [row][place]: index into `lanes`, or -1
+    AlignedVector<LanePositions<Real>> lanes;
+    std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
+    std::size_t first_item = 0;
+    Real beta = 0;
+    bool prestressed = false;
+  };
+  /// An element and where its coefficients are.
+  struct Place {
+    int quad = 0;
+    int station = 0;
+    int place = 0;
+    int pitch_class = 0;
+    int lane = 0;
+    int lanes = -1;  ///< index into BlockData::lanes, or -1
+  };
+  struct Fields {
+    const Real* u;
+    const Real* v;
+    Real* f;
+  };
+
+  void build_swept(int block);
+  void build_perturbed(int block);
+  Place locate(int block, int quad, int station) const;
+  HexNodes element_nodes(int block, const Place& at) const;
+  ElementGeometry geometry(int block, const Place& at) const;
+  Strain<Real> strain(int block, const Place& at, const Real (&u)[8][3]) const;
+  Strain<Real> conjugate(int block, const Place& at, const Strain<Real>& strain) const;
+  void nodal_forces(int block, const Place& at, const Strain<Real>& force, Real (&f)[8][3]) const;
+  void gather(int block, const Place& at, const Real* u, Real (&values)[8][3]) const;
+  ElementStiffness stiffness(int block, const Place& at) const;
+  double frequency(int block, const Place& at) const;
+  template <class Visit>
+  void for_each_element(int block, const Visit& visit) const;
+
+  /// Force of a tile's last element on the station behind it: [section node][3].
+  Real* carry(const Item& item) const;
+  void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
+  void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
+  void evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields, Real* front) const;
+
+  const Mesh& mesh_;
+  const TileForces* forces_;
+  std::vector<BlockData> blocks_;
+  std::vector<Item> items_;
+  std::vector<std::int64_t> cost_;  ///< elements before each item, to share the work evenly
+  AlignedVector<Real> no_carry_;    ///< zeros
+  mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
+  mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part
+};
+
+using InternalForce = BasicInternalForce<double>;
+extern template class BasicInternalForce<double>;
+extern template class BasicInternalForce<float>;
+
+}  // namespace tread

@@ -1,0 +1,8 @@
+#include "kernels/lanes/tile_force_body.hpp"
+
+namespace tread {
+
+extern const TileForces tile_forces_avx2;
+const TileForces tile_forces_avx2 = {"avx2", select_variant<double>, select_variant<float>};
+
+}  // namespace tread

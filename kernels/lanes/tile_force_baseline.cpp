@@ -1,0 +1,8 @@
+#include "kernels/lanes/tile_force_body.hpp"
+
+namespace tread {
+
+extern const TileForces tile_forces_baseline;
+const TileForces tile_forces_baseline = {"baseline", select_variant<double>, select_variant<float>};
+
+}  // namespace tread

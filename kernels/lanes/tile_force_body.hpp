@@ -1,0 +1,222 @@
+#pragma once
+// Included by one source per instruction set; internal linkage keeps the versions apart.
+
+#include "kernels/element_body.hpp"
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kRegisterBytes = 64;
+#elif defined(__AVX__)
+constexpr int kRegisterBytes = 32;
+#else
+constexpr int kRegisterBytes = 16;
+#endif
+
+template <class Real, int width>
+struct Vector {
+  typedef Real type __attribute__((vector_size(width * sizeof(Real))));
+};
+
+template <class V, class Real>
+TREAD_INLINE V load(const Real* at) {
+  V value;
+  __builtin_memcpy(&value, at, sizeof value);
+  return value;
+}
+
+template <class V, class Real>
+TREAD_INLINE void store(Real* at, const V& value) {
+  __builtin_memcpy(at, &value, sizeof value);
+}
+
+/// (a[1], ..., a[last], b[0])
+template <class V>
+TREAD_INLINE V shift_down(const V& a, const V& b) {
+  if constexpr (sizeof a / sizeof a[0] == 8) return __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8);
+  if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 1, 2, 3, 4);
+  if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
+}
+
+/// (a[last], b[0], ..., b[last - 1])
+template <class V>
+TREAD_INLINE V shift_up(const V& a, const V& b) {
+  if constexpr (sizeof a / sizeof a[0] == 8) return __builtin_shufflevector(a, b, 7, 8, 9, 10, 11, 12, 13, 14);
+  if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 3, 4, 5, 6);
+  if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
+}
+
+template <class Real, Sweep sweep, bool damped, bool prestressed>
+class TileLoop {
+ public:
+  /// The lanes of a tile in as many registers as they need.
+  static constexpr int kWidth = kRegisterBytes / static_cast<int>(sizeof(Real)) < kLanes
+                                    ? kRegisterBytes / static_cast<int>(sizeof(Real))
+                                    : kLanes;
+  static constexpr int kParts = kLanes / kWidth;
+  using Register = typename Vector<Real, kWidth>::type;
+
+  TileLoop(const TileElements<Real>& elements, const TileView<Real>& view, Real* front)
+      : elements_(elements), view_(view), front_(front) {}
+
+  void run() const {
+    const FrontPlan::Node* open = elements_.open;
+    const FrontPlan::Node* close = elements_.close;
+    for (int i = 0; i < elements_.quad_count; ++i) {
+      const FrontPlan::Quad& quad = elements_.quads[i];
+      for (; open != elements_.open + quad.opened; ++open) open_node(*open);
+      add_quad(i, quad);
+      for (; close != elements_.close + quad.closed; ++close) close_node(*close);
+    }
+  }
+
+ private:
+  TREAD_INLINE Register displacement(const Real* u, const Real* v, std::ptrdiff_t at) const {
+    if constexpr (damped) return load<Register>(u + at) + elements_.beta * load<Register>(v + at);
+    return load<Register>(u + at);
+  }
+
+  /// Sums and differences of a node's displacements at both ends of the elements, in their middle frames.
+  TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
+    Register s[kParts][3];
+    Register d[kParts][3];
+    for (int i = 0; i < 3; ++i) {
+      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes;
+      Register near[kParts + 1];
+      Register far[kParts];
+      for (int part = 0; part < kParts; ++part) near[part] = displacement(view_.u, view_.v, at + part * kWidth);
+      near[kParts] = displacement(view_.u_next, view_.v_next, at);
+      if (view_.elements == kLanes) [[likely]] {
+        for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
+      } else {
+        Real row[kLanes + 1] = {};
+        const int last = view_.elements - 1;
+        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, near[part]);
+        row[last + 1] = near[kParts][0];
+        for (int part = 0; part < kParts; ++part) far[part] = load<Register>(row + 1 + part * kWidth);
+      }
+      for (int part = 0; part < kParts; ++part) {
+        s[part][i] = near[part] + far[part];
+        d[part][i] = far[part] - near[part];
+      }
+    }
+    Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kFrontValues;
+    for (int part = 0; part < kParts; ++part, slot += kWidth) {
+      if constexpr (sweep == Sweep::revolved) turn_to_middle(elements_.cosine, elements_.sine, s[part], d[part]);
+      for (int i = 0; i < 3; ++i) {
+        store(slot + i * kLanes, s[part][i]);
+        store(slot + (3 + i) * kLanes, d[part][i]);
+        store(slot + (6 + i) * kLanes, Register{});
+        store(slot + (9 + i) * kLanes, Register{});
+      }
+    }
+  }
+
+  /// Forces on both ends of the elements; those on the far ends belong to the next lanes.
+  TREAD_INLINE void close_node(const FrontPlan::Node& node) const {
+    const Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kFrontValues;
+    Register s[kParts][3];
+    Register d[kParts][3];
+    for (int part = 0; part < kParts; ++part, slot += kWidth) {
+      for (int i = 0; i < 3; ++i) {
+        s[part][i] = load<Register>(slot + (6 + i) * kLanes);
+        d[part][i] = load<Register>(slot + (9 + i) * kLanes);
+      }
+      if constexpr (sweep == Sweep::revolved) turn_to_nodes(elements_.cosine, elements_.sine, s[part], d[part]);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
+      Register far[kParts + 1];  // behind that of the preceding tile, whose last lane counts
+      far[0] = load<Register>(view_.carry_in + value - (kWidth - 1));
+      for (int part = 0; part < kParts; ++part) far[part + 1] = s[part][i] + d[part][i];
+      if (view_.elements == kLanes) [[likely]] {
+        view_.carry_out[value] = far[kParts][kWidth - 1];
+      } else {
+        Real row[kLanes];
+        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, far[part + 1]);
+        view_.carry_out[value] = row[view_.elements - 1];
+        row[view_.elements - 1] = 0;
+        for (int part = 0; part < kParts; ++part) far[part + 1] = load<Register>(row + part * kWidth);
+      }
+      for (int part = 0; part < kParts; ++part)
+        store(view_.f + value * kLanes + part * kWidth,
+              (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]));
+    }
+  }
+
+  TREAD_INLINE void add_quad(int index, const FrontPlan::Quad& quad) const {
+    const SweptConstants<Real>& constants = elements_.swept[index];
+    if (elements_.perturbed != nullptr && elements_.perturbed[index] >= 0) {
+      const LanePositions<Real>& lanes = elements_.lanes[elements_.perturbed[index]];
+      for (int lane = 0; lane < kLanes; lane += kWidth)
+        add_elements(index, quad, lane, PerturbedElement<Register, Real>(lanes, lane, constants));
+    } else {
+      for (int lane = 0; lane < kLanes; lane += kWidth)
+        add_elements(index, quad, lane, SweptElement<sweep, Real>{constants});
+    }
+  }
+
+  template <class Element>
+  TREAD_INLINE void add_elements(int index, const FrontPlan::Quad& quad, int lane, const Element& element) const {
+    Real* corner[4];
+    for (int j = 0; j < 4; ++j)
+      corner[j] = front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kFrontValues + lane;
+    Strain<Register> strain;
+    for (int i = 0; i < 3; ++i) {
+      Register s[4];
+      Register d[4];
+      Register a[kModes];
+      for (int j = 0; j < 4; ++j) {
+        s[j] = load<Register>(corner[j] + i * kLanes);
+        d[j] = load<Register>(corner[j] + (3 + i) * kLanes);
+      }
+      to_modes(s, d, a);
+      element.strain(i, a, strain);
+    }
+    const SweptConstants<Real>& constants = elements_.swept[index];
+    Strain<Register> force;
+    stress_forces(constants, strain, force);
+    if constexpr (prestressed) add_geometric_forces(elements_.initial_stress[index], strain, force);
+    element.scale_by_volume(force);
+    hourglass_forces(constants.hourglass, strain, force);
+    for (int i = 0; i < 3; ++i) {
+      Register s[4];
+      Register d[4];
+      Register a[kModes];
+      element.forces(i, force, a);
+      from_modes(a, s, d);
+      for (int j = 0; j < 4; ++j) {
+        Real* const fs = corner[j] + (6 + i) * kLanes;
+        Real* const fd = corner[j] + (9 + i) * kLanes;
+        store(fs, load<Register>(fs) + s[j]);
+        store(fd, load<Register>(fd) + d[j]);
+      }
+    }
+  }
+
+  const TileElements<Real>& elements_;
+  const TileView<Real>& view_;
+  Real* front_;
+};
+
+template <class Real, Sweep sweep, bool damped, bool prestressed>
+void tile_force(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
+  TileLoop<Real, sweep, damped, prestressed>(elements, view, front).run();
+}
+
+template <class Real, Sweep sweep>
+TileForce<Real> select_options(TileVariant v) {
+  if (v.damped) return v.prestressed ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
+  return v.prestressed ? tile_force<Real, sweep, false, true> : tile_force<Real, sweep, false, false>;
+}
+
+template <class Real>
+TileForce<Real> select_variant(TileVariant v) {
+  return v.sweep == Sweep::revolved ? select_options<Real, Sweep::revolved>(v)
+                                    : select_options<Real, Sweep::extruded>(v);
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,31 @@
+#pragma once
+// What the static solver knows of the model: a symmetric operator on vector fields and its rank-one springs.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace tread {
+
+/// y = A x on vector fields of 3 * mesh.slots values (layout: dof()). A is symmetric and positive semidefinite;
+/// it reads and writes zero outside the free unknowns. x and y do not overlap.
+using Operator = std::function<void(const double* x, double* y)>;
+
+/// The energy stiffness / 2 (sum_i weights[i] x[dofs[i]])^2: a spring between bodies or one contact point.
+struct Spring {
+  double stiffness = 0;            ///< [N/m]
+  std::vector<std::int64_t> dofs;  ///< free unknowns, each once
+  std::vector<double> weights;     ///< of the displacements in the spring's elongation [-], as many as dofs
+};
+
+/// y += K x for all springs, in their order.
+inline void add_springs(const std::vector<Spring>& springs, const double* x, double* y) {
+  for (const Spring& spring : springs) {
+    double elongation = 0;
+    for (std::size_t i = 0; i < spring.dofs.size(); ++i) elongation += spring.weights[i] * x[spring.dofs[i]];
+    const double force = spring.stiffness * elongation;
+    for (std::size_t i = 0; i < spring.dofs.size(); ++i) y[spring.dofs[i]] += spring.weights[i] * force;
+  }
+}
+
+}  // namespace tread

@@ -1,0 +1,286 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "kernels/hexahedron.hpp"
+#include "kernels/internal_force.hpp"
+#include "tests/swept_samples.hpp"
+
+namespace tread {
+namespace {
+
+using samples::cartesian;
+using samples::for_each_node;
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// (t, y, r) tensor of the middle of an element in Cartesian axes.
+Mat3 to_cartesian_tensor(const SweptBlock& block, double angle, const std::array<double, 4>& s) {
+  const Mat3 local = {{{s[0], 0, 0}, {0, s[1], s[3]}, {0, s[3], s[2]}}};
+  if (block.sweep == Sweep::extruded) return local;
+  const Mat3 axes = {{{-std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}, {std::sin(angle), 0, -std::cos(angle)}}};
+  Mat3 result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < 3; ++l) result[i][j] += axes[i][k] * local[k][l] * axes[j][l];
+  return result;
+}
+
+/// The general elements of a block; nodes are numbered by slot relative to the block's base.
+std::vector<GeneralForce::Element> general_elements(const SweptBlock& block,
+                                                    const std::vector<std::array<double, 4>>& stress) {
+  SweptBlock plain = block;
+  plain.node_shift.clear();
+  std::vector<GeneralForce::Element> elements;
+  const int stations = block.station_count();
+  for (int station = 0; station < (block.closed ? stations : stations - 1); ++station)
+    for (int quad = 0; quad < static_cast<int>(block.section.quads.size()); ++quad) {
+      GeneralForce::Element element;
+      const Tile& tile = block.tiles[index(block.tile_of_station[index(station)])];
+      for (int node = 0; node < 8; ++node) {
+        const int at = node < 4 ? station : (station + 1) % stations;
+        const int section_node = block.section.quads[index(quad)][index(node % 4)];
+        element.node[index(node)] = static_cast<int>(block.slot(section_node, at));
+        element.shape.nodes[index(node)] = position(block, section_node, at);
+        element.shape.reference[index(node)] = position(plain, section_node, at);
+      }
+      element.shape.material = block.material(quad, tile.pitch_class);
+      if (!stress.empty())
+        element.shape.initial_stress =
+            to_cartesian_tensor(block, block.stations[index(station)] + block.classes[index(tile.pitch_class)].pitch / 2,
+                                stress[index(quad)]);
+      elements.push_back(element);
+    }
+  return elements;
+}
+
+struct Case {
+  const char* name;
+  SweptBlock block;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> list = {{"extruded", samples::extruded()},
+                            {"revolved open", samples::revolved_open()},
+                            {"revolved closed", samples::revolved_closed()},
+                            {"revolved closed in one tile", samples::revolved_closed(7)},
+                            {"revolved closed in full tiles", samples::revolved_closed(16)}};
+  const std::size_t swept = list.size();
+  for (std::size_t i = 0; i < swept; ++i) {
+    list.push_back(list[i]);
+    samples::shift_nodes(list.back().block, 1e-3);
+  }
+  return list;
+}
+
+std::vector<std::array<double, 4>> some_stress(const SweptBlock& block) {
+  std::vector<std::array<double, 4>> stress;
+  for (std::size_t quad = 0; quad < block.section.quads.size(); ++quad)
+    stress.push_back({1e9 + 1e7 * static_cast<double>(quad), -2e8, 5e8, 3e8});
+  return stress;
+}
+
+/// Largest difference between a vector field and Cartesian nodal values of a block, by the largest value.
+double difference(const SweptBlock& block, const AlignedVector<double>& f, const std::vector<Vec3>& expected) {
+  double largest = 0;
+  double error = 0;
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.slot(node, station);
+      const Vec3& reference = expected[index(slot)];
+      largest = std::max(largest, norm(reference));
+      error = std::max(error, norm(cartesian(block, station, block.base + slot, f) - reference));
+    }
+  return error / largest;
+}
+
+std::vector<Vec3> cartesian_values(const SweptBlock& block, const AlignedVector<double>& u) {
+  std::vector<Vec3> values(index(block.slots()));
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.slot(node, station);
+      values[index(slot)] = cartesian(block, station, block.base + slot, u);
+    }
+  return values;
+}
+
+TEST(SweptEqualsGeneral, ForceOfARandomDisplacement) {
+  for (const Case& c : cases())
+    for (const bool prestressed : {false, true}) {
+      Mesh mesh;
+      mesh.add(c.block);
+      const SweptBlock& block = mesh.blocks[0];
+      InternalForce force(mesh);
+      std::vector<std::array<double, 4>> stress;
+      if (prestressed) stress = some_stress(block);
+      force.set_initial_stress(0, stress);
+      const auto u = samples::random_field(mesh);
+      const std::vector<Vec3> expected =
+          GeneralForce(general_elements(block, stress)).apply(cartesian_values(block, u));
+      for (const char* set : InternalForce::instruction_sets()) {
+        force.use_instruction_set(set);
+        AlignedVector<double> f(u.size(), 1e300);
+        force.apply(u.data(), f.data());
+        EXPECT_LT(difference(block, f, expected), 1e-12) << c.name << " " << prestressed << " " << set;
+      }
+    }
+}
+
+TEST(SweptEqualsGeneral, StressAtTheCentre) {
+  for (const Case& c : cases()) {
+    Mesh mesh;
+    mesh.add(c.block);
+    const SweptBlock& block = mesh.blocks[0];
+    const InternalForce force(mesh);
+    const auto u = samples::random_field(mesh);
+    const auto elements = general_elements(block, {});
+    const auto nodal = cartesian_values(block, u);
+    const std::size_t quads = block.section.quads.size();
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      std::array<Vec3, 8> displacement;
+      for (std::size_t node = 0; node < 8; ++node) displacement[node] = nodal[index(elements[e].node[node])];
+      const auto expected = hexahedron_stress(elements[e].shape, displacement);
+      const auto stress = force.stress(0, static_cast<int>(e % quads), static_cast<int>(e / quads), u.data());
+      EXPECT_NEAR(von_mises(stress) / von_mises(expected), 1, 1e-11) << c.name;
+      EXPECT_NEAR((stress[0] + stress[1] + stress[2]) / von_mises(expected),
+                  (expected[0] + expected[1] + expected[2]) / von_mises(expected), 1e-11)
+          << c.name;
+    }
+  }
+}
+
+/// All samples as blocks of one mesh.
+Mesh all_blocks() {
+  Mesh mesh;
+  for (const Case& c : cases()) mesh.add(c.block);
+  return mesh;
+}
+
+TEST(InternalForceThreads, SameBitsForAnyNumber) {
+  const Mesh mesh = all_blocks();
+  InternalForce force(mesh);
+  force.set_beta(1, 1e-7);
+  force.set_initial_stress(2, some_stress(mesh.blocks[2]));
+  const auto u = samples::random_field(mesh);
+  const auto v = samples::random_field(mesh, 4);
+  AlignedVector<double> one(u.size());
+  set_threads(1);
+  force.apply_damped(u.data(), v.data(), one.data());
+  for (const int count : {2, 3, 5, 16}) {
+    set_threads(count);
+    AlignedVector<double> many(u.size(), 1e300);
+    force.apply_damped(u.data(), v.data(), many.data());
+    EXPECT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(double)), 0) << count;
+    AlignedVector<double> by_block(u.size(), 1e300);
+    for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block)
+      force.apply_block(block, u.data(), v.data(), by_block.data());
+    EXPECT_EQ(std::memcmp(one.data(), by_block.data(), one.size() * sizeof(double)), 0) << count;
+  }
+  set_threads(1);
+}
+
+TEST(InternalForceLanes, UnusedOnesStayZero) {
+  const Mesh mesh = all_blocks();
+  const InternalForce force(mesh);
+  const auto u = samples::random_field(mesh);
+  AlignedVector<double> f(u.size(), 1e300);
+  force.apply(u.data(), f.data());
+  AlignedVector<double> used(u.size(), 0);
+  for_each_node(mesh, [&](const SweptBlock&, int, int, std::int64_t slot) {
+    for (int i = 0; i < 3; ++i) used[index(dof(slot, i))] = 1;
+  });
+  int unused = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    if (used[i] != 0) continue;
+    ++unused;
+    EXPECT_EQ(f[i], 0);
+  }
+  EXPECT_GT(unused, 0);
+}
+
+TEST(InternalForceDamping, ActsOnDisplacementPlusBetaVelocity) {
+  const Mesh mesh = all_blocks();
+  InternalForce force(mesh);
+  const double beta = 0.25;
+  force.set_beta(0, beta);
+  force.set_beta(6, beta);
+  const auto u = samples::random_field(mesh);
+  const auto v = samples::random_field(mesh, 4);
+  auto sum = u;
+  for (const int damped : {0, 6}) {
+    const SweptBlock& block = mesh.blocks[index(damped)];
+    for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
+      sum[index(i)] += beta * v[index(i)];
+  }
+  AlignedVector<double> expected(u.size());
+  AlignedVector<double> f(u.size());
+  force.apply(sum.data(), expected.data());
+  force.apply_damped(u.data(), v.data(), f.data());
+  double largest = 0;
+  for (const double value : expected) largest = std::max(largest, std::abs(value));
+  for (std::size_t i = 0; i < f.size(); ++i) ASSERT_NEAR(f[i], expected[i], 1e-14 * largest);
+}
+
+TEST(InternalForceSingle, AgreesToItsPrecision) {
+  const Mesh mesh = all_blocks();
+  const InternalForce force(mesh);
+  BasicInternalForce<float> single(mesh);
+  const auto u = samples::random_field(mesh);
+  const AlignedVector<float> u_single(u.begin(), u.end());
+  AlignedVector<double> f(u.size());
+  force.apply(u.data(), f.data());
+  double largest = 0;
+  for (const double value : f) largest = std::max(largest, std::abs(value));
+  for (const char* set : InternalForce::instruction_sets()) {
+    single.use_instruction_set(set);
+    AlignedVector<float> f_single(u.size());
+    single.apply(u_single.data(), f_single.data());
+    for (std::size_t i = 0; i < f.size(); ++i) ASSERT_NEAR(f_single[i], f[i], 2e-6 * largest) << set;
+  }
+}
+
+TEST(InternalForceEnergy, IsHalfTheWorkOfTheForces) {
+  const Mesh mesh = all_blocks();
+  InternalForce force(mesh);
+  force.set_initial_stress(2, some_stress(mesh.blocks[2]));
+  const auto u = samples::random_field(mesh);
+  AlignedVector<double> f(u.size());
+  force.apply(u.data(), f.data());
+  for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
+    const SweptBlock& swept = mesh.blocks[index(block)];
+    double work = 0;
+    for (std::int64_t i = 3 * swept.base; i < 3 * (swept.base + swept.slots()); ++i)
+      work += 0.5 * u[index(i)] * f[index(i)];
+    const DeformationEnergy energy = force.energy(block, u.data());
+    EXPECT_GT(energy.hourglass, 0);
+    EXPECT_NEAR((energy.strain + energy.hourglass) / work, 1, 1e-12);
+  }
+}
+
+TEST(InternalForceDiagonal, IsThatOfTheOperator) {
+  Mesh mesh;
+  SweptBlock open = samples::revolved_open();
+  samples::shift_nodes(open, 1e-3, 0.02);
+  mesh.add(open);
+  mesh.add(samples::extruded());
+  const InternalForce force(mesh);
+  AlignedVector<double> diagonal(index(3 * mesh.slots));
+  force.diagonal(diagonal.data());
+  AlignedVector<double> u(diagonal.size(), 0);
+  AlignedVector<double> f(diagonal.size());
+  for (std::size_t i = 0; i < u.size(); i += 7) {
+    if (diagonal[i] == 0) continue;
+    u[i] = 1;
+    force.apply(u.data(), f.data());
+    u[i] = 0;
+    ASSERT_NEAR(f[i] / diagonal[i], 1, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,151 @@
+// What the user is told when an output cannot be written, and what is left then.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/error.hpp"
+#include "io/history_file.hpp"
+#include "io/output_file.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The message of the error of type E that `action` throws; empty if it throws none.
+template <class E, class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const E& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Stands for a full disk: files of this process cannot grow beyond `bytes`.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+std::string content(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+class OutputErrors : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_output_{}", ::getpid());
+  std::vector<Channel> channels_ = {{"time", "s", ""}, {"vertical_force", "N", ""}};
+};
+
+TEST_F(OutputErrors, MissingFolderIsNamed) {
+  const std::string histories =
+      message_of<ResourceError>([&] { HistoryFile(folder_ / "absent", channels_); });
+  EXPECT_NE(histories.find("absent/run.h5: No such file or directory"), std::string::npos) << histories;
+  const std::string text =
+      message_of<ResourceError>([&] { write_text_file(folder_ / "absent/a.json", "{}"); });
+  EXPECT_NE(text.find("absent/a.json"), std::string::npos) << text;
+}
+
+TEST_F(OutputErrors, FolderWithoutPermissionIsNamed) {
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  const uid_t user = ::geteuid();
+  if (user == 0) {
+    ASSERT_EQ(::seteuid(65534), 0);  // root may write everywhere, nobody may not
+  }
+  const std::string message = message_of<ResourceError>([&] { HistoryFile(folder_, channels_); });
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(folder_, fs::perms::owner_all);
+  EXPECT_NE(message.find("run.h5: Permission denied"), std::string::npos) << message;
+}
+
+TEST_F(OutputErrors, UnreadableHdf5IsAnInputError) {
+  const std::string absent = message_of<InputError>([&] { Hdf5File::open_to_read(folder_ / "a.h5"); });
+  EXPECT_NE(absent.find("a.h5: No such file or directory"), std::string::npos) << absent;
+  write_text_file(folder_ / "text.h5", "not HDF5");
+  const std::string foreign = message_of<InputError>([&] { Hdf5File::open_to_read(folder_ / "text.h5"); });
+  EXPECT_NE(foreign.find("text.h5"), std::string::npos) << foreign;
+
+  Hdf5File::create(folder_ / "empty.h5").close();
+  const Hdf5File empty = Hdf5File::open_to_read(folder_ / "empty.h5");
+  const std::string dataset = message_of<InputError>([&] { empty.read<double>("/histories/time"); });
+  EXPECT_NE(dataset.find("'/histories/time'"), std::string::npos) << dataset;
+  EXPECT_NE(dataset.find("empty.h5"), std::string::npos) << dataset;
+}
+
+/// Appends rows of the given values until the disk is full; returns the message and checks what is left.
+std::string fill_disk(const fs::path& folder, const std::vector<Channel>& channels, double scale) {
+  std::string message;
+  std::int64_t kept = 0;
+  {
+    HistoryFile histories(folder, channels);
+    const FileSizeLimit limit(60'000);
+    message = message_of<ResourceError>([&] {
+      for (int i = 0; i < 100'000; ++i) histories.append(std::array{scale * i / 3e5, scale / (i + 1)});
+    });
+    kept = histories.rows_written();
+  }
+  EXPECT_NE(message.find(fmt::format("{} rows, up to time = ", kept)), std::string::npos) << message;
+  EXPECT_NE(message.find("kept in " + (folder / "histories.csv").string()), std::string::npos) << message;
+
+  const std::string csv = content(folder / "histories.csv");
+  EXPECT_EQ(csv.back(), '\n');
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kept + 1);
+  EXPECT_GT(kept, 500);
+  const Hdf5File run = Hdf5File::open_to_read(folder / "run.h5");
+  EXPECT_GE(static_cast<std::int64_t>(run.read<double>("/histories/time").size()),
+            kept - static_cast<std::int64_t>(HistoryFile::kBlock));
+  return message;
+}
+
+TEST_F(OutputErrors, FullDiskKeepsWholeRowsOfTheCsvFile) {
+  const std::string message = fill_disk(folder_, channels_, 1.0);  // long numbers: more than 16 B a row
+  EXPECT_NE(message.find("histories.csv: File too large"), std::string::npos) << message;
+}
+
+TEST_F(OutputErrors, FullDiskLeavesAnHdf5FileThatOpens) {
+  const std::string message = fill_disk(folder_, channels_, 0.0);  // "0,0": less than 16 B a row
+  EXPECT_NE(message.find("run.h5"), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+}
+
+TEST_F(OutputErrors, AFileThatCannotBeReplacedStays) {
+  const fs::path path = folder_ / "summary.json";
+  write_text_file(path, "old");
+  std::string message;
+  {
+    const FileSizeLimit limit(1000);
+    message = message_of<ResourceError>([&] { write_text_file(path, std::string(5000, 'x')); });
+  }
+  EXPECT_NE(message.find("summary.json"), std::string::npos) << message;
+  EXPECT_NE(message.find("File too large"), std::string::npos) << message;
+  EXPECT_EQ(content(path), "old");
+  EXPECT_FALSE(fs::exists(path.string() + ".part"));
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,400 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/problems.hpp"
+#include "io/scene_checks.hpp"
+#include "io/scene_reader.hpp"
+#include "io/table_reader.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBase = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
+
+std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    resolve_scene(SceneSource{"x.toml", text, "/nowhere"}, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+struct Case {
+  std::string text;     ///< follows kBase, so that its first line is line 3
+  std::string message;  ///< the whole message
+};
+
+void expect_messages(const std::vector<Case>& cases) {
+  for (const Case& c : cases) EXPECT_EQ(error_of(kBase + c.text), c.message);
+}
+
+void expect_part(const std::string& whole, const std::string& part) {
+  EXPECT_NE(whole.find(part), std::string::npos) << "missing: " << part << "\nin: " << whole;
+}
+
+TEST(SceneErrors, Names) {
+  expect_messages({
+      {"[rail]\nlenght = \"3 m\"", "x.toml:4:1: rail.lenght: unknown key (did you mean rail.length?)"},
+      {"[rail]\n  friction = 0.4", "x.toml:4:3: rail.friction: unknown key (did you mean contact.friction?)"},
+      {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
+      {"[material.stel]", "x.toml:3:11: material.stel: unknown table (did you mean material.steel?)"},
+      {"[vehicle]\ncolour = \"red\"",
+       "x.toml:4:1: vehicle.colour: unknown key (known: sprung_mass, unsprung_mass, suspension_stiffness, "
+       "suspension_damping, present)"},
+      {"[motion]\ntraction = { mue = 0.3 }",
+       "x.toml:4:14: motion.traction.mue: unknown key (did you mean motion.traction.mu?)"},
+  });
+  expect_part(error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
+              "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014), got "
+              "the string");
+}
+
+TEST(SceneErrors, Types) {
+  expect_messages({
+      {"[rail]\nlength = 15.2",
+       "x.toml:4:1: rail.length: 15.2 has no unit; expected a length, such as \"15.2 m\" (units: m, cm, mm, "
+       "um, km)"},
+      {"[rail]\nlength = \"15.2 kg\"",
+       "x.toml:4:1: rail.length: \"15.2 kg\" is a mass; expected a length, such as \"15.2 m\" (units: m, cm, "
+       "mm, um, "
+       "km)"},
+      {"[rail]\nlength = [1]",
+       "x.toml:4:1: rail.length: got an array; expected a length, such as \"1 m\" (units: m, cm, mm, um, "
+       "km)"},
+      {"[rail]\nlength = nan",
+       "x.toml:4:1: rail.length: got the number nan; expected a length, such as \"1 m\" (units: m, cm, mm, "
+       "um, km)"},
+      {"[rail]\nprofile = 60", "x.toml:4:1: rail.profile: expected a string in quotes, got the number 60"},
+      {"[contact]\nfriction = \"0.5\"",
+       "x.toml:4:1: contact.friction: expected a number without quotes, got the string \"0.5\""},
+      {"[contact]\nfriction = inf", "x.toml:4:1: contact.friction: the number must be finite"},
+      {"[fastenings]\ncount = 23.5",
+       "x.toml:4:1: fastenings.count: expected a whole number without quotes, got the number 23.5"},
+      {"[fastenings]\ncount = 99999999999", "x.toml:4:1: fastenings.count: 99999999999 is too large"},
+      {"[motion]\nspin_in_preload = 1",
+       "x.toml:4:1: motion.spin_in_preload: expected true or false without quotes, got the number 1"},
+      {"[slab]\npresent = \"no\"",
+       "x.toml:4:1: slab.present: expected true or false without quotes, got the string \"no\""},
+      {"[motion]\ntraction = 0.3",
+       "x.toml:4:1: motion.traction: expected a table with keys among mu, torque, ramp; got the number 0.3"},
+      {"[rail.length]\nvalue = 3",
+       "x.toml:3:7: rail.length: got a table; expected a length, such as \"1 m\" (units: m, cm, mm, um, km)"},
+      {"[wheel]\nprofile = \"LMAA\"",
+       "x.toml:4:1: wheel.profile: \"LMAA\" is unknown; did you mean \"LMA\"? choose from: LMA, arc, "
+       "cylinder, or a "
+       "file"},
+      {"[corrugation]\nkind = \"square\"",
+       "x.toml:4:1: corrugation.kind: \"square\" is unknown; choose from: sine, table"},
+      {"[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = 1e-8 }",
+       "x.toml:4:1: material.steel.damping: 1e-08 has no unit; expected a time, such as \"1e-08 s\" (units: "
+       "s, ms, us, "
+       "min, h)"},
+  });
+  expect_part(error_of("rail = \"none\""), "x.toml:1:1: rail: expected a table with keys among profile,");
+  expect_part(error_of("rail = \"none\""), "(to leave it out, write rail.present = false)");
+  expect_part(error_of(kBase + "[material.steel]\ndamping = 1e-4"),
+              "expected { kind = \"high_frequency_fraction\"");
+  expect_part(error_of(kBase + "[material.steel]\ndamping = { kind = \"viscous\", value = 1 }"),
+              "kind \"viscous\"");
+  expect_part(error_of(kBase + "[material.steel]\ndamping = { kind = \"rayleigh_beta\" }"),
+              "expected { kind");
+}
+
+TEST(SceneErrors, Ranges) {
+  expect_messages({
+      {"[fastenings]\nstiffness = \"-22 MN/m\"",
+       "x.toml:4:1: fastenings.stiffness: -22 MN/m is not allowed; it must be above 0 MN/m and at most 10000 "
+       "MN/m"},
+      {"[vehicle]\nsprung_mass = \"0 kg\"",
+       "x.toml:4:1: vehicle.sprung_mass: 0 kg is not allowed; it must be above 0 kg and at most 100000 kg"},
+      {"[material.slab]\npoissons_ratio = 0.5",
+       "x.toml:4:1: material.slab.poissons_ratio: 0.5 is not allowed; it must be at least 0 and below 0.5"},
+      {"[material.slab]\nyoungs_modulus = \"0 GPa\"",
+       "x.toml:4:1: material.slab.youngs_modulus: 0 GPa is not allowed; it must be above 0 GPa and at most "
+       "10000 GPa"},
+      {"[rail]\ninclination = \"1:2\"",
+       "x.toml:4:1: rail.inclination: 0.5 is not allowed; it must be at least 0 and at most 0.1"},
+      {"[fastenings]\ncount = 0",
+       "x.toml:4:1: fastenings.count: 0 is not allowed; it must be at least 1 and at most 10000"},
+      {"[motion]\nduration = \"-1 ms\"",
+       "x.toml:4:1: motion.duration: -0.001 s is not allowed; it must be above 0 s and at most 100 s"},
+  });
+}
+
+TEST(SceneErrors, PartsThatDoNotFit) {
+  expect_messages({
+      {"[corrugation]\nstart = \"30 m\"",
+       "x.toml:4:1: corrugation.start: the corrugation, x = 30 m to 30.56 m, is not on the rail, -6.1 m to "
+       "9.1 m"},
+      {"[corrugation]\nstart = \"2.5 m\"",
+       "x.toml:4:1: corrugation.start: the corrugation, x = 2.5 m to 3.06 m, is not inside the solution "
+       "zone, 2.4 m to "
+       "3 m"},
+      {"[corrugation]\nwavelength = \"0.7 m\"",
+       "x.toml:4:1: corrugation.wavelength: not one wave fits into the corrugation's length"},
+      {"[solution_zone]\nstart = \"9 m\"",
+       "x.toml:4:1: solution_zone.start: the solution zone, x = 9 m to 9.6 m, is not inside the track, -6.1 "
+       "m to 9.1 "
+       "m"},
+      {"[motion]\nduration = \"0.2 s\"",
+       "x.toml:4:1: motion.duration: the wheel rolls to x = 16.6667 m, beyond 9.08 m, where it is 0.02 m "
+       "from the "
+       "rail's end"},
+      {"[rail]\norigin = \"0 m\"",
+       "x.toml:4:1: rail.origin: the wheel starts less than 0.02 m from the rail's left end"},
+      {"[fastenings]\ncount = 25",
+       "x.toml:4:1: fastenings.count: the last fastening's pad ends at 15.81 m, beyond the rail of 15.2 m"},
+      {"[fastenings]\nfirst = \"0.05 m\"",
+       "x.toml:4:1: fastenings.first: the first fastening's pad begins before the rail's left end"},
+      {"[fastenings]\npad_length = \"0.7 m\"\nfirst = \"0.4 m\"\ncount = 10",
+       "x.toml:4:1: fastenings.pad_length: the pads of neighbouring fastenings overlap"},
+      {"[slab]\ngap = \"7 m\"",
+       "x.toml:4:1: slab.gap: the gap is not shorter than the pitch of slab and gap together"},
+      {"[motion]\ntraction = { mu = 0.3, torque = \"3 kN m\" }",
+       "x.toml:4:24: motion.traction.torque: state the traction by mu or by torque, not both"},
+      {"[motion]\ntraction = { mu = -0.6 }",
+       "x.toml:4:14: motion.traction.mu: a traction coefficient of -0.6 cannot be reached with the "
+       "coefficient of "
+       "friction 0.5"},
+      {"[wheel]\nshape = \"tyre\"", "x.toml:4:1: wheel.shape: a tyre has the profile arc or cylinder"},
+      {"[wheel]\nprofile = \"arc\"",
+       "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA or a file"},
+  });
+}
+
+TEST(SceneErrors, ComponentsThatLackOthers) {
+  expect_messages({
+      {"[load]\nwheel_load = \"80 kN\"",
+       "x.toml:3:2: load: a wheel carries a vehicle or a load; leave one out, for example with "
+       "vehicle.present = "
+       "false"},
+      {"[contact]\npresent = false",
+       "2 problems\nx.toml: wheel: wheel and rail need [contact]\n"
+       "x.toml: motion: motion needs [wheel], [rail] and [contact], or [pulse]"},
+      {"[fastenings]\npresent = false",
+       "2 problems\nx.toml: slab: a slab needs fastenings; add [fastenings]\n"
+       "x.toml: rail.support: the rail stands on fastenings; add [fastenings], or "
+       "state rail.support = \"rigid\" or \"free\""},
+      {"[rail]\nsupport = \"rigid\"",
+       "x.toml:4:1: rail.support: a rail with support = \"rigid\" has no fastenings; "
+       "state fastenings.present = false"},
+      {"[material.steel]\npresent = false", "x.toml:3:11: material.steel: the wheel needs [material.steel]"},
+      {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
+       "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
+  });
+  EXPECT_EQ(error_of(""),
+            "x.toml: scene.based_on: the scene is empty; add [wheel] or [rail], or scene.based_on = "
+            "\"highspeed-slab-2014\"");
+  expect_part(
+      error_of("[material.steel]\ndensity = \"7790 kg/m3\"\npoissons_ratio = 0.3\n[wheel]\n[vehicle]"),
+      "x.toml:1:11: material.steel.youngs_modulus: is missing; [material.steel] needs a stress");
+  expect_part(error_of("[vehicle]"), "x.toml:1:2: vehicle: a vehicle needs a wheel; add [wheel]");
+}
+
+TEST(SceneErrors, KeysWithoutEffect) {
+  expect_messages({
+      {"[rail]\nwidth = \"60 mm\"", "x.toml:4:1: rail.width: has an effect only with rail.profile = \"box\""},
+      {"[slab]\npresent = false\nwidth = \"1 m\"",
+       "x.toml:5:1: slab.width: has no effect, because slab.present = "
+       "false"},
+      {"[slab]\npresent = false\n[material.mortar]\ndensity = \"1600 kg/m3\"",
+       "x.toml:5:11: material.mortar: has no effect without [slab]"},
+      {"[corrugation]\nkind = \"table\"\ndepth = \"1 mm\"",
+       "2 problems\nx.toml:3:2: corrugation.file: is missing; [corrugation] needs a value: File of two "
+       "columns, x from "
+       "the start and depth positive downwards, after a line such as `# x [m]  d [mm]`\n"
+       "x.toml:5:1: corrugation.depth: has an effect only with corrugation.kind = \"sine\""},
+  });
+}
+
+TEST(SceneErrors, AllInOnePassInTheOrderOfTheFile) {
+  const std::string text = kBase +
+                           "[rail]\nlenght = \"3 m\"\norigin = 6.1\n"
+                           "[fastenings]\nstiffness = \"-1 MN/m\"\n"
+                           "[motion]\nduration = \"1 s\"\n";
+  EXPECT_EQ(
+      error_of(text, {"motion.sped=3 m/s"}),
+      "4 problems\n"
+      "--set: motion.sped: unknown key (did you mean motion.speed?)\n"
+      "x.toml:4:1: rail.lenght: unknown key (did you mean rail.length?)\n"
+      "x.toml:5:1: rail.origin: 6.1 has no unit; expected a length, such as \"6.1 m\" (units: m, cm, mm, um, "
+      "km)\n"
+      "x.toml:7:1: fastenings.stiffness: -1 MN/m is not allowed; it must be above 0 MN/m and at most 10000 "
+      "MN/m");
+}
+
+TEST(SceneErrors, AMisspeltTableIsNotAlsoReportedAsMissing) {
+  EXPECT_EQ(error_of("[whel]\n[rail]\nprofile = \"box\"\nsupport = \"rigid\"\n[contact]\n[motion]\n"),
+            "x.toml:1:2: whel: unknown table (did you mean wheel?)");
+}
+
+TEST(SceneErrors, Overrides) {
+  EXPECT_EQ(error_of(kBase, {"motion.speed=250"}),
+            "--set: motion.speed: \"250\" has no unit; expected a speed, such as \"250 m/s\" (units: m/s, "
+            "mm/s, km/h)");
+  expect_part(error_of(kBase, {"motion.speed"}), "--set: \"motion.speed\" is not of the form key=value");
+  expect_part(error_of(kBase, {"=3"}), "is not of the form key=value");
+  EXPECT_EQ(error_of(kBase, {"motion.duration=1 s"}).substr(0, 24), "--set: motion.duration: ");
+  expect_part(error_of(kBase, {"motion.traction={mu=0.3, rmp=1}"}),
+              "--set: motion.traction.rmp: unknown key");
+  expect_part(error_of(kBase, {"contact.friction=high"}),
+              "expected a number without quotes, got the string \"high\"");
+}
+
+TEST(SceneErrors, Syntax) {
+  expect_part(error_of("[rail]\nlength = = 3\n"), "x.toml:2:10: ");
+  expect_part(error_of("[rail]\nlength = \"3 m\"\nlength = \"4 m\"\n"), "x.toml:3:");
+  expect_part(error_of("[rail\n"), "x.toml:1:");
+  EXPECT_EQ(error_of("a" + std::string(400000, '.')), "x.toml:1: the line has more than 2000 bytes");
+  expect_part(error_of("a = " + std::string(1000, '[')), "x.toml:1:");
+  EXPECT_EQ(error_of("[scene]\n[\\x]\n[rail]\n"), "x.toml:2: the line is not valid TOML");
+  expect_part(error_of("[rail]\nlength = \"\xff\xfe\"\n"), "x.toml:2:");
+}
+
+TEST(SceneErrors, ThousandsOfProblemsAreListedInShort) {
+  std::string text;
+  for (int i = 0; i < 50000; ++i) text += "key" + std::to_string(i) + " = 1\n";
+  const auto start = std::chrono::steady_clock::now();
+  const std::string message = error_of(text);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(message.substr(0, 15), "50000 problems\n");
+  EXPECT_LT(std::count(message.begin(), message.end(), '\n'), 60);
+}
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+
+  static std::string scene_error(const fs::path& path) {
+    try {
+      read_scene(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  static std::string table_error(const fs::path& path, const TableRules& rules) {
+    try {
+      read_two_columns(path, rules);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / "tread_scene_errors";
+};
+
+TEST_F(Files, ThatCannotBeRead) {
+  EXPECT_EQ(scene_error(folder_ / "none.toml"),
+            "cannot read " + (folder_ / "none.toml").string() + ": No such file or directory");
+  expect_part(scene_error(folder_), "it is a directory, not a file");
+  expect_part(scene_error("/dev/null"), "it is not a regular file");
+  expect_part(scene_error(write("big.toml", std::string(2 << 20, '\n'))), "more than the limit of 1048576");
+  expect_part(scene_error(write("binary.toml", std::string("a\0b", 3))), "it is a binary file, not text");
+  const fs::path secret = write("secret.toml", "[rail]\n");
+  fs::permissions(secret, fs::perms::none);
+  if (geteuid() != 0) expect_part(scene_error(secret), "Permission denied");
+}
+
+TEST_F(Files, NamedInAScene) {
+  const std::string corrugation = kBase + "[corrugation]\nkind = \"table\"\nfile = \"depth.txt\"\n";
+  const fs::path scene = write("scene.toml", corrugation);
+  const std::string place = scene.string() + ":5:1: corrugation.file: ";
+  EXPECT_EQ(scene_error(scene),
+            place + "cannot read " + (folder_ / "depth.txt").string() + ": No such file or directory");
+  const fs::path table = write("depth.txt", "# x [m]  d [mm]\n0 0\n0.1 x\n");
+  EXPECT_EQ(scene_error(scene), table.string() + ":3: \"x\" is not a number");
+  write("depth.txt", "# x [m]  d [mm]\n0 0\n0.7 0.1\n");
+  EXPECT_EQ(scene_error(scene), place +
+                                    "the corrugation, x = 2.4 m to 3.1 m, is not inside the solution zone, "
+                                    "2.4 m to 3 m");
+  expect_part(scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n")),
+              "wheel.toml:4:1: wheel.profile: cannot read");
+}
+
+TEST_F(Files, TablesOfTwoColumns) {
+  const TableRules corrugation{.needs_units = true, .increasing = true};
+  const struct {
+    std::string text;
+    std::string message;
+  } cases[] = {
+      {"0 0\n1 1\n", ":1: the units are missing: put a line such as \"# x [m]  d [mm]\" before the numbers"},
+      {"# x [m] d [kg]\n0 0\n1 1\n", ":1: [kg] is not a length (units: m, cm, mm, um, km)"},
+      {"# x [m] d [inch]\n", ":1: unknown unit \"inch\""},
+      {"# x [m] d [mm]\n0 0\n1 2 3\n", ":3: expected 2 numbers, found 3 columns"},
+      {"# x [m] d [mm]\n0 0\n1\n", ":3: expected 2 numbers, found 1 columns"},
+      {"# x [m] d [mm]\n0 0\n0 1\n", ":3: the first column must grow from row to row"},
+      {"# x [m] d [mm]\n0 0\n1 nan\n", ":3: \"nan\" is not finite"},
+      {"# x [m] d [mm]\n0 0\n1 1e999\n", ":3: \"1e999\" is too large or too small"},
+      {"# x [m] d [mm]\n0 0\n1 2mm\n", ":3: \"2mm\" is not a number"},
+      {"# x [m] d [mm]\n0 0\n", ": expected at least two rows of numbers"},
+      {"", ": expected at least two rows of numbers"},
+  };
+  for (const auto& c : cases) {
+    const fs::path path = write("table.txt", c.text);
+    expect_part(table_error(path, corrugation), path.string() + c.message);
+  }
+  expect_part(table_error(write("table.txt", std::string("0 0\n\0", 5)), {}),
+              "it is a binary file, not text");
+  expect_part(table_error(folder_, {}), "it is a directory");
+}
+
+TEST_F(Files, IdenticalProblemsAreCounted) {
+  std::string text = "# x [m] d [mm]\n";
+  for (int i = 0; i < 300; ++i) text += "1 2 3\n";
+  const fs::path path = write("table.txt", text);
+  EXPECT_EQ(table_error(path, {.needs_units = true}),
+            "300 problems\n" + path.string() + ":2: expected 2 numbers, found 3 columns (300 times)");
+}
+
+TEST_F(Files, ProfilesAreInMillimetresUnlessTheySayOtherwise) {
+  EXPECT_EQ(read_two_columns(write("a.txt", "1;2\n0.5\t-3\n"), {}).second,
+            (std::vector<double>{2e-3, -3e-3}));
+  EXPECT_EQ(read_two_columns(write("b.txt", "y [m], z [cm]\n1,2\n0,3\n"), {}).second,
+            (std::vector<double>{2e-2, 3e-2}));
+}
+
+TEST(SceneErrors, ProblemsCanBeReadOneByOne) {
+  try {
+    resolve_scene(SceneSource{"x.toml", kBase + "[rail]\nlenght = 3\norigin = 4\n", "."});
+    FAIL();
+  } catch (const ProblemsError& error) {
+    ASSERT_EQ(error.problems.size(), 2u);
+    EXPECT_EQ(error.problems[0].key, "rail.lenght");
+    EXPECT_EQ(error.problems[1].line, 5);
+    EXPECT_EQ(error.code(), ExitCode::input);
+  }
+}
+
+TEST(SceneErrors, ValidateChecksScenesBuiltInCode) {
+  Scene scene;
+  scene.rail = RailSpec{};
+  scene.rail->support = "free";
+  scene.steel = {"steel", 205.9e9, 0.3, 7790, 0};
+  EXPECT_TRUE(validate(scene).empty());
+  scene.steel.density = -1;
+  ASSERT_EQ(validate(scene).size(), 1u);
+  EXPECT_EQ(validate(scene)[0].keys.front(), "material.steel.density");
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,227 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernels/element_body.hpp"
+#include "kernels/front_plan.hpp"
+#include "tests/swept_samples.hpp"
+
+namespace tread {
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+HexNodes distorted_hexahedron() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-0.2, 0.2);
+  HexNodes nodes;
+  for (int node = 0; node < 8; ++node)
+    nodes[index(node)] = {mode_value(mode_xi, node) + shift(random), 2 * mode_value(mode_eta, node) + shift(random),
+                          3 * mode_value(mode_zeta, node) + shift(random)};
+  return nodes;
+}
+
+TEST(ElementGeometry, ParallelepipedHasItsVolumeAndEqualShares) {
+  HexNodes nodes;
+  for (int node = 0; node < 8; ++node) {
+    const double xi = mode_value(mode_xi, node);
+    const double eta = mode_value(mode_eta, node);
+    const double zeta = mode_value(mode_zeta, node);
+    nodes[index(node)] = {xi + 0.3 * eta, 2 * eta + 0.1 * zeta, 3 * zeta + 0.2 * xi};
+  }
+  const ElementGeometry shape = element_geometry(nodes);
+  const double volume = 8 * (1 * (2 * 3) - 0.3 * (0 * 3 - 0.1 * 0.2));
+  EXPECT_NEAR(shape.volume, volume, 1e-13 * volume);
+  EXPECT_NEAR(shape.smallest_jacobian, 1, 1e-13);
+  for (const double share : shape.nodal_volume) EXPECT_NEAR(share, volume / 8, 1e-13 * volume);
+}
+
+TEST(ElementGeometry, GradientOfALinearFieldIsExact) {
+  const HexNodes nodes = distorted_hexahedron();
+  const ElementGeometry shape = element_geometry(nodes);
+  const Vec3 slope = {0.3, -0.7, 1.1};
+  for (int j = 0; j < 3; ++j) {
+    double gradient = 0;
+    for (int m = 0; m < kGradientModes; ++m) {
+      double amplitude = 0;
+      for (int node = 0; node < 8; ++node)
+        amplitude += mode_value(static_cast<Mode>(m), node) * (4 + dot(slope, nodes[index(node)]));
+      gradient += amplitude * shape.gradient[index(m)][index(j)];
+    }
+    EXPECT_NEAR(gradient, slope[j], 1e-14);
+  }
+}
+
+TEST(ElementGeometry, VolumeGrowsByTheIntegralOfTheShapeFunctionsGradient) {
+  // dV/dx_I = b_I: a central difference is exact because V is linear in each coordinate.
+  const HexNodes nodes = distorted_hexahedron();
+  const ElementGeometry shape = element_geometry(nodes);
+  for (int node = 0; node < 8; ++node)
+    for (int j = 0; j < 3; ++j) {
+      HexNodes ahead = nodes;
+      HexNodes behind = nodes;
+      ahead[index(node)][j] += 0.1;
+      behind[index(node)][j] -= 0.1;
+      double b = 0;
+      for (int m = 0; m < kGradientModes; ++m)
+        b += mode_value(static_cast<Mode>(m), node) * shape.gradient[index(m)][index(j)] * shape.volume;
+      EXPECT_NEAR((element_geometry(ahead).volume - element_geometry(behind).volume) / 0.2, b, 1e-13 * shape.volume);
+    }
+}
+
+TEST(ElementGeometry, TurnedInsideOutIsSeen) {
+  HexNodes nodes = distorted_hexahedron();
+  nodes[6] = -0.5 * nodes[6];
+  EXPECT_LT(element_geometry(nodes).smallest_jacobian, 0);
+  std::swap(nodes[0], nodes[4]);
+  std::swap(nodes[1], nodes[5]);
+  std::swap(nodes[2], nodes[6]);
+  std::swap(nodes[3], nodes[7]);
+  EXPECT_LT(element_geometry(nodes).volume, 0);
+}
+
+class SweptSymmetry : public testing::TestWithParam<Sweep> {
+ protected:
+  SweptSymmetry()
+      : section_(samples::grid_section({3, 2, 0.01, 0.05, 0.03, 0.02, 0.25})),
+        nodes_(swept_nodes(section_, 3, GetParam(), 0.3)),
+        shape_(element_geometry(nodes_)) {}
+
+  Section section_;
+  HexNodes nodes_;
+  ElementGeometry shape_;
+};
+
+TEST_P(SweptSymmetry, LeavesTheCoefficientsThatTheKernelUses) {
+  const double scale = norm(shape_.gradient[mode_eta]) + norm(shape_.gradient[mode_xi]);
+  for (const Mode mode : {mode_eta, mode_zeta, mode_h1}) EXPECT_NEAR(shape_.gradient[mode].x, 0, 1e-14 * scale);
+  for (const Mode mode : {mode_xi, mode_h2, mode_h3})
+    for (const int j : {1, 2}) EXPECT_NEAR(shape_.gradient[mode][j], 0, 1e-14 * scale);
+  EXPECT_NEAR(shape_.position[mode_h1].x, 0, 1e-15);
+  for (const Mode mode : {mode_h2, mode_h3, mode_h4})
+    for (const int j : {1, 2}) EXPECT_NEAR(shape_.position[mode][j], 0, 1e-15);
+  if (GetParam() == Sweep::extruded) {
+    for (const int j : {1, 2}) EXPECT_NEAR(shape_.gradient[mode_h1][j], 0, 1e-14 * scale);
+    for (const Mode mode : {mode_h2, mode_h3, mode_h4}) EXPECT_NEAR(shape_.position[mode].x, 0, 1e-15);
+  } else {
+    EXPECT_GT(std::abs(shape_.gradient[mode_h1].y), 1e-6 * scale);
+    EXPECT_GT(std::abs(shape_.position[mode_h2].x), 1e-6);
+  }
+}
+
+TEST_P(SweptSymmetry, HourglassConstantsHoldTheWholeMatrix) {
+  const HourglassMatrix matrix = hourglass_matrix(nodes_, shape_.volume, samples::steel());
+  const auto constants = swept_constants<double>(shape_, matrix, samples::steel());
+  double scale = 0;
+  for (std::size_t i = 0; i < 12; ++i) scale = std::max(scale, matrix[i][i]);
+  for (int column = 0; column < 12; ++column) {
+    Strain<double> strain{};
+    Strain<double> force{};
+    strain.q[column / 4][column % 4] = 1;
+    hourglass_forces(constants.hourglass, strain, force);
+    for (int row = 0; row < 12; ++row) {
+      EXPECT_NEAR(force.q[row / 4][row % 4], matrix[index(row)][index(column)], 1e-14 * scale) << row << " " << column;
+      EXPECT_NEAR(matrix[index(row)][index(column)], matrix[index(column)][index(row)], 1e-14 * scale);
+    }
+  }
+}
+
+TEST_P(SweptSymmetry, PerturbedBodyGivesTheSameStrains) {
+  const auto constants =
+      swept_constants<double>(shape_, hourglass_matrix(nodes_, shape_.volume, samples::steel()), samples::steel());
+  LanePositions<double> lanes{};
+  for (std::size_t m = 0; m < kModes; ++m)
+    for (int j = 0; j < 3; ++j) lanes.position[m][j][3] = shape_.position[m][j];
+  const double a[kModes] = {1, 2, -3, 4, 5, -6, 7};
+  Strain<double> swept{};
+  Strain<double> perturbed{};
+  if (GetParam() == Sweep::revolved)
+    SweptElement<Sweep::revolved, double>{constants}.strain(0, a, swept);
+  else
+    SweptElement<Sweep::extruded, double>{constants}.strain(0, a, swept);
+  const PerturbedElement<double, double> element(lanes, 3, constants);
+  element.strain(0, a, perturbed);
+  EXPECT_NEAR(element.volume_ratio, 1, 1e-14);
+  for (int j = 0; j < 3; ++j) EXPECT_NEAR(swept.g[0][j], perturbed.g[0][j], 1e-12 * std::abs(swept.g[0][0]));
+  for (int m = 0; m < kHourglassModes; ++m) EXPECT_NEAR(swept.q[0][m], perturbed.q[0][m], 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sweeps, SweptSymmetry, testing::Values(Sweep::extruded, Sweep::revolved),
+                         [](const auto& sweep) { return sweep.param == Sweep::extruded ? "extruded" : "revolved"; });
+
+TEST(ElementBody, ModesAreTheSumsOverTheNodes) {
+  const double u[8] = {1, -2, 3, 5, -7, 11, 13, -17};
+  double s[4];
+  double d[4];
+  double a[kModes];
+  for (int j = 0; j < 4; ++j) {
+    s[j] = u[j + 4] + u[j];
+    d[j] = u[j + 4] - u[j];
+  }
+  to_modes(s, d, a);
+  for (int m = 0; m < kModes; ++m) {
+    double sum = 0;
+    for (int node = 0; node < 8; ++node) sum += mode_value(static_cast<Mode>(m), node) * u[node];
+    EXPECT_EQ(a[m], sum) << m;
+  }
+}
+
+TEST(ElementBody, BackwardStagesAreTransposes) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> value(-1, 1);
+  double s[4], d[4], s_back[4], d_back[4], a[kModes], b[kModes];
+  for (int j = 0; j < 4; ++j) {
+    s[j] = value(random);
+    d[j] = value(random);
+  }
+  for (double& x : b) x = value(random);
+  to_modes(s, d, a);
+  from_modes(b, s_back, d_back);
+  double forward = 0;
+  double backward = 0;
+  for (int m = 0; m < kModes; ++m) forward += a[m] * b[m];
+  for (int j = 0; j < 4; ++j) backward += s[j] * s_back[j] + d[j] * d_back[j];
+  EXPECT_NEAR(forward, backward, 1e-14);
+
+  double sum[3], difference[3], sum_force[3], difference_force[3];
+  double work = 0;
+  for (int i = 0; i < 3; ++i) {
+    sum[i] = value(random);
+    difference[i] = value(random);
+    sum_force[i] = value(random);
+    difference_force[i] = value(random);
+  }
+  double turned_sum[3], turned_difference[3];
+  std::copy_n(sum, 3, turned_sum);
+  std::copy_n(difference, 3, turned_difference);
+  turn_to_middle(std::cos(0.1), std::sin(0.1), turned_sum, turned_difference);
+  for (int i = 0; i < 3; ++i) work += turned_sum[i] * sum_force[i] + turned_difference[i] * difference_force[i];
+  turn_to_nodes(std::cos(0.1), std::sin(0.1), sum_force, difference_force);
+  for (int i = 0; i < 3; ++i) work -= sum[i] * sum_force[i] + difference[i] * difference_force[i];
+  EXPECT_NEAR(work, 0, 1e-14);
+}
+
+TEST(FrontPlan, OpensAndClosesEveryNodeOnceAroundItsQuads) {
+  const Section section = samples::grid_section({17, 9, 0, 0, 1.7, 0.9, 0});
+  const FrontPlan plan = make_front_plan(section);
+  std::vector<int> node_in(index(plan.slots), -1);
+  std::vector<int> closings(section.p.size(), 0);
+  int opened = 0;
+  int closed = 0;
+  for (const FrontPlan::Quad& entry : plan.quads) {
+    for (; opened < entry.opened; ++opened) node_in[index(plan.open[index(opened)].slot)] = plan.open[index(opened)].node;
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_EQ(node_in[index(entry.slot[j])], section.quads[index(entry.quad)][j]);
+    for (; closed < entry.closed; ++closed) {
+      const auto [node, slot] = plan.close[index(closed)];
+      EXPECT_EQ(node_in[index(slot)], node);
+      ++closings[index(node)];
+    }
+  }
+  for (const int count : closings) EXPECT_EQ(count, 1);
+  EXPECT_LE(plan.slots, 13);
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "io/report.hpp"
+#include "io/report/markup.hpp"
+
+namespace tread {
+namespace {
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Chart, ThinningKeepsEveryPeak) {
+  std::vector<double> values(449438, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(1e-4 * static_cast<double>(i));
+  values[123456] = 193.19;
+  values[123457] = -3.02;
+  const std::vector<std::size_t> kept = thinned(values, 1000);
+  EXPECT_LE(kept.size(), 2002U);
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+  EXPECT_EQ(std::adjacent_find(kept.begin(), kept.end()), kept.end());
+  EXPECT_EQ(kept.front(), 0U);
+  EXPECT_EQ(kept.back(), values.size() - 1);
+  EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 123456U));
+  EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 123457U));
+}
+
+TEST(Chart, ThinningKeepsGaps) {
+  std::vector<double> values(5000, 1.0);
+  values[2500] = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::size_t> kept = thinned(values, 100);
+  EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 2500U));
+}
+
+TEST(Chart, ShortSeriesAreNotThinned) {
+  EXPECT_EQ(thinned(std::vector<double>(200), 100).size(), 200U);
+}
+
+TEST(Chart, TicksAreRound) {
+  EXPECT_EQ(ticks(0, 10, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(ticks(-0.5, 1.2, 4), (std::vector<double>{-0.5, 0, 0.5, 1}));
+  const std::vector<double> odd = ticks(2.31, 2.97, 7);
+  EXPECT_NEAR(odd.front(), 2.4, 1e-12);
+  EXPECT_NEAR(odd.back(), 2.9, 1e-12);
+}
+
+Figure one_curve(std::vector<double> x, std::vector<double> y) {
+  Figure figure;
+  figure.title = "F_N < 200 kN";
+  figure.panels = {{"Force [kN]", {{"F_N", std::move(x), std::move(y)}}, {}, 200, std::nullopt}};
+  return figure;
+}
+
+TEST(Chart, CurveLandsOnThePageGeometry) {
+  const std::string html = figure_html(one_curve({0, 1, 2}, {0, 100, 50}));
+  // Left and right edges of the plot, its bottom (0) and its top (100).
+  EXPECT_NE(html.find("d=\"M72.00 218.00L489.00 18.00L906.00 118.00\""), std::string::npos) << html;
+  EXPECT_NE(html.find("F<sub>N</sub> &lt; 200 kN"), std::string::npos);
+}
+
+TEST(Chart, ValuesThatAreNotFiniteBreakTheLine) {
+  const std::string html = figure_html(one_curve({0, 1, 2, 3, 4}, {0, 1, std::nan(""), 1, 0}));
+  const std::size_t path = html.rfind("<path class=\"curve c0 solid\"");
+  EXPECT_EQ(count(html.substr(path, html.find("/>", path) - path), "M"), 2U);
+  EXPECT_EQ(count(html, "nan"), 0U);
+}
+
+TEST(Chart, EmptyAndConstantCurvesAreDrawn) {
+  EXPECT_EQ(count(figure_html(one_curve({}, {})), "nan"), 0U);
+  EXPECT_EQ(count(figure_html(one_curve({1}, {3e6})), "nan"), 0U);
+  EXPECT_EQ(count(figure_html(Figure{}), "nan"), 0U);
+  EXPECT_THROW(figure_html(one_curve({1, 2}, {1})), std::logic_error);
+}
+
+TEST(Markup, NumbersAreReadable) {
+  EXPECT_EQ(readable(193.19), "193.2");
+  EXPECT_EQ(readable(3.02), "3.02");
+  EXPECT_EQ(readable(999.96), "1000");
+  EXPECT_EQ(readable(-0.276), "−0.276");
+  EXPECT_EQ(readable(8.9e-8), "8.9×10⁻⁸");
+  EXPECT_EQ(readable(1460000), "1460000");
+  EXPECT_EQ(readable(205.9e9), "2.059×10¹¹");
+  EXPECT_EQ(readable(0), "0");
+  EXPECT_EQ(readable(std::nan("")), "–");
+}
+
+TEST(Markup, OnlySingleLettersTakeSubscripts) {
+  EXPECT_EQ(html_text("f F_N, d_m and N_cr"), "f F<sub>N</sub>, d<sub>m</sub> and N<sub>cr</sub>");
+  EXPECT_EQ(html_text("vertical_force x_start a_b_c"), "vertical_force x_start a_b_c");
+  EXPECT_EQ(html_text("<a&\"b\">"), "&lt;a&amp;&quot;b&quot;&gt;");
+}
+
+TEST(Drawing, SectionsStandInContactPosition) {
+  Section square;
+  square.p = {-1, 1, 1, -1};
+  square.q = {2, 2, 3, 3};
+  square.quads = {{0, 1, 2, 3}};
+  const Layer rail = section_layer("rail", square, Sweep::extruded);
+  const Layer wheel = section_layer("wheel", square, Sweep::revolved, {0.5, 10});
+  EXPECT_EQ(rail.cells.at(0).at(2), (std::array<double, 2>{1, 3}));
+  EXPECT_EQ(wheel.cells.at(0).at(2), (std::array<double, 2>{1.5, 7}));  // below its axis
+  Drawing drawing{"Contact", {rail, wheel}, Window{{-1, 1}, {1, 4}}, 416};
+  const std::string html = drawing_html(drawing);
+  EXPECT_NE(html.find("M8.0 408.0L408.0 408.0L408.0 208.0L8.0 208.0Z"), std::string::npos) << html;
+  EXPECT_EQ(count(html, "Z\""), 1U);  // the wheel is outside the window
+}
+
+TEST(Report, ComparesWithTheReference) {
+  const Table table = comparison_table("Forces", "Paper",
+                                       {{"Largest F_N", "kN", 193.19, 173.871, "coarse"},
+                                        {"Shift", "mm", std::nullopt, 12.0, ""},
+                                        {"Offset", "mm", 0.0, 1.0, ""}});
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"Largest F_N", "kN", "193.2", "173.9", "−10.0 %", "coarse"}));
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"Shift", "mm", "–", "12", "–", ""}));
+  EXPECT_EQ(table.rows[2][4], "–");
+}
+
+TEST(Report, IsOneFileThatNeedsNoNetwork) {
+  Report report{"Title <1>", "subtitle", {}, "footer"};
+  report.chapters = {
+      {"Forces", {Text{"a < b"}, one_curve({0, 1}, {0, 1}), KeyFigures{{"largest", "1", "kN"}}}},
+      {"Mesh", {Drawings{Drawing{}}, Table{"t", {{"key"}}, {{"value"}}}}}};
+  const std::string html = report_html(report);
+  EXPECT_EQ(count(html, "<section"), 2U);
+  EXPECT_EQ(count(html, "src="), 0U);
+  EXPECT_EQ(count(html, "@import"), 0U);
+  EXPECT_EQ(count(html, "url("), 0U);
+  EXPECT_EQ(count(html, "http"), count(html, "\"http://www.w3.org/2000/svg\""));  // a name, not an address
+  EXPECT_NE(html.find("<title>Title &lt;1&gt;</title>"), std::string::npos);
+  EXPECT_NE(html.find("a &lt; b"), std::string::npos);
+  report.chapters[1].blocks.push_back(Table{"t", {{"one"}, {"two"}}, {{"value"}}});
+  EXPECT_THROW(report_html(report), std::logic_error);
+}
+
+}  // namespace
+}  // namespace tread

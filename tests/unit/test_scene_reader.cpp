@@ -1,0 +1,257 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "io/scene_checks.hpp"
+#include "io/scene_library.hpp"
+#include "io/scene_reader.hpp"
+#include "io/schema.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kScenes = fs::path(TREAD_SOURCE_DIR) / "scenes";
+
+std::string value_of(const ResolvedScene& resolved, const std::string& path) {
+  for (const Entry& entry : resolved.entries) {
+    if (entry.path == path) return entry.value + (entry.unit.empty() ? "" : " " + entry.unit);
+  }
+  return "absent";
+}
+
+std::string source_of(const ResolvedScene& resolved, const std::string& path) {
+  for (const Entry& entry : resolved.entries) {
+    if (entry.path == path) return entry.source;
+  }
+  return "absent";
+}
+
+ResolvedScene resolve(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return resolve_scene(SceneSource{"scene.toml", text, "."}, overrides);
+}
+
+const std::string kBase = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
+
+/// Field by field, bit by bit.
+void expect_same(Scene a, Scene b) {
+  for (const Table& table : scene_tables()) EXPECT_EQ(table.exists(a), table.exists(b)) << table.name;
+  for (const Key& key : scene_keys()) {
+    if (!key.locate) continue;
+    const Field left = key.locate(a);
+    const Field right = key.locate(b);
+    EXPECT_EQ(left.index(), right.index()) << key.path;
+    EXPECT_EQ(number_at(left), number_at(right)) << key.path;
+    if (const auto* text = std::get_if<std::string*>(&left)) {
+      EXPECT_EQ(**text, *std::get<std::string*>(right)) << key.path;
+    }
+    if (const auto* truth = std::get_if<bool*>(&left)) {
+      EXPECT_EQ(**truth, *std::get<bool*>(right)) << key.path;
+    }
+    if (const auto* damping = std::get_if<DampingField>(&left)) {
+      EXPECT_EQ(*damping->rayleigh_beta, *std::get<DampingField>(right).rayleigh_beta) << key.path;
+    }
+  }
+  if (a.rail) {
+    EXPECT_EQ(a.rail->profile_y, b.rail->profile_y);
+  }
+  if (a.wheel) {
+    EXPECT_EQ(a.wheel->profile_z, b.wheel->profile_z);
+  }
+  if (a.corrugation) {
+    EXPECT_EQ(a.corrugation->table_x, b.corrugation->table_x);
+    EXPECT_EQ(a.corrugation->table_depth, b.corrugation->table_depth);
+  }
+}
+
+void expect_round_trip(const ResolvedScene& resolved) {
+  const std::string text = resolved_toml(resolved);
+  const ResolvedScene again = resolve_scene(SceneSource{"scene.resolved.toml", text, "/"});
+  expect_same(resolved.scene, again.scene);
+  EXPECT_EQ(resolved.entries.size(), again.entries.size());
+}
+
+TEST(SceneReader, ShippedScenesReadAndSurviveTheResolvedFile) {
+  int scenes = 0;
+  for (const auto& file : fs::directory_iterator(kScenes)) {
+    if (file.path().extension() != ".toml") continue;
+    SCOPED_TRACE(file.path().string());
+    const ResolvedScene resolved = resolve_scene(file.path());
+    EXPECT_FALSE(resolved.scene.title.empty());
+    EXPECT_TRUE(validate(resolved.scene).empty());
+    expect_round_trip(resolved);
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 5);
+}
+
+TEST(SceneReader, ShippedScenesContainOnlyWhatTheyName) {
+  const Scene paper = read_scene(kScenes / "corrugation-d.toml");
+  EXPECT_TRUE(paper.wheel && paper.rail && paper.fastenings && paper.slab_track && paper.vehicle &&
+              paper.contact);
+  EXPECT_TRUE(paper.motion && paper.corrugation);
+  EXPECT_FALSE(paper.load || paper.pulse);
+  EXPECT_EQ(paper.motion->traction_mu, 0.3);
+
+  EXPECT_FALSE(read_scene(kScenes / "smooth.toml").corrugation);
+
+  const Scene ground = read_scene(kScenes / "rigid-ground.toml");
+  EXPECT_TRUE(ground.fastenings);
+  EXPECT_FALSE(ground.slab_track);
+  EXPECT_TRUE(ground.mortar.name.empty());
+
+  const Scene sphere = read_scene(kScenes / "sphere-on-block.toml");
+  EXPECT_TRUE(sphere.wheel && sphere.rail && sphere.load && sphere.contact);
+  EXPECT_FALSE(sphere.fastenings || sphere.slab_track || sphere.vehicle || sphere.motion ||
+               sphere.corrugation);
+
+  const Scene bar = read_scene(kScenes / "bar-wave.toml");
+  EXPECT_TRUE(bar.rail && bar.pulse && bar.motion);
+  EXPECT_FALSE(bar.wheel || bar.contact || bar.vehicle || bar.load);
+}
+
+TEST(SceneReader, LibraryHoldsTable1) {
+  const Scene scene = resolve(kBase).scene;
+  EXPECT_EQ(scene.contact->friction, 0.5);
+  EXPECT_EQ(scene.vehicle->sprung_mass, 8000);
+  EXPECT_EQ(scene.wheel->diameter, 0.86);
+  EXPECT_EQ(scene.wheel->mass, 586);
+  EXPECT_EQ(scene.vehicle->unsprung_mass, 340);
+  EXPECT_EQ(scene.vehicle->suspension_stiffness, 880e3);
+  EXPECT_EQ(scene.vehicle->suspension_damping, 4e3);
+  EXPECT_EQ(scene.fastenings->stiffness, 22e6);
+  EXPECT_EQ(scene.fastenings->damping, 200e3);
+  EXPECT_EQ(scene.steel.youngs_modulus, 205.9e9);
+  EXPECT_EQ(scene.steel.poissons_ratio, 0.3);
+  EXPECT_EQ(scene.steel.density, 7790);
+  EXPECT_EQ(scene.steel_high_frequency_fraction, 1e-4);
+  EXPECT_EQ(scene.steel.rayleigh_beta, 0);
+  EXPECT_EQ(scene.slab.youngs_modulus, 34.5e9);
+  EXPECT_EQ(scene.slab.poissons_ratio, 0.25);
+  EXPECT_EQ(scene.slab.density, 2400);
+  EXPECT_EQ(scene.gap_filler.youngs_modulus, 29.5e9);
+  EXPECT_EQ(scene.gap_filler.poissons_ratio, 0.25);
+  EXPECT_EQ(scene.gap_filler.density, 2400);
+  EXPECT_EQ(scene.mortar.youngs_modulus, 8e9);
+  EXPECT_EQ(scene.mortar.poissons_ratio, 0.2);
+  EXPECT_EQ(scene.mortar.density, 1600);
+}
+
+TEST(SceneReader, LibraryNamesKnownKeysOnly) {
+  for (const LibraryEntry& entry : scene_library()) {
+    for (const LibraryValue& value : entry.values) {
+      EXPECT_NE(find_key(value.path), nullptr) << value.path;
+      EXPECT_FALSE(value.source.empty()) << value.path;
+    }
+  }
+}
+
+TEST(SceneReader, LaterLevelsOverrideEarlierOnes) {
+  const std::string text = kBase + "[motion]\nspeed = \"250 km/h\"\ntraction = { mu = 0.2 }\n";
+  const ResolvedScene file = resolve(text);
+  EXPECT_EQ(file.scene.motion->speed, 250e3 / 3600);
+  EXPECT_EQ(source_of(file, "motion.speed"), "scene.toml:4");
+  EXPECT_EQ(source_of(file, "motion.traction.mu"), "scene.toml:5");
+  EXPECT_EQ(source_of(file, "rail.length"), "highspeed-slab-2014: section 2.1.1");
+  EXPECT_EQ(source_of(file, "motion.step_safety"), "default");
+
+  const ResolvedScene set = resolve(text, {"motion.speed=500 km/h", "rail.inclination = 1:20",
+                                           "motion.spin_in_preload=false", "scene.title = \"a \\\"b\\\"\""});
+  EXPECT_EQ(value_of(set, "motion.speed"), "138.88888888888889 m/s");
+  EXPECT_EQ(source_of(set, "motion.speed"), "--set");
+  EXPECT_EQ(set.scene.rail->inclination, 0.05);
+  EXPECT_FALSE(set.scene.motion->spin_in_preload);
+  EXPECT_EQ(set.scene.title, "a \"b\"");
+  expect_round_trip(set);
+}
+
+TEST(SceneReader, ATorqueSetLaterReplacesTheTractionCoefficient) {
+  const std::string text = kBase + "[motion]\ntraction = { mu = 0.2 }\n";
+  const Scene scene = resolve(text, {"motion.traction.torque=13.8 kN m"}).scene;
+  EXPECT_FALSE(scene.motion->traction_mu);
+  EXPECT_EQ(scene.motion->traction_torque, 13.8e3);
+}
+
+TEST(SceneReader, TablesComeAndGo) {
+  EXPECT_FALSE(resolve(kBase + "[slab]\npresent = false\n").scene.slab_track);
+  EXPECT_TRUE(resolve(kBase + "[slab]\npresent = false\n", {"slab.present=true"}).scene.slab_track);
+  EXPECT_FALSE(resolve(kBase, {"slab.present=false"}).scene.slab_track);
+  EXPECT_FALSE(resolve(kBase).scene.corrugation);
+  EXPECT_EQ(resolve(kBase + "[corrugation]\n").scene.corrugation->depth, 0.14e-3);
+  EXPECT_EQ(resolve(kBase, {"corrugation.depth=0.1 mm"}).scene.corrugation->depth, 0.1e-3);
+}
+
+TEST(SceneReader, DampingHasTwoNames) {
+  const std::string text =
+      kBase + "[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }\n";
+  const ResolvedScene resolved = resolve(text);
+  EXPECT_EQ(resolved.scene.steel.rayleigh_beta, 1e-8);
+  EXPECT_EQ(resolved.scene.steel_high_frequency_fraction, 0);
+  expect_round_trip(resolved);
+}
+
+TEST(SceneReader, CorrugationTableIsReadBesideTheScene) {
+  const fs::path folder = fs::path(testing::TempDir()) / "tread_corrugation_table";
+  fs::create_directories(folder);
+  std::ofstream(folder / "measured.txt") << "# x [mm]; d [um]\n0; 0\n50; 60.5  # trough\n\n100, 0\n";
+  const SceneSource source{"scene.toml", kBase + "[corrugation]\nkind = \"table\"\nfile = \"measured.txt\"\n",
+                           folder};
+  const ResolvedScene resolved = resolve_scene(source);
+  EXPECT_EQ(resolved.scene.corrugation->table_x, (std::vector<double>{0, 0.05, 0.1}));
+  EXPECT_EQ(resolved.scene.corrugation->table_depth, (std::vector<double>{0, 60.5e-6, 0}));
+  expect_round_trip(resolved);
+  fs::remove_all(folder);
+}
+
+TEST(SceneReader, ProfilesAreReadBesideTheScene) {
+  const fs::path folder = fs::path(testing::TempDir()) / "tread_profiles";
+  fs::create_directories(folder);
+  std::ofstream(folder / "worn.txt") << "-70 0\n65 -3.1\n";
+  const ResolvedScene resolved =
+      resolve_scene(SceneSource{"scene.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n", folder});
+  EXPECT_EQ(resolved.scene.wheel->profile_y, (std::vector<double>{-70e-3, 65e-3}));
+  EXPECT_EQ(resolved.scene.wheel->profile_z, (std::vector<double>{0, -3.1e-3}));
+  EXPECT_TRUE(resolved.scene.rail->profile_y.empty());
+  expect_round_trip(resolved);
+  fs::remove_all(folder);
+}
+
+TEST(SceneReader, ReferencePageIsUpToDate) {
+  std::ifstream stream(fs::path(TREAD_SOURCE_DIR) / "docs" / "scene.md");
+  std::stringstream page;
+  page << stream.rdbuf();
+  EXPECT_EQ(page.str(), scene_reference()) << "docs/scene.md differs from scene_reference(); write it anew";
+}
+
+TEST(Schema, EveryKeyIsWellFormed) {
+  Scene everything;
+  for (const Table& table : scene_tables()) {
+    if (table.removable()) table.create(everything);
+  }
+  std::set<std::string> paths;
+  for (const Key& key : scene_keys()) {
+    SCOPED_TRACE(key.path);
+    EXPECT_TRUE(paths.insert(key.path).second);
+    EXPECT_FALSE(key.description.empty());
+    EXPECT_NE(table_of(key.path), nullptr);
+    if (key.quantity) {
+      EXPECT_EQ(parse_unit(key.unit).dimension, key.quantity->dimension);
+      EXPECT_EQ(parse_unit(key.quantity->si).dimension, key.quantity->dimension);
+    }
+    if (!key.only_with.key.empty()) {
+      EXPECT_NE(table_of(key.only_with.key), nullptr);
+    }
+    if (!key.locate || key.required) continue;
+    const std::optional<double> value = number_at(key.locate(everything));
+    EXPECT_TRUE(!value || key.range.contains(*value)) << *value;
+  }
+}
+
+}  // namespace
+}  // namespace tread
