@@ -20,12 +20,8 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
     : model_(&model), dt_(dt), u_(preload.displacement), v_(u_.size(), 0.0), force_(u_.size(), 0.0), frame_(preload.wheel) {
   const Scene& scene = model.scene;
   if (model.wheelset) {
+    anchor();  // at rest: the wheel then spins about its own displaced axis
     start_velocities();
-    model.wheelset->anchor(u_.data(), v_.data(), frame_, dt_);
-    if (model.ties) {
-      model.ties->follow(u_.data());
-      model.ties->follow(v_.data());
-    }
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);

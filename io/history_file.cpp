@@ -50,7 +50,7 @@ HistoryFile::HistoryFile(const std::filesystem::path& directory, std::vector<Cha
 HistoryFile::~HistoryFile() {
   try {
     close();
-  } catch (const Error&) {  // nobody is left to tell
+  } catch (...) {  // nobody is left to tell
   }
 }
 

@@ -12,7 +12,8 @@ constexpr int kCorner[8][3] = {{-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1
                                {1, -1, -1},  {1, 1, -1},  {1, 1, 1},  {1, -1, 1}};
 
 double determinant(const Mat3& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
          m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
@@ -40,13 +41,20 @@ Mat3 jacobian(const HexNodes& nodes, const std::array<double, 3>& at) {
 int mode_value(Mode mode, int node) {
   const int* s = kCorner[node];
   switch (mode) {
-    case mode_xi: return s[0];
-    case mode_eta: return s[1];
-    case mode_zeta: return s[2];
-    case mode_h1: return s[1] * s[2];
-    case mode_h2: return s[2] * s[0];
-    case mode_h3: return s[0] * s[1];
-    default: return s[0] * s[1] * s[2];
+    case mode_xi:
+      return s[0];
+    case mode_eta:
+      return s[1];
+    case mode_zeta:
+      return s[2];
+    case mode_h1:
+      return s[1] * s[2];
+    case mode_h2:
+      return s[2] * s[0];
+    case mode_h3:
+      return s[0] * s[1];
+    default:
+      return s[0] * s[1] * s[2];
   }
 }
 
@@ -55,17 +63,19 @@ ElementGeometry element_geometry(const HexNodes& nodes) {
   auto& x = result.position;
   for (int mode = 0; mode < kModes; ++mode)
     for (int node = 0; node < 8; ++node)
-      x[static_cast<std::size_t>(mode)] += mode_value(static_cast<Mode>(mode), node) * nodes[static_cast<std::size_t>(node)];
+      x[static_cast<std::size_t>(mode)] +=
+          mode_value(static_cast<Mode>(mode), node) * nodes[static_cast<std::size_t>(node)];
 
-  // The integral of the Jacobian determinant is a sum of triple products of amplitudes. Its derivatives by them are
-  // the volume times the mean gradients. [theory.md, Element]
+  // The integral of the Jacobian determinant is a sum of triple products of amplitudes. Its derivatives by
+  // them are the volume times the mean gradients. [theory.md, Element]
   auto& g = result.gradient;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t k1 = (k + 1) % 3, k2 = (k + 2) % 3, h1 = mode_h1 + k1, h2 = mode_h1 + k2;
     g[k] = cross(x[k1], x[k2]) + 1.0 / 3 * cross(x[h2], x[h1]);
     g[mode_h1 + k] = 1.0 / 3 * (cross(x[k2], x[h1]) + cross(x[h2], x[k1]));
   }
-  const double triple = dot(x[mode_xi], g[mode_xi]) + dot(x[mode_h1], g[mode_h1]);  // every term holds xi or h1
+  const double triple =
+      dot(x[mode_xi], g[mode_xi]) + dot(x[mode_h1], g[mode_h1]);  // every term holds xi or h1
   result.volume = triple / 64;
   for (Vec3& row : g) row = 1 / triple * row;
 
@@ -74,7 +84,8 @@ ElementGeometry element_geometry(const HexNodes& nodes) {
   for (const auto& sign : kCorner) {
     const std::array<double, 3> at = {sign[0] * point, sign[1] * point, sign[2] * point};
     const double weight = determinant(jacobian(nodes, at));
-    for (int node = 0; node < 8; ++node) result.nodal_volume[static_cast<std::size_t>(node)] += shape(node, at)[0] * weight;
+    for (int node = 0; node < 8; ++node)
+      result.nodal_volume[static_cast<std::size_t>(node)] += shape(node, at)[0] * weight;
   }
   result.smallest_jacobian = std::numeric_limits<double>::max();
   for (const auto& sign : kCorner) {
@@ -107,7 +118,8 @@ HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Mat
   const double length = std::hypot(map[1][1] + map[2][2], map[2][1] - map[1][2]);
   const double c = (map[1][1] + map[2][2]) / length;
   const double s = (map[2][1] - map[1][2]) / length;
-  const std::array<double, 3> half = {map[0][0], c * map[1][1] + s * map[2][1], c * map[2][2] - s * map[1][2]};
+  const std::array<double, 3> half = {map[0][0], c * map[1][1] + s * map[2][1],
+                                      c * map[2][2] - s * map[1][2]};
   const auto h = [&](std::size_t i, std::size_t j) { return volume / (3 * half[i] * half[j]); };
 
   // Local matrix; the 1/64 turns amplitudes that are sums of eight values into means.
@@ -186,7 +198,9 @@ SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const Hour
   return c;
 }
 
-template SweptConstants<double> swept_constants(const ElementGeometry&, const HourglassMatrix&, const Material&);
-template SweptConstants<float> swept_constants(const ElementGeometry&, const HourglassMatrix&, const Material&);
+template SweptConstants<double> swept_constants(const ElementGeometry&, const HourglassMatrix&,
+                                                const Material&);
+template SweptConstants<float> swept_constants(const ElementGeometry&, const HourglassMatrix&,
+                                               const Material&);
 
 }  // namespace tread

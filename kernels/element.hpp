@@ -4,8 +4,8 @@
 // Bindeman 1993]
 //
 // Nodes 0 ... 3 are the quad's corners (eta, zeta) = (-1,-1), (1,-1), (1,1), (-1,1) at xi = -1, nodes 4 ... 7
-// the same at xi = +1. A nodal field is the sum of eight base vectors of +-1; its amplitudes here are the plain
-// sums A_m = sum_I base_mI u_I, without the factor 1/8.
+// the same at xi = +1. A nodal field is the sum of eight base vectors of +-1; its amplitudes here are the
+// plain sums A_m = sum_I base_mI u_I, without the factor 1/8.
 
 #include <array>
 
@@ -41,13 +41,13 @@ struct ElementGeometry {
 
 ElementGeometry element_geometry(const HexNodes& nodes);
 
-/// Nodes of the unperturbed elements of (quad, pitch) in the frame of the element's middle: extruded (x, y, z) about
-/// the middle of the length; revolved (t, y, r) about the axis at the middle angle.
+/// Nodes of the unperturbed elements of (quad, pitch) in the frame of the element's middle: extruded (x, y,
+/// z) about the middle of the length; revolved (t, y, r) about the axis at the middle angle.
 HexNodes swept_nodes(const Section& section, int quad, Sweep sweep, double pitch);
 
-/// Hourglass stiffness over Q_(i alpha) = A_(i alpha) - sum_j g_ij position[h_alpha][j] in the order [4 i + alpha],
-/// i = x, y, z of the element's middle frame. Energy = Q^T C Q / 2. The element must be swept: symmetric about xi = 0,
-/// so that its local axes turn about the sweep only. [N/m]
+/// Hourglass stiffness over Q_(i alpha) = A_(i alpha) - sum_j g_ij position[h_alpha][j] in the order [4 i +
+/// alpha], i = x, y, z of the element's middle frame. Energy = Q^T C Q / 2. The element must be swept:
+/// symmetric about xi = 0, so that its local axes turn about the sweep only. [N/m]
 using HourglassMatrix = std::array<std::array<double, 12>, 12>;
 HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material);
 
@@ -57,29 +57,29 @@ struct HourglassConstants {
   Real even_diagonal[4];  ///< of (x2, x3, y1, z1)
   Real x2_y1, x2_z1, x3_y1, x3_z1, y1_z1;
   Real x4;
-  Real odd_diagonal[5];    ///< of (x1, y2, z2, y3, z3)
-  Real odd_upper[10];      ///< their upper triangle by rows
+  Real odd_diagonal[5];  ///< of (x1, y2, z2, y3, z3)
+  Real odd_upper[10];    ///< their upper triangle by rows
   Real y4, z4, y4_z4;
 };
 
-/// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the modes
-/// (xi, h2, h3) only, d/dy and d/dz to (eta, zeta, h1) only. In extruded elements the gradients of h1 and the
-/// positions of h2, h3, h4 vanish too.
+/// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the
+/// modes (xi, h2, h3) only, d/dy and d/dz to (eta, zeta, h1) only. In extruded elements the gradients of h1
+/// and the positions of h2, h3, h4 vanish too.
 template <class Real>
 struct SweptConstants {
   Real gradient_x[3];  ///< of xi, h2, h3 [1/m]
   Real gradient_y[3];  ///< of eta, zeta, h1 [1/m]
   Real gradient_z[3];
-  Real position_x[3];     ///< of h2, h3, h4 [m]
-  Real position_y;        ///< of h1 [m]
+  Real position_x[3];  ///< of h2, h3, h4 [m]
+  Real position_y;     ///< of h1 [m]
   Real position_z;
-  Real lambda, mu;        ///< Lame's constants times the volume [N m]
-  Real inverse_volume;    ///< [1/m3]
+  Real lambda, mu;      ///< Lame's constants times the volume [N m]
+  Real inverse_volume;  ///< [1/m3]
   HourglassConstants<Real> hourglass;
 };
 
-/// Position amplitudes of kLanes perturbed elements in their middle frames; the hourglass matrix and the material are
-/// those of the swept shape. Unused lanes repeat a used one. [m]
+/// Position amplitudes of kLanes perturbed elements in their middle frames; the hourglass matrix and the
+/// material are those of the swept shape. Unused lanes repeat a used one. [m]
 template <class Real>
 struct LanePositions {
   Real position[kModes][3][kLanes];

@@ -1,9 +1,10 @@
 #pragma once
-// The element's arithmetic, once: on scalars (tests, one index) and on vectors of lanes. V is a floating-point type or
-// a vector of them; everything is inlined into its caller and so takes that caller's instruction set.
+// The element's arithmetic, once: on scalars (tests, one index) and on vectors of lanes. V is a
+// floating-point type or a vector of them; everything is inlined into its caller and so takes that caller's
+// instruction set.
 //
-// A quad's eight nodal values enter as s_j = left + right and d_j = right - left at its four corners j, which is the
-// first stage of the butterfly to the modal amplitudes.
+// A quad's eight nodal values enter as s_j = left + right and d_j = right - left at its four corners j, which
+// is the first stage of the butterfly to the modal amplitudes.
 
 #include "kernels/element.hpp"
 
@@ -11,8 +12,8 @@
 
 namespace tread {
 
-/// Displacement gradient g[i][j] and hourglass amplitudes q[i][alpha] of an element, or the generalised forces
-/// conjugate to them.
+/// Displacement gradient g[i][j] and hourglass amplitudes q[i][alpha] of an element, or the generalised
+/// forces conjugate to them.
 template <class V>
 struct Strain {
   V g[3][3];
@@ -56,8 +57,8 @@ TREAD_INLINE void from_modes(const V (&a)[kModes], V (&s)[4], V (&d)[4]) {
   d[3] = back - dr;
 }
 
-/// Strains of the elements of one (quad, pitch class): the shape is symmetric about xi = 0. In extruded elements the
-/// distortion stays in the section.
+/// Strains of the elements of one (quad, pitch class): the shape is symmetric about xi = 0. In extruded
+/// elements the distortion stays in the section.
 template <Sweep sweep, class Real>
 struct SweptElement {
   const SweptConstants<Real>& c;
@@ -110,15 +111,16 @@ TREAD_INLINE void cross_product(const V (&a)[3], const V (&b)[3], V (&result)[3]
   result[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/// Strains of perturbed elements, each lane with positions of its own; V covers the lanes from `lane` on. Gradients are
-/// formed here, as in element_geometry: reading them would cost more time than these products.
+/// Strains of perturbed elements, each lane with positions of its own; V covers the lanes from `lane` on.
+/// Gradients are formed here, as in element_geometry: reading them would cost more time than these products.
 template <class V, class Real>
 struct PerturbedElement {
   V position[kModes][3];
   V gradient[kGradientModes][3];
   V volume_ratio;  ///< by the volume of the swept shape
 
-  TREAD_INLINE PerturbedElement(const LanePositions<Real>& lanes, int lane, const SweptConstants<Real>& swept) {
+  TREAD_INLINE PerturbedElement(const LanePositions<Real>& lanes, int lane,
+                                const SweptConstants<Real>& swept) {
     for (int m = 0; m < kModes; ++m)
       for (int j = 0; j < 3; ++j) __builtin_memcpy(&position[m][j], lanes.position[m][j] + lane, sizeof(V));
     const Real third = Real(1) / 3;
@@ -231,9 +233,9 @@ TREAD_INLINE void hourglass_forces(const HourglassConstants<Real>& c, const Stra
   f.q[2][2] = d[4] * z3 + u[3] * x1 + u[6] * y2 + u[8] * z2 + u[9] * y3;
 }
 
-/// Rotation between the sum and difference a, b of a node's values at the two ends of an element, in the nodes' own
-/// bases, and the same (s, d) in the basis of the middle angle; c, w: cosine and sine of half the pitch.
-/// Component 0 is t, 2 is r; y does not turn.
+/// Rotation between the sum and difference a, b of a node's values at the two ends of an element, in the
+/// nodes' own bases, and the same (s, d) in the basis of the middle angle; c, w: cosine and sine of half the
+/// pitch. Component 0 is t, 2 is r; y does not turn.
 template <class V, class Real>
 TREAD_INLINE void turn_to_middle(Real c, Real w, V (&s)[3], V (&d)[3]) {
   const V s_t = c * s[0] + w * d[2];

@@ -8,8 +8,8 @@ namespace tread {
 
 namespace {
 
-/// Chooses the next quad: the one that lengthens the front least, and among those the one that lies furthest back along
-/// the section's longer extent.
+/// Chooses the next quad: the one that lengthens the front least, and among those the one that lies furthest
+/// back along the section's longer extent.
 class FrontWalk {
  public:
   explicit FrontWalk(const Section& section)
@@ -36,7 +36,8 @@ class FrontWalk {
     int best = -1;
     const auto consider = [&](int quad) {
       if (done_[index(quad)]) return;
-      if (best < 0 || std::pair(growth(quad), along_[index(quad)]) < std::pair(growth(best), along_[index(best)]))
+      if (best < 0 ||
+          std::pair(growth(quad), along_[index(quad)]) < std::pair(growth(best), along_[index(best)]))
         best = quad;
     };
     for (const int node : front_)

@@ -1,6 +1,6 @@
 #pragma once
-// An order of the quads of a section in which few nodes are in use at a time, so that their values stay in the
-// nearest cache: a node is opened before the first and closed after the last of its quads.
+// An order of the quads of a section in which few nodes are in use at a time, so that their values stay in
+// the nearest cache: a node is opened before the first and closed after the last of its quads.
 
 #include <vector>
 

@@ -124,7 +124,8 @@ HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape) {
 
   Eigen::Matrix3d initial;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) initial(i, j) = shape.initial_stress[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    for (int j = 0; j < 3; ++j)
+      initial(i, j) = shape.initial_stress[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
   const Eigen::Matrix<double, 8, 8> geometric = volume * b * initial * b.transpose();
 
   const Matrix83 c = corners();
@@ -132,7 +133,8 @@ HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape) {
   h << c.col(1).cwiseProduct(c.col(2)), c.col(2).cwiseProduct(c.col(0)), c.col(0).cwiseProduct(c.col(1)),
       c.rowwise().prod();
   const Eigen::Matrix<double, 8, 4> gamma = (h - b * (nodes.transpose() * h)) / 8;
-  const Eigen::Matrix<double, 12, 12> hourglass = hourglass_stiffness(to_matrix(shape.reference), shape.material);
+  const Eigen::Matrix<double, 12, 12> hourglass =
+      hourglass_stiffness(to_matrix(shape.reference), shape.material);
   Eigen::Matrix<double, 12, 24> amplitude = Eigen::Matrix<double, 12, 24>::Zero();
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i)
@@ -147,7 +149,8 @@ HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape) {
   return result;
 }
 
-std::array<double, 6> hexahedron_stress(const HexahedronShape& shape, const std::array<Vec3, 8>& displacement) {
+std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
+                                        const std::array<Vec3, 8>& displacement) {
   const Matrix83 b = mean_gradients(to_matrix(shape.nodes)).first;
   Eigen::Matrix<double, 24, 1> u;
   for (int node = 0; node < 8; ++node)
@@ -168,8 +171,9 @@ std::vector<Vec3> GeneralForce::apply(const std::vector<Vec3>& u) const {
     for (int row = 0; row < 24; ++row) {
       double sum = 0;
       for (int column = 0; column < 24; ++column)
-        sum += stiffness_[e][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] *
-               u[static_cast<std::size_t>(elements_[e].node[static_cast<std::size_t>(column / 3)])][column % 3];
+        sum +=
+            stiffness_[e][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] *
+            u[static_cast<std::size_t>(elements_[e].node[static_cast<std::size_t>(column / 3)])][column % 3];
       f[static_cast<std::size_t>(elements_[e].node[static_cast<std::size_t>(row / 3)])][row % 3] += sum;
     }
   return f;

@@ -1,6 +1,6 @@
 #pragma once
-// The same element written for any hexahedra, node by node in Cartesian axes, with coefficients of its own: simple and
-// slow. It is the oracle of the swept kernels and the form for meshes that are not swept.
+// The same element written for any hexahedra, node by node in Cartesian axes, with coefficients of its own:
+// simple and slow. It is the oracle of the swept kernels and the form for meshes that are not swept.
 
 #include <array>
 #include <vector>
@@ -24,7 +24,8 @@ struct HexahedronShape {
 HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape);
 
 /// Stress at the centre (xx, yy, zz, yz, zx, xy), Cartesian, without the initial stress. [Pa]
-std::array<double, 6> hexahedron_stress(const HexahedronShape& shape, const std::array<Vec3, 8>& displacement);
+std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
+                                        const std::array<Vec3, 8>& displacement);
 
 /// Elements given by node lists.
 class GeneralForce {

@@ -17,7 +17,9 @@ namespace tread {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Collects what is wrong with elements and throws it as one error.
 class ElementFaults {
@@ -29,15 +31,15 @@ class ElementFaults {
     constexpr double kRounding = 1e-9;
     if (geometry.volume > 0 && geometry.smallest_jacobian > -kRounding) return;
     if (++count_ > 10) return;
-    text_ += fmt::format("\n  quad {} from station {} ({:.6g}): volume {:.3e} m3, smallest corner Jacobian {:.2g} of the mean",
-                         quad, station, block_.stations[index(station)], geometry.volume,
-                         geometry.smallest_jacobian);
+    text_ += fmt::format(
+        "\n  quad {} from station {} ({:.6g}): volume {:.3e} m3, smallest corner Jacobian {:.2g} of the mean",
+        quad, station, block_.stations[index(station)], geometry.volume, geometry.smallest_jacobian);
   }
 
   void raise(const std::string& reason) const {
     if (count_ == 0) return;
-    throw InputError(fmt::format("block '{}': {} elements are turned inside out; {}:{}{}", block_.name, count_, reason,
-                                 text_, count_ > 10 ? "\n  ..." : ""));
+    throw InputError(fmt::format("block '{}': {} elements are turned inside out; {}:{}{}", block_.name,
+                                 count_, reason, text_, count_ > 10 ? "\n  ..." : ""));
   }
 
  private:
@@ -155,7 +157,8 @@ void BasicInternalForce<Real>::build_perturbed(int block) {
 
   std::vector<std::vector<int>> quads_of_node(swept.section.p.size());
   for (std::size_t quad = 0; quad < swept.section.quads.size(); ++quad)
-    for (const int node : swept.section.quads[quad]) quads_of_node[index(node)].push_back(static_cast<int>(quad));
+    for (const int node : swept.section.quads[quad])
+      quads_of_node[index(node)].push_back(static_cast<int>(quad));
 
   const std::size_t quads = swept.section.quads.size();
   const auto mark = [&](int tile, int node) {
@@ -165,7 +168,8 @@ void BasicInternalForce<Real>::build_perturbed(int block) {
       row = static_cast<int>(data.perturbed.size() / quads);
       data.perturbed.resize(data.perturbed.size() + quads, -1);
     }
-    for (const int quad : quads_of_node[index(node)]) data.perturbed[index(row) * quads + index(data.place[index(quad)])] = 0;
+    for (const int quad : quads_of_node[index(node)])
+      data.perturbed[index(row) * quads + index(data.place[index(quad)])] = 0;
   };
   for (const auto& [slot, shift] : swept.node_shift) {
     const auto row = static_cast<int>(slot / kLanes);
@@ -205,7 +209,8 @@ void BasicInternalForce<Real>::set_beta(int block, double beta) {
 }
 
 template <class Real>
-void BasicInternalForce<Real>::set_initial_stress(int block, const std::vector<std::array<double, 4>>& stress) {
+void BasicInternalForce<Real>::set_initial_stress(int block,
+                                                  const std::vector<std::array<double, 4>>& stress) {
   BlockData& data = blocks_[index(block)];
   data.prestressed = !stress.empty();
   for (ClassData& elements : data.classes) {
@@ -228,7 +233,8 @@ void BasicInternalForce<Real>::apply_block(int block, const Real* u, const Real*
 
 template <class Real>
 Real* BasicInternalForce<Real>::carry(const Item& item) const {
-  return carries_[index(item.block)].data() + index(item.tile) * blocks_[index(item.block)].carry_stride + kLanes;
+  return carries_[index(item.block)].data() + index(item.tile) * blocks_[index(item.block)].carry_stride +
+         kLanes;
 }
 
 template <class Real>
@@ -248,12 +254,14 @@ void BasicInternalForce<Real>::evaluate(std::size_t first, std::size_t last, con
     const SweptBlock& swept = mesh_.blocks[index(block)];
     const Real* carry = this->carry({block, data.previous[index(tile)]});
     Real* f = fields.f + dof(swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes, 0);
-    for (int value = 0; value < 3 * swept.section.nodes(); ++value) f[std::ptrdiff_t{value} * kLanes] += carry[value];
+    for (int value = 0; value < 3 * swept.section.nodes(); ++value)
+      f[std::ptrdiff_t{value} * kLanes] += carry[value];
   }
 }
 
 template <class Real>
-void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const {
+void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t last,
+                                              const Fields& fields) const {
   // Grows in the first call of each thread only.
   thread_local AlignedVector<Real> front;
   for (std::size_t i = first; i < last; ++i) {
@@ -261,10 +269,11 @@ void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t las
     const BlockData& data = blocks_[index(item.block)];
     front.resize(std::max(front.size(), index(data.plan.slots) * kFrontValues));
     const int previous = data.previous[index(item.tile)];
-    const bool at_hand = i > first && previous >= 0 && items_[i - 1].block == item.block &&
-                         items_[i - 1].tile == previous;
+    const bool at_hand =
+        i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
     pending_[i] = previous >= 0 && !at_hand;
-    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, fields, front.data());
+    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, fields,
+                  front.data());
   }
 }
 
@@ -315,7 +324,8 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
 }
 
 template <class Real>
-typename BasicInternalForce<Real>::Place BasicInternalForce<Real>::locate(int block, int quad, int station) const {
+typename BasicInternalForce<Real>::Place BasicInternalForce<Real>::locate(int block, int quad,
+                                                                          int station) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
   const int tile = swept.tile_of_station[index(station)];
@@ -338,7 +348,8 @@ HexNodes BasicInternalForce<Real>::element_nodes(int block, const Place& at) con
   if (at.lanes < 0) return nodes;
   for (int node = 0; node < 8; ++node) {
     const int station = node < 4 ? at.station : far_station(swept, at.station);
-    const auto shift = swept.node_shift.find(swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station));
+    const auto shift =
+        swept.node_shift.find(swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station));
     if (shift == swept.node_shift.end()) continue;
     const double angle = swept.sweep == Sweep::extruded ? 0 : (node < 4 ? -pitch / 2 : pitch / 2);
     nodes[index(node)] += turned(shift->second, angle);
@@ -367,20 +378,24 @@ Strain<Real> BasicInternalForce<Real>::strain(int block, const Place& at, const 
     if (revolved) turn_to_middle(elements.cosine, elements.sine, s[j], d[j]);
   }
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
-  if (at.lanes >= 0) return element_strain(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), s, d);
+  if (at.lanes >= 0)
+    return element_strain(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), s,
+                          d);
   if (revolved) return element_strain(SweptElement<Sweep::revolved, Real>{constants}, s, d);
   return element_strain(SweptElement<Sweep::extruded, Real>{constants}, s, d);
 }
 
 template <class Real>
-Strain<Real> BasicInternalForce<Real>::conjugate(int block, const Place& at, const Strain<Real>& strain) const {
+Strain<Real> BasicInternalForce<Real>::conjugate(int block, const Place& at,
+                                                 const Strain<Real>& strain) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   Strain<Real> force;
   stress_forces(constants, strain, force);
   if (data.prestressed) add_geometric_forces(elements.initial_stress[index(at.place)], strain, force);
-  if (at.lanes >= 0) PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants).scale_by_volume(force);
+  if (at.lanes >= 0)
+    PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants).scale_by_volume(force);
   hourglass_forces(constants.hourglass, strain, force);
   return force;
 }
@@ -395,7 +410,8 @@ void BasicInternalForce<Real>::nodal_forces(int block, const Place& at, const St
   Real s[4][3];
   Real d[4][3];
   if (at.lanes >= 0)
-    element_forces(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), force, s, d);
+    element_forces(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), force, s,
+                   d);
   else if (revolved)
     element_forces(SweptElement<Sweep::revolved, Real>{constants}, force, s, d);
   else
@@ -414,7 +430,8 @@ void BasicInternalForce<Real>::gather(int block, const Place& at, const Real* u,
   const SweptBlock& swept = mesh_.blocks[index(block)];
   for (int node = 0; node < 8; ++node) {
     const int station = node < 4 ? at.station : far_station(swept, at.station);
-    const std::int64_t slot = swept.base + swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station);
+    const std::int64_t slot =
+        swept.base + swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station);
     for (int i = 0; i < 3; ++i) values[node][i] = u[dof(slot, i)];
   }
 }
@@ -462,7 +479,8 @@ DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) con
 }
 
 template <class Real>
-std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int station, const Real* u) const {
+std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int station,
+                                                       const Real* u) const {
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);
@@ -549,8 +567,9 @@ double BasicInternalForce<Real>::frequency(int block, const Place& at) const {
   Eigen::Matrix<double, 24, 24> pencil;
   for (int row = 0; row < 24; ++row)
     for (int column = 0; column < 24; ++column)
-      pencil(row, column) = k[index(row)][index(column)] /
-                            (density * std::sqrt(shape.nodal_volume[index(row / 3)] * shape.nodal_volume[index(column / 3)]));
+      pencil(row, column) =
+          k[index(row)][index(column)] /
+          (density * std::sqrt(shape.nodal_volume[index(row / 3)] * shape.nodal_volume[index(column / 3)]));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solver(pencil, Eigen::EigenvaluesOnly);
   return std::sqrt(solver.eigenvalues()(23));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Internal force f = K u of the blocks of a mesh: elasticity of total form at small strain, Rayleigh damping in the same
-// evaluation, and what follows from the same elements (mass, energies, stresses, frequencies).
+// Internal force f = K u of the blocks of a mesh: elasticity of total form at small strain, Rayleigh damping
+// in the same evaluation, and what follows from the same elements (mass, energies, stresses, frequencies).
 
 #include <array>
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace tread {
 template <class V>
 struct Strain;
 
-/// Rows and columns [3 node + component]: element nodes as in kernels/element.hpp, components in the nodes' local
-/// bases. [N/m]
+/// Rows and columns [3 node + component]: element nodes as in kernels/element.hpp, components in the nodes'
+/// local bases. [N/m]
 using ElementStiffness = std::array<std::array<double, 24>, 24>;
 
 /// Strain and hourglass energy. [J]
 struct DeformationEnergy {
-  double strain = 0;     ///< of the one-point stress, with the work of an initial stress
+  double strain = 0;  ///< of the one-point stress, with the work of an initial stress
   double hourglass = 0;
 };
 
@@ -36,22 +36,22 @@ struct ElementFrequency {
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
 
-/// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases; unused lanes
-/// hold zero on entry and on return. Results are the same bits for any number of threads. One object serves one
-/// caller at a time: applying it uses buffers of its own.
+/// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
+/// unused lanes hold zero on entry and on return. Results are the same bits for any number of threads. One
+/// object serves one caller at a time: applying it uses buffers of its own.
 template <class Real>
 class BasicInternalForce {
  public:
-  /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their nodes, turns
-  /// inside out.
+  /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their
+  /// nodes, turns inside out.
   explicit BasicInternalForce(const Mesh& mesh);
 
   /// Damping of a block: forces are those of u + beta v. [s]
   void set_beta(int block, double beta);
 
-  /// Stress that the undeformed block carries: (tt, yy, rr, yr) of each section quad, constant along the sweep
-  /// (extruded: xx, yy, zz, yz). It is in equilibrium with loads that are not applied here: only its geometric
-  /// stiffness acts. An empty list removes it. [Pa] [theory.md, Spin prestress]
+  /// Stress that the undeformed block carries: (tt, yy, rr, yr) of each section quad, constant along the
+  /// sweep (extruded: xx, yy, zz, yz). It is in equilibrium with loads that are not applied here: only its
+  /// geometric stiffness acts. An empty list removes it. [Pa] [theory.md, Spin prestress]
   void set_initial_stress(int block, const std::vector<std::array<double, 4>>& stress);
 
   /// f = K u, overwritten. [N]
@@ -64,8 +64,8 @@ class BasicInternalForce {
   /// Energy of u. [J]
   DeformationEnergy energy(int block, const Real* u) const;
 
-  /// Stress at the element's centre in its middle frame, (xx, yy, zz, yz, zx, xy) with x the sweep direction; without the
-  /// initial stress. [Pa]
+  /// Stress at the element's centre in its middle frame, (xx, yy, zz, yz, zx, xy) with x the sweep direction;
+  /// without the initial stress. [Pa]
   std::array<double, 6> stress(int block, int quad, int station, const Real* u) const;
 
   /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
@@ -158,8 +158,8 @@ class BasicInternalForce {
   const TileForces* forces_;
   std::vector<BlockData> blocks_;
   std::vector<Item> items_;
-  std::vector<std::int64_t> cost_;  ///< elements before each item, to share the work evenly
-  AlignedVector<Real> no_carry_;    ///< zeros
+  std::vector<std::int64_t> cost_;                    ///< elements before each item, to share the work evenly
+  AlignedVector<Real> no_carry_;                      ///< zeros
   mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
   mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part
 };

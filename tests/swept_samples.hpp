@@ -13,13 +13,17 @@
 
 namespace tread::samples {
 
-inline Material steel() { return {"steel", 205.9e9, 0.3, 7790, 0}; }
-inline Material concrete() { return {"concrete", 36e9, 0.2, 2400, 0}; }
+inline Material steel() {
+  return {"steel", 205.9e9, 0.3, 7790, 0};
+}
+inline Material concrete() {
+  return {"concrete", 36e9, 0.2, 2400, 0};
+}
 
 struct Grid {
-  int columns = 3;     ///< quads along p
-  int rows = 2;        ///< quads along q
-  double p = 0;        ///< corner [m]
+  int columns = 3;  ///< quads along p
+  int rows = 2;     ///< quads along q
+  double p = 0;     ///< corner [m]
   double q = 0;
   double width = 0.03;   ///< [m]
   double height = 0.02;  ///< [m]
@@ -46,21 +50,23 @@ inline Section grid_section(const Grid& grid, unsigned seed = 1) {
   return section;
 }
 
-inline std::vector<Material> materials() { return {steel(), concrete(), steel()}; }
+inline std::vector<Material> materials() {
+  return {steel(), concrete(), steel()};
+}
 
 inline SweptBlock extruded(double jitter = 0.2) {
-  return make_swept_block("bar", Sweep::extruded, grid_section({3, 2, 0.1, -0.02, 0.03, 0.02, jitter}), materials(),
-                          -0.3, {{5, 0.01, 0}, {19, 0.004, 1}, {8, 0.01, 0}, {3, 0.02, 1}});
+  return make_swept_block("bar", Sweep::extruded, grid_section({3, 2, 0.1, -0.02, 0.03, 0.02, jitter}),
+                          materials(), -0.3, {{5, 0.01, 0}, {19, 0.004, 1}, {8, 0.01, 0}, {3, 0.02, 1}});
 }
 
 inline SweptBlock revolved_open(double jitter = 0.2) {
-  return make_swept_block("arc", Sweep::revolved, grid_section({3, 2, -0.01, 0.05, 0.03, 0.02, jitter}), materials(),
-                          0.3, {{9, 0.11, 0}, {8, 0.05, 1}, {3, 0.2, 0}});
+  return make_swept_block("arc", Sweep::revolved, grid_section({3, 2, -0.01, 0.05, 0.03, 0.02, jitter}),
+                          materials(), 0.3, {{9, 0.11, 0}, {8, 0.05, 1}, {3, 0.2, 0}});
 }
 
 inline SweptBlock revolved_closed(int elements = 19) {
-  return make_swept_block("ring", Sweep::revolved, grid_section({2, 3, -0.01, 0.05, 0.03, 0.02, 0.2}), materials(), -0.1,
-                          {{elements, 2 * std::acos(-1.0) / elements, 0}});
+  return make_swept_block("ring", Sweep::revolved, grid_section({2, 3, -0.01, 0.05, 0.03, 0.02, 0.2}),
+                          materials(), -0.1, {{elements, 2 * std::acos(-1.0) / elements, 0}});
 }
 
 /// Moves a share of the nodes by up to `size` [m].
@@ -70,7 +76,8 @@ inline void shift_nodes(SweptBlock& block, double size, double share = 0.2, unsi
   for (int station = 0; station < block.station_count(); ++station)
     for (int node = 0; node < block.section.nodes(); ++node)
       if (0.5 * (1 + value(random)) < share)
-        block.node_shift[block.slot(node, station)] = {size * value(random), size * value(random), size * value(random)};
+        block.node_shift[block.slot(node, station)] = {size * value(random), size * value(random),
+                                                       size * value(random)};
 }
 
 /// Calls visit(block, section node, station, slot in the mesh) for every node.

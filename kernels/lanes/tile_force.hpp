@@ -1,6 +1,6 @@
 #pragma once
-// The hot loop: internal force of all elements that start in one tile. Its source is compiled once per instruction set;
-// the widest one that the processor has is chosen at run time.
+// The hot loop: internal force of all elements that start in one tile. Its source is compiled once per
+// instruction set; the widest one that the processor has is chosen at run time.
 
 #include <cstddef>
 #include <vector>
@@ -18,10 +18,11 @@ struct TileView {
   const Real* v = nullptr;       ///< velocity [m/s]; used when `damped`
   const Real* u_next = nullptr;  ///< the same of the tile that holds the last element's far station
   const Real* v_next = nullptr;
-  Real* f = nullptr;               ///< force, overwritten [N]
-  const Real* carry_in = nullptr;  ///< force of the preceding element on lane 0: [section node][3] behind kLanes of padding [N]
-  Real* carry_out = nullptr;       ///< force of this tile's last element on the station behind it [N]
-  int elements = 0;                ///< 1 ... kLanes
+  Real* f = nullptr;  ///< force, overwritten [N]
+  const Real* carry_in =
+      nullptr;  ///< force of the preceding element on lane 0: [section node][3] behind kLanes of padding [N]
+  Real* carry_out = nullptr;  ///< force of this tile's last element on the station behind it [N]
+  int elements = 0;           ///< 1 ... kLanes
 };
 
 /// What the elements of a tile are made of, in the order of the plan's quads.
@@ -35,8 +36,8 @@ struct TileElements {
   const InitialStress<Real>* initial_stress = nullptr;  ///< used when `prestressed`
   const int* perturbed = nullptr;                       ///< index into `lanes` or -1; null if all are swept
   const LanePositions<Real>* lanes = nullptr;
-  Real beta = 0;           ///< stiffness-proportional damping [s]
-  Real cosine = 1;         ///< of half the pitch (revolved)
+  Real beta = 0;    ///< stiffness-proportional damping [s]
+  Real cosine = 1;  ///< of half the pitch (revolved)
   Real sine = 0;
 };
 
@@ -63,8 +64,8 @@ struct TileForces {
   TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }
 };
 
-/// The instruction sets that this program contains and this processor has, widest first; the last is the baseline.
-/// Results agree between them to rounding, not in bits.
+/// The instruction sets that this program contains and this processor has, widest first; the last is the
+/// baseline. Results agree between them to rounding, not in bits.
 const std::vector<const TileForces*>& tile_forces();
 
 }  // namespace tread

@@ -43,7 +43,8 @@ TREAD_INLINE V shift_down(const V& a, const V& b) {
 /// (a[last], b[0], ..., b[last - 1])
 template <class V>
 TREAD_INLINE V shift_up(const V& a, const V& b) {
-  if constexpr (sizeof a / sizeof a[0] == 8) return __builtin_shufflevector(a, b, 7, 8, 9, 10, 11, 12, 13, 14);
+  if constexpr (sizeof a / sizeof a[0] == 8)
+    return __builtin_shufflevector(a, b, 7, 8, 9, 10, 11, 12, 13, 14);
   if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 3, 4, 5, 6);
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
 }
@@ -86,7 +87,8 @@ class TileLoop {
       const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes;
       Register near[kParts + 1];
       Register far[kParts];
-      for (int part = 0; part < kParts; ++part) near[part] = displacement(view_.u, view_.v, at + part * kWidth);
+      for (int part = 0; part < kParts; ++part)
+        near[part] = displacement(view_.u, view_.v, at + part * kWidth);
       near[kParts] = displacement(view_.u_next, view_.v_next, at);
       if (view_.elements == kLanes) [[likely]] {
         for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
@@ -104,7 +106,8 @@ class TileLoop {
     }
     Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kFrontValues;
     for (int part = 0; part < kParts; ++part, slot += kWidth) {
-      if constexpr (sweep == Sweep::revolved) turn_to_middle(elements_.cosine, elements_.sine, s[part], d[part]);
+      if constexpr (sweep == Sweep::revolved)
+        turn_to_middle(elements_.cosine, elements_.sine, s[part], d[part]);
       for (int i = 0; i < 3; ++i) {
         store(slot + i * kLanes, s[part][i]);
         store(slot + (3 + i) * kLanes, d[part][i]);
@@ -124,7 +127,8 @@ class TileLoop {
         s[part][i] = load<Register>(slot + (6 + i) * kLanes);
         d[part][i] = load<Register>(slot + (9 + i) * kLanes);
       }
-      if constexpr (sweep == Sweep::revolved) turn_to_nodes(elements_.cosine, elements_.sine, s[part], d[part]);
+      if constexpr (sweep == Sweep::revolved)
+        turn_to_nodes(elements_.cosine, elements_.sine, s[part], d[part]);
     }
     for (int i = 0; i < 3; ++i) {
       const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
@@ -159,7 +163,8 @@ class TileLoop {
   }
 
   template <class Element>
-  TREAD_INLINE void add_elements(int index, const FrontPlan::Quad& quad, int lane, const Element& element) const {
+  TREAD_INLINE void add_elements(int index, const FrontPlan::Quad& quad, int lane,
+                                 const Element& element) const {
     Real* corner[4];
     for (int j = 0; j < 4; ++j)
       corner[j] = front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kFrontValues + lane;
@@ -208,7 +213,8 @@ void tile_force(const TileElements<Real>& elements, const TileView<Real>& view, 
 
 template <class Real, Sweep sweep>
 TileForce<Real> select_options(TileVariant v) {
-  if (v.damped) return v.prestressed ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
+  if (v.damped)
+    return v.prestressed ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
   return v.prestressed ? tile_force<Real, sweep, false, true> : tile_force<Real, sweep, false, false>;
 }
 

@@ -1,13 +1,11 @@
 #include "kernels/solver/aggregates.hpp"
 
-#include <metis.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace tread {
@@ -29,47 +27,52 @@ std::vector<std::vector<int>> node_graph(const Section& section) {
   return graph;
 }
 
-/// Share of an aggregate that each section node fills: by its area or by its number, whichever is more.
-std::vector<double> node_shares(const Section& section, const AggregateOptions& options) {
-  std::vector<double> share(section.p.size(), 0.0);
-  for (std::size_t q = 0; q < section.quads.size(); ++q)
-    for (const int node : section.quads[q])
-      share[static_cast<std::size_t>(node)] += quad_area(section, static_cast<int>(q)) / 4;
-  for (double& value : share)
-    value = std::max(value / (options.size * options.size), 1.0 / (options.nodes_across * options.nodes_across));
-  return share;
-}
-
-std::vector<idx_t> metis_parts(const std::vector<std::vector<int>>& graph, const std::vector<double>& share,
-                               int count) {
-  std::vector<idx_t> part(graph.size(), 0);
-  if (count < 2) return part;
-  std::vector<idx_t> start{0}, neighbour, weight;
-  for (std::size_t i = 0; i < graph.size(); ++i) {
-    neighbour.insert(neighbour.end(), graph[i].begin(), graph[i].end());
-    start.push_back(static_cast<idx_t>(neighbour.size()));
-    weight.push_back(1 + static_cast<idx_t>(1e4 * std::min(share[i], 1.0)));
+/// Cuts a list of section nodes across its longer side until it is short and few enough.
+void cut(const Section& section, std::vector<int> nodes, const AggregateOptions& options,
+         std::vector<std::vector<int>>& parts) {
+  const std::vector<double>* along = nullptr;
+  double extent = -1, start = 0;
+  for (const auto* axis : {&section.p, &section.q}) {
+    const auto less = [&](int a, int b) { return (*axis)[static_cast<std::size_t>(a)] < (*axis)[static_cast<std::size_t>(b)]; };
+    const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), less);
+    const double length = (*axis)[static_cast<std::size_t>(*high)] - (*axis)[static_cast<std::size_t>(*low)];
+    if (length <= extent) continue;
+    along = axis;
+    extent = length;
+    start = (*axis)[static_cast<std::size_t>(*low)];
   }
-  idx_t nodes = static_cast<idx_t>(graph.size()), constraints = 1, parts = count, cut = 0;
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  const int status =
-      METIS_PartGraphRecursive(&nodes, &constraints, start.data(), neighbour.data(), weight.data(), nullptr,
-                               nullptr, &parts, nullptr, nullptr, options, &cut, part.data());
-  if (status != METIS_OK) throw NumericalError("METIS could not partition a block's section into aggregates");
-  return part;
+  const auto slices = static_cast<std::size_t>(std::ceil(extent / options.size));
+  if (slices > 1) {
+    std::vector<std::vector<int>> slice(slices);
+    for (const int node : nodes) {
+      const double place = ((*along)[static_cast<std::size_t>(node)] - start) / extent * static_cast<double>(slices);
+      slice[std::min(slices - 1, static_cast<std::size_t>(place))].push_back(node);
+    }
+    for (auto& piece : slice)
+      if (!piece.empty()) cut(section, std::move(piece), options, parts);
+  } else if (nodes.size() > static_cast<std::size_t>(options.nodes_across * options.nodes_across)) {
+    std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) {
+      return (*along)[static_cast<std::size_t>(a)] < (*along)[static_cast<std::size_t>(b)];
+    });
+    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+    cut(section, {nodes.begin(), middle}, options, parts);
+    cut(section, {middle, nodes.end()}, options, parts);
+  } else {
+    parts.push_back(std::move(nodes));
+  }
 }
 
 /// Connected parts of the section, each about one aggregate in extent.
 std::vector<std::vector<int>> section_parts(const Section& section, const AggregateOptions& options) {
-  const auto graph = node_graph(section);
-  const auto share = node_shares(section, options);
-  double total = 0;
-  for (const double value : share) total += std::min(value, 1.0);
-  const int count = std::min(section.nodes(), static_cast<int>(std::lround(total)));
-  const auto part = metis_parts(graph, share, count);
+  std::vector<int> all(section.p.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<std::vector<int>> pieces;
+  cut(section, std::move(all), options, pieces);
 
+  const auto graph = node_graph(section);
+  std::vector<int> piece_of(graph.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const int node : pieces[i]) piece_of[static_cast<std::size_t>(node)] = static_cast<int>(i);
   std::vector<std::vector<int>> parts;
   std::vector<bool> taken(graph.size(), false);
   for (std::size_t seed = 0; seed < graph.size(); ++seed) {
@@ -79,11 +82,10 @@ std::vector<std::vector<int>> section_parts(const Section& section, const Aggreg
     for (std::size_t i = 0; i < members.size(); ++i)
       for (const int next : graph[static_cast<std::size_t>(members[i])]) {
         const auto n = static_cast<std::size_t>(next);
-        if (taken[n] || part[n] != part[seed]) continue;
+        if (taken[n] || piece_of[n] != piece_of[seed]) continue;
         taken[n] = true;
         members.push_back(next);
       }
-    std::sort(members.begin(), members.end());
     parts.push_back(std::move(members));
   }
   return parts;

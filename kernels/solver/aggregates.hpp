@@ -11,17 +11,17 @@
 namespace tread {
 
 struct AggregateOptions {
-  double size = 0.05;     ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 10;  ///< most nodes along one direction, roughly
+  double size = 0.04;     ///< largest extent of an aggregate, roughly [m]
+  int nodes_across = 8; ///< most nodes along one direction, roughly
 };
 
-/// Every free node belongs to one aggregate: a part of a block's section (METIS) times a run of stations. An
+/// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations. An
 /// aggregate has up to six modes: its rigid motions on the free unknowns, orthonormal in the plain product;
 /// motions that these unknowns cannot tell apart (a line of nodes, vertical motion only) are left out. Together
 /// the modes are the columns of Z, numbered aggregate after aggregate.
 class Aggregates {
  public:
-  /// `free` has 3 * mesh.slots values: 1 where the unknown is free, 0 elsewhere and in unused lanes.
+  /// `free` has 3 * mesh.slots values: not 0 where the unknown is free, 0 elsewhere and in unused lanes.
   Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options);
 
   int count() const { return static_cast<int>(patches_.size()); }

@@ -1,5 +1,5 @@
 #pragma once
-// The preconditioner of the static solver: aggregates' rigid motions below, a Chebyshev polynomial above.
+// The static solver's preconditioner: rigid motions of aggregates below, a Chebyshev polynomial above, added.
 
 #include <vector>
 
@@ -12,40 +12,44 @@
 
 namespace tread {
 
-enum class Cycle { additive, adef2, symmetric };
 struct TwoLevelOptions {
   AggregateOptions aggregates;
-  int degree = 3;            ///< of the Chebyshev polynomial
-  double spread = 30;  ///< the polynomial damps [lambda_max / spread, lambda_max]
-  Cycle cycle = Cycle::symmetric;
+  int degree = 3;      ///< of the Chebyshev polynomial: it applies the operator degree - 1 times
+  double spread = 20;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
 };
 
+/// B = S + Z (Z^T A Z)^-1 Z^T with S a Chebyshev polynomial in D^-1 A times D^-1, D the diagonal. Iterations grow
+/// with the aggregates' size over the smallest element and do not depend on the bodies' slenderness. One object
+/// serves one caller at a time: applying it uses buffers of its own.
 class TwoLevelPreconditioner : public Preconditioner {
  public:
-  TwoLevelPreconditioner(const Mesh& mesh, Operator a, const AlignedVector<double>& diagonal,
-                         const std::vector<TiedSlot>& ties, const TwoLevelOptions& options);
+  /// `elastic`: elements and eliminated ties without springs; applied about 150 times here and not kept.
+  /// `diagonal`: its diagonal, 0 where an unknown is not free, unused lanes included [N/m]. Not ready before the
+  /// first update(). Throws NumericalError as CoarseSolver does.
+  TwoLevelPreconditioner(const Mesh& mesh, const Operator& elastic, AlignedVector<double> diagonal,
+                         const std::vector<TiedSlot>& ties, const TwoLevelOptions& options = {});
 
-  void update(Operator a_with_springs, const std::vector<Spring>& springs);
+  /// Takes over the operator with its springs, which may change from call to call (contact): refactorises the
+  /// coarse matrix and applies `a` some twenty times for its largest eigenvalue.
+  void update(Operator a, const std::vector<Spring>& springs);
+
   void apply(const double* r, double* z) const override;
+
   const Aggregates& aggregates() const { return aggregates_; }
   const CoarseSolver& coarse() const { return coarse_; }
-  void set(Cycle c, int d, double s) { options_.cycle = c; options_.degree = d; options_.spread = s; }
-  double largest_eigenvalue() const { return lambda_max_; }
-  void start(const double* r, double* x) const;
-  mutable double t_coarse = 0;
 
  private:
-  void correct(const double* r, double* z) const;
-  void smooth(double* r, double* z, bool want_residual) const;
+  void smooth(const double* r, double* z) const;
+
   TwoLevelOptions options_;
   AlignedVector<double> diagonal_;
   Aggregates aggregates_;
   CoarseSolver coarse_;
   Operator a_;
-  AlignedVector<double> inverse_;
-  double lambda_max_ = 0;
-  mutable AlignedVector<double> res_, p_, q_;
-  mutable std::vector<double> rc_;
+  AlignedVector<double> inverse_;  ///< of the diagonal with springs; 0 where an unknown is not free
+  double lambda_max_ = 0;          ///< of D^-1 A
+  mutable AlignedVector<double> residual_, step_, a_step_;
+  mutable std::vector<double> coarse_values_;
 };
 
 }  // namespace tread

@@ -16,13 +16,16 @@ namespace {
 using samples::cartesian;
 using samples::for_each_node;
 
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// (t, y, r) tensor of the middle of an element in Cartesian axes.
 Mat3 to_cartesian_tensor(const SweptBlock& block, double angle, const std::array<double, 4>& s) {
   const Mat3 local = {{{s[0], 0, 0}, {0, s[1], s[3]}, {0, s[3], s[2]}}};
   if (block.sweep == Sweep::extruded) return local;
-  const Mat3 axes = {{{-std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}, {std::sin(angle), 0, -std::cos(angle)}}};
+  const Mat3 axes = {
+      {{-std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}, {std::sin(angle), 0, -std::cos(angle)}}};
   Mat3 result{};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -51,9 +54,9 @@ std::vector<GeneralForce::Element> general_elements(const SweptBlock& block,
       }
       element.shape.material = block.material(quad, tile.pitch_class);
       if (!stress.empty())
-        element.shape.initial_stress =
-            to_cartesian_tensor(block, block.stations[index(station)] + block.classes[index(tile.pitch_class)].pitch / 2,
-                                stress[index(quad)]);
+        element.shape.initial_stress = to_cartesian_tensor(
+            block, block.stations[index(station)] + block.classes[index(tile.pitch_class)].pitch / 2,
+            stress[index(quad)]);
       elements.push_back(element);
     }
   return elements;
@@ -86,7 +89,8 @@ std::vector<std::array<double, 4>> some_stress(const SweptBlock& block) {
 }
 
 /// Largest difference between a vector field and Cartesian nodal values of a block, by the largest value.
-double difference(const SweptBlock& block, const AlignedVector<double>& f, const std::vector<Vec3>& expected) {
+double difference(const SweptBlock& block, const AlignedVector<double>& f,
+                  const std::vector<Vec3>& expected) {
   double largest = 0;
   double error = 0;
   for (int station = 0; station < block.station_count(); ++station)

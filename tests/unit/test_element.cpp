@@ -10,14 +10,17 @@
 namespace tread {
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 HexNodes distorted_hexahedron() {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
   HexNodes nodes;
   for (int node = 0; node < 8; ++node)
-    nodes[index(node)] = {mode_value(mode_xi, node) + shift(random), 2 * mode_value(mode_eta, node) + shift(random),
+    nodes[index(node)] = {mode_value(mode_xi, node) + shift(random),
+                          2 * mode_value(mode_eta, node) + shift(random),
                           3 * mode_value(mode_zeta, node) + shift(random)};
   return nodes;
 }
@@ -66,7 +69,8 @@ TEST(ElementGeometry, VolumeGrowsByTheIntegralOfTheShapeFunctionsGradient) {
       double b = 0;
       for (int m = 0; m < kGradientModes; ++m)
         b += mode_value(static_cast<Mode>(m), node) * shape.gradient[index(m)][index(j)] * shape.volume;
-      EXPECT_NEAR((element_geometry(ahead).volume - element_geometry(behind).volume) / 0.2, b, 1e-13 * shape.volume);
+      EXPECT_NEAR((element_geometry(ahead).volume - element_geometry(behind).volume) / 0.2, b,
+                  1e-13 * shape.volume);
     }
 }
 
@@ -95,7 +99,8 @@ class SweptSymmetry : public testing::TestWithParam<Sweep> {
 
 TEST_P(SweptSymmetry, LeavesTheCoefficientsThatTheKernelUses) {
   const double scale = norm(shape_.gradient[mode_eta]) + norm(shape_.gradient[mode_xi]);
-  for (const Mode mode : {mode_eta, mode_zeta, mode_h1}) EXPECT_NEAR(shape_.gradient[mode].x, 0, 1e-14 * scale);
+  for (const Mode mode : {mode_eta, mode_zeta, mode_h1})
+    EXPECT_NEAR(shape_.gradient[mode].x, 0, 1e-14 * scale);
   for (const Mode mode : {mode_xi, mode_h2, mode_h3})
     for (const int j : {1, 2}) EXPECT_NEAR(shape_.gradient[mode][j], 0, 1e-14 * scale);
   EXPECT_NEAR(shape_.position[mode_h1].x, 0, 1e-15);
@@ -121,15 +126,16 @@ TEST_P(SweptSymmetry, HourglassConstantsHoldTheWholeMatrix) {
     strain.q[column / 4][column % 4] = 1;
     hourglass_forces(constants.hourglass, strain, force);
     for (int row = 0; row < 12; ++row) {
-      EXPECT_NEAR(force.q[row / 4][row % 4], matrix[index(row)][index(column)], 1e-14 * scale) << row << " " << column;
+      EXPECT_NEAR(force.q[row / 4][row % 4], matrix[index(row)][index(column)], 1e-14 * scale)
+          << row << " " << column;
       EXPECT_NEAR(matrix[index(row)][index(column)], matrix[index(column)][index(row)], 1e-14 * scale);
     }
   }
 }
 
 TEST_P(SweptSymmetry, PerturbedBodyGivesTheSameStrains) {
-  const auto constants =
-      swept_constants<double>(shape_, hourglass_matrix(nodes_, shape_.volume, samples::steel()), samples::steel());
+  const auto constants = swept_constants<double>(
+      shape_, hourglass_matrix(nodes_, shape_.volume, samples::steel()), samples::steel());
   LanePositions<double> lanes{};
   for (std::size_t m = 0; m < kModes; ++m)
     for (int j = 0; j < 3; ++j) lanes.position[m][j][3] = shape_.position[m][j];
@@ -148,7 +154,9 @@ TEST_P(SweptSymmetry, PerturbedBodyGivesTheSameStrains) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweeps, SweptSymmetry, testing::Values(Sweep::extruded, Sweep::revolved),
-                         [](const auto& sweep) { return sweep.param == Sweep::extruded ? "extruded" : "revolved"; });
+                         [](const auto& sweep) {
+                           return sweep.param == Sweep::extruded ? "extruded" : "revolved";
+                         });
 
 TEST(ElementBody, ModesAreTheSumsOverTheNodes) {
   const double u[8] = {1, -2, 3, 5, -7, 11, 13, -17};
@@ -196,7 +204,8 @@ TEST(ElementBody, BackwardStagesAreTransposes) {
   std::copy_n(sum, 3, turned_sum);
   std::copy_n(difference, 3, turned_difference);
   turn_to_middle(std::cos(0.1), std::sin(0.1), turned_sum, turned_difference);
-  for (int i = 0; i < 3; ++i) work += turned_sum[i] * sum_force[i] + turned_difference[i] * difference_force[i];
+  for (int i = 0; i < 3; ++i)
+    work += turned_sum[i] * sum_force[i] + turned_difference[i] * difference_force[i];
   turn_to_nodes(std::cos(0.1), std::sin(0.1), sum_force, difference_force);
   for (int i = 0; i < 3; ++i) work -= sum[i] * sum_force[i] + difference[i] * difference_force[i];
   EXPECT_NEAR(work, 0, 1e-14);
@@ -210,7 +219,8 @@ TEST(FrontPlan, OpensAndClosesEveryNodeOnceAroundItsQuads) {
   int opened = 0;
   int closed = 0;
   for (const FrontPlan::Quad& entry : plan.quads) {
-    for (; opened < entry.opened; ++opened) node_in[index(plan.open[index(opened)].slot)] = plan.open[index(opened)].node;
+    for (; opened < entry.opened; ++opened)
+      node_in[index(plan.open[index(opened)].slot)] = plan.open[index(opened)].node;
     for (std::size_t j = 0; j < 4; ++j)
       EXPECT_EQ(node_in[index(entry.slot[j])], section.quads[index(entry.quad)][j]);
     for (; closed < entry.closed; ++closed) {
