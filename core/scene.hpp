@@ -93,6 +93,7 @@ struct MotionSpec {
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
   double ramp = 5e-3;                     ///< T1 [s]
   bool spin_in_preload = true;
+  std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
   double step_safety = 0.98;  ///< fraction of the computed stable step
 };
 

@@ -2,17 +2,24 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/check_command.hpp"
+#include "drivers/mesh_command.hpp"
 #include "drivers/run_command.hpp"
+#include "drivers/version_command.hpp"
+#include "io/json_writer.hpp"
+#include "io/problems.hpp"
 #include "io/scene_reader.hpp"
 
 namespace {
 
-struct Common {
+struct SceneArguments {
   std::string scene;
   std::string quality;
   std::vector<std::string> overrides;
@@ -25,26 +32,96 @@ struct Common {
   }
 };
 
-void add_scene_options(CLI::App& command, Common& common) {
-  command.add_option("scene", common.scene, "scene file (TOML)")->required();
-  command.add_option("-q,--quality", common.quality, "draft, standard or paper; overrides scene.quality");
-  command.add_option("--set", common.overrides, "key=value that overrides the scene, e.g. --set motion.speed=250km/h");
+/// Options and scene of a command that works on a scene; lives as long as the command line.
+template <class Options>
+struct SceneCommand {
+  SceneArguments arguments;
+  Options options;
+};
+
+void print_problems(const std::vector<tread::Problem>& problems) {
+  tread::JsonWriter json;
+  json.begin_object().member("ok", false).key("problems").begin_array();
+  for (const tread::Problem& problem : problems)
+    json.begin_object()
+        .member("file", std::string_view(problem.file))
+        .member("line", problem.line)
+        .member("column", problem.column)
+        .member("key", std::string_view(problem.key))
+        .member("message", std::string_view(problem.message))
+        .end_object();
+  fmt::print("{}", json.end_array().end_object().text());
+}
+
+/// Calls `action`; with `json` what is wrong goes to stdout as a list, too.
+void report_problems(bool json, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const tread::ProblemsError& error) {
+    if (json) print_problems(error.problems);
+    throw;
+  } catch (const tread::Error& error) {
+    if (json) print_problems({{"", 0, 0, "", error.what()}});
+    throw;
+  }
+}
+
+/// A subcommand that reads a scene: `act(resolved scene, options)`.
+template <class Options>
+CLI::App& add_scene_command(CLI::App& app, const char* name, const char* text,
+                            void (*act)(const tread::ResolvedScene&, const Options&), std::shared_ptr<SceneCommand<Options>> state) {
+  CLI::App& command = *app.add_subcommand(name, text);
+  command.add_option("scene", state->arguments.scene, "scene file (TOML)")->required();
+  command.add_option("-q,--quality", state->arguments.quality, "draft, standard or paper; overrides scene.quality");
+  CLI::Option& set = *command.add_option("--set", state->arguments.overrides,
+                                         "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"");
+  set.allow_extra_args(false);
+  command.add_option("-t,--threads", state->options.threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_flag("--json", state->options.json, "JSON on stdout");
+  command.callback([state, act] {
+    report_problems(state->options.json, [&] { act(state->arguments.resolve(), state->options); });
+  });
+  return command;
+}
+
+void add_run(CLI::App& app, const std::string& command_line) {
+  auto state = std::make_shared<SceneCommand<tread::RunOptions>>();
+  state->options.command = command_line;
+  CLI::App& command =
+      add_scene_command(app, "run", "preload, roll, write histories, summary and report", tread::run_scene, state);
+  command.add_option("-o,--output", state->options.output, "output directory")->required();
+  command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
+}
+
+void add_check(CLI::App& app) {
+  add_scene_command(app, "check", "all errors of a scene, or what it would compute and cost", tread::check_scene,
+                    std::make_shared<SceneCommand<tread::CheckOptions>>());
+}
+
+void add_mesh(CLI::App& app) {
+  auto state = std::make_shared<SceneCommand<tread::MeshOptions>>();
+  CLI::App& command = add_scene_command(app, "mesh", "counts, element sizes, masses and stable step of a scene's mesh",
+                                        tread::describe_mesh, state);
+  command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
+}
+
+void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bool)) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App& command = *app.add_subcommand(name, text);
+  command.add_flag("--json", *json, "JSON on stdout");
+  command.callback([json, act] { act(*json); });
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"tread: transient wheel-rail rolling contact"};
   app.require_subcommand(1);
-  Common common;
-  tread::RunOptions options;
-
-  CLI::App& run_command = *app.add_subcommand("run", "preload, roll, write histories, summary and report");
-  add_scene_options(run_command, common);
-  run_command.add_option("-o,--output", options.output, "output directory")->required();
-  run_command.add_option("-t,--threads", options.threads, "threads (default: all)")->check(CLI::PositiveNumber);
-  run_command.add_flag("--json", options.json, "summary as JSON on stdout");
-  run_command.add_flag("--quiet", options.quiet, "no progress on stderr");
-  run_command.callback([&] { tread::run_scene(common.resolve(), options); });
-
+  std::string command_line = "tread";
+  for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
+  add_run(app, command_line);
+  add_check(app);
+  add_mesh(app);
+  add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);
+  add_plain(app, "scene-reference", "every key of a scene file, as Markdown", tread::print_scene_reference);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

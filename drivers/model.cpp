@@ -63,7 +63,7 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
     for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
     ties.emplace(mesh, tie_specs);
   }
-  internal = std::make_unique<InternalForce>(mesh);
+  build_internal();
   restrain();
   build_mass();
   if (scene.fastenings && scene.rail) build_fastenings();
@@ -137,7 +137,9 @@ void Model::build_wheel() {
                                             plan.start, plan.tread));
     return;
   }
-  WheelSections sections = wheel_sections(scene, sizes, plan);
+  SizedWheel sized = wheel_sections(scene, sizes, plan);
+  WheelSections& sections = sized.sections;
+  brake_ring_thickness = sized.brake_ring_thickness;
   index.tread = mesh.add(
       make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel}, plan.start, plan.tread));
   index.disc = mesh.add(
@@ -202,6 +204,12 @@ void Model::restrain() {
   restrained.erase(std::unique(restrained.begin(), restrained.end()), restrained.end());
 }
 
+void Model::build_internal() {
+  internal = std::make_unique<InternalForce>(mesh);
+  if (scene.motion)
+    for (const int b : index.wheel()) internal->set_finite_rotation(b, true);
+}
+
 void Model::build_mass() {
   mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
   internal->lumped_mass(mass.data());
@@ -248,8 +256,10 @@ void Model::build_wheel_parts() {
   wheelset.emplace(mesh, index.wheel(), mass.data());
   const bool tyre = index.axle < 0;
   const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(tyre ? index.tread : index.axle)];
-  journal = Journal(block, block.section.paths.at(tyre ? "bore" : "journal"), mass.data());
-  torque = AxleTorque(block, block.section.paths.at(tyre ? "bore" : "symmetry_end"), mass.data());
+  if (scene.vehicle || scene.load)
+    journal = Journal(block, block.section.paths.at(tyre ? "bore" : "journal"), mass.data());
+  if (scene.motion && (scene.motion->traction_mu || scene.motion->traction_torque))
+    torque = AxleTorque(block, block.section.paths.at(tyre ? "bore" : "symmetry_end"), mass.data());
 }
 
 double Model::wheel_load() const {
@@ -333,7 +343,7 @@ void Model::apply_corrugation(double centre) {
   if (spec.apply == "nodes") {
     SweptBlock& cap = mesh.blocks[static_cast<std::size_t>(index.rail_cap)];
     shift_top_layers(cap, shape, 3 * sizes.contact);
-    internal = std::make_unique<InternalForce>(mesh);
+    build_internal();
     build_mass();
   }
   ContactOptions options = contact->options();

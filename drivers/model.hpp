@@ -54,8 +54,9 @@ struct Model {
 
   std::optional<SpringDampers> fastenings;
   std::optional<SpinningBody> wheelset;
-  Journal journal;      ///< carries vehicle or load; empty without a wheel
-  AxleTorque torque;
+  Journal journal;      ///< carries vehicle or load; empty without either
+  AxleTorque torque;    ///< empty without traction
+  double brake_ring_thickness = 0;  ///< of each of the two plates that bring the wheelset to its mass [m]
   std::unique_ptr<Contact> contact;
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
@@ -74,6 +75,7 @@ struct Model {
   void build_rail();
   void build_wheel();
   void build_slab();
+  void build_internal();
   void restrain();
   void build_mass();
   void build_fastenings();

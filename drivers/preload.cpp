@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "drivers/static_system.hpp"
 #include "kernels/solver/chunks.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
@@ -38,6 +39,36 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
     model.journal.add(load.data(), frame, {0, 0, -weight});
   }
   return load;
+}
+
+/// Adds -m rate^2 d2u/ds2, the inertia of material that passes through the steady deflection u, s the station coordinate.
+void add_steady_inertia(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
+  for (const SweptBlock& block : model.mesh.blocks) {
+    const double rate = block.sweep == Sweep::revolved ? motion.spin : motion.speed;
+    if (rate == 0) continue;
+    const StationFinder finder(block);
+    parallel_ranges(block.station_count(), [&](std::int64_t first, std::int64_t last) {
+      for (int station = static_cast<int>(first); station < last; ++station) {
+        if (!block.closed && (station == 0 || station == block.station_count() - 1)) continue;
+        const LineCell cell = finder.cell(station);
+        const double scale = -2 * rate * rate / (cell.length_before + cell.length);
+        for (int node = 0; node < block.section.nodes(); ++node) {
+          // Values in the basis of the middle station.
+          const auto value = [&](int at, double turned) {
+            const std::int64_t slot = block.base + block.slot(node, at);
+            const Vec3 v{u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]};
+            return block.sweep == Sweep::revolved ? turn(v, turned) : v;
+          };
+          const Vec3 here = value(station, 0);
+          const Vec3 second = (1 / cell.length) * (value(cell.second, cell.length) - here) -
+                              (1 / cell.length_before) * (here - value(cell.before, -cell.length_before));
+          const std::int64_t slot = block.base + block.slot(node, station);
+          const double m = model.mass[static_cast<std::size_t>(slot)];
+          for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * scale * second[c];
+        }
+      }
+    });
+  }
 }
 
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean.
@@ -96,9 +127,9 @@ void describe(const Model& model, Preload& out) {
 
 }  // namespace
 
-Preload solve_preload(Model& model, double spin, const ProgressText& progress) {
+Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
   constexpr int kMaxNewton = 40;
-  constexpr double kTolerance = 1e-8;
+  constexpr double kTolerance = 1e-7;
   const StaticSystem system(model);
   const auto n = static_cast<std::int64_t>(system.diagonal().size());
 
@@ -109,7 +140,7 @@ Preload solve_preload(Model& model, double spin, const ProgressText& progress) {
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }
-  AlignedVector<double> load = external_load(model, out.wheel, spin);
+  AlignedVector<double> load = external_load(model, out.wheel, motion.spin);
   const auto held = held_wheel(model, system.diagonal());
   double scale = model.wheel_load();
   if (scale <= 0) {
@@ -134,7 +165,7 @@ Preload solve_preload(Model& model, double spin, const ProgressText& progress) {
   for (int iteration = 0;; ++iteration) {
     system.expand(u);
     springs = fixed_springs;
-    model.internal->apply(u, residual.data());
+    model.internal->internal_force(u, nullptr, residual.data());
     add_springs(fixed_springs, u, residual.data());
     if (model.contact) {
       model.contact->find_static({u, nullptr, &out.wheel});
@@ -149,6 +180,7 @@ Preload solve_preload(Model& model, double spin, const ProgressText& progress) {
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
         residual[i] = load[i] - residual[i];
     });
+    add_steady_inertia(model, motion, u, residual.data());
     system.reduce(residual.data());
     if (held) {
       const auto work = held->work(residual.data());

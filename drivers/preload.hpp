@@ -22,13 +22,18 @@ struct Preload {
   double rail_deflection = 0;          ///< downwards, of the rail's foot under the wheel [m]
   double slab_deflection = 0;          ///< [m]
   ContactTotals contact;
-  double spin_tread_growth = 0;        ///< radial, of the freely spinning wheel [m]
 };
 
 using ProgressText = std::function<void(const std::string&)>;
 
-/// `spin`: of the wheel for the centrifugal load, 0 for none [rad/s]. Throws NumericalError if Newton's method or the
-/// linear solver does not converge.
-Preload solve_preload(Model& model, double spin, const ProgressText& progress);
+/// Motion whose steady inertia the static state carries: material passes through a deflection that stays under the
+/// wheel. [theory.md, Preload]
+struct SteadyMotion {
+  double spin = 0;   ///< of the wheel: centrifugal force about the bent axle [rad/s]
+  double speed = 0;  ///< of the deflection along the track [m/s]
+};
+
+/// Throws NumericalError if Newton's method or the linear solver does not converge.
+Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);
 
 }  // namespace tread

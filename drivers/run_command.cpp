@@ -4,26 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "drivers/machine.hpp"
 #include "drivers/progress.hpp"
+#include "drivers/run_report.hpp"
 #include "drivers/run_results.hpp"
-#include "drivers/spin_prestress.hpp"
 #include "io/output_file.hpp"
 
 namespace tread {
 
 namespace {
-
-void make_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error || !std::filesystem::is_directory(directory))
-    throw ResourceError(fmt::format("cannot create the output directory '{}': {}; choose another with -o",
-                                    directory.string(), error ? error.message() : "a file of that name is there"));
-}
 
 std::string progress_line(const Simulation& simulation, const Sample& sample, const Model& model, double end,
                           double seconds) {
@@ -44,9 +35,9 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
   const MotionSpec& motion = *model.scene.motion;
   HistoryFile histories(directory, history_channels(model));
   Simulation simulation(model, results.preload, results.dt);
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, std::llround(model.scene.output.history_interval / results.dt)));
+  simulation.set_sampling_interval(sampling_interval(model.scene, results.dt));
   const double started = progress.seconds();
-  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / results.dt));
+  const auto steps = step_count(model.scene, results.dt);
   while (simulation.steps() < steps) {
     simulation.step();
     if (simulation.sampled()) {
@@ -73,7 +64,7 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
 }  // namespace
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
-  set_threads(options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency()));
+  use_threads(options.threads);
   make_directory(options.output);
   write_text_file(options.output / "scene.resolved.toml", resolved_toml(resolved));
   Progress progress(options.quiet);
@@ -81,22 +72,18 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
 
   const Scene& scene = resolved.scene;
   Model model(scene);
-  const double spin = scene.motion && scene.wheel ? scene.motion->speed / model.wheel_radius() : 0;
-  if (spin > 0 && model.index.disc >= 0) {
-    const auto wheel = model.index.wheel();
-    const SpinPrestress prestress = spin_prestress(model.mesh, wheel, model.tie_specs, spin);
-    for (std::size_t i = 0; i < wheel.size(); ++i) model.internal->set_initial_stress(wheel[i], prestress.stress[i]);
-    results.preload.spin_tread_growth = prestress.tread_growth;
+  SteadyMotion motion;
+  if (scene.motion && scene.wheel) {
+    if (scene.motion->spin_in_preload) motion.spin = scene.motion->speed / model.wheel_radius();
+    if (scene.motion->start == "moving") motion.speed = scene.motion->speed;
   }
   results.seconds_mesh = progress.seconds();
   progress.say(fmt::format("[mesh] {} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                            model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
 
-  const double growth = results.preload.spin_tread_growth;
-  const bool with_spin = scene.motion && scene.motion->spin_in_preload;
-  results.preload = solve_preload(model, with_spin ? spin : 0, [&](const std::string& text) { progress.say("[" + text + "]"); });
-  results.preload.spin_tread_growth = growth;
+  results.preload = solve_preload(model, motion, [&](const std::string& text) { progress.say("[" + text + "]"); });
   results.seconds_preload = progress.seconds() - results.seconds_mesh;
+  if (model.contact) results.static_pressure = model.contact->max_nodal_tractions()[0];
   if (scene.corrugation)
     model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
 
@@ -104,13 +91,14 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
     results.limit = step_limit(model);
     results.dt = scene.motion->step_safety * results.limit.stable_step;
     progress.say(fmt::format("[step] dt {:.3e} s, {} steps; {}", results.dt,
-                             static_cast<std::int64_t>(std::ceil(scene.motion->duration / results.dt)),
+                             step_count(scene, results.dt),
                              results.limit.reason));
     roll(model, results, options.output, progress);
   }
   evaluate(model, results);
   const std::string summary = summary_json(model, resolved, results);
   write_text_file(options.output / "summary.json", summary);
+  write_run_report(options.output / "report.html", model, resolved, results, options.command);
   if (options.json) fmt::print("{}", summary);
   progress.say(fmt::format("[done] {} in {}", options.output.string(), duration_text(progress.seconds())));
 }

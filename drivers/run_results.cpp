@@ -105,6 +105,14 @@ std::vector<double> history_row(const Model& model, const Sample& sample) {
   return row;
 }
 
+std::int64_t step_count(const Scene& scene, double dt) {
+  return static_cast<std::int64_t>(std::ceil(scene.motion->duration / dt));
+}
+
+std::int64_t sampling_interval(const Scene& scene, double dt) {
+  return std::max<std::int64_t>(1, std::llround(scene.output.history_interval / dt));
+}
+
 void evaluate(const Model& model, RunResults& r) {
   if (r.samples.empty()) return;
   const Scene& scene = model.scene;

@@ -18,6 +18,10 @@ namespace tread {
 std::vector<Channel> history_channels(const Model& model);
 std::vector<double> history_row(const Model& model, const Sample& sample);
 
+/// Of a run with step `dt` [s].
+std::int64_t step_count(const Scene& scene, double dt);
+std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
+
 struct Statistics {
   double mean = 0, min = 0, max = 0;
 };
@@ -25,6 +29,7 @@ struct Statistics {
 /// Everything that summary.json and the report state, in SI.
 struct RunResults {
   Preload preload;
+  double static_pressure = 0;  ///< largest nodal average of the preload [Pa]
   StepLimit limit;
   std::vector<Sample> samples;
   std::int64_t steps = 0;

@@ -77,7 +77,7 @@ Section slab_section(const Scene& scene, const MeshSizes& sizes) {
   return section;
 }
 
-WheelSections wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
+SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
   const WheelSpec& wheel = *scene.wheel;
   WheelShape shape;
   shape.diameter = wheel.diameter;
@@ -117,7 +117,7 @@ WheelSections wheel_sections(const Scene& scene, const MeshSizes& sizes, const W
                                    wheel.mass, 1e3 * thickness, mass(0)));
   }
   shape.brake_ring_thickness = thickness;
-  return make_wheel_sections(profile, shape, size);
+  return {make_wheel_sections(profile, shape, size), thickness};
 }
 
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade) {

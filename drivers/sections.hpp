@@ -15,8 +15,13 @@ Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
 Section slab_section(const Scene& scene, const MeshSizes& sizes);
 Section tyre_section(const Scene& scene, const MeshSizes& sizes);
 
-/// The brake disc ring is as thick as WheelSpec::mass needs with the plan's polygons. InputError if no ring does it.
-WheelSections wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
+struct SizedWheel {
+  WheelSections sections;
+  double brake_ring_thickness = 0;  ///< of each of the two plates [m]
+};
+
+/// The brake disc rings are as thick as WheelSpec::mass needs with the plan's polygons. InputError if no rings do it.
+SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
 
 /// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that fades to
 /// nothing over `fade` [m] (node_shift).

@@ -64,10 +64,54 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
   start_momentum_ = vehicle_momentum();
 }
 
+namespace {
+
+/// Derivative of a nodal value along the sweep, by the parabola through three stations.
+double along_sweep(const SweptBlock& block, int node, int station, int component, const AlignedVector<double>& field) {
+  const int count = block.station_count();
+  const auto value = [&](int s) {
+    return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
+  };
+  const auto pitch = [&](int s) {  // of the element that starts at s
+    const Tile& tile = block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(s)])];
+    return block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+  };
+  if (!block.closed && (station == 0 || station == count - 1)) {
+    const int s = station == 0 ? 0 : station - 1;
+    return (value(s + 1) - value(s)) / pitch(s);
+  }
+  const int before = station > 0 ? station - 1 : count - 1;
+  const int after = station + 1 < count ? station + 1 : 0;
+  const double h0 = pitch(before);
+  const double h1 = pitch(station);
+  return ((value(after) - value(station)) / h1 * h0 + (value(station) - value(before)) / h0 * h1) / (h0 + h1);
+}
+
+}  // namespace
+
 void Simulation::start_velocities() {
-  const double speed = model_->scene.motion ? model_->scene.motion->speed : 0.0;
+  const MotionSpec* motion = model_->scene.motion ? &*model_->scene.motion : nullptr;
+  const double speed = motion ? motion->speed : 0.0;
   frame_.velocity = {speed, 0, 0};
   frame_.spin = speed / model_->wheel_radius();
+  if (!motion || motion->start == "rigid") return;
+  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v du/dx in
+  // the track.
+  for (const SweptBlock& block : model_->mesh.blocks) {
+    const double rate = block.sweep == Sweep::revolved ? frame_.spin : -speed;
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 3; ++c)
+          v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), c))] =
+              rate * along_sweep(block, node, station, c, u_);
+  }
+  for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
+  if (model_->ties) model_->ties->follow(v_.data());
+  if (!model_->contact) return;
+  // Free rolling: the spin at which the patch as a whole does not slip.
+  const ContactState state{u_.data(), v_.data(), &frame_};
+  model_->contact->find_static({u_.data(), nullptr, &frame_});
+  frame_.spin += model_->contact->mean_slip_velocity(state).x / model_->wheel_radius();
 }
 
 double Simulation::torque_at(double time) const {
@@ -79,7 +123,7 @@ double Simulation::torque_at(double time) const {
 void Simulation::step() {
   sampled_ = steps_ % sampling_ == 0;
   // 1  internal force K (u + beta v) of every block; secondary nodes hand theirs to the primaries
-  model_->internal->apply_damped(u_.data(), v_.data(), force_.data());
+  model_->internal->internal_force(u_.data(), v_.data(), force_.data());
   if (sampled_) begin_sample();
   if (model_->ties) model_->ties->gather(force_.data());
   // 2  fastenings, primary suspension
@@ -251,8 +295,17 @@ double Simulation::creepage(std::int64_t slot, double radius) const {
 
 void Simulation::begin_sample() {
   EnergyLedger& energy = sample_.energy;
-  // force_ still holds K (u + beta v) alone; u . K u / 2 is the energy of strain and hourglass (prestress included).
-  energy.strain = 0.5 * dot(static_cast<std::int64_t>(u_.size()), u_.data(), force_.data());
+  // force_ still holds K (u + beta v) alone: in the linear blocks u . K u / 2 is the energy of strain and hourglass.
+  energy.strain = 0;
+  for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    if (block.sweep == Sweep::extruded) {
+      energy.strain += 0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, force_.data() + 3 * block.base);
+    } else {
+      const DeformationEnergy part = model_->internal->energy(b, u_.data());
+      energy.strain += part.strain + part.hourglass;
+    }
+  }
   kinetic_before_ = kinetic_energy();
   energy.gravity = gravity_potential();
   energy.connectors = model_->fastenings ? model_->fastenings->energy(u_.data()) : 0.0;

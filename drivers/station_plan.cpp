@@ -13,9 +13,9 @@ namespace tread {
 MeshSizes mesh_sizes(const Scene& scene) {
   MeshSizes sizes;
   if (scene.quality == "draft") {
-    sizes = {2.2e-3, 26e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+    sizes = {2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
   } else if (scene.quality == "standard") {
-    sizes = {1.6e-3, 20e-3, 8e-3, 50e-3, 2, 4, 4, 16e-3};
+    sizes = {1.6e-3, 35e-3, 8e-3, 50e-3, 2, 4, 4, 16e-3};
   } else {
     throw InputError(fmt::format("scene.quality = \"{}\": draft and standard are available", scene.quality));
   }

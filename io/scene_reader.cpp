@@ -77,8 +77,9 @@ class SceneBuilder {
   }
 
   void read_file() {
-    add_children(parse_toml(source_.text, source_.name), "",
-                 {Level::file, {source_.name, 0, 0}, source_.name});
+    const Place whole{source_.name, 0, 0};
+    const Origin origin{Level::file, whole, source_.name};
+    add_children(parse_toml(source_.text, source_.name), "", origin);
   }
 
   void read_override(const std::string& text) {
@@ -95,7 +96,8 @@ class SceneBuilder {
              fmt::format("\"{}\" is not of the form key=value, such as motion.speed=\"250 km/h\"", text));
       return;
     }
-    set_plain(path, trim(std::string_view(text).substr(equals + 1)), {Level::command_line, place, "--set"});
+    const Origin origin{Level::command_line, place, "--set"};
+    set_plain(path, trim(std::string_view(text).substr(equals + 1)), origin);
   }
 
   void read_library() {
@@ -113,9 +115,9 @@ class SceneBuilder {
       return;
     }
     for (const LibraryValue& value : entry->values) {
-      const std::string from = fmt::format("{}: {}", entry->name, value.source);
-      set_plain(std::string(value.path), std::string(value.value),
-                {Level::library, {source_.name, 0, 0}, from});
+      const Place whole{source_.name, 0, 0};
+      const Origin origin{Level::library, whole, fmt::format("{}: {}", entry->name, value.source)};
+      set_plain(std::string(value.path), std::string(value.value), origin);
     }
   }
 
@@ -142,7 +144,7 @@ class SceneBuilder {
       mention(path, origin);
       add_children(*node.as_table(), path + ".", origin);
     } else if (is_table(path)) {
-      const Table* table = table_of(path);
+      const SceneTable* table = table_of(path);
       const bool removable = table && table->removable() && table->name == path;
       tables_unclear_ = true;
       report(origin.place, path,
@@ -158,7 +160,7 @@ class SceneBuilder {
   }
 
   void mention(const std::string& path, const Origin& origin) {
-    const Table* table = table_of(path);
+    const SceneTable* table = table_of(path);
     if (!table) return;
     const auto [known, is_new] = mentioned_.try_emplace(table->name, origin);
     if (!is_new && origin.level > known->second.level) known->second = origin;
@@ -182,7 +184,7 @@ class SceneBuilder {
 
   /// Creates the components that the highest level to mention them wants.
   void choose_tables() {
-    for (const Table& table : scene_tables()) {
+    for (const SceneTable& table : scene_tables()) {
       const auto found = mentioned_.find(table.name);
       if (found == mentioned_.end() || !table.removable()) continue;
       if (wants(table, found->second.level)) {
@@ -195,7 +197,7 @@ class SceneBuilder {
 
   /// Materials of a component that the scene lacks go with it.
   void drop_idle_tables() {
-    for (const Table& table : scene_tables()) {
+    for (const SceneTable& table : scene_tables()) {
       if (table.only_with.empty() || !table.exists(scene_) || table_of(table.only_with)->exists(scene_))
         continue;
       table.remove(scene_);
@@ -205,7 +207,7 @@ class SceneBuilder {
     }
   }
 
-  bool wants(const Table& table, Level mentioned_at) {
+  bool wants(const SceneTable& table, Level mentioned_at) {
     const auto present = settings_.find(table.name + ".present");
     if (present == settings_.end() || present->second.origin.level < mentioned_at) return true;
     try {
@@ -216,7 +218,7 @@ class SceneBuilder {
     }
   }
 
-  void report_unused_keys(const Table& table, Level level) {
+  void report_unused_keys(const SceneTable& table, Level level) {
     if (level == Level::library) return;
     for (const auto& [path, setting] : settings_) {
       if (setting.origin.level != level || path == table.name + ".present" || table_of(path) != &table)
@@ -302,7 +304,7 @@ class SceneBuilder {
       if (std::holds_alternative<std::monostate>(key.locate(scene_))) continue;
       bad_.insert(key.path);
       if (tables_unclear_) continue;
-      const Table* table = table_of(key.path);
+      const SceneTable* table = table_of(key.path);
       const std::string kind = key.quantity ? fmt::format("a {}", key.quantity->name) : "a value";
       report(mentioned_.at(table->name).place, key.path,
              fmt::format("is missing; [{}] needs {}: {}", table->name, kind, key.description));
@@ -433,10 +435,10 @@ Scene read_scene(const fs::path& path, const std::vector<std::string>& overrides
 
 std::string resolved_toml(const ResolvedScene& resolved) {
   std::string text = "# Every value of the scene in SI, each with its source.\n";
-  const Table* current = nullptr;
+  const SceneTable* current = nullptr;
   for (const Entry& entry : resolved.entries) {
     const Key* key = find_key(entry.path);
-    const Table* table = table_of(entry.path);
+    const SceneTable* table = table_of(entry.path);
     if (table != current) text += fmt::format("\n[{}]\n", table->name);
     current = table;
     const std::string name = entry.path.substr(table->name.size() + 1);

@@ -74,7 +74,7 @@ std::string meaning_of(const Key& key) {
                                : fmt::format(" (only with `{} = \"{}\"`)", key.only_with.key, value));
 }
 
-std::string table_section(const Table& table, Scene& scene) {
+std::string table_section(const SceneTable& table, Scene& scene) {
   std::string text = fmt::format("\n### [{}]\n\n{}\n\n", table.name, table.description);
   text += "| key | default | allowed | meaning |\n|---|---|---|---|\n";
   for (const Key& key : scene_keys()) {
@@ -101,12 +101,12 @@ std::string library_section(const LibraryEntry& entry) {
 
 std::string scene_reference() {
   Scene everything;
-  for (const Table& table : scene_tables()) {
+  for (const SceneTable& table : scene_tables()) {
     if (table.removable()) table.create(everything);
   }
   std::string text = kIntroduction;
   text += "\n## Tables\n";
-  for (const Table& table : scene_tables()) text += table_section(table, everything);
+  for (const SceneTable& table : scene_tables()) text += table_section(table, everything);
   text += "\n## Library\n";
   for (const LibraryEntry& entry : scene_library()) text += library_section(entry);
   return text;

@@ -266,7 +266,7 @@ void add_contact(Keys& keys) {
                         "Normal contact damping as a fraction of critical"));
   keys.push_back(choice("contact.surface", at(&Scene::contact, &ContactSpec::surface), {"exact", "facets"},
                         "Surface that the gap is measured to: the profile's curves or the element faces"));
-  keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 5},
+  keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 4},
                         "Integration points per face and direction", Kind::integer));
 }
 
@@ -287,6 +287,8 @@ void add_motion(Keys& keys) {
                                   from(0, 100), "Time T1 in which the torque grows from zero")));
   keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
+  keys.push_back(rolling(choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving"},
+                                "Velocities at t = 0: of rigid bodies, or with the static deflection moving along")));
   keys.push_back(number("motion.step_safety", at(&Scene::motion, &MotionSpec::step_safety), above(0, 1),
                         "Time step divided by the stable step"));
 }
@@ -350,7 +352,7 @@ Keys make_keys() {
   add_motion(keys);
   add_corrugation(keys);
   add_pulse_and_output(keys);
-  for (const Table& table : scene_tables()) {
+  for (const SceneTable& table : scene_tables()) {
     if (!table.removable()) continue;
     keys.push_back({.path = table.name + ".present",
                     .kind = Kind::directive,
@@ -361,7 +363,7 @@ Keys make_keys() {
 }
 
 template <class Spec>
-Table component(std::string name, std::optional<Spec> Scene::*spec, std::string description) {
+SceneTable component(std::string name, std::optional<Spec> Scene::*spec, std::string description) {
   return {.name = std::move(name),
           .description = std::move(description),
           .create = [spec](Scene& scene) { (scene.*spec).emplace(); },
@@ -369,12 +371,12 @@ Table component(std::string name, std::optional<Spec> Scene::*spec, std::string 
           .exists = [spec](const Scene& scene) { return (scene.*spec).has_value(); }};
 }
 
-Table only_with(std::string other, Table table) {
+SceneTable only_with(std::string other, SceneTable table) {
   table.only_with = std::move(other);
   return table;
 }
 
-Table material(const std::string& name, Material Scene::*member, double Scene::*fraction,
+SceneTable material(const std::string& name, Material Scene::*member, double Scene::*fraction,
                std::string description) {
   const auto remove = [member, fraction](Scene& scene) {
     scene.*member = Material{};
@@ -391,13 +393,13 @@ Table material(const std::string& name, Material Scene::*member, double Scene::*
           .exists = [member](const Scene& scene) { return !(scene.*member).name.empty(); }};
 }
 
-Table always(std::string name, std::string description) {
+SceneTable always(std::string name, std::string description) {
   return {.name = std::move(name), .description = std::move(description), .exists = [](const Scene&) {
             return true;
           }};
 }
 
-std::vector<Table> make_tables() {
+std::vector<SceneTable> make_tables() {
   return {
       always("scene", "What the scene is called, what it is based on, how fine it is."),
       always("solution_zone", "The part of the rail that is divided finely and watched closely."),
@@ -465,8 +467,8 @@ const std::vector<Key>& scene_keys() {
   return keys;
 }
 
-const std::vector<Table>& scene_tables() {
-  static const std::vector<Table> tables = make_tables();
+const std::vector<SceneTable>& scene_tables() {
+  static const std::vector<SceneTable> tables = make_tables();
   return tables;
 }
 
@@ -477,8 +479,8 @@ const Key* find_key(std::string_view path) {
   return nullptr;
 }
 
-const Table* table_of(std::string_view path) {
-  for (const Table& table : scene_tables()) {
+const SceneTable* table_of(std::string_view path) {
+  for (const SceneTable& table : scene_tables()) {
     if (starts_with_table(path, table.name)) return &table;
   }
   return nullptr;
@@ -491,7 +493,7 @@ bool is_table(std::string_view path) {
 
 bool applies(const Key& key, const Scene& scene) {
   if (key.only_with.key.empty()) return true;
-  const Table* table = table_of(key.only_with.key);
+  const SceneTable* table = table_of(key.only_with.key);
   if (!table->exists(scene)) return false;
   if (key.only_with.value.empty()) return true;
   Scene copy = scene;
@@ -516,7 +518,7 @@ std::string similar_text(std::string_view text, const std::vector<std::string>& 
 std::string similar_path(std::string_view unknown) {
   std::vector<std::string> paths;
   for (const Key& key : scene_keys()) paths.push_back(key.path);
-  for (const Table& table : scene_tables()) paths.push_back(table.name);
+  for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
   const std::string near = similar_text(unknown, paths);
   if (!near.empty()) return near;
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };

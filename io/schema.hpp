@@ -69,7 +69,7 @@ struct Key {
 };
 
 /// A table of the scene; components can be absent.
-struct Table {
+struct SceneTable {
   std::string name;
   std::string description;
   std::function<void(Scene&)> create = {};  ///< with its defaults; empty: the table is always there
@@ -84,13 +84,13 @@ struct Table {
 const std::vector<Key>& scene_keys();
 
 /// All tables, in the order of documentation.
-const std::vector<Table>& scene_tables();
+const std::vector<SceneTable>& scene_tables();
 
 /// The key at the path, or nullptr.
 const Key* find_key(std::string_view path);
 
 /// The table that the path names or lies in; nullptr where there is none.
-const Table* table_of(std::string_view path);
+const SceneTable* table_of(std::string_view path);
 
 /// Whether keys lie below the path: "motion.traction".
 bool is_table(std::string_view path);

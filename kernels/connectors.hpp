@@ -70,6 +70,7 @@ class Journal {
   void add(double* field, const BodyFrame& frame, const Vec3& load) const;
   double mass() const { return mass_; }
   bool empty() const { return nodes_.empty(); }
+  std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 
  private:
   struct Node {
@@ -109,6 +110,8 @@ class AxleTorque {
   /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns the mean spin relative to the
   /// frame of the loaded nodes [rad/s], the torque's conjugate.
   double apply(double torque, const double* w, double* force) const;
+  bool empty() const { return nodes_.empty(); }
+  std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 
  private:
   struct Node {

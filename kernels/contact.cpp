@@ -126,21 +126,22 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
 
   // The rail point.
   const auto profile = rail_profile_.evaluate(where.edge, across, options_.surface);
-  const double x0 = rail_->stations[static_cast<std::size_t>(where.station)];
-  const double length = rail_->stations[static_cast<std::size_t>(where.station) + 1] - x0;
-  Vec3 x{x0 + along * length, profile.p, profile.q};
+  const LineCell rail_cell = rail_stations_.cell(where.station);
+  const LineWeights rail_along = line_weights(rail_cell, along, options_.surface);
+  const LineWeights rail_across = line_weights(rail_profile_.cell(where.edge), across, options_.surface);
+  Vec3 x{rail_->stations[static_cast<std::size_t>(where.station)] + along * rail_cell.length, profile.p, profile.q};
   x.z -= corrugation_.depth(x.x, x.y);
-  for (int corner = 0; corner < 4; ++corner) {
-    const auto k = static_cast<std::size_t>(corner);
-    const int end = corner % 2;
-    const int station = where.station + corner / 2;
-    point.rail_slot[k] = rail_->base + rail_->slot(rail_profile_.node(where.edge, end), station);
-    point.rail_weight[k] = (corner / 2 == 0 ? 1 - along : along) * (end == 0 ? 1 - across : across);
-    x += point.rail_weight[k] * read(u, point.rail_slot[k]);
-  }
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const std::size_t k = 4 * i + j;
+      point.rail_slot[k] = rail_->base + rail_->slot(rail_profile_.node(rail_across.ordinal[j]), rail_along.ordinal[i]);
+      point.rail_weight[k] = rail_along.value[i] * rail_across.value[j];
+      x += point.rail_weight[k] * read(u, point.rail_slot[k]);
+    }
   point.position = x;
   point.face = {where.station, where.edge};
-  point.area = weight * length * std::hypot(profile.dp, profile.dq);
+  point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across), along * across};
+  point.area = weight * rail_cell.length * std::hypot(profile.dp, profile.dq);
 
   // The wheel point whose deformed position is closest.
   const Vec3 d = x - state.wheel->origin;
@@ -152,38 +153,44 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   for (int iteration = 0; iteration < 6; ++iteration) {
     if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
-    const double fraction = cell.distance / cell.pitch;
+    const LineCell line = wheel_stations_.cell(cell.station);
+    const LineWeights around = line_weights(line, cell.distance / cell.pitch, options_.surface);
+    const LineWeights over = line_weights(wheel_profile_.cell(edge), eta, options_.surface);
+    const std::array<double, 4> turned = {cell.distance + line.length_before, cell.distance, cell.distance - cell.pitch,
+                                          cell.distance - cell.pitch - line.length_after};
     const auto p = wheel_profile_.evaluate(edge, eta, options_.surface);
-    std::array<Vec3, 4> corner{};
-    for (int k = 0; k < 4; ++k) {
-      const int end = k % 2;
-      const int station = k / 2 == 0 ? cell.station : cell.next;
-      const int node = wheel_profile_.node(edge, end);
-      const auto i = static_cast<std::size_t>(k);
-      point.wheel_slot[i] = wheel_->base + wheel_->slot(node, station);
-      point.wheel_weight[i] = (k / 2 == 0 ? 1 - fraction : fraction) * (end == 0 ? 1 - eta : eta);
-      Vec3 value = read(u, point.wheel_slot[i]);
-      if (!exact)
-        value += {0, wheel_->section.p[static_cast<std::size_t>(node)], wheel_->section.q[static_cast<std::size_t>(node)]};
-      corner[i] = turn(value, -(k / 2 == 0 ? cell.distance : cell.distance - cell.pitch));
-    }
     Vec3 surface = exact ? Vec3{0, p.p, p.q} : Vec3{};
-    for (std::size_t i = 0; i < 4; ++i) surface += point.wheel_weight[i] * corner[i];
+    Vec3 side;
+    Vec3 across_tangent = exact ? Vec3{0, p.dp, p.dq} : Vec3{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      Vec3 value;
+      Vec3 slope;
+      for (std::size_t j = 0; j < 4; ++j) {
+        const int node = wheel_profile_.node(over.ordinal[j]);
+        const std::size_t k = 4 * i + j;
+        point.wheel_slot[k] = wheel_->base + wheel_->slot(node, around.ordinal[i]);
+        point.wheel_weight[k] = around.value[i] * over.value[j];
+        Vec3 nodal = read(u, point.wheel_slot[k]);
+        if (!exact)
+          nodal += {0, wheel_->section.p[static_cast<std::size_t>(node)], wheel_->section.q[static_cast<std::size_t>(node)]};
+        value += over.value[j] * nodal;
+        slope += over.slope[j] * nodal;
+      }
+      value = turn(value, -turned[i]);
+      surface += around.value[i] * value;
+      side += around.slope[i] * value;
+      across_tangent += around.value[i] * turn(slope, -turned[i]);
+      point.wheel_cosine[i] = turned[i];  // angles until the point is known to touch
+    }
 
     const Vec3 e = cartesian_to_cylindrical(phi, d) - surface;
     const double shift = (e.y * p.dp + e.z * p.dq) / (p.dp * p.dp + p.dq * p.dq);
-    const Vec3 side = (1 - eta) * (corner[2] - corner[0]) + eta * (corner[3] - corner[1]);
-    const Vec3 across_tangent = (1 - fraction) * (corner[1] - corner[0]) + fraction * (corner[3] - corner[2]) +
-                                (exact ? Vec3{0, p.dp, p.dq} : Vec3{});
     const Vec3 along_tangent = exact ? Vec3{1, 0, 0} + (1 / (p.q * cell.pitch)) * side : side;
     const Vec3 normal = cross(along_tangent, across_tangent);
     const double size = norm(normal);
     gap = dot(e, normal) / size;
-    if (std::abs(e.x) < 1e-9 && std::abs(shift) < 1e-7) {
-      point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
-      break;
-    }
     point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
+    if (std::abs(e.x) < 1e-9 && std::abs(shift) < 1e-7) break;
     if (gap > 0.5 * options_.reach_gap) break;  // far away: no need for more digits
     phi += e.x / p.q;
     eta += shift;
@@ -196,28 +203,38 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   }
   point.gap = gap;
   if (gap < 0)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto cell = wheel_stations_.find(phi - state.wheel->angle);
-      const double space = phi - cell.distance + (k == 0 ? 0.0 : cell.pitch);
-      point.wheel_cosine[k] = std::cos(space);
-      point.wheel_sine[k] = std::sin(space);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double space = phi - point.wheel_cosine[i];
+      point.wheel_cosine[i] = std::cos(space);
+      point.wheel_sine[i] = std::sin(space);
     }
   return gap;
 }
 
 Vec3 Contact::rail_velocity(const ContactState& state, const ContactPoint& point) const {
   Vec3 v;
-  for (std::size_t k = 0; k < 4; ++k) v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
+  for (std::size_t k = 0; k < kSupport; ++k) v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
   return v;
 }
 
 Vec3 Contact::wheel_velocity(const ContactState& state, const ContactPoint& point) const {
   Vec3 v;
-  for (std::size_t k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < kSupport; ++k)
     v += point.wheel_weight[k] *
-         globalise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], read(state.velocity, point.wheel_slot[k]));
+         globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4], read(state.velocity, point.wheel_slot[k]));
   const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
   return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
+}
+
+Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
+  Vec3 sum;
+  double weight = 0;
+  for (const ContactPoint& point : points_) {
+    const double load = point.area * point.pressure;
+    sum += load * (wheel_velocity(state, point) - rail_velocity(state, point));
+    weight += load;
+  }
+  return weight > 0 ? (1 / weight) * sum : Vec3{};
 }
 
 void Contact::load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point,
@@ -327,10 +344,11 @@ void Contact::add_forces(double* force) const {
   for (const ContactPoint& point : points_) {
     const Vec3 load = point.area * (point.pressure * point.normal + point.shear.along * point.along +
                                     point.shear.across * point.across);
-    for (std::size_t k = 0; k < 4; ++k) {
+    std::array<Vec3, 4> local{};
+    for (std::size_t i = 0; i < 4; ++i) local[i] = localise(point.wheel_cosine[i], point.wheel_sine[i], load);
+    for (std::size_t k = 0; k < kSupport; ++k) {
       subtract(force, point.rail_slot[k], point.rail_weight[k] * load);
-      subtract(force, point.wheel_slot[k],
-               -point.wheel_weight[k] * localise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], load));
+      subtract(force, point.wheel_slot[k], -point.wheel_weight[k] * local[k / 4]);
     }
   }
 }
@@ -338,16 +356,19 @@ void Contact::add_forces(double* force) const {
 std::vector<Spring> Contact::springs() const {
   std::vector<Spring> springs;
   for (const ContactPoint& point : points_) {
+    std::map<std::int64_t, double> weights;  // a node at a surface's end may stand twice
+    for (std::size_t k = 0; k < kSupport; ++k) {
+      const Vec3 wheel_normal = localise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4], point.normal);
+      for (int c = 0; c < 3; ++c) {
+        weights[dof(point.rail_slot[k], c)] += point.rail_weight[k] * point.normal[c];
+        weights[dof(point.wheel_slot[k], c)] -= point.wheel_weight[k] * wheel_normal[c];
+      }
+    }
     Spring spring;
     spring.stiffness = options_.penalty * point.area;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Vec3 wheel_normal = localise(point.wheel_cosine[k / 2], point.wheel_sine[k / 2], point.normal);
-      for (int c = 0; c < 3; ++c) {
-        spring.dofs.push_back(dof(point.rail_slot[k], c));
-        spring.weights.push_back(point.rail_weight[k] * point.normal[c]);
-        spring.dofs.push_back(dof(point.wheel_slot[k], c));
-        spring.weights.push_back(-point.wheel_weight[k] * wheel_normal[c]);
-      }
+    for (const auto& [unknown, weight] : weights) {
+      spring.dofs.push_back(unknown);
+      spring.weights.push_back(weight);
     }
     springs.push_back(std::move(spring));
   }
@@ -367,7 +388,7 @@ std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& bloc
       const double length = block.sweep == Sweep::revolved ? pitch * middle.q : pitch;
       const double share = 0.25 * options_.penalty * length * std::hypot(middle.dp, middle.dq);
       for (const int at : {station, next})
-        for (int end = 0; end < 2; ++end) stiffness[block.base + block.slot(profile.node(edge, end), at)] += share;
+        for (int end = 0; end < 2; ++end) stiffness[block.base + block.slot(profile.node(edge + end), at)] += share;
     }
   }
   return stiffness;
@@ -389,6 +410,10 @@ void Contact::add_grounded_stiffness(const double* mass, double* stiffness) cons
   for (const auto& [slot, k] : wheel) stiffness[slot] += k * (1 + mass[slot] / k / rail_least);
 }
 
+std::int64_t Contact::bytes() const {
+  return static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) + wake_time_.size() * sizeof(wake_time_[0]));
+}
+
 std::array<double, 2> Contact::max_nodal_tractions() const {
   const int rows = last_edge_ - first_edge_ + 1;
   const int columns = window_last_ - window_first_ + 1;
@@ -408,7 +433,7 @@ std::array<double, 2> Contact::max_nodal_tractions() const {
   for (const ContactPoint& point : points_)
     for (int corner = 0; corner < 4; ++corner)
       sum[index(point.face[0] + corner / 2, point.face[1] + corner % 2)] +=
-          point.area * point.rail_weight[static_cast<std::size_t>(corner)] *
+          point.area * point.face_weight[static_cast<std::size_t>(corner)] *
           Vec3{point.pressure, point.shear.along, point.shear.across};
   std::array<double, 2> largest{};
   for (std::size_t i = 0; i < sum.size(); ++i) {

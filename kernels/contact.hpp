@@ -31,13 +31,17 @@ struct ContactOptions {
   double reach_gap = 4e-4;    ///< gap of the undeformed surfaces up to which points are searched [m]
 };
 
+/// Nodes that carry a point of a surface: 4 stations x 4 nodes across.
+inline constexpr std::size_t kSupport = 16;
+
 /// One integration point of the rail's faces in contact.
 struct ContactPoint {
-  std::array<std::int64_t, 4> rail_slot;   ///< nodes of the rail face
-  std::array<std::int64_t, 4> wheel_slot;  ///< nodes of the opposite wheel face
-  std::array<double, 4> rail_weight;
-  std::array<double, 4> wheel_weight;
-  std::array<double, 2> wheel_cosine, wheel_sine;  ///< of the space angle of the wheel face's two stations
+  std::array<std::int64_t, kSupport> rail_slot;   ///< nodes about the point, station by station
+  std::array<std::int64_t, kSupport> wheel_slot;  ///< nodes about the opposite point of the wheel
+  std::array<double, kSupport> rail_weight;
+  std::array<double, kSupport> wheel_weight;
+  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of the space angle of the four wheel stations
+  std::array<double, 4> face_weight;               ///< bilinear, of the rail face's corners (for nodal averages)
   std::array<int, 2> face;                         ///< rail station and surface edge
   Vec3 normal;         ///< out of the wheel, into the rail; Cartesian
   Vec3 along, across;  ///< tangents: along the rolling direction; across, to the field side
@@ -80,6 +84,9 @@ class Contact {
   /// One step of length dt [s] that ends at `time` [s]: search, gap, penalty, friction, frictional work.
   void advance(const ContactState& state, double time, double dt);
 
+  /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last [m/s].
+  Vec3 mean_slip_velocity(const ContactState& state) const;
+
   /// Subtracts the contact forces from `force` (internal minus external).
   void add_forces(double* force) const;
 
@@ -102,6 +109,9 @@ class Contact {
 
   double frictional_work() const { return frictional_work_; }  ///< dissipated by friction since the start [J]
   double damping_work() const { return damping_work_; }        ///< dissipated by contact damping [J]
+
+  /// Bytes of the integration points' histories.
+  std::int64_t bytes() const;
 
   /// Largest lumped nodal averages of pressure and shear over the rail's surface nodes [Pa].
   std::array<double, 2> max_nodal_tractions() const;

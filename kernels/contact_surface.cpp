@@ -9,6 +9,36 @@
 
 namespace tread {
 
+LineWeights line_weights(const LineCell& cell, double t, SurfaceKind kind) {
+  LineWeights w{{cell.before, cell.first, cell.second, cell.after}, {0, 1 - t, t, 0}, {0, -1, 1, 0}};
+  if (kind == SurfaceKind::facets) return w;
+  const double r = 1 - t;
+  // Hermite basis: values at the ends, then slopes times the cell's length.
+  const std::array<double, 4> basis = {r * r * (1 + 2 * t), t * t * (1 + 2 * r), t * r * r, -t * t * r};
+  const std::array<double, 4> derivative = {-6 * t * r, 6 * t * r, r * (1 - 3 * t), t * (3 * t - 2)};
+  const double h = cell.length;
+  // Slopes times h as weights of the four nodes.
+  std::array<double, 4> start = {0, -1, 1, 0};
+  std::array<double, 4> end = {0, -1, 1, 0};
+  if (cell.length_before > 0) {
+    const double a = h / cell.length_before;  // parabola: the slopes of both cells, weighted by the other's length
+    start = {-a * a / (1 + a), (a * a - 1) / (1 + a), 1 / (1 + a), 0};
+  }
+  if (cell.length_after > 0) {
+    const double a = h / cell.length_after;
+    end = {0, -1 / (1 + a), (1 - a * a) / (1 + a), a * a / (1 + a)};
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    w.value[k] = basis[2] * start[k] + basis[3] * end[k];
+    w.slope[k] = derivative[2] * start[k] + derivative[3] * end[k];
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    w.value[k + 1] += basis[k];
+    w.slope[k + 1] += derivative[k];
+  }
+  return w;
+}
+
 SurfaceProfile::SurfaceProfile(const Section& section) {
   double shortest = 1e30;
   for (const SurfaceEdge& source : section.surface) {
@@ -19,6 +49,7 @@ SurfaceProfile::SurfaceProfile(const Section& section) {
       edge.q[end] = section.q[static_cast<std::size_t>(source.node[end])];
     }
     const double chord = std::hypot(edge.p[1] - edge.p[0], edge.q[1] - edge.q[0]);
+    edge.chord = chord;
     for (std::size_t end = 0; end < 2; ++end) {
       edge.tp[end] = chord * source.tangent[end][0];
       edge.tq[end] = chord * source.tangent[end][1];
@@ -40,6 +71,12 @@ SurfaceProfile::SurfaceProfile(const Section& section) {
     while (edge + 1 < edges() && edge_p(edge, 1) <= first_p() + b * bucket_width_) ++edge;
     bucket_.push_back(edge);
   }
+}
+
+LineCell SurfaceProfile::cell(int edge) const {
+  const auto length = [&](int e) { return e >= 0 && e < edges() ? edges_[static_cast<std::size_t>(e)].chord : 0.0; };
+  return {std::max(edge - 1, 0), edge,           edge + 1,        std::min(edge + 2, edges()),
+          length(edge - 1),      length(edge), length(edge + 1)};
 }
 
 SurfaceProfile::Point SurfaceProfile::evaluate(int edge, double eta, SurfaceKind kind) const {
@@ -102,6 +139,20 @@ StationFinder::Cell StationFinder::find(double coordinate) const {
   const double pitch = block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
   return {station, station + 1 < count ? station + 1 : 0, pitch,
           at - (block_->stations[static_cast<std::size_t>(station)] - first_)};
+}
+
+LineCell StationFinder::cell(int station) const {
+  const int count = block_->station_count();
+  const bool closed = block_->closed;
+  const int second = station + 1 < count ? station + 1 : 0;
+  const int before = station > 0 ? station - 1 : (closed ? count - 1 : 0);
+  const int after = second + 1 < count ? second + 1 : (closed ? 0 : second);
+  const auto pitch = [&](int s) {
+    const Tile& tile = block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(s)])];
+    return block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+  };
+  return {before, station, second, after, before == station ? 0 : pitch(before), pitch(station),
+          after == second ? 0 : pitch(second)};
 }
 
 }  // namespace tread

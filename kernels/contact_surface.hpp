@@ -10,9 +10,27 @@
 
 namespace tread {
 
-/// "exact": cubic Hermite profile curves, true circles and the corrugation's formula carry the geometry, facets only
-/// the displacement. "facets": the nodes' bilinear faces carry both.
+/// "exact": cubic Hermite profile curves, true circles and the corrugation's formula carry the geometry, cubics through
+/// the nodal values the displacement. "facets": the nodes' bilinear faces carry both.
 enum class SurfaceKind { exact, facets };
+
+/// Interpolation in one cell of a line of nodes: weights of the four nodes about it (ordinals along the line; those
+/// without weight repeat a neighbour).
+struct LineWeights {
+  std::array<int, 4> ordinal;
+  std::array<double, 4> value;
+  std::array<double, 4> slope;  ///< derivative by the cell's fraction
+};
+
+/// A cell of a line of nodes: its nodes' ordinals, its length and those of its neighbours (0: there is none).
+struct LineCell {
+  int before, first, second, after;
+  double length_before, length, length_after;
+};
+
+/// exact: the C1 cubic whose slopes at nodes are those of the parabola through three nodes: reproduces quadratics, so a
+/// flattened circle stays flat between nodes. facets: linear.
+LineWeights line_weights(const LineCell& cell, double fraction, SurfaceKind kind);
 
 /// Section curve of a running surface.
 class SurfaceProfile {
@@ -25,7 +43,11 @@ class SurfaceProfile {
   };
 
   int edges() const { return static_cast<int>(edges_.size()); }
-  int node(int edge, int end) const { return edges_[static_cast<std::size_t>(edge)].node[static_cast<std::size_t>(end)]; }
+  /// Section node by its ordinal along the surface, 0 ... edges().
+  int node(int ordinal) const {
+    return ordinal < edges() ? edges_[static_cast<std::size_t>(ordinal)].node[0] : edges_.back().node[1];
+  }
+  LineCell cell(int edge) const;
 
   /// Point at parameter eta in [0, 1] of an edge; straight between the nodes for facets.
   Point evaluate(int edge, double eta, SurfaceKind kind) const;
@@ -40,6 +62,7 @@ class SurfaceProfile {
   struct Edge {
     std::array<int, 2> node;
     std::array<double, 2> p, q, tp, tq;  ///< ends and Hermite tangents, times the chord length
+    double chord;
   };
   std::vector<Edge> edges_;
   std::vector<int> bucket_;
@@ -59,6 +82,8 @@ class StationFinder {
   };
   /// Closed blocks take any angle; open ones return station -1 outside.
   Cell find(double coordinate) const;
+  /// The cell that starts at a station, with its neighbours.
+  LineCell cell(int station) const;
 
  private:
   const SweptBlock* block_;

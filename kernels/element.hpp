@@ -85,12 +85,6 @@ struct LanePositions {
   Real position[kModes][3][kLanes];
 };
 
-/// Initial stress of a quad times the volume of its elements, constant along the sweep. [N m]
-template <class Real>
-struct InitialStress {
-  Real xx, yy, zz, yz;
-};
-
 template <class Real>
 SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
                                      const Material& material);

@@ -191,25 +191,56 @@ struct PerturbedElement {
   }
 };
 
-/// Stress times volume: lambda tr(eps) I + 2 mu eps.
-template <class V, class Real>
-TREAD_INLINE void stress_forces(const SweptConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
-  const V pressure = c.lambda * (e.g[0][0] + e.g[1][1] + e.g[2][2]);
-  const Real two_mu = c.mu + c.mu;
+/// Strain (xx, yy, zz, 2yz, 2zx, 2xy) of a displacement gradient: its symmetric part, or Green-Lagrange's.
+template <bool finite_rotation, class Real, class V>
+TREAD_INLINE void point_strain(const V (&g)[3][3], V (&e)[6]) {
   for (int i = 0; i < 3; ++i) {
-    f.g[i][i] = pressure + two_mu * e.g[i][i];
-    for (int j = i + 1; j < 3; ++j) f.g[i][j] = f.g[j][i] = c.mu * (e.g[i][j] + e.g[j][i]);
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    e[i] = g[i][i];
+    e[3 + i] = g[j][k] + g[k][j];
+    if constexpr (finite_rotation) {
+      e[i] += Real(0.5) * (g[0][i] * g[0][i] + g[1][i] * g[1][i] + g[2][i] * g[2][i]);
+      e[3 + i] += g[0][j] * g[0][k] + g[1][j] * g[1][k] + g[2][j] * g[2][k];
+    }
   }
 }
 
-/// Geometric force of an initial stress: adds V g_ik sigma0_kj.
+/// Stress (xx, yy, zz, yz, zx, xy) of a strain, times volume as Lame's constants are.
 template <class V, class Real>
-TREAD_INLINE void add_geometric_forces(const InitialStress<Real>& s, const Strain<V>& e, Strain<V>& f) {
+TREAD_INLINE void point_stress(Real lambda, Real mu, const V (&e)[6], V (&s)[6]) {
+  const V pressure = lambda * (e[0] + e[1] + e[2]);
   for (int i = 0; i < 3; ++i) {
-    f.g[i][0] += s.xx * e.g[i][0];
-    f.g[i][1] += s.yy * e.g[i][1] + s.yz * e.g[i][2];
-    f.g[i][2] += s.yz * e.g[i][1] + s.zz * e.g[i][2];
+    s[i] = pressure + (mu + mu) * e[i];
+    s[3 + i] = mu * e[3 + i];
   }
+}
+
+/// Forces conjugate to the displacement gradient: the stress s, or (1 + g) s.
+template <bool finite_rotation, class V>
+TREAD_INLINE void gradient_forces(const V (&g)[3][3], const V (&s)[6], V (&p)[3][3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    p[i][i] = s[i];
+    p[j][k] = p[k][j] = s[3 + i];
+  }
+  if constexpr (finite_rotation)
+    for (int i = 0; i < 3; ++i) {
+      p[i][0] += g[i][0] * s[0] + g[i][1] * s[5] + g[i][2] * s[4];
+      p[i][1] += g[i][0] * s[5] + g[i][1] * s[1] + g[i][2] * s[3];
+      p[i][2] += g[i][0] * s[4] + g[i][1] * s[3] + g[i][2] * s[2];
+    }
+}
+
+/// Forces of the one-point stress in a swept element's volume. [theory.md, eqs. 2 and 5]
+template <bool finite_rotation, class V, class Real>
+TREAD_INLINE void stress_forces(const SweptConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
+  V strain[6];
+  V stress[6];
+  point_strain<finite_rotation, Real>(e.g, strain);
+  point_stress(c.lambda, c.mu, strain, stress);
+  gradient_forces<finite_rotation>(e.g, stress, f.g);
 }
 
 template <class V, class Real>

@@ -10,7 +10,6 @@ namespace tread {
 namespace {
 
 using Matrix83 = Eigen::Matrix<double, 8, 3>;
-using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
 /// Columns xi, eta, zeta of the nodes.
@@ -92,90 +91,79 @@ Eigen::Matrix<double, 12, 12> hourglass_stiffness(const Matrix83& reference, con
   return turn * local * turn.transpose();
 }
 
-Eigen::Matrix<double, 6, 6> elasticity(const Material& material) {
-  Eigen::Matrix<double, 6, 6> d = Eigen::Matrix<double, 6, 6>::Zero();
-  d.topLeftCorner<3, 3>().setConstant(material.lame_lambda());
-  d.diagonal().head<3>().array() += 2 * material.shear_modulus();
-  d.diagonal().tail<3>().setConstant(material.shear_modulus());
-  return d;
+Eigen::Matrix3d stress_of(const HexahedronShape& shape, const Eigen::Matrix3d& g) {
+  Eigen::Matrix3d strain = (g + g.transpose()) / 2;
+  if (shape.finite_rotation) strain += g.transpose() * g / 2;
+  return shape.material.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity() +
+         2 * shape.material.shear_modulus() * strain;
 }
 
-/// Strains (xx, yy, zz, 2yz, 2zx, 2xy) from nodal displacements.
-Eigen::Matrix<double, 6, 24> strain_matrix(const Matrix83& b) {
-  Eigen::Matrix<double, 6, 24> m = Eigen::Matrix<double, 6, 24>::Zero();
-  for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const int k = (i + 2) % 3;
-      m(i, 3 * node + i) = b(node, i);
-      m(3 + i, 3 * node + j) = b(node, k);
-      m(3 + i, 3 * node + k) = b(node, j);
-    }
-  return m;
+/// Nodal forces of one element.
+std::array<Vec3, 8> element_force(const HexahedronShape& shape, const HexahedronCoefficients& c,
+                                  const std::array<Vec3, 8>& u) {
+  const Eigen::Matrix3d g = to_matrix(u).transpose() * to_matrix(c.gradient);
+  Eigen::Matrix3d p = stress_of(shape, g);
+  if (shape.finite_rotation) p = (Eigen::Matrix3d::Identity() + g) * p;
+  const Matrix83 stress_force = c.volume * to_matrix(c.gradient) * p.transpose();
+  std::array<Vec3, 8> f;
+  for (int row = 0; row < 24; ++row) {
+    double sum = stress_force(row / 3, row % 3);
+    for (int column = 0; column < 24; ++column)
+      sum += c.hourglass_stiffness[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] *
+             u[static_cast<std::size_t>(column / 3)][column % 3];
+    f[static_cast<std::size_t>(row / 3)][row % 3] = sum;
+  }
+  return f;
 }
 
 }  // namespace
 
-HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape) {
+HexahedronCoefficients hexahedron_coefficients(const HexahedronShape& shape) {
   const Matrix83 nodes = to_matrix(shape.nodes);
   const auto [b, volume] = mean_gradients(nodes);
-  const Eigen::Matrix<double, 6, 24> strain = strain_matrix(b);
-  Matrix24 k = volume * strain.transpose() * elasticity(shape.material) * strain;
-
-  Eigen::Matrix3d initial;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      initial(i, j) = shape.initial_stress[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  const Eigen::Matrix<double, 8, 8> geometric = volume * b * initial * b.transpose();
-
   const Matrix83 c = corners();
   Eigen::Matrix<double, 8, 4> h;
   h << c.col(1).cwiseProduct(c.col(2)), c.col(2).cwiseProduct(c.col(0)), c.col(0).cwiseProduct(c.col(1)),
       c.rowwise().prod();
   const Eigen::Matrix<double, 8, 4> gamma = (h - b * (nodes.transpose() * h)) / 8;
-  const Eigen::Matrix<double, 12, 12> hourglass =
-      hourglass_stiffness(to_matrix(shape.reference), shape.material);
   Eigen::Matrix<double, 12, 24> amplitude = Eigen::Matrix<double, 12, 24>::Zero();
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i)
       for (int alpha = 0; alpha < 4; ++alpha) amplitude(3 * alpha + i, 3 * node + i) = gamma(node, alpha);
-  k += amplitude.transpose() * hourglass * amplitude;
+  const Matrix24 k =
+      amplitude.transpose() * hourglass_stiffness(to_matrix(shape.reference), shape.material) * amplitude;
 
-  HexahedronStiffness result;
-  for (int row = 0; row < 24; ++row)
-    for (int column = 0; column < 24; ++column)
-      result[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] =
-          k(row, column) + (row % 3 == column % 3 ? geometric(row / 3, column / 3) : 0);
+  HexahedronCoefficients result;
+  result.volume = volume;
+  for (std::size_t node = 0; node < 8; ++node)
+    for (int j = 0; j < 3; ++j) result.gradient[node][j] = b(static_cast<int>(node), j);
+  for (std::size_t row = 0; row < 24; ++row)
+    for (std::size_t column = 0; column < 24; ++column)
+      result.hourglass_stiffness[row][column] = k(static_cast<int>(row), static_cast<int>(column));
   return result;
 }
 
 std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
                                         const std::array<Vec3, 8>& displacement) {
   const Matrix83 b = mean_gradients(to_matrix(shape.nodes)).first;
-  Eigen::Matrix<double, 24, 1> u;
-  for (int node = 0; node < 8; ++node)
-    for (int i = 0; i < 3; ++i) u(3 * node + i) = displacement[static_cast<std::size_t>(node)][i];
-  const Eigen::Matrix<double, 6, 1> stress = elasticity(shape.material) * strain_matrix(b) * u;
-  std::array<double, 6> result{};
-  for (int i = 0; i < 6; ++i) result[static_cast<std::size_t>(i)] = stress(i);
-  return result;
+  const Eigen::Matrix3d s = stress_of(shape, to_matrix(displacement).transpose() * b);
+  return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(2, 0), s(0, 1)};
 }
 
 GeneralForce::GeneralForce(std::vector<Element> elements) : elements_(std::move(elements)) {
-  for (const Element& element : elements_) stiffness_.push_back(hexahedron_stiffness(element.shape));
+  for (const Element& element : elements_) coefficients_.push_back(hexahedron_coefficients(element.shape));
 }
 
 std::vector<Vec3> GeneralForce::apply(const std::vector<Vec3>& u) const {
   std::vector<Vec3> f(u.size());
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    for (int row = 0; row < 24; ++row) {
-      double sum = 0;
-      for (int column = 0; column < 24; ++column)
-        sum +=
-            stiffness_[e][static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] *
-            u[static_cast<std::size_t>(elements_[e].node[static_cast<std::size_t>(column / 3)])][column % 3];
-      f[static_cast<std::size_t>(elements_[e].node[static_cast<std::size_t>(row / 3)])][row % 3] += sum;
-    }
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    std::array<Vec3, 8> values;
+    for (std::size_t node = 0; node < 8; ++node)
+      values[node] = u[static_cast<std::size_t>(elements_[e].node[node])];
+    const auto force = element_force(elements_[e].shape, coefficients_[e], values);
+    for (std::size_t node = 0; node < 8; ++node)
+      f[static_cast<std::size_t>(elements_[e].node[node])] += force[node];
+  }
   return f;
 }
 

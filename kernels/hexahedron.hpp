@@ -10,20 +10,24 @@
 
 namespace tread {
 
-using HexahedronStiffness = std::array<std::array<double, 24>, 24>;
-
 /// One element. Node order as in kernels/element.hpp.
 struct HexahedronShape {
   std::array<Vec3, 8> nodes;      ///< Cartesian positions [m]
   std::array<Vec3, 8> reference;  ///< positions whose shape sets the hourglass stiffness [m]
   Material material;
-  Mat3 initial_stress = {};  ///< Cartesian [Pa]
+  bool finite_rotation = false;  ///< Green-Lagrange strain in the one-point stress
 };
 
-/// Rows and columns [3 node + component], Cartesian. [N/m]
-HexahedronStiffness hexahedron_stiffness(const HexahedronShape& shape);
+/// What the force of an element is made of.
+struct HexahedronCoefficients {
+  double volume = 0;             ///< [m3]
+  std::array<Vec3, 8> gradient;  ///< mean gradients of the shape functions [1/m]
+  std::array<std::array<double, 24>, 24> hourglass_stiffness;  ///< [3 node + component], Cartesian [N/m]
+};
+HexahedronCoefficients hexahedron_coefficients(const HexahedronShape& shape);
 
-/// Stress at the centre (xx, yy, zz, yz, zx, xy), Cartesian, without the initial stress. [Pa]
+/// Stress at the centre (xx, yy, zz, yz, zx, xy), Cartesian; with finite rotation the second Piola-Kirchhoff
+/// stress. [Pa]
 std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
                                         const std::array<Vec3, 8>& displacement);
 
@@ -37,12 +41,12 @@ class GeneralForce {
 
   explicit GeneralForce(std::vector<Element> elements);
 
-  /// f = K u over the nodes of the lists, Cartesian; nodes without an element get zero. [N]
+  /// Internal force of u over the nodes of the lists, Cartesian; nodes without an element get zero. [N]
   std::vector<Vec3> apply(const std::vector<Vec3>& u) const;
 
  private:
   std::vector<Element> elements_;
-  std::vector<HexahedronStiffness> stiffness_;
+  std::vector<HexahedronCoefficients> coefficients_;
 };
 
 }  // namespace tread

@@ -52,6 +52,14 @@ int far_station(const SweptBlock& block, int station) {
   return station + 1 == block.station_count() ? 0 : station + 1;
 }
 
+template <class Real>
+void law_strain(bool finite_rotation, const Strain<Real>& strain, Real (&e)[6]) {
+  if (finite_rotation)
+    point_strain<true, Real>(strain.g, e);
+  else
+    point_strain<false, Real>(strain.g, e);
+}
+
 /// Turns a vector from the basis of a node to that of a middle angle which lies `angle` before it.
 Vec3 turned(const Vec3& v, double angle) {
   const double c = std::cos(angle);
@@ -209,26 +217,14 @@ void BasicInternalForce<Real>::set_beta(int block, double beta) {
 }
 
 template <class Real>
-void BasicInternalForce<Real>::set_initial_stress(int block,
-                                                  const std::vector<std::array<double, 4>>& stress) {
-  BlockData& data = blocks_[index(block)];
-  data.prestressed = !stress.empty();
-  for (ClassData& elements : data.classes) {
-    elements.initial_stress.clear();
-    if (stress.empty()) continue;
-    for (std::size_t place = 0; place < data.plan.quads.size(); ++place) {
-      const auto& s = stress.at(index(data.plan.quads[place].quad));
-      const double volume = elements.geometry[place].volume;
-      elements.initial_stress.push_back({static_cast<Real>(s[0] * volume), static_cast<Real>(s[1] * volume),
-                                         static_cast<Real>(s[2] * volume), static_cast<Real>(s[3] * volume)});
-    }
-  }
+void BasicInternalForce<Real>::set_finite_rotation(int block, bool on) {
+  blocks_[index(block)].finite_rotation = on;
 }
 
 template <class Real>
-void BasicInternalForce<Real>::apply_block(int block, const Real* u, const Real* v, Real* f) const {
+void BasicInternalForce<Real>::internal_force(int block, const Real* u, const Real* v, Real* f) const {
   const std::size_t first = blocks_[index(block)].first_item;
-  evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, f});
+  evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, f, false});
 }
 
 template <class Real>
@@ -313,14 +309,13 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
   made_of.close = data.plan.close.data();
   made_of.quad_count = static_cast<int>(data.plan.quads.size());
   made_of.swept = elements.constants.data();
-  made_of.initial_stress = elements.initial_stress.data();
   const int row = data.perturbed_row[index(item.tile)];
   if (row >= 0) made_of.perturbed = data.perturbed.data() + index(row) * data.plan.quads.size();
   made_of.lanes = data.lanes.data();
   made_of.beta = data.beta;
   made_of.cosine = elements.cosine;
   made_of.sine = elements.sine;
-  forces_->get({swept.sweep, damped, data.prestressed}, Real{})(made_of, view, front);
+  forces_->get({swept.sweep, damped, data.finite_rotation && !fields.linear}, Real{})(made_of, view, front);
 }
 
 template <class Real>
@@ -386,14 +381,13 @@ Strain<Real> BasicInternalForce<Real>::strain(int block, const Place& at, const 
 }
 
 template <class Real>
-Strain<Real> BasicInternalForce<Real>::conjugate(int block, const Place& at,
-                                                 const Strain<Real>& strain) const {
+Strain<Real> BasicInternalForce<Real>::linear_forces(int block, const Place& at,
+                                                     const Strain<Real>& strain) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   Strain<Real> force;
-  stress_forces(constants, strain, force);
-  if (data.prestressed) add_geometric_forces(elements.initial_stress[index(at.place)], strain, force);
+  stress_forces<false>(constants, strain, force);
   if (at.lanes >= 0)
     PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants).scale_by_volume(force);
   hourglass_forces(constants.hourglass, strain, force);
@@ -449,20 +443,31 @@ void BasicInternalForce<Real>::for_each_element(int block, const Visit& visit) c
 template <class Real>
 DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
+  const BlockData& data = blocks_[index(block)];
   std::vector<DeformationEnergy> partial(swept.tiles.size());
   const auto tile_energy = [&](int tile) {
     DeformationEnergy sum;
-    for (const FrontPlan::Quad& entry : blocks_[index(block)].plan.quads)
+    for (const FrontPlan::Quad& entry : data.plan.quads)
       for (int lane = 0; lane < swept.tiles[index(tile)].elements; ++lane) {
         const Place at = locate(block, entry.quad, swept.tiles[index(tile)].first_station + lane);
         Real values[8][3];
         gather(block, at, u, values);
-        const Strain<Real> e = strain(block, at, values);
-        const Strain<Real> force = conjugate(block, at, e);
-        for (int i = 0; i < 3; ++i) {
-          for (int j = 0; j < 3; ++j) sum.strain += 0.5 * e.g[i][j] * force.g[i][j];
-          for (int m = 0; m < kHourglassModes; ++m) sum.hourglass += 0.5 * e.q[i][m] * force.q[i][m];
-        }
+        const Strain<Real> deformation = strain(block, at, values);
+        const SweptConstants<Real>& c = data.classes[index(at.pitch_class)].constants[index(at.place)];
+        Real e[6];
+        Real s[6];
+        law_strain(data.finite_rotation, deformation, e);
+        point_stress(c.lambda, c.mu, e, s);
+        double work = 0;
+        for (int i = 0; i < 6; ++i) work += 0.5 * e[i] * s[i];
+        if (at.lanes >= 0)
+          work *= PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, c).volume_ratio;
+        sum.strain += work;
+        Strain<Real> force;
+        hourglass_forces(c.hourglass, deformation, force);
+        for (int i = 0; i < 3; ++i)
+          for (int m = 0; m < kHourglassModes; ++m)
+            sum.hourglass += 0.5 * deformation.q[i][m] * force.q[i][m];
       }
     return sum;
   };
@@ -484,12 +489,12 @@ std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int 
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);
-  const Strain<Real> e = strain(block, at, values);
+  Real e[6];
+  Real s[6];
+  law_strain(blocks_[index(block)].finite_rotation, strain(block, at, values), e);
   const Material& material = mesh_.blocks[index(block)].material(quad, at.pitch_class);
-  const double mu = material.shear_modulus();
-  const double pressure = material.lame_lambda() * (e.g[0][0] + e.g[1][1] + e.g[2][2]);
-  return {pressure + 2 * mu * e.g[0][0], pressure + 2 * mu * e.g[1][1], pressure + 2 * mu * e.g[2][2],
-          mu * (e.g[1][2] + e.g[2][1]),  mu * (e.g[2][0] + e.g[0][2]),  mu * (e.g[0][1] + e.g[1][0])};
+  point_stress(static_cast<Real>(material.lame_lambda()), static_cast<Real>(material.shear_modulus()), e, s);
+  return {s[0], s[1], s[2], s[3], s[4], s[5]};
 }
 
 template <class Real>
@@ -548,7 +553,7 @@ ElementStiffness BasicInternalForce<Real>::stiffness(int block, const Place& at)
     Real u[8][3] = {};
     Real f[8][3];
     u[column / 3][column % 3] = 1;
-    nodal_forces(block, at, conjugate(block, at, strain(block, at, u)), f);
+    nodal_forces(block, at, linear_forces(block, at, strain(block, at, u)), f);
     for (int row = 0; row < 24; ++row) k[index(row)][index(column)] = f[row / 3][row % 3];
   }
   return k;
@@ -620,8 +625,7 @@ std::int64_t BasicInternalForce<Real>::bytes() const {
     sum += data.lanes.size() * sizeof(LanePositions<Real>) + data.perturbed.size() * sizeof(int) +
            carries_[block].size() * sizeof(Real);
     for (const ClassData& elements : data.classes)
-      sum += elements.constants.size() * (sizeof(SweptConstants<Real>) + sizeof(ElementGeometry)) +
-             elements.initial_stress.size() * sizeof(InitialStress<Real>);
+      sum += elements.constants.size() * (sizeof(SweptConstants<Real>) + sizeof(ElementGeometry));
   }
   return static_cast<std::int64_t>(sum);
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Internal force f = K u of the blocks of a mesh: elasticity of total form at small strain, Rayleigh damping
-// in the same evaluation, and what follows from the same elements (mass, energies, stresses, frequencies).
+// Internal force of the blocks of a mesh: elasticity of total form at small strain, linear or with finite
+// rotation, Rayleigh damping in the same evaluation, and what follows from the same elements (mass, energies,
+// stresses, frequencies).
 
 #include <array>
 #include <cstdint>
@@ -21,7 +22,7 @@ using ElementStiffness = std::array<std::array<double, 24>, 24>;
 
 /// Strain and hourglass energy. [J]
 struct DeformationEnergy {
-  double strain = 0;  ///< of the one-point stress, with the work of an initial stress
+  double strain = 0;  ///< of the one-point stress
   double hourglass = 0;
 };
 
@@ -49,31 +50,34 @@ class BasicInternalForce {
   /// Damping of a block: forces are those of u + beta v. [s]
   void set_beta(int block, double beta);
 
-  /// Stress that the undeformed block carries: (tt, yy, rr, yr) of each section quad, constant along the
-  /// sweep (extruded: xx, yy, zz, yz). It is in equilibrium with loads that are not applied here: only its
-  /// geometric stiffness acts. An empty list removes it. [Pa] [theory.md, Spin prestress]
-  void set_initial_stress(int block, const std::vector<std::array<double, 4>>& stress);
+  /// Green-Lagrange strain in the one-point stress of a block: forces balance moments about the deformed
+  /// positions, rigid rotation is free of stress. [theory.md, Finite rotation]
+  void set_finite_rotation(int block, bool on);
 
-  /// f = K u, overwritten. [N]
-  void apply(const Real* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f}); }
-  /// f = K (u + beta v), overwritten. [N]
-  void apply_damped(const Real* u, const Real* v, Real* f) const { evaluate(0, items_.size(), {u, v, f}); }
-  /// The same for the slots of one block; v may be null. Pointers are those of the whole fields.
-  void apply_block(int block, const Real* u, const Real* v, Real* f) const;
+  /// f = K u, overwritten: the linear operator of all blocks, without damping. [N]
+  void apply(const Real* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f, true}); }
+  /// f = F(u + beta v), overwritten, with F(u) the law that the block has; v may be null. [N]
+  void internal_force(const Real* u, const Real* v, Real* f) const {
+    evaluate(0, items_.size(), {u, v, f, false});
+  }
+  /// internal_force for the slots of one block. Pointers are those of the whole fields.
+  void internal_force(int block, const Real* u, const Real* v, Real* f) const;
 
-  /// Energy of u. [J]
+  /// Energy of u by the law that the block has: F is its gradient. [J]
   DeformationEnergy energy(int block, const Real* u) const;
 
-  /// Stress at the element's centre in its middle frame, (xx, yy, zz, yz, zx, xy) with x the sweep direction;
-  /// without the initial stress. [Pa]
+  /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
+  /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
+  /// the material and at small strain is the true one. [Pa]
   std::array<double, 6> stress(int block, int quad, int station, const Real* u) const;
 
   /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
   void lumped_mass(double* mass) const;
 
-  /// Diagonal of K: 3 * mesh.slots values. [N/m]
+  /// Diagonal of the linear K: 3 * mesh.slots values. [N/m]
   void diagonal(double* d) const;
 
+  /// Of the linear K.
   ElementStiffness element_stiffness(int block, int quad, int station) const;
 
   /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
@@ -104,7 +108,6 @@ class BasicInternalForce {
     Real sine = 0;
     std::vector<ElementGeometry> geometry;
     AlignedVector<SweptConstants<Real>> constants;
-    std::vector<InitialStress<Real>> initial_stress;
   };
   struct BlockData {
     FrontPlan plan;
@@ -117,7 +120,7 @@ class BasicInternalForce {
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
     Real beta = 0;
-    bool prestressed = false;
+    bool finite_rotation = false;
   };
   /// An element and where its coefficients are.
   struct Place {
@@ -132,6 +135,7 @@ class BasicInternalForce {
     const Real* u;
     const Real* v;
     Real* f;
+    bool linear;  ///< in blocks of finite rotation too
   };
 
   void build_swept(int block);
@@ -140,7 +144,7 @@ class BasicInternalForce {
   HexNodes element_nodes(int block, const Place& at) const;
   ElementGeometry geometry(int block, const Place& at) const;
   Strain<Real> strain(int block, const Place& at, const Real (&u)[8][3]) const;
-  Strain<Real> conjugate(int block, const Place& at, const Strain<Real>& strain) const;
+  Strain<Real> linear_forces(int block, const Place& at, const Strain<Real>& strain) const;
   void nodal_forces(int block, const Place& at, const Strain<Real>& force, Real (&f)[8][3]) const;
   void gather(int block, const Place& at, const Real* u, Real (&values)[8][3]) const;
   ElementStiffness stiffness(int block, const Place& at) const;

@@ -177,6 +177,12 @@ std::vector<TiedSlot> Ties::tied_slots() const {
   return slots;
 }
 
+std::int64_t Ties::bytes() const {
+  return static_cast<std::int64_t>((secondary_.size() + primary_.size() + first_secondary_.size()) * sizeof(std::int64_t) +
+                                   primaries_of_.size() * sizeof(primaries_of_[0]) +
+                                   secondaries_of_.size() * sizeof(secondaries_of_[0]));
+}
+
 void Ties::follow(double* field) const {
   parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {

@@ -33,6 +33,9 @@ class Ties {
   std::int64_t secondary_count() const { return static_cast<std::int64_t>(secondary_.size()); }
   const std::vector<std::int64_t>& secondary_slots() const { return secondary_; }
 
+  /// Bytes of the links.
+  std::int64_t bytes() const;
+
   /// Who follows whom, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 

@@ -100,10 +100,19 @@ AlignedVector<Real> sample(const Mesh& mesh, const Field& field) {
   return values;
 }
 
+inline constexpr double kRandomSize = 1e-5;  ///< largest component of random_field [m]
+
 inline AlignedVector<double> random_field(const Mesh& mesh, unsigned seed = 3) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> value(-1e-5, 1e-5);
+  std::uniform_real_distribution<double> value(-kRandomSize, kRandomSize);
   return sample(mesh, [&](const Vec3&) { return Vec3{value(random), value(random), value(random)}; });
+}
+
+/// Displacement at x of a rotation by `angle` about a skew axis through the origin. [m, rad]
+inline Vec3 rotation(const Vec3& x, double angle) {
+  const Vec3 axis = {2.0 / 7, 3.0 / 7, 6.0 / 7};
+  const Vec3 across = cross(axis, x);
+  return std::sin(angle) * across + (1 - std::cos(angle)) * cross(axis, across);
 }
 
 /// Cartesian value of a vector field at a node.

@@ -33,8 +33,7 @@ struct TileElements {
   const FrontPlan::Node* close = nullptr;
   int quad_count = 0;
   const SweptConstants<Real>* swept = nullptr;
-  const InitialStress<Real>* initial_stress = nullptr;  ///< used when `prestressed`
-  const int* perturbed = nullptr;                       ///< index into `lanes` or -1; null if all are swept
+  const int* perturbed = nullptr;  ///< index into `lanes` or -1; null if all are swept
   const LanePositions<Real>* lanes = nullptr;
   Real beta = 0;    ///< stiffness-proportional damping [s]
   Real cosine = 1;  ///< of half the pitch (revolved)
@@ -51,7 +50,7 @@ using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Re
 struct TileVariant {
   Sweep sweep = Sweep::extruded;
   bool damped = false;
-  bool prestressed = false;
+  bool finite_rotation = false;
 };
 
 /// One instruction set's versions of the loop.

@@ -49,7 +49,7 @@ TREAD_INLINE V shift_up(const V& a, const V& b) {
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
 }
 
-template <class Real, Sweep sweep, bool damped, bool prestressed>
+template <class Real, Sweep sweep, bool damped, bool finite_rotation>
 class TileLoop {
  public:
   /// The lanes of a tile in as many registers as they need.
@@ -182,8 +182,7 @@ class TileLoop {
     }
     const SweptConstants<Real>& constants = elements_.swept[index];
     Strain<Register> force;
-    stress_forces(constants, strain, force);
-    if constexpr (prestressed) add_geometric_forces(elements_.initial_stress[index], strain, force);
+    stress_forces<finite_rotation>(constants, strain, force);
     element.scale_by_volume(force);
     hourglass_forces(constants.hourglass, strain, force);
     for (int i = 0; i < 3; ++i) {
@@ -206,16 +205,16 @@ class TileLoop {
   Real* front_;
 };
 
-template <class Real, Sweep sweep, bool damped, bool prestressed>
+template <class Real, Sweep sweep, bool damped, bool finite_rotation>
 void tile_force(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
-  TileLoop<Real, sweep, damped, prestressed>(elements, view, front).run();
+  TileLoop<Real, sweep, damped, finite_rotation>(elements, view, front).run();
 }
 
 template <class Real, Sweep sweep>
 TileForce<Real> select_options(TileVariant v) {
   if (v.damped)
-    return v.prestressed ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
-  return v.prestressed ? tile_force<Real, sweep, false, true> : tile_force<Real, sweep, false, false>;
+    return v.finite_rotation ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
+  return v.finite_rotation ? tile_force<Real, sweep, false, true> : tile_force<Real, sweep, false, false>;
 }
 
 template <class Real>

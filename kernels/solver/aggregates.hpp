@@ -11,14 +11,15 @@
 namespace tread {
 
 struct AggregateOptions {
-  double size = 0.04;     ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 8; ///< most nodes along one direction, roughly
+  double size = 0.04;    ///< largest extent of an aggregate, roughly [m]
+  int nodes_across = 8;  ///< most nodes along one direction, roughly
+  int least_across = 3;  ///< nodes along one direction that `size` does not part
 };
 
-/// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations. An
-/// aggregate has up to six modes: its rigid motions on the free unknowns, orthonormal in the plain product;
-/// motions that these unknowns cannot tell apart (a line of nodes, vertical motion only) are left out. Together
-/// the modes are the columns of Z, numbered aggregate after aggregate.
+/// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations.
+/// An aggregate has up to six modes: its rigid motions on the free unknowns, orthonormal in the plain
+/// product; motions that these unknowns cannot tell apart (a line of nodes, vertical motion only) are left
+/// out. Together the modes are the columns of Z, numbered aggregate after aggregate.
 class Aggregates {
  public:
   /// `free` has 3 * mesh.slots values: not 0 where the unknown is free, 0 elsewhere and in unused lanes.

@@ -111,8 +111,8 @@ struct CoarseSolver::Matrices {
 namespace {
 
 /// Lower triangle of Z^T A Z, six columns of a colour at a time.
-SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph, const Operator& a,
-                   std::int64_t values, int* probes) {
+SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph,
+                   const Operator& a, std::int64_t values, int* probes) {
   const auto colour = distance_two_colours(graph);
   const int colours = colour.empty() ? 0 : *std::max_element(colour.begin(), colour.end()) + 1;
   std::vector<std::vector<int>> members(static_cast<std::size_t>(colours));
@@ -163,10 +163,11 @@ void check_probes(const Aggregates& aggregates, const Operator& a, const SparseM
   aggregates.restrict_to_modes(y.data(), product.data());
   const double difference = (matrix.selfadjointView<Eigen::Lower>() * coarse - product).norm();
   if (difference > 1e-8 * product.norm())
-    throw NumericalError(fmt::format(
-        "static solver: the probed coarse matrix misses {:.1e} of the operator, which couples nodes that share no "
-        "element or is not symmetric; pass such couplings as ties or springs",
-        difference / product.norm()));
+    throw NumericalError(
+        fmt::format("static solver: the probed coarse matrix misses {:.1e} of the operator, which couples "
+                    "nodes that share no "
+                    "element or is not symmetric; pass such couplings as ties or springs",
+                    difference / product.norm()));
 }
 
 }  // namespace
@@ -224,8 +225,12 @@ void CoarseSolver::solve(const double* r, double* y) const {
   std::copy(solution.data(), solution.data() + solution.size(), y);
 }
 
-int CoarseSolver::probes() const { return matrices_->probes; }
+int CoarseSolver::probes() const {
+  return matrices_->probes;
+}
 
-std::int64_t CoarseSolver::factor_entries() const { return matrices_->factor.matrixL().nestedExpression().nonZeros(); }
+std::int64_t CoarseSolver::factor_entries() const {
+  return matrices_->factor.matrixL().nestedExpression().nonZeros();
+}
 
 }  // namespace tread

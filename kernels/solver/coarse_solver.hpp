@@ -16,8 +16,8 @@ struct TiedSlot {
   std::vector<std::int64_t> primaries;
 };
 
-/// For each aggregate the aggregates that A may couple with it (itself included, ascending): those of nodes that
-/// share an element, a secondary node standing for its primaries.
+/// For each aggregate the aggregates that A may couple with it (itself included, ascending): those of nodes
+/// that share an element, a secondary node standing for its primaries.
 std::vector<std::vector<int>> aggregate_graph(const Mesh& mesh, const Aggregates& aggregates,
                                               const std::vector<TiedSlot>& ties);
 
@@ -41,7 +41,7 @@ class CoarseSolver {
   /// `r` and `y` have Aggregates::modes() values and may be the same.
   void solve(const double* r, double* y) const;
 
-  int probes() const;                     ///< applications spent
+  int probes() const;                   ///< applications spent
   std::int64_t factor_entries() const;  ///< entries of L
 
  private:

@@ -10,7 +10,8 @@
 
 namespace tread {
 
-JacobiPreconditioner::JacobiPreconditioner(const AlignedVector<double>& diagonal) : inverse_(diagonal.size()) {
+JacobiPreconditioner::JacobiPreconditioner(const AlignedVector<double>& diagonal)
+    : inverse_(diagonal.size()) {
   for (std::size_t i = 0; i < diagonal.size(); ++i) inverse_[i] = diagonal[i] > 0 ? 1 / diagonal[i] : 0;
 }
 
@@ -27,7 +28,8 @@ HeldMotions::HeldMotions(std::vector<AlignedVector<double>> motions, std::vector
   Eigen::MatrixXd product(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < count; ++j)
-      product(i, j) = dot(n, motions_[static_cast<std::size_t>(i)].data(), means[static_cast<std::size_t>(j)].data());
+      product(i, j) =
+          dot(n, motions_[static_cast<std::size_t>(i)].data(), means[static_cast<std::size_t>(j)].data());
   const Eigen::FullPivLU<Eigen::MatrixXd> factor(product);
   if (!factor.isInvertible())
     throw NumericalError("static solver: a held motion has no mean; its nodes are fixed or it is held twice");
@@ -67,7 +69,8 @@ void residual(const Operator& a, const AlignedVector<double>& b, const AlignedVe
               AlignedVector<double>& out) {
   a(x.data(), out.data());
   for_chunks(static_cast<std::int64_t>(b.size()), [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) out[i] = b[i] - out[i];
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      out[i] = b[i] - out[i];
   });
 }
 
@@ -89,14 +92,16 @@ double advance(double alpha, const AlignedVector<double>& p, const AlignedVector
 /// p = z + beta p
 void turn(double beta, const AlignedVector<double>& z, AlignedVector<double>& p) {
   for_chunks(static_cast<std::int64_t>(z.size()), [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) p[i] = z[i] + beta * p[i];
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+      p[i] = z[i] + beta * p[i];
   });
 }
 
 }  // namespace
 
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
-                             const AlignedVector<double>& b, AlignedVector<double>& x, const CgOptions& options) {
+                             const AlignedVector<double>& b, AlignedVector<double>& x,
+                             const CgOptions& options) {
   const auto n = static_cast<std::int64_t>(b.size());
   AlignedVector<double> r = b, p(b.size(), 0.0), q(b.size()), z(b.size());
   CgResult result;
@@ -138,11 +143,13 @@ CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditi
     a(p.data(), q.data());
     if (held) held->balance(q.data());
     const double curvature = dot(n, p.data(), q.data());
-    if (!(curvature > 0) || !(rz > 0))
-      throw NumericalError(fmt::format(
-          "static solver: iteration {} met a motion of stiffness {:.3e} (residual {:.3e}); a body is "
-          "unrestrained or the operator is not positive definite",
-          result.iterations, curvature, rz));
+    constexpr double kNoStiffness = 1e-14;  // rounding, seen from a preconditioner that scales A to order one
+    if (!(rz > 0) || !(curvature > kNoStiffness * rz))
+      throw NumericalError(
+          fmt::format("static solver: iteration {} met a motion without stiffness (energy {:.1e} against "
+                      "{:.1e}); a body is "
+                      "unrestrained: fix some of its nodes or hold its mean motion",
+                      result.iterations, curvature, rz));
     relative = std::sqrt(advance(rz / curvature, p, q, x, r)) / scale;
     result.residual_history.push_back(relative);
     ++result.iterations;

@@ -27,8 +27,9 @@ class JacobiPreconditioner : public Preconditioner {
   AlignedVector<double> inverse_;
 };
 
-/// Motions R_i along which the mean <W_j, x> of the solution is zero, and the forces W_j lambda_j that hold them:
-/// A x = b - W lambda with W^T x = 0. For the mass-weighted mean pass W = M R, for the plain mean W = R.
+/// Motions R_i along which the mean <W_j, x> of the solution is zero, and the forces W_j lambda_j that hold
+/// them: A x = b - W lambda with W^T x = 0. For the mass-weighted mean pass W = M R, for the plain mean W =
+/// R.
 class HeldMotions {
  public:
   /// Both lists hold as many fields of 3 * mesh.slots values, zero outside the free unknowns. Throws
@@ -55,7 +56,7 @@ struct CgOptions {
 };
 
 struct CgResult {
-  bool converged = false;
+  bool converged = false;  ///< by the recurrence's residual, which rounding may leave below the true
   int iterations = 0;
   double relative_residual = 0;          ///< recomputed from the solution
   std::vector<double> residual_history;  ///< relative, entry k after k iterations
@@ -63,10 +64,11 @@ struct CgResult {
 };
 
 /// Solves A x = b from the given x. `a` must be positive definite on the free unknowns less the held motions.
-/// `preconditioner` and `held` may be null. Without convergence in max_iterations it returns
-/// what it has: the caller judges. Throws NumericalError if a direction without
-/// stiffness turns up.
+/// `preconditioner` and `held` may be null. Without convergence in max_iterations (an unrestrained body, for
+/// example) it returns what it has: the caller judges. Throws NumericalError where a search direction has no
+/// stiffness.
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
-                             const AlignedVector<double>& b, AlignedVector<double>& x, const CgOptions& options);
+                             const AlignedVector<double>& b, AlignedVector<double>& x,
+                             const CgOptions& options);
 
 }  // namespace tread

@@ -9,7 +9,8 @@
 namespace tread {
 
 TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator& elastic,
-                                               AlignedVector<double> diagonal, const std::vector<TiedSlot>& ties,
+                                               AlignedVector<double> diagonal,
+                                               const std::vector<TiedSlot>& ties,
                                                const TwoLevelOptions& options)
     : options_(options),
       diagonal_(std::move(diagonal)),
@@ -25,7 +26,8 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
 void TwoLevelPreconditioner::update(Operator a, const std::vector<Spring>& springs) {
   a_ = std::move(a);
   inverse_ = diagonal_;
-  // Row sums of |k g g^T| instead of its diagonal: a stiff spring over many nodes then leaves lambda_max alone.
+  // Row sums of |k g g^T| instead of its diagonal: a stiff spring over many nodes then leaves lambda_max
+  // alone.
   for (const Spring& spring : springs) {
     double sum = 0;
     for (const double weight : spring.weights) sum += std::abs(weight);

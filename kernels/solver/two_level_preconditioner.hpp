@@ -18,14 +18,14 @@ struct TwoLevelOptions {
   double spread = 20;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
 };
 
-/// B = S + Z (Z^T A Z)^-1 Z^T with S a Chebyshev polynomial in D^-1 A times D^-1, D the diagonal. Iterations grow
-/// with the aggregates' size over the smallest element and do not depend on the bodies' slenderness. One object
-/// serves one caller at a time: applying it uses buffers of its own.
+/// B = S + Z (Z^T A Z)^-1 Z^T with S a Chebyshev polynomial in D^-1 A times D^-1, D the diagonal. Iterations
+/// grow with the aggregates' size over the smallest element and do not depend on the bodies' slenderness. One
+/// object serves one caller at a time: applying it uses buffers of its own.
 class TwoLevelPreconditioner : public Preconditioner {
  public:
   /// `elastic`: elements and eliminated ties without springs; applied about 150 times here and not kept.
-  /// `diagonal`: its diagonal, 0 where an unknown is not free, unused lanes included [N/m]. Not ready before the
-  /// first update(). Throws NumericalError as CoarseSolver does.
+  /// `diagonal`: its diagonal, 0 where an unknown is not free, unused lanes included [N/m]. Not ready before
+  /// the first update(). Throws NumericalError as CoarseSolver does.
   TwoLevelPreconditioner(const Mesh& mesh, const Operator& elastic, AlignedVector<double> diagonal,
                          const std::vector<TiedSlot>& ties, const TwoLevelOptions& options = {});
 

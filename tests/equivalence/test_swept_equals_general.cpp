@@ -20,23 +20,8 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// (t, y, r) tensor of the middle of an element in Cartesian axes.
-Mat3 to_cartesian_tensor(const SweptBlock& block, double angle, const std::array<double, 4>& s) {
-  const Mat3 local = {{{s[0], 0, 0}, {0, s[1], s[3]}, {0, s[3], s[2]}}};
-  if (block.sweep == Sweep::extruded) return local;
-  const Mat3 axes = {
-      {{-std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}, {std::sin(angle), 0, -std::cos(angle)}}};
-  Mat3 result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t l = 0; l < 3; ++l) result[i][j] += axes[i][k] * local[k][l] * axes[j][l];
-  return result;
-}
-
 /// The general elements of a block; nodes are numbered by slot relative to the block's base.
-std::vector<GeneralForce::Element> general_elements(const SweptBlock& block,
-                                                    const std::vector<std::array<double, 4>>& stress) {
+std::vector<GeneralForce::Element> general_elements(const SweptBlock& block, bool finite_rotation) {
   SweptBlock plain = block;
   plain.node_shift.clear();
   std::vector<GeneralForce::Element> elements;
@@ -53,10 +38,7 @@ std::vector<GeneralForce::Element> general_elements(const SweptBlock& block,
         element.shape.reference[index(node)] = position(plain, section_node, at);
       }
       element.shape.material = block.material(quad, tile.pitch_class);
-      if (!stress.empty())
-        element.shape.initial_stress = to_cartesian_tensor(
-            block, block.stations[index(station)] + block.classes[index(tile.pitch_class)].pitch / 2,
-            stress[index(quad)]);
+      element.shape.finite_rotation = finite_rotation;
       elements.push_back(element);
     }
   return elements;
@@ -81,11 +63,13 @@ std::vector<Case> cases() {
   return list;
 }
 
-std::vector<std::array<double, 4>> some_stress(const SweptBlock& block) {
-  std::vector<std::array<double, 4>> stress;
-  for (std::size_t quad = 0; quad < block.section.quads.size(); ++quad)
-    stress.push_back({1e9 + 1e7 * static_cast<double>(quad), -2e8, 5e8, 3e8});
-  return stress;
+/// A random displacement of the given size on top of a rotation by `angle`. [m, rad]
+AlignedVector<double> random_motion(const Mesh& mesh, double size, double angle) {
+  auto u = samples::random_field(mesh);
+  for (double& value : u) value *= size / samples::kRandomSize;
+  const auto rotation = samples::sample(mesh, [&](const Vec3& x) { return samples::rotation(x, angle); });
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] += rotation[i];
+  return u;
 }
 
 /// Largest difference between a vector field and Cartesian nodal values of a block, by the largest value.
@@ -113,26 +97,40 @@ std::vector<Vec3> cartesian_values(const SweptBlock& block, const AlignedVector<
   return values;
 }
 
+struct Motion {
+  double size;   ///< random part; elements measure 4 to 20 mm [m]
+  double angle;  ///< rigid part [rad]
+};
+constexpr Motion kMotions[] = {{1e-6, 0}, {1e-5, 0}, {1e-3, 0}, {1e-5, 0.1}, {1e-4, 1}};
+
 TEST(SweptEqualsGeneral, ForceOfARandomDisplacement) {
-  for (const Case& c : cases())
-    for (const bool prestressed : {false, true}) {
-      Mesh mesh;
-      mesh.add(c.block);
-      const SweptBlock& block = mesh.blocks[0];
-      InternalForce force(mesh);
-      std::vector<std::array<double, 4>> stress;
-      if (prestressed) stress = some_stress(block);
-      force.set_initial_stress(0, stress);
-      const auto u = samples::random_field(mesh);
-      const std::vector<Vec3> expected =
-          GeneralForce(general_elements(block, stress)).apply(cartesian_values(block, u));
-      for (const char* set : InternalForce::instruction_sets()) {
-        force.use_instruction_set(set);
-        AlignedVector<double> f(u.size(), 1e300);
-        force.apply(u.data(), f.data());
-        EXPECT_LT(difference(block, f, expected), 1e-12) << c.name << " " << prestressed << " " << set;
+  for (const Case& c : cases()) {
+    Mesh mesh;
+    mesh.add(c.block);
+    const SweptBlock& block = mesh.blocks[0];
+    InternalForce force(mesh);
+    for (const bool finite_rotation : {false, true}) {
+      force.set_finite_rotation(0, finite_rotation);
+      const GeneralForce general(general_elements(block, finite_rotation));
+      for (const Motion& motion : kMotions) {
+        const auto u = random_motion(mesh, motion.size, motion.angle);
+        const auto expected = general.apply(cartesian_values(block, u));
+        for (const char* set : InternalForce::instruction_sets()) {
+          force.use_instruction_set(set);
+          AlignedVector<double> f(u.size(), 1e300);
+          force.internal_force(u.data(), nullptr, f.data());
+          EXPECT_LT(difference(block, f, expected), 1e-12)
+              << c.name << " " << finite_rotation << " " << set << " " << motion.size << " " << motion.angle;
+          if (finite_rotation) continue;
+          AlignedVector<double> linear(u.size());
+          force.set_finite_rotation(0, true);
+          force.apply(u.data(), linear.data());
+          force.set_finite_rotation(0, false);
+          EXPECT_EQ(std::memcmp(f.data(), linear.data(), f.size() * sizeof(double)), 0) << c.name;
+        }
       }
     }
+  }
 }
 
 TEST(SweptEqualsGeneral, StressAtTheCentre) {
@@ -140,20 +138,25 @@ TEST(SweptEqualsGeneral, StressAtTheCentre) {
     Mesh mesh;
     mesh.add(c.block);
     const SweptBlock& block = mesh.blocks[0];
-    const InternalForce force(mesh);
-    const auto u = samples::random_field(mesh);
-    const auto elements = general_elements(block, {});
-    const auto nodal = cartesian_values(block, u);
-    const std::size_t quads = block.section.quads.size();
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      std::array<Vec3, 8> displacement;
-      for (std::size_t node = 0; node < 8; ++node) displacement[node] = nodal[index(elements[e].node[node])];
-      const auto expected = hexahedron_stress(elements[e].shape, displacement);
-      const auto stress = force.stress(0, static_cast<int>(e % quads), static_cast<int>(e / quads), u.data());
-      EXPECT_NEAR(von_mises(stress) / von_mises(expected), 1, 1e-11) << c.name;
-      EXPECT_NEAR((stress[0] + stress[1] + stress[2]) / von_mises(expected),
-                  (expected[0] + expected[1] + expected[2]) / von_mises(expected), 1e-11)
-          << c.name;
+    InternalForce force(mesh);
+    for (const bool finite_rotation : {false, true}) {
+      force.set_finite_rotation(0, finite_rotation);
+      const auto u = random_motion(mesh, 1e-5, finite_rotation ? 0.1 : 0);
+      const auto elements = general_elements(block, finite_rotation);
+      const auto nodal = cartesian_values(block, u);
+      const std::size_t quads = block.section.quads.size();
+      for (std::size_t e = 0; e < elements.size(); ++e) {
+        std::array<Vec3, 8> displacement;
+        for (std::size_t node = 0; node < 8; ++node)
+          displacement[node] = nodal[index(elements[e].node[node])];
+        const auto expected = hexahedron_stress(elements[e].shape, displacement);
+        const auto stress =
+            force.stress(0, static_cast<int>(e % quads), static_cast<int>(e / quads), u.data());
+        EXPECT_NEAR(von_mises(stress) / von_mises(expected), 1, 1e-11) << c.name;
+        EXPECT_NEAR((stress[0] + stress[1] + stress[2]) / von_mises(expected),
+                    (expected[0] + expected[1] + expected[2]) / von_mises(expected), 1e-11)
+            << c.name;
+      }
     }
   }
 }
@@ -169,20 +172,22 @@ TEST(InternalForceThreads, SameBitsForAnyNumber) {
   const Mesh mesh = all_blocks();
   InternalForce force(mesh);
   force.set_beta(1, 1e-7);
-  force.set_initial_stress(2, some_stress(mesh.blocks[2]));
+  force.set_beta(2, 1e-7);
+  force.set_finite_rotation(2, true);
+  force.set_finite_rotation(7, true);
   const auto u = samples::random_field(mesh);
   const auto v = samples::random_field(mesh, 4);
   AlignedVector<double> one(u.size());
   set_threads(1);
-  force.apply_damped(u.data(), v.data(), one.data());
+  force.internal_force(u.data(), v.data(), one.data());
   for (const int count : {2, 3, 5, 16}) {
     set_threads(count);
     AlignedVector<double> many(u.size(), 1e300);
-    force.apply_damped(u.data(), v.data(), many.data());
+    force.internal_force(u.data(), v.data(), many.data());
     EXPECT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(double)), 0) << count;
     AlignedVector<double> by_block(u.size(), 1e300);
     for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block)
-      force.apply_block(block, u.data(), v.data(), by_block.data());
+      force.internal_force(block, u.data(), v.data(), by_block.data());
     EXPECT_EQ(std::memcmp(one.data(), by_block.data(), one.size() * sizeof(double)), 0) << count;
   }
   set_threads(1);
@@ -213,6 +218,7 @@ TEST(InternalForceDamping, ActsOnDisplacementPlusBetaVelocity) {
   const double beta = 0.25;
   force.set_beta(0, beta);
   force.set_beta(6, beta);
+  force.set_finite_rotation(6, true);
   const auto u = samples::random_field(mesh);
   const auto v = samples::random_field(mesh, 4);
   auto sum = u;
@@ -223,8 +229,8 @@ TEST(InternalForceDamping, ActsOnDisplacementPlusBetaVelocity) {
   }
   AlignedVector<double> expected(u.size());
   AlignedVector<double> f(u.size());
-  force.apply(sum.data(), expected.data());
-  force.apply_damped(u.data(), v.data(), f.data());
+  force.internal_force(sum.data(), nullptr, expected.data());
+  force.internal_force(u.data(), v.data(), f.data());
   double largest = 0;
   for (const double value : expected) largest = std::max(largest, std::abs(value));
   for (std::size_t i = 0; i < f.size(); ++i) ASSERT_NEAR(f[i], expected[i], 1e-14 * largest);
@@ -232,26 +238,31 @@ TEST(InternalForceDamping, ActsOnDisplacementPlusBetaVelocity) {
 
 TEST(InternalForceSingle, AgreesToItsPrecision) {
   const Mesh mesh = all_blocks();
-  const InternalForce force(mesh);
+  InternalForce force(mesh);
   BasicInternalForce<float> single(mesh);
   const auto u = samples::random_field(mesh);
   const AlignedVector<float> u_single(u.begin(), u.end());
-  AlignedVector<double> f(u.size());
-  force.apply(u.data(), f.data());
-  double largest = 0;
-  for (const double value : f) largest = std::max(largest, std::abs(value));
-  for (const char* set : InternalForce::instruction_sets()) {
-    single.use_instruction_set(set);
-    AlignedVector<float> f_single(u.size());
-    single.apply(u_single.data(), f_single.data());
-    for (std::size_t i = 0; i < f.size(); ++i) ASSERT_NEAR(f_single[i], f[i], 2e-6 * largest) << set;
+  for (const bool finite_rotation : {false, true}) {
+    for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
+      force.set_finite_rotation(block, finite_rotation);
+      single.set_finite_rotation(block, finite_rotation);
+    }
+    AlignedVector<double> f(u.size());
+    force.internal_force(u.data(), nullptr, f.data());
+    double largest = 0;
+    for (const double value : f) largest = std::max(largest, std::abs(value));
+    for (const char* set : InternalForce::instruction_sets()) {
+      single.use_instruction_set(set);
+      AlignedVector<float> f_single(u.size());
+      single.internal_force(u_single.data(), nullptr, f_single.data());
+      for (std::size_t i = 0; i < f.size(); ++i) ASSERT_NEAR(f_single[i], f[i], 2e-6 * largest) << set;
+    }
   }
 }
 
-TEST(InternalForceEnergy, IsHalfTheWorkOfTheForces) {
+TEST(InternalForceEnergy, IsHalfTheWorkOfLinearForces) {
   const Mesh mesh = all_blocks();
-  InternalForce force(mesh);
-  force.set_initial_stress(2, some_stress(mesh.blocks[2]));
+  const InternalForce force(mesh);
   const auto u = samples::random_field(mesh);
   AlignedVector<double> f(u.size());
   force.apply(u.data(), f.data());

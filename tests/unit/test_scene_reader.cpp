@@ -41,7 +41,7 @@ const std::string kBase = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
 
 /// Field by field, bit by bit.
 void expect_same(Scene a, Scene b) {
-  for (const Table& table : scene_tables()) EXPECT_EQ(table.exists(a), table.exists(b)) << table.name;
+  for (const SceneTable& table : scene_tables()) EXPECT_EQ(table.exists(a), table.exists(b)) << table.name;
   for (const Key& key : scene_keys()) {
     if (!key.locate) continue;
     const Field left = key.locate(a);
@@ -231,7 +231,7 @@ TEST(SceneReader, ReferencePageIsUpToDate) {
 
 TEST(Schema, EveryKeyIsWellFormed) {
   Scene everything;
-  for (const Table& table : scene_tables()) {
+  for (const SceneTable& table : scene_tables()) {
     if (table.removable()) table.create(everything);
   }
   std::set<std::string> paths;

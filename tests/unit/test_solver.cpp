@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "kernels/internal_force.hpp"
@@ -50,7 +48,8 @@ void fix_station(const SweptBlock& block, int station, Elastic& elastic) {
 double distance(const Field& a, const Field& b) {
   Field difference = a;
   add_scaled(size_of(a), -1, b.data(), difference.data());
-  return std::sqrt(dot(size_of(a), difference.data(), difference.data()) / dot(size_of(b), b.data(), b.data()));
+  return std::sqrt(dot(size_of(a), difference.data(), difference.data()) /
+                   dot(size_of(b), b.data(), b.data()));
 }
 
 std::vector<double> random_modes(int count) {
@@ -138,7 +137,7 @@ TEST(Aggregates, LeaveOutMotionsThatTheirUnknownsCannotShow) {
     for (const int c : {0, 1}) elastic.fix(dof(slot, c));
   const Aggregates vertical(mesh, elastic.diagonal, {0.02, 4});
   for (int a = 0; a < vertical.count(); ++a) EXPECT_LE(vertical.mode_count(a), 3);  // z, about x, about y
-  const Aggregates nodes(mesh, elastic.diagonal, {1e-9, 1});
+  const Aggregates nodes(mesh, elastic.diagonal, {1e-4, 1});
   EXPECT_EQ(nodes.count(), mesh.blocks[0].nodes());
   EXPECT_EQ(nodes.modes(), nodes.count());
 }
@@ -163,11 +162,11 @@ TEST(CoarseSolver, InvertsTheOperatorOnTheModes) {
   for (const SweptBlock& block : mesh.blocks) fix_station(block, 0, elastic);
   const Aggregates aggregates(mesh, elastic.diagonal, small_aggregates().aggregates);
   // A spring from the bar to the ring, one of its ends at a fixed unknown.
-  const std::vector<Spring> springs{{1e9,
-                                     {dof(mesh.blocks[0].slot(2, 20), 1),
-                                      dof(mesh.blocks[1].base + mesh.blocks[1].slot(5, 9), 2),
-                                      dof(mesh.blocks[1].base + mesh.blocks[1].slot(5, 0), 0)},
-                                     {0.6, -0.9, 0.4}}};
+  const std::vector<Spring> springs{
+      {1e9,
+       {dof(mesh.blocks[0].slot(2, 20), 1), dof(mesh.blocks[1].base + mesh.blocks[1].slot(5, 9), 2),
+        dof(mesh.blocks[1].base + mesh.blocks[1].slot(5, 0), 0)},
+       {0.6, -0.9, 0.4}}};
   CoarseSolver solver(aggregates, aggregate_graph(mesh, aggregates, {}), elastic.with(), 3 * mesh.slots);
   solver.factorise(aggregates, springs);
 
@@ -283,7 +282,7 @@ TEST(ConjugateGradients, IsTheSameBitsForAnyNumberOfThreads) {
     TwoLevelPreconditioner preconditioner(mesh, elastic.with(), elastic.diagonal, {}, small_aggregates());
     preconditioner.update(elastic.with(), {});
     Field x(b.size(), 0.0);
-    conjugate_gradients(elastic.with(), &preconditioner, nullptr, b, x, {});
+    conjugate_gradients(elastic.with(), &preconditioner, nullptr, b, x, {1e-4, 100});
     if (first.empty()) first = x;
     EXPECT_EQ(x, first);
   }
@@ -301,11 +300,11 @@ TEST(HeldMotions, CarryTheLoadsOfAFreeBody) {
   for (int k = 0; k < 6; ++k) {
     Vec3 unit;
     unit[k % 3] = 1;
-    motions.push_back(
-        samples::sample(mesh, [&](const Vec3& at) { return k < 3 ? unit : cross(unit, at); }));
+    motions.push_back(samples::sample(mesh, [&](const Vec3& at) { return k < 3 ? unit : cross(unit, at); }));
     means.push_back(motions.back());
     for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
-      for (int c = 0; c < 3; ++c) means.back()[static_cast<std::size_t>(dof(slot, c))] *= mass[static_cast<std::size_t>(slot)];
+      for (int c = 0; c < 3; ++c)
+        means.back()[static_cast<std::size_t>(dof(slot, c))] *= mass[static_cast<std::size_t>(slot)];
   }
   const HeldMotions held(motions, means);
   Field b(motions[0].size(), 0.0);
@@ -339,13 +338,13 @@ TEST(ConjugateGradients, ReportsABodyWithoutRestraint) {
   mesh.add(samples::extruded());
   const Elastic elastic(mesh);
   const JacobiPreconditioner jacobi(elastic.diagonal);
-  const Field push = samples::sample(mesh, [](const Vec3&) { return Vec3{1, 0, 0}; });
+  Field push = samples::sample(mesh, [](const Vec3&) { return Vec3{1, 0, 0}; });
   Field x(push.size(), 0.0);
-  const auto solve = [&] { return conjugate_gradients(elastic.with(), &jacobi, nullptr, push, x, {1e-9, 2000}); };
-  try {
-    EXPECT_FALSE(solve().converged);
-  } catch (const NumericalError&) {
-  }
+  EXPECT_FALSE(conjugate_gradients(elastic.with(), &jacobi, nullptr, push, x, {1e-9, 1000}).converged);
+  // The load whose first search direction is the rigid motion itself.
+  for (std::size_t i = 0; i < push.size(); ++i) push[i] *= elastic.diagonal[i];
+  std::fill(x.begin(), x.end(), 0.0);
+  EXPECT_THROW(conjugate_gradients(elastic.with(), &jacobi, nullptr, push, x, {1e-9, 1000}), NumericalError);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Iterations of the two-level solver against theory: bounded by element and aggregate sizes, not by slenderness.
+// Iterations of the two-level solver against theory: bounded by element and aggregate sizes, not by
+// slenderness.
 
 #include <gtest/gtest.h>
 
@@ -70,17 +71,20 @@ Iterations solve(const Problem& problem, bool with_jacobi) {
   TwoLevelPreconditioner preconditioner(problem.mesh, elastic, diagonal, {});
   preconditioner.update(full, problem.springs);
   Field x(problem.load.size(), 0.0);
-  const auto result = conjugate_gradients(full, &preconditioner, nullptr, problem.load, x, {kTolerance, 2000});
+  const auto result =
+      conjugate_gradients(full, &preconditioner, nullptr, problem.load, x, {kTolerance, 2000});
   EXPECT_TRUE(result.converged);
   EXPECT_LT(result.relative_residual, 2 * kTolerance);
   iterations.two_level = result.iterations;
   if (with_jacobi) {
     for (const Spring& spring : problem.springs)
       for (std::size_t i = 0; i < spring.dofs.size(); ++i)
-        diagonal[static_cast<std::size_t>(spring.dofs[i])] += spring.stiffness * spring.weights[i] * spring.weights[i];
+        diagonal[static_cast<std::size_t>(spring.dofs[i])] +=
+            spring.stiffness * spring.weights[i] * spring.weights[i];
     const JacobiPreconditioner jacobi(diagonal);
     std::fill(x.begin(), x.end(), 0.0);
-    iterations.jacobi = conjugate_gradients(full, &jacobi, nullptr, problem.load, x, {kTolerance, 30000}).iterations;
+    iterations.jacobi =
+        conjugate_gradients(full, &jacobi, nullptr, problem.load, x, {kTolerance, 30000}).iterations;
   }
   return iterations;
 }
@@ -97,7 +101,8 @@ Problem rail(double length) {
   std::reverse(q.begin(), q.end());
   const int coarse = static_cast<int>(0.5 * (length - 0.2) / 0.025);
   problem.mesh.add(make_swept_block("rail", Sweep::extruded, tensor_section(graded(-0.035, 0.00875, 1, 8), q),
-                                    {samples::steel()}, 0, {{coarse, 0.025, 0}, {100, 0.002, 0}, {coarse, 0.025, 0}}));
+                                    {samples::steel()}, 0,
+                                    {{coarse, 0.025, 0}, {100, 0.002, 0}, {coarse, 0.025, 0}}));
   const SweptBlock& block = problem.mesh.blocks[0];
   problem.load.assign(static_cast<std::size_t>(3 * problem.mesh.slots), 0.0);
   const double foot = q.front();
@@ -167,7 +172,8 @@ TEST(SolverIterations, StayBoundedForAThinDisc) {
   for (const double r : graded(radius.back() + 0.01, 0.0025, 1, 8)) radius.push_back(r);
   constexpr int kStations = 240;
   problem.mesh.add(make_swept_block("disc", Sweep::revolved, tensor_section({-0.006, 0, 0.006}, radius),
-                                    {samples::steel()}, 0, {{kStations, 2 * std::numbers::pi / kStations, 0}}));
+                                    {samples::steel()}, 0,
+                                    {{kStations, 2 * std::numbers::pi / kStations, 0}}));
   const SweptBlock& block = problem.mesh.blocks[0];
   for (int station = 0; station < block.station_count(); ++station)
     for (int node = 0; node < 3; ++node)

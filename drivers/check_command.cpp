@@ -1,0 +1,138 @@
+#include "drivers/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "drivers/inventory.hpp"
+#include "drivers/machine.hpp"
+#include "drivers/mesh_measures.hpp"
+#include "drivers/plain_text.hpp"
+#include "drivers/progress.hpp"
+#include "drivers/run_results.hpp"
+#include "drivers/static_system.hpp"
+#include "io/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+// Measured on runs of the scenes in scenes/; the estimates are good to some 30 %.
+constexpr double kStepOverhead = 1.5;           ///< time of a step over that of its internal force
+constexpr double kPreloadApplications = 2500;   ///< time of a preload over that of one application of the stiffness
+constexpr double kCsvBytes = 13.5;              ///< of a value in histories.csv
+constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
+
+struct Estimate {
+  StepLimit limit;
+  double dt = 0;           ///< [s]
+  std::int64_t steps = 0;
+  std::int64_t rows = 0;   ///< of the histories
+  std::int64_t memory = 0; ///< [B]
+  std::int64_t disk = 0;   ///< [B]
+  double force_seconds = 0;    ///< of one internal force [s]
+  double preload_seconds = 0;  ///< [s]
+  double rolling_seconds = 0;  ///< [s]
+};
+
+double seconds_of_one_force(const Model& model) {
+  AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  AlignedVector<double> f(u.size(), 0.0);
+  constexpr int kTimes = 5;
+  model.internal->apply(u.data(), f.data());
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimes; ++i) model.internal->apply(u.data(), f.data());
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes;
+}
+
+Estimate estimate(const Model& model) {
+  Estimate e;
+  e.memory = peak_bytes(model);
+  e.force_seconds = seconds_of_one_force(model);
+  e.preload_seconds = kPreloadApplications * e.force_seconds;
+  e.disk = kReportBytes;
+  if (!model.scene.motion) return e;
+  e.limit = step_limit(model);
+  e.dt = model.scene.motion->step_safety * e.limit.stable_step;
+  e.steps = step_count(model.scene, e.dt);
+  e.rows = (e.steps + sampling_interval(model.scene, e.dt) - 1) / sampling_interval(model.scene, e.dt);
+  e.rolling_seconds = kStepOverhead * e.force_seconds * static_cast<double>(e.steps);
+  const auto values = static_cast<double>(e.rows) * static_cast<double>(history_channels(model).size());
+  e.disk += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)));
+  return e;
+}
+
+std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e) {
+  std::string text = fmt::format("{}: no problems found\n\n", resolved.name);
+  text += plain_text(count_table(measure_blocks(model))) + "\n";
+  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("{:<10}{}\n", name, value); };
+  if (e.steps > 0) {
+    line("Step", fmt::format("{:.4e} s = {:g} of the stable step", e.dt, model.scene.motion->step_safety));
+    line("", e.limit.reason);
+    line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
+  }
+  line("Memory", fmt::format("about {}", bytes_text(e.memory)));
+  line("Disk", e.rows > 0 ? fmt::format("about {}: {} rows of {} channels, report", bytes_text(e.disk), grouped(e.rows),
+                                        history_channels(model).size())
+                          : fmt::format("about {}", bytes_text(e.disk)));
+  line("Time", fmt::format("about {} with {} threads: preload {}{}", duration_text(e.preload_seconds + e.rolling_seconds),
+                           threads(), duration_text(e.preload_seconds),
+                           e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
+  text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
+  return text;
+}
+
+std::string check_json(const Model& model, const Estimate& e) {
+  JsonWriter json;
+  json.begin_object().member("ok", true).key("problems").begin_array().end_array();
+  json.member("elements", model.elements()).member("nodes", model.nodes());
+  json.key("blocks").begin_array();
+  for (const SweptBlock& block : model.mesh.blocks)
+    json.begin_object()
+        .member("name", std::string_view(block.name))
+        .member("elements", block.elements())
+        .member("nodes", block.nodes())
+        .end_object();
+  json.end_array();
+  if (e.steps > 0)
+    json.member("dt_s", e.dt)
+        .member("stable_step_s", e.limit.stable_step)
+        .member("dt_reason", std::string_view(e.limit.reason))
+        .member("steps", e.steps);
+  json.member("memory_bytes", e.memory).member("disk_bytes", e.disk).member("history_rows", e.rows);
+  json.member("threads", threads()).member("preload_s", e.preload_seconds).member("rolling_s", e.rolling_seconds);
+  json.key("phases").begin_array();
+  for (const PhaseInfo& phase : phases(model)) {
+    json.begin_object().member("name", std::string_view(phase.name));
+    for (const auto& [key, names] : {std::pair{"reads", phase.reads}, std::pair{"writes", phase.writes}}) {
+      json.key(key).begin_array();
+      for (const std::string& name : names) json.value(std::string_view(name));
+      json.end_array();
+    }
+    json.end_object();
+  }
+  json.end_array().key("fields").begin_array();
+  for (const FieldInfo& field : fields(model))
+    json.begin_object()
+        .member("name", std::string_view(field.name))
+        .member("unit", std::string_view(field.unit))
+        .member("entity", std::string_view(field.entity))
+        .member("bytes", field.bytes)
+        .end_object();
+  return json.end_array().end_object().text();
+}
+
+}  // namespace
+
+void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
+  use_threads(options.threads);
+  Model model(resolved.scene);
+  // A run puts the corrugation where the preload finds the largest pressure; its place matters to no figure here.
+  if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
+  const Estimate e = estimate(model);
+  fmt::print("{}", options.json ? check_json(model, e) : check_text(model, resolved, e));
+}
+
+}  // namespace tread

@@ -1,0 +1,180 @@
+#include "drivers/inventory.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/plain_text.hpp"
+#include "drivers/simulation.hpp"
+
+namespace tread {
+
+namespace {
+
+// Vector fields that the static solver holds beside the displacement: load, residual, correction, eliminated diagonal and
+// copy, four of conjugate gradients, five of the preconditioner.
+constexpr int kSolverVectors = 14;
+constexpr int kHeldVectors = 4;  ///< two held motions and their means
+// A node of std::map: key, value, colour and three links.
+constexpr std::int64_t kMapNode = 64;
+
+template <class T>
+std::int64_t bytes_of(const T& array) {
+  return static_cast<std::int64_t>(array.size() * sizeof(array[0]));
+}
+
+bool vertical_blocks(const Model& model) {
+  return model.index.slab >= 0;
+}
+
+bool fixed_blocks(const Model& model) {
+  return model.index.rail_cap >= 0;
+}
+
+std::int64_t moved_nodes(const Model& model) {
+  std::int64_t count = 0;
+  for (const SweptBlock& block : model.mesh.blocks) count += static_cast<std::int64_t>(block.node_shift.size());
+  return count;
+}
+
+std::vector<std::string> with_restraints(const Model& model, std::vector<std::string> names) {
+  if (!model.restrained.empty()) names.emplace_back("restrained unknowns");
+  return names;
+}
+
+std::int64_t sample_count(const MotionSpec& motion, const OutputSpec& output) {
+  return static_cast<std::int64_t>(std::ceil(motion.duration / output.history_interval)) + 1;
+}
+
+/// Collects phases; `when` keeps out those whose parts the model lacks.
+class Phases {
+ public:
+  void add(bool when, PhaseInfo phase) {
+    if (when) list_.push_back(std::move(phase));
+  }
+  std::vector<PhaseInfo> take() { return std::move(list_); }
+
+ private:
+  std::vector<PhaseInfo> list_;
+};
+
+void add_preload(const Model& model, Phases& list) {
+  const bool wheel = model.wheelset.has_value();
+  std::vector<std::string> reads = with_restraints(model, {"coefficients", "mass"});
+  if (moved_nodes(model) > 0) reads.emplace_back("moved nodes");
+  if (model.ties) reads.emplace_back("tie links");
+  if (model.fastenings) reads.emplace_back("fastening elements");
+  if (!model.journal.empty()) reads.emplace_back("journal nodes");
+  if (model.contact) reads.emplace_back("contact points");
+  std::vector<std::string> writes = {"displacement", "solver vectors"};
+  if (wheel) writes.insert(writes.end(), {"held motions", "wheel frame"});
+  list.add(true, {"preload", "static equilibrium of all blocks", reads, writes});
+}
+
+}  // namespace
+
+std::vector<PhaseInfo> phases(const Model& model) {
+  Phases list;
+  add_preload(model, list);
+  if (!model.scene.motion) return list.take();
+  const bool wheel = model.wheelset.has_value();
+  const bool vehicle = model.scene.vehicle && !model.journal.empty();
+  const bool load = model.scene.load && !model.journal.empty();
+
+  list.add(true, {"internal force", "all blocks", {"coefficients", "displacement", "velocity"}, {"force"}});
+  list.add(model.ties.has_value(), {"tied forces", "tied nodes", {"tie links"}, {"force"}});
+  list.add(model.fastenings.has_value(),
+           {"fastenings", "spring-dampers", {"fastening elements", "displacement", "velocity"}, {"force"}});
+  list.add(vehicle, {"suspension",
+                     "sprung mass and journal",
+                     {"journal nodes", "displacement", "velocity"},
+                     {"force", "sprung mass"}});
+  list.add(load, {"wheel load", "journal", {"journal nodes"}, {"force"}});
+  list.add(model.contact != nullptr, {"contact",
+                                      "rail faces near the wheel",
+                                      {"displacement", "velocity", "wheel frame"},
+                                      {"contact points", "force"}});
+  list.add(!model.torque.empty(), {"torque", "end of the axle", {"torque nodes", "velocity"}, {"force"}});
+  list.add(vehicle, {"unsprung mass", "journal", {"journal nodes"}, {"force"}});
+  list.add(fixed_blocks(model), {"update",
+                                 "extruded blocks",
+                                 with_restraints(model, {"force", "mass"}),
+                                 {"velocity", "displacement"}});
+  list.add(vertical_blocks(model),
+           {"vertical update", "slab and mortar", with_restraints(model, {"force", "mass"}), {"velocity", "displacement"}});
+  list.add(wheel, {"spinning update",
+                   "wheel blocks",
+                   with_restraints(model, {"force", "mass", "wheel frame"}),
+                   {"velocity", "displacement"}});
+  list.add(model.ties.has_value(), {"tied motion", "tied nodes", {"tie links"}, {"velocity", "displacement"}});
+  list.add(wheel, {"frame", "mean motion of the wheel", {"mass"}, {"wheel frame", "displacement", "velocity"}});
+  list.add(true, {"samples", "on their own clock", {"displacement", "velocity", "force"}, {"samples"}});
+  return list.take();
+}
+
+std::vector<FieldInfo> fields(const Model& model) {
+  const std::int64_t vector = 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double));
+  std::vector<FieldInfo> list;
+  const auto add = [&](bool when, FieldInfo field) {
+    if (when) list.push_back(std::move(field));
+  };
+  const bool motion = model.scene.motion.has_value();
+  const bool wheel = model.wheelset.has_value();
+  add(true, {"coefficients", "m, Pa", "quad and pitch class; moved elements", model.internal->bytes()});
+  add(moved_nodes(model) > 0, {"moved nodes", "m", "node on a chord or on the corrugation", kMapNode * moved_nodes(model)});
+  add(true, {"mass", "kg, 1/kg", "node", bytes_of(model.mass) + bytes_of(model.inverse_mass)});
+  add(!model.restrained.empty(), {"restrained unknowns", "-", "unknown", bytes_of(model.restrained)});
+  add(model.ties.has_value(), {"tie links", "-", "tied node", model.ties ? model.ties->bytes() : 0});
+  add(model.fastenings.has_value(),
+      {"fastening elements", "N/m, N s/m", "spring-damper", model.fastenings ? bytes_of(model.fastenings->elements()) : 0});
+  add(!model.journal.empty(), {"journal nodes", "-", "node of the journal's ring", model.journal.bytes()});
+  add(motion && !model.torque.empty(), {"torque nodes", "1/m", "node of the axle's end", model.torque.bytes()});
+  add(model.contact != nullptr,
+      {"contact points", "Pa, s", "rail integration point", model.contact ? model.contact->bytes() : 0});
+  add(wheel, {"wheel frame", "m, rad", "wheel", static_cast<std::int64_t>(sizeof(BodyFrame))});
+  add(motion && model.scene.vehicle && !model.journal.empty(),
+      {"sprung mass", "m, m/s", "sprung mass", static_cast<std::int64_t>(sizeof(SprungMass))});
+  add(true, {"displacement", "m", "node", vector});
+  add(motion, {"velocity", "m/s", "node", vector});
+  add(motion, {"force", "N", "node", vector});
+  add(motion, {"samples", "all", "sample",
+               motion ? sample_count(*model.scene.motion, model.scene.output) * static_cast<std::int64_t>(sizeof(Sample)) : 0});
+  add(true, {"solver vectors", "N, m", "node, during the preload", kSolverVectors * vector});
+  add(wheel, {"held motions", "-", "node, during the preload", kHeldVectors * vector});
+  return list;
+}
+
+Table phase_table(const Model& model) {
+  const auto joined = [](const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
+    return text;
+  };
+  Table table{"Phases", {{"Phase"}, {"Works on"}, {"Writes"}, {"Reads"}}, {}};
+  for (const PhaseInfo& phase : phases(model))
+    table.rows.push_back({phase.name, phase.body, joined(phase.writes), joined(phase.reads)});
+  return table;
+}
+
+Table field_table(const Model& model) {
+  Table table{"Fields", {{"Field"}, {"Unit"}, {"By"}, {"Size", Align::right}}, {}};
+  for (const FieldInfo& field : fields(model))
+    table.rows.push_back({field.name, field.unit, field.entity, bytes_text(field.bytes)});
+  return table;
+}
+
+std::int64_t peak_bytes(const Model& model) {
+  std::int64_t always = 0;
+  std::int64_t preload = 0;
+  std::int64_t rolling = 0;
+  for (const FieldInfo& field : fields(model)) {
+    if (field.name == "solver vectors" || field.name == "held motions")
+      preload += field.bytes;
+    else if (field.name == "velocity" || field.name == "force" || field.name == "samples")
+      rolling += field.bytes;
+    else
+      always += field.bytes;
+  }
+  return always + std::max(preload, rolling);
+}
+
+}  // namespace tread

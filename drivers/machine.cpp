@@ -1,0 +1,33 @@
+#include "drivers/machine.hpp"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <system_error>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace tread {
+
+void use_threads(int wanted) {
+  set_threads(wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<std::int64_t>(usage.ru_maxrss);
+}
+
+void make_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error || !std::filesystem::is_directory(directory))
+    throw ResourceError(fmt::format("cannot create the output directory '{}': {}; choose another with -o",
+                                    directory.string(), error ? error.message() : "a file of that name is there"));
+}
+
+}  // namespace tread

@@ -1,0 +1,219 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/mesh/structured.hpp"
+#include "drivers/model.hpp"
+#include "kernels/body_motion.hpp"
+#include "kernels/connectors.hpp"
+#include "kernels/time_update.hpp"
+#include "tests/swept_samples.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Two bars one above the other, joined by springs at points between nodes.
+class Fastened : public testing::Test {
+ protected:
+  Fastened() {
+    mesh_.add(make_swept_block("rail", Sweep::extruded, rectangle(-0.05, 0.05, 4, 0, 0.1, 2), {samples::steel()}, 0,
+                               {{10, 0.05, 0}}));
+    mesh_.add(make_swept_block("slab", Sweep::extruded, rectangle(-0.2, 0.2, 4, -0.3, -0.1, 2), {samples::concrete()},
+                               0, {{5, 0.1, 0}}));
+    for (const double x : {0.11, 0.333})
+      elements_.push_back({attach(mesh_.blocks[0], "bottom", x, 0.02), attach(mesh_.blocks[1], "top", x, 0.02), 3e6, 4e3});
+    elements_.push_back({attach(mesh_.blocks[0], "bottom", 0.27, -0.03), {}, 5e6, 1e3});  // to the ground
+  }
+  AlignedVector<double> field() const { return AlignedVector<double>(index(3 * mesh_.slots), 0.0); }
+
+  Mesh mesh_;
+  std::vector<SpringDampers::Element> elements_;
+};
+
+TEST_F(Fastened, AttachmentsInterpolate) {
+  const auto u = samples::sample(mesh_, [](const Vec3& x) { return Vec3{0, 0, 1 + 2 * x.x - 3 * x.y}; });
+  EXPECT_NEAR(elements_[0].upper.value(u.data(), 2), 1 + 0.22 - 0.06, 1e-14);
+  EXPECT_NEAR(elements_[1].lower.value(u.data(), 2), 1 + 0.666 - 0.06, 1e-14);
+  EXPECT_EQ(elements_[2].lower.value(u.data(), 2), 0);
+  EXPECT_ANY_THROW(attach(mesh_.blocks[0], "bottom", 0.6, 0));
+  EXPECT_ANY_THROW(attach(mesh_.blocks[0], "bottom", 0.1, 0.06));
+  EXPECT_ANY_THROW(attach(mesh_.blocks[0], "nowhere", 0.1, 0));
+}
+
+TEST_F(Fastened, ForcesAreThoseOfSpringsAndDampers) {
+  SpringDampers fastenings(elements_);
+  const auto u = samples::random_field(mesh_, 1);
+  const auto v = samples::random_field(mesh_, 2);
+  auto f = field();
+  fastenings.apply(u.data(), v.data(), 1e-6, f.data());
+  // The virtual work on a test displacement.
+  const auto test = samples::random_field(mesh_, 3);
+  double work = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * test[i];
+  double expected = 0;
+  double loss = 0;
+  for (const auto& e : elements_) {
+    const auto stretch = [&](const AlignedVector<double>& a) { return e.upper.value(a.data(), 2) - e.lower.value(a.data(), 2); };
+    expected += (e.stiffness * stretch(u) + e.damping * stretch(v)) * stretch(test);
+    loss += e.damping * stretch(v) * stretch(v) * 1e-6;
+  }
+  EXPECT_NEAR(work, expected, 1e-13 * std::abs(expected));
+  EXPECT_NEAR(fastenings.dissipated(), loss, 1e-14 * loss);
+}
+
+TEST_F(Fastened, SpringsAndEnergyAgreeWithTheForces) {
+  SpringDampers fastenings(elements_);
+  const auto u = samples::random_field(mesh_, 1);
+  auto f = field();
+  fastenings.apply(u.data(), field().data(), 1e-6, f.data());
+  auto from_springs = field();
+  add_springs(fastenings.springs(), u.data(), from_springs.data());
+  double work = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    EXPECT_NEAR(f[i], from_springs[i], 1e-14 * 50);
+    work += f[i] * u[i];
+  }
+  EXPECT_NEAR(fastenings.energy(u.data()), 0.5 * work, 1e-13 * work);
+  EXPECT_EQ(fastenings.dissipated(), 0);
+}
+
+TEST(SprungMass, SwingsAtItsFrequency) {
+  SprungMass mass{8000, 880e3, 0, 0, 0, 0, 0};
+  constexpr double dt = 1e-4;
+  const double omega = std::sqrt(880e3 / 8000.0);
+  const double rest = -8000 * 9.81 / 880e3;
+  mass.height = rest + 0.01;
+  // Ten periods by the crossings of the position of rest.
+  int crossings = 0;
+  double first = 0, last = 0, before = 0.01;
+  for (int step = 1; crossings < 21; ++step) {
+    mass.advance(mass.force(0, 0), 9.81, dt);
+    const double off = mass.height - rest;
+    if (off * before < 0) {
+      const double at = dt * (step - 1 + before / (before - off));
+      (crossings == 0 ? first : last) = at;
+      ++crossings;
+    }
+    before = off;
+  }
+  EXPECT_NEAR((last - first) / 10 / (kTurn / omega), 1, 1e-6);
+}
+
+TEST(SprungMass, SuspensionFollowsTheJournal) {
+  const SprungMass mass{8000, 880e3, 4e3, 0.5, 1.52, 0.1, 0};
+  EXPECT_NEAR(mass.force(1.0, 0.3), -880e3 * 0.02 + 4e3 * 0.2, 1e-8);
+}
+
+/// A ring all of whose nodes are the journal, and one whose bore is.
+class Spinning : public testing::Test {
+ protected:
+  Spinning() {
+    mesh_.add(make_swept_block("ring", Sweep::revolved, rectangle(-0.02, 0.03, 2, 0.05, 0.08, 2), {samples::steel()},
+                               0.1, {{21, kTurn / 21, 0}}));
+    internal_ = std::make_unique<InternalForce>(mesh_);
+    mass_.assign(index(mesh_.slots), 0.0);
+    internal_->lumped_mass(mass_.data());
+    inverse_.assign(mass_.size(), 0.0);
+    for (std::size_t i = 0; i < mass_.size(); ++i)
+      if (mass_[i] > 0) inverse_[i] = 1 / mass_[i];
+    for (int node = 0; node < block().section.nodes(); ++node) all_.push_back(node);
+    body_ = SpinningBody(mesh_, {0}, mass_.data());
+  }
+  const SweptBlock& block() const { return mesh_.blocks[0]; }
+  AlignedVector<double> field() const { return AlignedVector<double>(index(3 * mesh_.slots), 0.0); }
+  Vec3 local(const AlignedVector<double>& f, std::int64_t slot) const {
+    return {f[index(dof(slot, 0))], f[index(dof(slot, 1))], f[index(dof(slot, 2))]};
+  }
+
+  Mesh mesh_;
+  std::unique_ptr<InternalForce> internal_;
+  std::vector<double> mass_;
+  AlignedVector<double> inverse_;
+  std::vector<int> all_;
+  SpinningBody body_;
+};
+
+TEST_F(Spinning, JournalMeansAreThoseOfTheRigidMotion) {
+  const Journal journal(block(), block().section.paths.at("bottom"), mass_.data());
+  const BodyFrame frame{{3, 0, 0.4}, {80, 1, -2}, 0.77, 190};
+  auto u = field();
+  auto w = field();
+  const Vec3 shift{1e-3, -2e-3, 3e-3};
+  const Vec3 faster{0.1, 0.2, 0.3};
+  samples::for_each_node(mesh_, [&](const SweptBlock& b, int, int station, std::int64_t slot) {
+    const Vec3 a = to_local(b, station, frame.angle, shift);
+    const Vec3 rate = to_local(b, station, frame.angle, faster);
+    for (int c = 0; c < 3; ++c) {
+      u[index(dof(slot, c))] = a[c];
+      w[index(dof(slot, c))] = rate[c];
+    }
+  });
+  EXPECT_LT(norm(journal.displacement(u.data(), frame) - shift), 1e-17);
+  const Vec3 expected = frame.velocity + faster + cross({0, frame.spin, 0}, shift);
+  EXPECT_LT(norm(journal.velocity(u.data(), w.data(), frame) - expected), 1e-13);
+
+  auto force = field();
+  const Vec3 load{10, -20, 30};
+  journal.add(force.data(), frame, load);
+  EXPECT_LT(norm(journal.total(force.data(), frame) - load), 1e-13);
+  double moment = 0;
+  Vec3 sum;
+  samples::for_each_node(mesh_, [&](const SweptBlock& b, int node, int station, std::int64_t slot) {
+    sum += to_cartesian(b, station, frame.angle, local(force, slot));
+    moment += b.section.q[index(node)] * local(force, slot).x;
+  });
+  EXPECT_LT(norm(sum - load), 1e-13);
+  EXPECT_LT(std::abs(moment), 1e-13);
+}
+
+TEST_F(Spinning, TorqueTurnsTheBodyAsItsInertia) {
+  const AxleTorque torque(block(), all_, mass_.data());
+  auto u = field(), w = field(), f = field();
+  EXPECT_EQ(torque.apply(500, w.data(), f.data()), 0);
+  const BodyFrame frame{{0, 0, 0}, {0, 0, 0}, 0.3, 0};
+  constexpr double dt = 1e-6;
+  update_spinning_block(block(), {u.data(), w.data(), f.data(), inverse_.data()}, frame, 0, dt);
+  const MeanMotion mean = body_.mean_motion(u.data(), w.data(), frame);
+  EXPECT_NEAR(mean.spin, dt * 500 / body_.inertia(), 1e-14 * mean.spin);
+  EXPECT_LT(norm(mean.velocity), 1e-15);
+  // The conjugate of the torque is the mean spin of the loaded nodes.
+  EXPECT_NEAR(torque.apply(0, w.data(), f.data()), mean.spin, 1e-14 * mean.spin);
+}
+
+TEST_F(Spinning, UnsprungMassIsCarriedAlong) {
+  // An elastic ring with M_a on its bore, pushed there: the momentum of both is the impulse, and on the average
+  // the body accelerates as F / (m + M_a).
+  const Journal journal(block(), block().section.paths.at("bottom"), mass_.data());
+  const double added = 2 * body_.mass();
+  const double gravity = 9.81;
+  const Vec3 push{1000, 0, 400};
+  auto u = field(), w = field(), f = field();
+  BodyFrame frame;
+  const double dt = 1.5 / internal_->max_frequency().omega;
+  constexpr int kSteps = 4000;
+  for (int step = 0; step < kSteps; ++step) {
+    internal_->apply(u.data(), f.data());
+    journal.add(f.data(), frame, -push);
+    journal.add(f.data(), frame, (-added / (journal.mass() + added)) * journal.total(f.data(), frame));
+    update_spinning_block(block(), {u.data(), w.data(), f.data(), inverse_.data()}, frame, gravity, dt);
+    frame.advance(dt);
+  }
+  const double time = kSteps * dt;
+  const Vec3 impulse = time * (push + Vec3{0, 0, -gravity * (body_.mass() + added)});
+  const Vec3 momentum =
+      body_.momentum(u.data(), w.data(), frame) + added * journal.velocity(u.data(), w.data(), frame);
+  EXPECT_LT(norm(momentum - impulse), 1e-10 * norm(impulse));
+  const Vec3 way = body_.mean_motion(u.data(), w.data(), frame).displacement;
+  const Vec3 rigid = (0.5 * time * time / (body_.mass() + added)) * (impulse * (1 / time));
+  EXPECT_LT(norm(way - rigid), 2e-3 * norm(rigid));
+}
+
+}  // namespace
+}  // namespace tread

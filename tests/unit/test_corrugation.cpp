@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/corrugation.hpp"
+
+namespace tread {
+namespace {
+
+// Corrugation D of the paper, starting at x_s = 2.4 m.
+const Corrugation kSine({0.08, 0.14e-3}, 2.4, 0.6, 1e-3, 30e-3);
+
+TEST(Corrugation, CrestStandsAtTheStartAndTroughHalfAWaveLater) {
+  EXPECT_DOUBLE_EQ(kSine.depth(2.4, 1e-3), 0);
+  EXPECT_NEAR(kSine.depth(2.44, 1e-3), 0.14e-3, 1e-18);
+  EXPECT_NEAR(kSine.depth(2.42, 1e-3), 0.07e-3, 1e-17);
+  EXPECT_NEAR(kSine.depth(2.48, 1e-3), 0, 1e-17);
+  EXPECT_DOUBLE_EQ(kSine.deepest(), 0.14e-3);
+  // The surface leaves the crest without a kink.
+  EXPECT_LT(kSine.depth(2.4 + 1e-5, 1e-3), 1e-10);
+}
+
+TEST(Corrugation, WholeWavesAreCut) {
+  EXPECT_DOUBLE_EQ(kSine.first(), 2.4);
+  EXPECT_NEAR(kSine.last(), 2.4 + 7 * 0.08, 1e-15);
+  EXPECT_EQ(kSine.depth(2.4 - 1e-9, 1e-3), 0);
+  EXPECT_EQ(kSine.depth(2.4 + 7.5 * 0.08, 1e-3), 0);
+  EXPECT_NEAR(kSine.depth(2.4 + 6.5 * 0.08, 1e-3), 0.14e-3, 1e-17);
+  // A length of whole waves up to rounding keeps the last of them.
+  EXPECT_NEAR(Corrugation({0.08, 1e-4}, 0, 7 * 0.08, 0, 0.03).last(), 0.56, 1e-15);
+  EXPECT_TRUE(Corrugation({0.08, 1e-4}, 0, 0.05, 0, 0.03).smooth());
+  EXPECT_TRUE(Corrugation().smooth());
+  EXPECT_EQ(Corrugation().depth(0.5, 0), 0);
+  EXPECT_FALSE(kSine.smooth());
+}
+
+TEST(Corrugation, FadesAcrossAsAParabola) {
+  EXPECT_NEAR(kSine.depth(2.44, 1e-3 + 15e-3), 0.75 * 0.14e-3, 1e-18);
+  EXPECT_DOUBLE_EQ(kSine.depth(2.44, 1e-3 + 10e-3), kSine.depth(2.44, 1e-3 - 10e-3));
+  EXPECT_EQ(kSine.depth(2.44, 1e-3 + 30e-3), 0);
+  EXPECT_EQ(kSine.depth(2.44, 1e-3 - 31e-3), 0);
+  EXPECT_DOUBLE_EQ(kSine.centre(), 1e-3);
+}
+
+TEST(Corrugation, TableIsMetAndDoesNotOvershoot) {
+  const std::vector<double> x = {0, 0.02, 0.03, 0.05, 0.08};
+  const std::vector<double> depth = {0, 1e-4, 1e-4, 2e-4, 0};
+  const Corrugation table(x, depth, 1.5, 0, 0.03);
+  EXPECT_DOUBLE_EQ(table.deepest(), 2e-4);
+  EXPECT_DOUBLE_EQ(table.last(), 1.58);
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) EXPECT_NEAR(table.depth(1.5 + x[i], 0), depth[i], 1e-18);
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double low = std::min(depth[i], depth[i + 1]);
+    const double high = std::max(depth[i], depth[i + 1]);
+    double last = depth[i];
+    for (int k = 1; k < 100; ++k) {
+      const double d = table.depth(1.5 + x[i] + 0.01 * k * (x[i + 1] - x[i]), 0);
+      EXPECT_GE(d, low - 1e-18);
+      EXPECT_LE(d, high + 1e-18);
+      EXPECT_GE((d - last) * (depth[i + 1] - depth[i]), -1e-24);
+      last = d;
+    }
+  }
+  EXPECT_EQ(table.depth(1.49, 0), 0);
+  EXPECT_NEAR(table.depth(1.55, 15e-3), 0.75 * 2e-4, 1e-18);
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "kernels/friction.hpp"
+
+namespace tread {
+namespace {
+
+constexpr CoulombFriction kLaw{0.4, 2e13};
+constexpr double kPressure = 1e9;
+
+double size(const Traction& t) {
+  return std::hypot(t.along, t.across);
+}
+
+TEST(Friction, SticksBelowTheLimit) {
+  const auto result = kLaw.advance({1e8, 0}, {2e-6, -3e-6}, kPressure);
+  EXPECT_FALSE(result.slips);
+  EXPECT_DOUBLE_EQ(result.traction.along, 1e8 + 2e13 * 2e-6);
+  EXPECT_DOUBLE_EQ(result.traction.across, -2e13 * 3e-6);
+  EXPECT_NEAR(result.dissipation, 0, 1e-15 * result.work);
+  EXPECT_GT(result.work, 0);
+}
+
+TEST(Friction, SlipsAtTheLimitAlongTheTrialTraction) {
+  const auto result = kLaw.advance({}, {3e-4, 4e-4}, kPressure);
+  EXPECT_TRUE(result.slips);
+  EXPECT_NEAR(size(result.traction), 0.4e9, 1e-6);
+  EXPECT_NEAR(result.traction.across / result.traction.along, 4.0 / 3, 1e-14);
+  // Slipped way times the mean traction, less what the stick stores.
+  EXPECT_NEAR(result.work, 0.5 * 0.4e9 * 5e-4, 1e-9);
+  EXPECT_NEAR(result.dissipation, result.work - 0.5 * 0.4e9 * 0.4e9 / 2e13, 1e-9);
+}
+
+TEST(Friction, SteadySlipDissipatesTractionTimesWay) {
+  const Traction limit{0.4e9, 0};
+  const auto result = kLaw.advance(limit, {1e-6, 0}, kPressure);
+  EXPECT_TRUE(result.slips);
+  EXPECT_DOUBLE_EQ(result.traction.along, 0.4e9);
+  EXPECT_NEAR(result.dissipation, 0.4e9 * 1e-6, 1e-9);
+}
+
+TEST(Friction, ReleaseGivesBackNothing) {
+  const auto result = kLaw.advance({1e8, 2e8}, {1e-7, 0}, 0);
+  EXPECT_EQ(result.traction.along, 0);
+  EXPECT_EQ(result.traction.across, 0);
+  EXPECT_TRUE(result.slips);
+  EXPECT_GT(result.dissipation, 0);
+  const auto still = kLaw.advance({1e8, 2e8}, {}, 0);
+  EXPECT_EQ(still.work, 0);
+  EXPECT_DOUBLE_EQ(still.dissipation, 0.5 * 5e16 / 2e13);
+  EXPECT_FALSE(kLaw.advance({}, {}, 0).slips);
+}
+
+TEST(Friction, FrictionlessContactCarriesNoShear) {
+  const CoulombFriction smooth{0, 2e13};
+  const auto result = smooth.advance({}, {1e-5, 1e-5}, kPressure);
+  EXPECT_EQ(size(result.traction), 0);
+  EXPECT_EQ(result.dissipation, 0);
+  EXPECT_TRUE(std::isfinite(result.work));
+}
+
+TEST(Friction, RandomPathsDissipateAndTheWorkCloses) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  Traction traction;
+  double pressure = 0;
+  double work = 0;
+  double dissipated = 0;
+  double scale = 0;
+  for (int step = 0; step < 20000; ++step) {
+    const double before = pressure;
+    pressure = std::max(0.0, pressure + 2e7 * (value(random) + (step % 400 < 200 ? 0.5 : -0.5)));
+    const Traction slip{4e-7 * value(random) + 2e-7, 4e-7 * value(random)};
+    const auto result = kLaw.advance(traction, slip, pressure);
+    EXPECT_LE(size(result.traction), 0.4 * pressure * (1 + 1e-15));
+    // A step that takes pressure away and turns the shear round counts the release at the new direction.
+    const double squared = traction.along * traction.along + traction.across * traction.across;
+    const double turned = kLaw.tangential_penalty * (traction.along * slip.along + traction.across * slip.across);
+    if (pressure >= before || squared + turned >= 0) {
+      EXPECT_GE(result.dissipation, -1e-14 * scale);
+    }
+    if (!result.slips) {
+      EXPECT_NEAR(result.dissipation, 0, 1e-13 * (scale + std::abs(result.work)));
+    }
+    traction = result.traction;
+    work += result.work;
+    dissipated += result.dissipation;
+    scale = std::max(scale, std::abs(work));
+  }
+  const double stored = 0.5 * (traction.along * traction.along + traction.across * traction.across) / 2e13;
+  EXPECT_NEAR(work, dissipated + stored, 1e-12 * scale);
+  EXPECT_GT(dissipated, 0.5 * scale);
+}
+
+}  // namespace
+}  // namespace tread

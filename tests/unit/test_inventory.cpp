@@ -1,0 +1,205 @@
+// A scene pays for what it contains and for nothing else.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "drivers/inventory.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+namespace {
+
+// A short piece of the track and a coarse wheelset.
+const std::vector<std::string> kSmall = {"scene.element_size=6mm",  "rail.length=2.7m",     "rail.origin=1.3m",
+                                         "fastenings.count=4",      "fastenings.first=0.3m", "solution_zone.start=20mm",
+                                         "solution_zone.length=40mm", "motion.duration=1ms"};
+
+constexpr const char* kWheelset = R"(
+[scene]
+title = "wheelset on slab track"
+based_on = "highspeed-slab-2014"
+[motion]
+traction = { mu = 0.3, ramp = "1 ms" }
+[corrugation]
+start = "20 mm"
+wavelength = "20 mm"
+length = "40 mm"
+)";
+
+constexpr const char* kTyre = R"(
+[scene]
+title = "tyre on block"
+element_size = "10 mm"
+[solution_zone]
+start = "-20 mm"
+length = "40 mm"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0.3
+density = "7790 kg/m3"
+[wheel]
+shape = "tyre"
+profile = "arc"
+diameter = "0.86 m"
+crown_radius = "0.3 m"
+width = "60 mm"
+thickness = "60 mm"
+lateral_offset = "0 mm"
+[rail]
+profile = "box"
+support = "rigid"
+inclination = 0
+length = "400 mm"
+origin = "200 mm"
+width = "80 mm"
+height = "60 mm"
+[load]
+wheel_load = "50 kN"
+[contact]
+friction = 0.5
+)";
+
+constexpr const char* kBar = R"(
+[scene]
+title = "bar"
+element_size = "10 mm"
+gravity = "0 m/s2"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0
+density = "7790 kg/m3"
+[rail]
+profile = "box"
+support = "free"
+inclination = 0
+length = "1 m"
+origin = "0 m"
+width = "20 mm"
+height = "20 mm"
+[pulse]
+velocity = "1 m/s"
+length = "0.1 m"
+[motion]
+duration = "0.1 ms"
+)";
+
+Scene scene_of(const char* text, const std::vector<std::string>& overrides = {}) {
+  return resolve_scene(SceneSource{"scene.toml", text, "."}, overrides).scene;
+}
+
+Scene small_track(std::vector<std::string> more = {}) {
+  std::vector<std::string> all = kSmall;
+  all.insert(all.end(), more.begin(), more.end());
+  return scene_of(kWheelset, all);
+}
+
+std::set<std::string> phase_names(const Model& model) {
+  std::set<std::string> names;
+  for (const PhaseInfo& phase : phases(model)) names.insert(phase.name);
+  return names;
+}
+
+std::set<std::string> field_names(const Model& model) {
+  std::set<std::string> names;
+  for (const FieldInfo& field : fields(model)) names.insert(field.name);
+  return names;
+}
+
+std::int64_t bytes_of(const Model& model, const std::string& name) {
+  std::int64_t sum = 0;
+  for (const FieldInfo& field : fields(model))
+    if (field.name == name) sum += field.bytes;
+  return sum;
+}
+
+/// Names in `all` that are not in `part`.
+std::set<std::string> missing(const std::set<std::string>& all, const std::set<std::string>& part) {
+  std::set<std::string> out;
+  std::set_difference(all.begin(), all.end(), part.begin(), part.end(), std::inserter(out, out.end()));
+  return out;
+}
+
+using Names = std::set<std::string>;
+
+void expect_consistent(const Model& model) {
+  const Names known = field_names(model);
+  Names used;
+  for (const PhaseInfo& phase : phases(model)) {
+    used.insert(phase.reads.begin(), phase.reads.end());
+    used.insert(phase.writes.begin(), phase.writes.end());
+  }
+  EXPECT_EQ(used, known);
+  for (const FieldInfo& field : fields(model)) EXPECT_GT(field.bytes, 0) << field.name;
+}
+
+TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
+  Model track(small_track());
+  expect_consistent(track);
+  expect_consistent(Model(scene_of(kTyre)));
+  expect_consistent(Model(scene_of(kBar)));
+}
+
+TEST(Inventory, WithoutSlabThereIsNoVerticalUpdate) {
+  const Model with(small_track());
+  const Model without(small_track({"slab.present=false"}));
+  EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"vertical update"});
+  EXPECT_EQ(field_names(with), field_names(without));
+  EXPECT_EQ(with.mesh.blocks.size(), without.mesh.blocks.size() + 1);
+  // One block less in every node field: nothing of the slab is left.
+  const std::int64_t slab = with.mesh.blocks[static_cast<std::size_t>(with.index.slab)].slots();
+  EXPECT_EQ(with.mesh.slots - without.mesh.slots, slab);
+  EXPECT_EQ(bytes_of(with, "displacement") - bytes_of(without, "displacement"),
+            3 * slab * static_cast<std::int64_t>(sizeof(double)));
+  EXPECT_LT(bytes_of(without, "restrained unknowns"), bytes_of(with, "restrained unknowns"));
+}
+
+TEST(Inventory, WithoutTractionThereIsNoTorque) {
+  Scene scene = small_track();
+  scene.motion->traction_mu.reset();
+  const Model without(scene);
+  const Model with(small_track());
+  EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"torque"});
+  EXPECT_EQ(missing(field_names(with), field_names(without)), Names{"torque nodes"});
+}
+
+TEST(Inventory, SmoothRailMovesNoNodesForACorrugation) {
+  Model smooth(small_track({"corrugation.present=false"}));
+  Model corrugated(small_track());
+  const std::int64_t chords = bytes_of(smooth, "moved nodes");
+  EXPECT_EQ(bytes_of(corrugated, "moved nodes"), chords);
+  smooth.apply_corrugation(0);
+  corrugated.apply_corrugation(0);
+  EXPECT_EQ(bytes_of(smooth, "moved nodes"), chords);
+  EXPECT_GT(bytes_of(corrugated, "moved nodes"), chords);
+  EXPECT_GT(bytes_of(corrugated, "coefficients"), bytes_of(smooth, "coefficients"));
+  // Added to the gap it moves nothing.
+  Model gap(small_track({"corrugation.apply=gap"}));
+  gap.apply_corrugation(0);
+  EXPECT_EQ(bytes_of(gap, "moved nodes"), chords);
+}
+
+TEST(Inventory, StaticTyreHasNoStep) {
+  const Model model(scene_of(kTyre));
+  EXPECT_EQ(phase_names(model), Names{"preload"});
+  EXPECT_EQ(field_names(model),
+            (Names{"coefficients", "mass", "restrained unknowns", "journal nodes", "contact points", "wheel frame",
+                   "displacement", "solver vectors", "held motions"}));
+}
+
+TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
+  const Model model(scene_of(kBar));
+  EXPECT_EQ(phase_names(model), (Names{"preload", "internal force", "update", "samples"}));
+  const Names names = field_names(model);
+  for (const char* absent : {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes",
+                             "contact points", "wheel frame", "sprung mass", "held motions", "restrained unknowns"})
+    EXPECT_EQ(names.count(absent), 0U) << absent;
+  EXPECT_TRUE(model.journal.empty());
+  EXPECT_TRUE(model.torque.empty());
+  EXPECT_FALSE(model.contact);
+}
+
+}  // namespace
+}  // namespace tread
