@@ -147,6 +147,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     AlignedVector<double> reduced = load;
     system.reduce(reduced.data());
     scale = std::sqrt(dot(n, reduced.data(), reduced.data()));
+    if (scale == 0) return out;  // nothing loads the bodies: they rest as they are
   }
 
   std::vector<Spring> fixed_springs;

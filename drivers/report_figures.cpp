@@ -171,7 +171,7 @@ Figure creepage_figure(const Model& model, const RunResults& r) {
 
 Figure patch_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("Contact patch", model, r);
-  figure.panels.push_back(panel("Area [mm2]",
+  figure.panels.push_back(panel("Area [mm²]",
                                 {curve("in contact", model, r, [](const Sample& s) { return 1e6 * s.patch_area; }),
                                  curve("slipping", model, r, [](const Sample& s) { return 1e6 * s.slip_area; })},
                                 {}, 170));
@@ -181,7 +181,7 @@ Figure patch_figure(const Model& model, const RunResults& r) {
              curve("largest surface shear stress", model, r, [](const Sample& s) { return 1e-6 * s.max_shear; })},
             {}, 170));
   figure.panels.push_back(
-      panel("Penetration [um]",
+      panel("Penetration [µm]",
             {curve("largest penetration", model, r, [](const Sample& s) { return 1e6 * s.max_penetration; })}, {}, 90));
   figure.caption += "Stresses are averages at the rail's surface nodes. ";
   return figure;
@@ -190,20 +190,20 @@ Figure patch_figure(const Model& model, const RunResults& r) {
 Figure energy_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("Energy by kind, change since the start", model, r);
   const EnergyLedger& start = r.samples.front().energy;
-  std::vector<Series> kinds;
-  const auto kind = [&](bool present, const char* label, double EnergyLedger::*member, Stroke stroke) {
-    if (present)
-      kinds.push_back(curve(label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; },
-                            stroke));
+  const auto kind = [&](const char* label, double EnergyLedger::*member, Stroke stroke = Stroke::solid) {
+    return curve(label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; }, stroke);
   };
-  kind(true, "kinetic", &EnergyLedger::kinetic, Stroke::solid);
-  kind(true, "strain", &EnergyLedger::strain, Stroke::solid);
-  kind(model.fastenings || model.scene.vehicle, "springs", &EnergyLedger::connectors, Stroke::solid);
-  kind(model.scene.gravity != 0, "gravity", &EnergyLedger::gravity, Stroke::solid);
-  kind(!model.torque.empty(), "work of the torque", &EnergyLedger::torque_work, Stroke::dashed);
-  kind(model.contact != nullptr, "frictional work", &EnergyLedger::frictional_work, Stroke::dashed);
-  kind(model.fastenings || model.scene.vehicle, "dampers", &EnergyLedger::connector_loss, Stroke::dashed);
-  figure.panels.push_back(panel("Energy [J]", std::move(kinds), {}, 260));
+  std::vector<Series> large = {kind("kinetic", &EnergyLedger::kinetic)};
+  if (!model.torque.empty()) large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
+  std::vector<Series> small = {kind("strain", &EnergyLedger::strain)};
+  if (model.scene.gravity != 0 || model.scene.load) small.push_back(kind("gravity", &EnergyLedger::gravity));
+  if (model.contact) small.push_back(kind("frictional work", &EnergyLedger::frictional_work, Stroke::dashed));
+  if (model.fastenings || model.scene.vehicle) {
+    small.push_back(kind("springs", &EnergyLedger::connectors));
+    small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
+  }
+  figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
+  figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
   figure.panels.push_back(
       panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })}, {}, 110));
   figure.caption += "The residual is what stored and dissipated energy exceed the torque's work by; it should stay small "
@@ -231,7 +231,10 @@ Drawings section_drawings(const Model& model) {
 Drawings side_drawings(const Model& model) {
   const double height = axis_height(model);
   const std::vector<Layer> layers = layers_of(model, [&](const SweptBlock& block) {
-    return side_layer(block.name, block, block.sweep == Sweep::revolved ? Vec3{0, 0, height} : Vec3{});
+    if (block.sweep == Sweep::extruded) return side_layer(block.name, block);
+    SweptBlock without_flange = block;  // the flange would hide where wheel and rail meet
+    for (double& radius : without_flange.section.q) radius = std::min(radius, height);
+    return side_layer(block.name, without_flange, {0, 0, height});
   });
   if (!model.contact) return {{"Side view", layers, std::nullopt, 920}};
   const double zone = model.scene.motion ? model.scene.zone_start : 0;

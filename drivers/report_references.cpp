@@ -71,7 +71,7 @@ std::vector<Comparison> paper_comparisons(const Model& model, const RunResults& 
   std::vector<Comparison> rows;
   if (!model.contact || !has_paper_vehicle(scene)) return rows;
   rows.push_back({"Static wheel load", "kN", 87.56, -1e-3 * r.preload.contact.force_on_rail.z,
-                  "weight of 8000 + 340 + 586 kg (Table 1), gravity 9.81 m/s2"});
+                  "weight of 8000 + 340 + 586 kg (Table 1), gravity 9.81 m/s²"});
   if (!has_paper_track(scene) || !rolls_at_300(scene)) return rows;
   rows.push_back({"Creepage, steady, smooth rail", "%", 0.276, when(steady(model, r), 100 * r.creepage),
                   "mean of 28 tread nodes; section 4.2 and Fig. 18"});
@@ -86,7 +86,7 @@ std::vector<Comparison> paper_comparisons(const Model& model, const RunResults& 
   rows.push_back({"Time step", "s", 8.9e-8, r.dt,
                   fmt::format("paper: contact elements of 1.1 mm; here {} mm (quality \"{}\")",
                               readable(1e3 * model.sizes.contact, 3), scene.quality)});
-  rows.push_back({"Elements", "-", 1.46e6, static_cast<double>(model.elements()), "as above"});
+  rows.push_back({"Elements", "million", 1.46, 1e-6 * static_cast<double>(model.elements()), "as above"});
   return rows;
 }
 
@@ -99,7 +99,7 @@ std::vector<Comparison> theory_comparisons(const Model& model, const RunResults&
   const std::string shape =
       fmt::format("Hertz for radii {} and {} mm", readable(1e3 * model.wheel_radius(), 4), readable(1e3 * model.hertz_radius_y, 4));
   const std::string remark = sphere ? shape : shape + "; the profiles' curvature varies over the patch: not Hertzian";
-  rows.push_back({"Patch area, static", "mm2", 1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y,
+  rows.push_back({"Patch area, static", "mm²", 1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y,
                   1e6 * r.preload.contact.area, remark});
   rows.push_back({"Largest pressure, static", "MPa", 1e-6 * hertz.max_pressure, 1e-6 * r.static_pressure,
                   "nodal average; " + remark});

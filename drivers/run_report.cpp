@@ -79,8 +79,8 @@ KeyFigures static_figures(const Run& run) {
   const ContactTotals& contact = run.results.preload.contact;
   return {{"Contact force", readable(-1e-3 * contact.force_on_rail.z), "kN"},
           {"Largest pressure", readable(1e-6 * run.results.static_pressure), "MPa"},
-          {"Patch area", readable(1e6 * contact.area), "mm2"},
-          {"Largest penetration", readable(1e6 * contact.max_penetration, 3), "um"},
+          {"Patch area", readable(1e6 * contact.area), "mm²"},
+          {"Largest penetration", readable(1e6 * contact.max_penetration, 3), "µm"},
           {"Residual / load", readable(run.results.preload.residual, 2), ""}};
 }
 
@@ -139,11 +139,11 @@ Chapter preload_chapter(const Run& run) {
     q.add("Vertical contact force F_N", 1e-3 * force, "kN",
           fmt::format("weight and load: {:.3f} kN", 1e-3 * run.model.wheel_load()));
     q.add("Lateral contact force on the wheel", -1e-3 * contact.force_on_rail.y, "kN", "positive to the field side");
-    q.add("Patch area", 1e6 * contact.area, "mm2");
+    q.add("Patch area", 1e6 * contact.area, "mm²");
     q.add("Largest pressure", 1e-6 * run.results.static_pressure, "MPa",
           fmt::format("average at a rail node; {:.1f} MPa at an integration point", 1e-6 * contact.max_pressure));
-    q.add("Largest penetration", 1e6 * contact.max_penetration, "um",
-          fmt::format("{:.1f} % of the Hertz approach of {:.1f} um", 100 * contact.max_penetration / run.model.hertz_patch.approach,
+    q.add("Largest penetration", 1e6 * contact.max_penetration, "µm",
+          fmt::format("{:.1f} % of the Hertz approach of {:.1f} µm", 100 * contact.max_penetration / run.model.hertz_patch.approach,
                       1e6 * run.model.hertz_patch.approach));
     q.add("Centre of pressure across the rail", 1e3 * contact.centre.y, "mm", "from the crown's centre line, field side positive");
     q.add("Centre of pressure across the wheel", 1e3 * (contact.centre.y + scene.wheel->lateral_offset), "mm",
@@ -160,7 +160,7 @@ Chapter preload_chapter(const Run& run) {
     }
     q.add("Rail deflection under the wheel", 1e3 * p.rail_deflection, "mm", remark);
   }
-  if (run.model.index.slab >= 0) q.add("Slab deflection under the wheel", 1e6 * p.slab_deflection, "um");
+  if (run.model.index.slab >= 0) q.add("Slab deflection under the wheel", 1e6 * p.slab_deflection, "µm");
   if (run.model.wheelset) {
     q.add("Reaction of the held longitudinal motion", p.held_force_x, "N", "of the wheel's mean; should be about zero");
     q.add("Reaction of the held rotation", p.held_moment, "N m", "about the axle; should be about zero");
@@ -245,7 +245,7 @@ Chapter cost_chapter(const Run& run) {
   q.add("Preload", r.seconds_preload, "s");
   if (r.steps > 0) {
     q.add("Rolling", r.seconds_rolling, "s");
-    q.add("Speed", 1e-6 * elements * static_cast<double>(r.steps) / r.seconds_rolling, "10^6 element-steps/s");
+    q.add("Million element-steps per second", 1e-6 * elements * static_cast<double>(r.steps) / r.seconds_rolling, "");
     q.add("Time of an element-step", 1e9 * r.seconds_rolling / (elements * static_cast<double>(r.steps)), "ns");
   }
   q.add_text("Threads", std::to_string(threads()), "", fmt::format("instruction set {}", run.model.internal->instruction_set()));

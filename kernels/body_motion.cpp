@@ -123,7 +123,9 @@ Vec3 SpinningBody::momentum(const double* u, const double* w, const BodyFrame& f
 }
 
 void SpinningBody::anchor(double* u, double* w, BodyFrame& frame, double dt) const {
-  const MeanMotion mean = mean_motion(u, w, frame);
+  MeanMotion mean = mean_motion(u, w, frame);
+  // Along the axis the body is restrained, not free: the frame stays there.
+  mean.displacement.y = mean.velocity.y = 0;
   BodyFrame moved = frame;
   moved.origin += mean.displacement;
   moved.velocity += mean.velocity;

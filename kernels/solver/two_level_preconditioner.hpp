@@ -15,7 +15,7 @@ namespace tread {
 struct TwoLevelOptions {
   AggregateOptions aggregates;
   int degree = 3;      ///< of the Chebyshev polynomial: it applies the operator degree - 1 times
-  double spread = 20;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
+  double spread = 40;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
 };
 
 /// B = S + Z (Z^T A Z)^-1 Z^T with S a Chebyshev polynomial in D^-1 A times D^-1, D the diagonal. Iterations
@@ -23,7 +23,7 @@ struct TwoLevelOptions {
 /// object serves one caller at a time: applying it uses buffers of its own.
 class TwoLevelPreconditioner : public Preconditioner {
  public:
-  /// `elastic`: elements and eliminated ties without springs; applied about 150 times here and not kept.
+  /// `elastic`: elements and eliminated ties without springs; applied some 200 times here and not kept.
   /// `diagonal`: its diagonal, 0 where an unknown is not free, unused lanes included [N/m]. Not ready before
   /// the first update(). Throws NumericalError as CoarseSolver does.
   TwoLevelPreconditioner(const Mesh& mesh, const Operator& elastic, AlignedVector<double> diagonal,

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/geometry/profiles.hpp"
@@ -100,6 +103,92 @@ TEST(SurfaceProfile, VerticalPartsAndMissingSurfacesAreRefused) {
   EXPECT_THROW(SurfaceProfile{section}, InputError);
   section.surface.push_back({0, {section.paths.at("right")[0], section.paths.at("right")[1]}, {{{0, 1}, {0, 1}}}});
   EXPECT_THROW(SurfaceProfile{section}, InputError);
+}
+
+/// A line of nodes of uneven spacing.
+struct Line {
+  std::vector<double> at = {0, 0.1, 0.3, 0.4, 0.8, 0.9, 1.5};
+  LineCell cell(int i) const {
+    const int last = static_cast<int>(at.size()) - 1;
+    const auto length = [&](int k) { return k >= 0 && k < last ? at[index(k + 1)] - at[index(k)] : 0.0; };
+    return {std::max(i - 1, 0), i, i + 1, std::min(i + 2, last), length(i - 1), length(i), length(i + 1)};
+  }
+};
+
+TEST(LineWeights, ReproduceQuadraticsInsideAndLinesAtTheEnds) {
+  const Line line;
+  const auto square = [](double x) { return 2 - 3 * x + 5 * x * x; };
+  for (int i = 0; i + 1 < static_cast<int>(line.at.size()); ++i) {
+    const LineCell cell = line.cell(i);
+    const bool inside = cell.length_before > 0 && cell.length_after > 0;
+    for (const double t : {0.0, 0.2, 0.5, 0.9, 1.0})
+      for (const SurfaceKind kind : {SurfaceKind::exact, SurfaceKind::facets}) {
+        const LineWeights w = line_weights(cell, t, kind);
+        const double x = line.at[index(i)] + t * cell.length;
+        double one = 0, flat = 0, linear = 0, slope = 0, quadratic = 0, quadratic_slope = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double node = line.at[index(w.ordinal[k])];
+          one += w.value[k];
+          flat += w.slope[k];
+          linear += w.value[k] * node;
+          slope += w.slope[k] * node;
+          quadratic += w.value[k] * square(node);
+          quadratic_slope += w.slope[k] * square(node);
+        }
+        EXPECT_NEAR(one, 1, 1e-14);
+        EXPECT_NEAR(flat, 0, 1e-14);
+        EXPECT_NEAR(linear, x, 1e-14);
+        EXPECT_NEAR(slope, cell.length, 1e-14);
+        if (kind == SurfaceKind::facets || !inside) continue;
+        EXPECT_NEAR(quadratic, square(x), 1e-13);
+        EXPECT_NEAR(quadratic_slope, cell.length * (10 * x - 3), 1e-13);
+      }
+  }
+}
+
+TEST(LineWeights, ValuesAndSlopesAreContinuous) {
+  const Line line;
+  std::vector<double> value;
+  std::mt19937 random(5);
+  for (std::size_t i = 0; i < line.at.size(); ++i) value.push_back(std::uniform_real_distribution<double>(-1, 1)(random));
+  const auto sum = [&](const LineWeights& w, const std::array<double, 4>& weights) {
+    double total = 0;
+    for (std::size_t k = 0; k < 4; ++k) total += weights[k] * value[index(w.ordinal[k])];
+    return total;
+  };
+  for (int i = 0; i + 2 < static_cast<int>(line.at.size()); ++i) {
+    const LineWeights end = line_weights(line.cell(i), 1, SurfaceKind::exact);
+    const LineWeights start = line_weights(line.cell(i + 1), 0, SurfaceKind::exact);
+    EXPECT_NEAR(sum(end, end.value), value[index(i + 1)], 1e-14);
+    EXPECT_NEAR(sum(start, start.value), value[index(i + 1)], 1e-14);
+    EXPECT_NEAR(sum(end, end.slope) / line.cell(i).length, sum(start, start.slope) / line.cell(i + 1).length, 1e-12);
+    const LineWeights before = line_weights(line.cell(i), 0.3 - 1e-5, SurfaceKind::exact);
+    const LineWeights after = line_weights(line.cell(i), 0.3 + 1e-5, SurfaceKind::exact);
+    const LineWeights middle = line_weights(line.cell(i), 0.3, SurfaceKind::exact);
+    EXPECT_NEAR((sum(after, after.value) - sum(before, before.value)) / 2e-5, sum(middle, middle.slope), 1e-8);
+  }
+}
+
+TEST(LineWeights, CellsOfBlocksKnowTheirNeighbours) {
+  const SweptBlock ring = samples::revolved_closed();
+  const StationFinder closed(ring);
+  const LineCell seam = closed.cell(18);
+  EXPECT_EQ(seam.before, 17);
+  EXPECT_EQ(seam.second, 0);
+  EXPECT_EQ(seam.after, 1);
+  EXPECT_DOUBLE_EQ(seam.length_after, kTurn / 19);
+  const SweptBlock bar = samples::extruded();
+  const StationFinder open(bar);
+  const LineCell first = open.cell(0);
+  EXPECT_EQ(first.before, 0);
+  EXPECT_EQ(first.length_before, 0);
+  EXPECT_EQ(first.after, 2);
+  const LineCell last = open.cell(bar.station_count() - 2);
+  EXPECT_EQ(last.after, last.second);
+  EXPECT_EQ(last.length_after, 0);
+  const LineCell graded = open.cell(5);
+  EXPECT_DOUBLE_EQ(graded.length_before, 0.01);
+  EXPECT_DOUBLE_EQ(graded.length, 0.004);
 }
 
 TEST(StationFinder, FindsTheCellOfOpenGradedBlocks) {

@@ -61,7 +61,7 @@ std::vector<double> random_modes(int count) {
 /// Small aggregates, so that small meshes have many of them.
 TwoLevelOptions small_aggregates() {
   TwoLevelOptions options;
-  options.aggregates = {0.02, 4};
+  options.aggregates = {0.02, 4, 2};
   return options;
 }
 
@@ -135,9 +135,9 @@ TEST(Aggregates, LeaveOutMotionsThatTheirUnknownsCannotShow) {
   Elastic elastic(mesh);
   for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
     for (const int c : {0, 1}) elastic.fix(dof(slot, c));
-  const Aggregates vertical(mesh, elastic.diagonal, {0.02, 4});
+  const Aggregates vertical(mesh, elastic.diagonal, {0.02, 4, 2});
   for (int a = 0; a < vertical.count(); ++a) EXPECT_LE(vertical.mode_count(a), 3);  // z, about x, about y
-  const Aggregates nodes(mesh, elastic.diagonal, {1e-4, 1});
+  const Aggregates nodes(mesh, elastic.diagonal, {1e-4, 1, 1});
   EXPECT_EQ(nodes.count(), mesh.blocks[0].nodes());
   EXPECT_EQ(nodes.modes(), nodes.count());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "drivers/preload.hpp"
@@ -39,7 +40,7 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   EXPECT_TRUE(model.restrained.empty());
   EXPECT_FALSE(model.contact);
   EXPECT_FALSE(model.wheelset);
-  const Preload preload = solve_preload(model, 0, [](const std::string&) {});
+  const Preload preload = solve_preload(model, {}, [](const std::string&) {});
   for (const double u : preload.displacement) EXPECT_EQ(u, 0);
   const double dt = scene.motion->step_safety * step_limit(model).stable_step;
   Simulation simulation(model, preload, dt);
@@ -95,15 +96,12 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
 /// Largest error of the velocity of a smooth pulse that ran through the bar, relative to its height. The step is a
 /// fixed share of the stable one.
 double pulse_error(double element_size) {
-  Scene scene = bar_scene();
-  scene.element_size = element_size;
-  scene.pulse.reset();
-  scene.rail->length = 0.5;
-  const Material material = scene.steel;
-  const int count = static_cast<int>(std::lround(scene.rail->length / element_size));
+  const Material material = bar_scene().steel;
+  constexpr double length = 0.5;
+  const int count = static_cast<int>(std::lround(length / element_size));
   Mesh mesh;
   mesh.add(make_swept_block("bar", Sweep::extruded, samples::grid_section({1, 1, 0, 0, 0.01, 0.01, 0}), {material}, 0,
-                            {{count, scene.rail->length / count, 0}}));
+                            {{count, length / count, 0}}));
   const InternalForce internal(mesh);
   AlignedVector<double> mass(index(mesh.slots), 0.0);
   internal.lumped_mass(mass.data());

@@ -1,0 +1,71 @@
+// One thread or several: the same bits.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "drivers/preload.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+struct Run {
+  std::uint64_t hash;
+  double preload_residual;
+  double dt;
+  Sample sample;
+};
+
+/// Mesh, preload, corrugation, step and rolling of a small scene with all that a wheel can have.
+Run run(const Scene& scene, int threads) {
+  set_threads(threads);
+  Model model(scene);
+  const Preload preload = solve_preload(model, {}, [](const std::string&) {});
+  if (scene.corrugation) model.apply_corrugation(preload.contact.pressure_peak.y);
+  const double dt = scene.motion->step_safety * step_limit(model).stable_step;
+  Simulation simulation(model, preload, dt);
+  simulation.set_sampling_interval(50);
+  const auto steps = static_cast<std::int64_t>(std::ceil(scene.motion->duration / dt));
+  while (simulation.steps() < steps) simulation.step();
+  set_threads(1);
+  return {simulation.state_hash(), preload.residual, dt, simulation.sample()};
+}
+
+void expect_same_bits(const Scene& scene) {
+  const Run one = run(scene, 1);
+  EXPECT_GT(one.sample.vertical_force, 1e4);
+  EXPECT_GT(one.sample.energy.frictional_work, 0);
+  EXPECT_TRUE(std::isfinite(one.sample.energy.residual));
+  for (const int threads : {2, 3, 7}) {
+    const Run more = run(scene, threads);
+    EXPECT_EQ(more.hash, one.hash) << threads << " threads";
+    EXPECT_EQ(more.preload_residual, one.preload_residual);
+    EXPECT_EQ(more.dt, one.dt);
+    EXPECT_EQ(more.sample.vertical_force, one.sample.vertical_force);
+    EXPECT_EQ(more.sample.longitudinal_force, one.sample.longitudinal_force);
+    EXPECT_EQ(more.sample.energy.residual, one.sample.energy.residual);
+    EXPECT_EQ(more.sample.energy.frictional_work, one.sample.energy.frictional_work);
+  }
+}
+
+TEST(Threads, RollingOverCorrugationGivesTheSameBits) {
+  expect_same_bits(samples::tyre_scene(
+      {"motion.duration=0.15 ms", "motion.traction.torque=13.8 kN m", "motion.traction.ramp=0.05 ms",
+       "material.steel.damping={ kind = \"high_frequency_fraction\", value = 0.01 }", "solution_zone.start=5 mm",
+       "corrugation.kind=sine", "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm", "corrugation.width=30 mm",
+       "corrugation.start=5 mm", "corrugation.length=40 mm", "corrugation.apply=gap"}));
+}
+
+TEST(Threads, FacetsAndMovedNodesGiveTheSameBits) {
+  expect_same_bits(samples::tyre_scene(
+      {"motion.duration=0.1 ms", "solution_zone.start=5 mm", "contact.surface=facets", "corrugation.kind=sine", "corrugation.wavelength=20 mm",
+       "corrugation.depth=0.04 mm", "corrugation.width=30 mm", "corrugation.start=5 mm", "corrugation.length=40 mm",
+       "corrugation.apply=nodes"}));
+}
+
+}  // namespace
+}  // namespace tread

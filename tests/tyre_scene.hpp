@@ -1,0 +1,52 @@
+#pragma once
+// A tyre on a rail of rectangular section: the smallest scene with rolling contact.
+
+#include <string>
+#include <vector>
+
+#include "io/scene_reader.hpp"
+
+namespace tread::samples {
+
+/// Overrides as on the command line ("motion.speed=250 km/h").
+inline Scene tyre_scene(const std::vector<std::string>& overrides = {}) {
+  return resolve_scene(SceneSource{"tyre.toml", R"([scene]
+title = "tyre"
+element_size = "5 mm"
+[solution_zone]
+start = "50 mm"
+length = "50 mm"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0.3
+density = "7790 kg/m3"
+[wheel]
+shape = "tyre"
+profile = "arc"
+diameter = "0.86 m"
+crown_radius = "0.3 m"
+width = "60 mm"
+thickness = "60 mm"
+lateral_offset = "0 mm"
+[rail]
+profile = "box"
+support = "rigid"
+inclination = 0
+length = "400 mm"
+origin = "100 mm"
+width = "80 mm"
+height = "60 mm"
+[load]
+wheel_load = "87564 N"
+[contact]
+friction = 0.5
+[motion]
+speed = "300 km/h"
+duration = "0.3 ms"
+)",
+                                   {}},
+                       overrides)
+      .scene;
+}
+
+}  // namespace tread::samples

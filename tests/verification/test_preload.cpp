@@ -1,0 +1,89 @@
+// Static contact against Hertz, and what a wheel at rest does in time. [theory.md, Preload]
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include "drivers/preload.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "tests/measured.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+Scene sphere_on_block(const std::string& element_size) {
+  return read_scene(std::filesystem::path(TREAD_SOURCE_DIR) / "scenes/sphere-on-block.toml",
+                    {"scene.element_size=" + element_size});
+}
+
+struct StaticErrors {
+  double force, residual, area, pressure, approach;  ///< the last three against Hertz, relative
+};
+
+StaticErrors press(const std::string& element_size) {
+  const Scene scene = sphere_on_block(element_size);
+  Model model(scene);
+  const Preload preload = solve_preload(model, {}, [](const std::string&) {});
+  const HertzPatch& hertz = model.hertz_patch;
+  const double area = std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y;
+  // Pressure at the patch's middle from the load and area of the elements, not from the peak of one point.
+  const auto nodal = model.contact->max_nodal_tractions();
+  const double load = model.wheel_load();
+  const StaticErrors errors = {-preload.contact.force_on_rail.z / load - 1, preload.residual,
+                               preload.contact.area / area - 1, nodal[0] / hertz.max_pressure - 1,
+                               preload.contact.max_penetration / hertz.approach};
+  EXPECT_NEAR(hertz.semi_axis_x, 6.2964e-3, 3e-5);
+  measured(element_size + ": F_N / load - 1", errors.force);
+  measured(element_size + ": residual", errors.residual);
+  measured(element_size + ": patch area / Hertz - 1", errors.area);
+  measured(element_size + ": largest nodal pressure / Hertz - 1", errors.pressure);
+  measured(element_size + ": penetration / Hertz approach", errors.approach);
+  EXPECT_LT(std::abs(preload.contact.force_on_rail.y), 1e-3 * load);
+  EXPECT_LT(std::abs(preload.held_force_x), 1e-3 * load);
+  return errors;
+}
+
+TEST(Preload, SphereOnBlockNearsHertzUnderRefinement) {
+  const StaticErrors coarse = press("4 mm");
+  const StaticErrors fine = press("2 mm");
+  for (const StaticErrors& e : {coarse, fine}) {
+    EXPECT_LT(std::abs(e.force), 1e-3);
+    EXPECT_LT(e.residual, 1e-6);
+    EXPECT_LT(e.approach, 0.03);  // contact.penetration_ratio is 2 %
+  }
+  EXPECT_LT(std::abs(fine.area), 0.06);
+  EXPECT_LT(std::abs(fine.pressure), 0.06);
+  EXPECT_LT(std::abs(fine.pressure), std::abs(coarse.pressure));
+}
+
+TEST(Preload, StandingWheelKeepsItsForce) {
+  const Scene scene = samples::tyre_scene({"motion.speed=0 m/s", "motion.duration=0.2 ms", "scene.element_size=4 mm"});
+  Model model(scene);
+  const Preload preload = solve_preload(model, {}, [](const std::string&) {});
+  const double dt = scene.motion->step_safety * step_limit(model).stable_step;
+  Simulation simulation(model, preload, dt);
+  simulation.set_sampling_interval(5);
+  double low = 1e300, high = -1e300, residual = 0;
+  while (simulation.time() < scene.motion->duration) {
+    simulation.step();
+    low = std::min(low, simulation.sample().vertical_force);
+    high = std::max(high, simulation.sample().vertical_force);
+    residual = std::max(residual, std::abs(simulation.sample().energy.residual));
+  }
+  const double load = model.wheel_load();
+  measured("steps", static_cast<double>(simulation.steps()));
+  measured("standing wheel: lowest F_N / load - 1", low / load - 1);
+  measured("standing wheel: highest F_N / load - 1", high / load - 1);
+  measured("standing wheel: largest energy residual", residual, "J");
+  EXPECT_GT(low, 0.999 * load);
+  EXPECT_LT(high, 1.001 * load);
+}
+
+}  // namespace
+}  // namespace tread
