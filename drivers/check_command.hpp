@@ -10,8 +10,8 @@ struct CheckOptions {
   bool json = false;  ///< the figures as JSON on stdout instead of tables
 };
 
-/// Builds the model and prints counts, stable step with its reason, steps, memory, disk, time, and the phases and fields
-/// that the scene pays for. Errors leave as Error.
+/// Builds the model and prints counts, stable step with its reason, steps, memory, disk, time, and the phases
+/// and fields that the scene pays for. Errors leave as Error.
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options);
 
 }  // namespace tread

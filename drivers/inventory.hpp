@@ -1,5 +1,6 @@
 #pragma once
-// What a scene pays for: the phases of its computation and the fields that they read and write, read off the model.
+// What a scene pays for: the phases of its computation and the fields that they read and write, read off the
+// model.
 
 #include <cstdint>
 #include <string>
@@ -21,7 +22,7 @@ struct FieldInfo {
 /// A part of the preload or of the time step.
 struct PhaseInfo {
   std::string name;
-  std::string body;  ///< what it works on, in words
+  std::string body;                 ///< what it works on, in words
   std::vector<std::string> reads;   ///< names of fields
   std::vector<std::string> writes;  ///< names of fields
 };

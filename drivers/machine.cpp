@@ -27,7 +27,8 @@ void make_directory(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory, error);
   if (error || !std::filesystem::is_directory(directory))
     throw ResourceError(fmt::format("cannot create the output directory '{}': {}; choose another with -o",
-                                    directory.string(), error ? error.message() : "a file of that name is there"));
+                                    directory.string(),
+                                    error ? error.message() : "a file of that name is there"));
 }
 
 }  // namespace tread

@@ -69,14 +69,18 @@ void report_problems(bool json, const std::function<void()>& action) {
 /// A subcommand that reads a scene: `act(resolved scene, options)`.
 template <class Options>
 CLI::App& add_scene_command(CLI::App& app, const char* name, const char* text,
-                            void (*act)(const tread::ResolvedScene&, const Options&), std::shared_ptr<SceneCommand<Options>> state) {
+                            void (*act)(const tread::ResolvedScene&, const Options&),
+                            std::shared_ptr<SceneCommand<Options>> state) {
   CLI::App& command = *app.add_subcommand(name, text);
   command.add_option("scene", state->arguments.scene, "scene file (TOML)")->required();
-  command.add_option("-q,--quality", state->arguments.quality, "draft, standard or paper; overrides scene.quality");
-  CLI::Option& set = *command.add_option("--set", state->arguments.overrides,
-                                         "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"");
+  command.add_option("-q,--quality", state->arguments.quality,
+                     "draft, standard or paper; overrides scene.quality");
+  CLI::Option& set =
+      *command.add_option("--set", state->arguments.overrides,
+                          "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"");
   set.allow_extra_args(false);
-  command.add_option("-t,--threads", state->options.threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_option("-t,--threads", state->options.threads, "threads (default: all)")
+      ->check(CLI::PositiveNumber);
   command.add_flag("--json", state->options.json, "JSON on stdout");
   command.callback([state, act] {
     report_problems(state->options.json, [&] { act(state->arguments.resolve(), state->options); });
@@ -87,21 +91,22 @@ CLI::App& add_scene_command(CLI::App& app, const char* name, const char* text,
 void add_run(CLI::App& app, const std::string& command_line) {
   auto state = std::make_shared<SceneCommand<tread::RunOptions>>();
   state->options.command = command_line;
-  CLI::App& command =
-      add_scene_command(app, "run", "preload, roll, write histories, summary and report", tread::run_scene, state);
+  CLI::App& command = add_scene_command(app, "run", "preload, roll, write histories, summary and report",
+                                        tread::run_scene, state);
   command.add_option("-o,--output", state->options.output, "output directory")->required();
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }
 
 void add_check(CLI::App& app) {
-  add_scene_command(app, "check", "all errors of a scene, or what it would compute and cost", tread::check_scene,
-                    std::make_shared<SceneCommand<tread::CheckOptions>>());
+  add_scene_command(app, "check", "all errors of a scene, or what it would compute and cost",
+                    tread::check_scene, std::make_shared<SceneCommand<tread::CheckOptions>>());
 }
 
 void add_mesh(CLI::App& app) {
   auto state = std::make_shared<SceneCommand<tread::MeshOptions>>();
-  CLI::App& command = add_scene_command(app, "mesh", "counts, element sizes, masses and stable step of a scene's mesh",
-                                        tread::describe_mesh, state);
+  CLI::App& command =
+      add_scene_command(app, "mesh", "counts, element sizes, masses and stable step of a scene's mesh",
+                        tread::describe_mesh, state);
   command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
 }
 
@@ -140,7 +145,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "tread: {}\n", error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n");
+    fmt::print(stderr,
+               "tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n");
     return static_cast<int>(tread::ExitCode::resources);
   } catch (const std::exception& error) {
     fmt::print(stderr, "tread: unexpected failure: {}\n", error.what());

@@ -26,7 +26,8 @@ struct BodyMass {
   std::string remark;
 };
 
-BodyMass sum_of(const std::string& name, const std::vector<int>& indices, const std::vector<BlockMeasures>& blocks) {
+BodyMass sum_of(const std::string& name, const std::vector<int>& indices,
+                const std::vector<BlockMeasures>& blocks) {
   BodyMass body{name, 0, 0, ""};
   for (const int b : indices) {
     body.mass += blocks[static_cast<std::size_t>(b)].mass;
@@ -41,7 +42,8 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.index.wheel(), blocks);
     if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
-      wheel.remark = fmt::format("reached by two brake ring plates of {:.2f} mm", 1e3 * model.brake_ring_thickness);
+      wheel.remark =
+          fmt::format("reached by two brake ring plates of {:.2f} mm", 1e3 * model.brake_ring_thickness);
     }
     bodies.push_back(wheel);
   }
@@ -61,7 +63,11 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
 
 Table mass_table(const std::vector<BodyMass>& bodies) {
   Table table{"Masses",
-              {{"Body"}, {"Mass [kg]", Align::right}, {"Nominal [kg]", Align::right}, {"Difference", Align::right}, {"Remark"}},
+              {{"Body"},
+               {"Mass [kg]", Align::right},
+               {"Nominal [kg]", Align::right},
+               {"Difference", Align::right},
+               {"Remark"}},
               {}};
   for (const BodyMass& body : bodies)
     table.rows.push_back({body.name, fmt::format("{:.2f}", body.mass), fmt::format("{:.2f}", body.nominal),
@@ -73,7 +79,8 @@ Table inertia_table(const SpinningBody& wheelset) {
   return {"Wheelset",
           {{"Quantity"}, {"Value", Align::right}, {"Unit"}},
           {{"inertia about the axle", readable(wheelset.inertia(), 5), "kg m2"},
-           {"inertia about a diameter through the mass centre", readable(wheelset.transverse_inertia(), 5), "kg m2"},
+           {"inertia about a diameter through the mass centre", readable(wheelset.transverse_inertia(), 5),
+            "kg m2"},
            {"mass centre from the rail's centre line", readable(1e3 * wheelset.centre_y(), 5), "mm"}}};
 }
 
@@ -95,7 +102,10 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
   json.begin_object().member("elements", model.elements()).member("nodes", model.nodes());
   json.key("blocks").begin_array();
   for (const BlockMeasures& b : blocks) {
-    json.begin_object().member("name", std::string_view(b.name)).member("elements", b.elements).member("nodes", b.nodes);
+    json.begin_object()
+        .member("name", std::string_view(b.name))
+        .member("elements", b.elements)
+        .member("nodes", b.nodes);
     json.member("quads", b.quads).member("stations", b.stations);
     write_extreme(json, "shortest_edge_m", b.shortest_edge);
     write_extreme(json, "longest_edge_m", b.longest_edge);
@@ -118,7 +128,8 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
     if (model.index.axle >= 0) json.member("brake_ring_thickness_m", model.brake_ring_thickness);
     json.end_object();
   }
-  json.member("stable_step_s", limit.stable_step).member("stable_step_reason", std::string_view(limit.reason));
+  json.member("stable_step_s", limit.stable_step)
+      .member("stable_step_reason", std::string_view(limit.reason));
   return json.end_object().text();
 }
 

@@ -13,8 +13,8 @@ struct MeshOptions {
   bool json = false;             ///< the figures as JSON on stdout instead of tables
 };
 
-/// Prints counts, extreme elements, masses and inertias of the bodies and the stable step; writes the mesh. Errors leave
-/// as Error.
+/// Prints counts, extreme elements, masses and inertias of the bodies and the stable step; writes the mesh.
+/// Errors leave as Error.
 void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options);
 
 }  // namespace tread

@@ -17,8 +17,8 @@ namespace {
 
 using Corners = std::array<Vec3, 8>;  ///< quad at one station, quad at the next
 
-// Neighbours of a corner along the sweep, along the quad's next edge and its edge before, with the sign that makes the
-// Jacobian of a good element positive.
+// Neighbours of a corner along the sweep, along the quad's next edge and its edge before, with the sign that
+// makes the Jacobian of a good element positive.
 double corner_jacobian(const Corners& x, std::size_t corner) {
   const std::size_t face = corner / 4 * 4;
   const std::size_t next = face + (corner + 1) % 4;
@@ -46,7 +46,8 @@ void keep_smaller(Extreme& extreme, double value, const Vec3& at) {
 void measure_element(const Corners& x, BlockMeasures& out) {
   const Vec3 middle = 0.5 * (x[0] + x[6]);
   for (std::size_t i = 0; i < 4; ++i)
-    for (const double edge : {norm(x[i] - x[(i + 1) % 4]), norm(x[i + 4] - x[(i + 1) % 4 + 4]), norm(x[i] - x[i + 4])}) {
+    for (const double edge :
+         {norm(x[i] - x[(i + 1) % 4]), norm(x[i + 4] - x[(i + 1) % 4 + 4]), norm(x[i] - x[i + 4])}) {
       keep_smaller(out.shortest_edge, edge, middle);
       if (edge > out.longest_edge.value) out.longest_edge = {edge, middle};
     }
@@ -159,9 +160,9 @@ Table quality_table(const std::vector<BlockMeasures>& blocks) {
                {"at (x, y, z) [m]"}},
               {}};
   for (const BlockMeasures& b : blocks)
-    table.rows.push_back({b.name, fmt::format("{:.3f}", 1e3 * b.shortest_edge.value), place(b.shortest_edge.at),
-                          fmt::format("{:.1f}", 1e3 * b.longest_edge.value), fmt::format("{:.3f}", b.worst_quality.value),
-                          place(b.worst_quality.at)});
+    table.rows.push_back({b.name, fmt::format("{:.3f}", 1e3 * b.shortest_edge.value),
+                          place(b.shortest_edge.at), fmt::format("{:.1f}", 1e3 * b.longest_edge.value),
+                          fmt::format("{:.3f}", b.worst_quality.value), place(b.worst_quality.at)});
   return table;
 }
 

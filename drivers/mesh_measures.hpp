@@ -21,11 +21,12 @@ struct BlockMeasures {
   std::string name;
   std::int64_t elements = 0, nodes = 0;
   int quads = 0, stations = 0;
-  Extreme shortest_edge;     ///< [m]
-  Extreme longest_edge;      ///< [m]
-  Extreme worst_quality;     ///< smallest corner Jacobian over the mean of the element's eight: 1 for a parallelepiped [-]
-  double mass = 0;           ///< of the elements [kg]
-  double swept_mass = 0;     ///< of the section swept without facets or moved nodes [kg]
+  Extreme shortest_edge;  ///< [m]
+  Extreme longest_edge;   ///< [m]
+  Extreme worst_quality;  ///< smallest corner Jacobian over the mean of the element's eight: 1 for a
+                          ///< parallelepiped [-]
+  double mass = 0;        ///< of the elements [kg]
+  double swept_mass = 0;  ///< of the section swept without facets or moved nodes [kg]
 };
 
 std::vector<BlockMeasures> measure_blocks(const Model& model);

@@ -160,13 +160,7 @@ void Model::restrain() {
   };
   for (const int b : index.rail()) {
     const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
-    if (scene.pulse) {  // a free bar that moves along x only
-      for (int station = 0; station < block.station_count(); ++station)
-        for (int node = 0; node < block.section.nodes(); ++node)
-          if (scene.rail->support == "guided")
-            for (int c = 1; c < 3; ++c) hold(block, node, station, c);
-      continue;
-    }
+    if (scene.pulse) continue;  // a free bar
     for (int node = 0; node < block.section.nodes(); ++node)
       for (const int station : {0, block.station_count() - 1}) hold(block, node, station, 0);
     if (block.section.paths.count("foot") == 0) continue;

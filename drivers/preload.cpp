@@ -136,7 +136,8 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
   if (model.contact) {
-    const double overlap = model.hertz_patch.approach;
+    // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each other.
+    const double overlap = 0.6 * model.hertz_patch.approach;
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }

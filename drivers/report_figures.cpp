@@ -114,34 +114,38 @@ Figure force_figure(const Model& model, const RunResults& r) {
   const Corrugation& corrugation = model.contact->corrugation();
   const double f = scene.contact->friction;
   Figure figure;
-  figure.title = corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
+  figure.title =
+      corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
   figure.x_label = abscissa_label(model);
   const Range range = corrugation.smooth() ? Range{scene.zone_start, scene.zone_start + scene.zone_length}
                                            : Range{corrugation.first() - 0.12, corrugation.last() + 0.08};
   const Range way = whole_way(model, r);
   figure.x_range = Range{std::max(range[0], way[0]), std::min(range[1], way[1])};
   mark_track(model, *figure.x_range, figure);
-  figure.panels.push_back(panel("Force [kN]",
-                                {curve("f F_N", model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
-                                 curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
-                                {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
+  figure.panels.push_back(
+      panel("Force [kN]",
+            {curve("f F_N", model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
+             curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
+            {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
   if (!corrugation.smooth())
     figure.panels.push_back(
         panel("Rail surface [mm]", {running_surface(corrugation, *figure.x_range)}, {}, 90));
-  figure.caption += "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4) + ".";
+  figure.caption +=
+      "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4) + ".";
   return figure;
 }
 
 Figure passage_figure(const Model& model, const RunResults& r) {
   const double f = model.scene.contact->friction;
   Figure figure = over_the_way("Forces over the whole way", model, r);
-  figure.panels.push_back(panel("F_N [kN]",
-                                {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
-                                {{1e-3 * model.wheel_load(), "static"}}, 200));
+  figure.panels.push_back(
+      panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
+            {{1e-3 * model.wheel_load(), "static"}}, 200));
   figure.panels.push_back(panel("F_L / F_N",
                                 {curve("F_L / F_N", model, r,
                                        [](const Sample& s) {
-                                         return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
+                                         return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force
+                                                                     : 0.0;
                                        })},
                                 {{f, "f"}}, 150));
   figure.panels.push_back(panel("Lateral [kN]",
@@ -149,40 +153,44 @@ Figure passage_figure(const Model& model, const RunResults& r) {
                                        [](const Sample& s) { return 1e-3 * s.lateral_force; })},
                                 {}, 110));
   if (!model.torque.empty())
-    figure.panels.push_back(panel("Torque [kN m]",
-                                  {curve("torque on the axle", model, r, [](const Sample& s) { return 1e-3 * s.torque; })},
-                                  {}, 90));
+    figure.panels.push_back(panel(
+        "Torque [kN m]",
+        {curve("torque on the axle", model, r, [](const Sample& s) { return 1e-3 * s.torque; })}, {}, 90));
   return figure;
 }
 
 Figure creepage_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("Longitudinal creepage", model, r);
   std::vector<Marker> levels;
-  if (const double paper = paper_creepage(model.scene); paper > 0) levels.push_back({100 * paper, "paper, smooth rail"});
+  if (const double paper = paper_creepage(model.scene); paper > 0)
+    levels.push_back({100 * paper, "paper, smooth rail"});
   figure.panels.push_back(panel("Creepage [%]",
                                 {curve("at the node that starts in the patch", model, r,
                                        [](const Sample& s) { return 100 * s.creepage_node; }),
                                  curve("mean of 28 nodes around the tread", model, r,
                                        [](const Sample& s) { return 100 * s.creepage_mean; })},
                                 levels, 280));
-  figure.caption += "The single node vibrates when it enters the patch and once a turn again; the mean filters that out.";
+  figure.caption +=
+      "The single node vibrates when it enters the patch and once a turn again; the mean filters that out.";
   return figure;
 }
 
 Figure patch_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("Contact patch", model, r);
-  figure.panels.push_back(panel("Area [mm²]",
-                                {curve("in contact", model, r, [](const Sample& s) { return 1e6 * s.patch_area; }),
-                                 curve("slipping", model, r, [](const Sample& s) { return 1e6 * s.slip_area; })},
-                                {}, 170));
   figure.panels.push_back(
-      panel("Stress [MPa]",
-            {curve("largest pressure", model, r, [](const Sample& s) { return 1e-6 * s.max_pressure; }),
-             curve("largest surface shear stress", model, r, [](const Sample& s) { return 1e-6 * s.max_shear; })},
+      panel("Area [mm²]",
+            {curve("in contact", model, r, [](const Sample& s) { return 1e6 * s.patch_area; }),
+             curve("slipping", model, r, [](const Sample& s) { return 1e6 * s.slip_area; })},
             {}, 170));
+  figure.panels.push_back(panel(
+      "Stress [MPa]",
+      {curve("largest pressure", model, r, [](const Sample& s) { return 1e-6 * s.max_pressure; }),
+       curve("largest surface shear stress", model, r, [](const Sample& s) { return 1e-6 * s.max_shear; })},
+      {}, 170));
   figure.panels.push_back(
       panel("Penetration [µm]",
-            {curve("largest penetration", model, r, [](const Sample& s) { return 1e6 * s.max_penetration; })}, {}, 90));
+            {curve("largest penetration", model, r, [](const Sample& s) { return 1e6 * s.max_penetration; })},
+            {}, 90));
   figure.caption += "Stresses are averages at the rail's surface nodes. ";
   return figure;
 }
@@ -191,23 +199,32 @@ Figure energy_figure(const Model& model, const RunResults& r) {
   Figure figure = over_the_way("Energy by kind, change since the start", model, r);
   const EnergyLedger& start = r.samples.front().energy;
   const auto kind = [&](const char* label, double EnergyLedger::*member, Stroke stroke = Stroke::solid) {
-    return curve(label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; }, stroke);
+    return curve(
+        label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; },
+        stroke);
   };
-  std::vector<Series> large = {kind("kinetic", &EnergyLedger::kinetic)};
-  if (!model.torque.empty()) large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
-  std::vector<Series> small = {kind("strain", &EnergyLedger::strain)};
+  // The torque's work and what it makes of the speed dwarf everything else: a panel of their own.
+  std::vector<Series> large;
+  std::vector<Series> small;
+  (model.torque.empty() ? small : large).push_back(kind("kinetic", &EnergyLedger::kinetic));
+  if (!model.torque.empty())
+    large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
+  small.push_back(kind("strain", &EnergyLedger::strain));
   if (model.scene.gravity != 0 || model.scene.load) small.push_back(kind("gravity", &EnergyLedger::gravity));
   if (model.contact) small.push_back(kind("frictional work", &EnergyLedger::frictional_work, Stroke::dashed));
   if (model.fastenings || model.scene.vehicle) {
     small.push_back(kind("springs", &EnergyLedger::connectors));
     small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
   }
-  figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
+  if (!large.empty()) figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
   figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
   figure.panels.push_back(
-      panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })}, {}, 110));
-  figure.caption += "The residual is what stored and dissipated energy exceed the torque's work by; it should stay small "
-                    "against the frictional work.";
+      panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })},
+            {}, 110));
+  figure.caption +=
+      model.contact
+          ? "Residual: stored and dissipated energy less the torque's work and the energy at the start."
+          : "Residual: the sum less that at the start.";
   return figure;
 }
 
@@ -222,9 +239,12 @@ Drawings section_drawings(const Model& model) {
     drawings.push_back({"Cross-section", layers, std::nullopt, 300});
     return drawings;
   }
-  drawings.push_back({"Cross-section under the wheel", layers, std::nullopt, model.index.axle >= 0 ? 920.0 : 440.0});
-  drawings.push_back({"Rail and wheel rim", layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
-  drawings.push_back({"Around the patch", layers, Window{{-0.032, -0.022}, {0.032, 0.022}}, 520});
+  drawings.push_back(
+      {"Cross-section under the wheel", layers, std::nullopt, model.index.axle >= 0 ? 920.0 : 440.0});
+  if (model.index.axle >= 0)
+    drawings.push_back({"Rail and wheel rim", layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
+  drawings.push_back({"Around the patch", layers, Window{{-0.032, -0.022}, {0.032, 0.022}},
+                      model.index.axle >= 0 ? 520.0 : 440.0});
   return drawings;
 }
 
@@ -237,9 +257,13 @@ Drawings side_drawings(const Model& model) {
     return side_layer(block.name, without_flange, {0, 0, height});
   });
   if (!model.contact) return {{"Side view", layers, std::nullopt, 920}};
+  std::vector<Layer> track = layers;
+  std::erase_if(track,
+                [](const Layer& layer) { return layer.label == "tread" || layer.label == "disc and axle"; });
   const double zone = model.scene.motion ? model.scene.zone_start : 0;
   return {{"Side view of the stations, x = -0.5 to 0.5 m", layers, Window{{-0.5, -0.3}, {0.5, 0.5}}, 440},
-          {"Where the solution zone begins", layers, Window{{zone - 0.12, -0.1}, {zone + 0.12, 0.09}}, 440}};
+          {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
+           440}};
 }
 
 }  // namespace tread

@@ -7,7 +7,8 @@
 
 namespace tread {
 
-/// F_L and f F_N over the corrugation (smooth rail: over the solution zone) with the running surface below. [paper, Fig. 15]
+/// F_L and f F_N over the corrugation (smooth rail: over the solution zone) with the running surface below.
+/// [paper, Fig. 15]
 Figure force_figure(const Model& model, const RunResults& results);
 
 /// Forces, traction and torque over the whole way.

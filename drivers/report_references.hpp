@@ -15,7 +15,8 @@ std::vector<Comparison> paper_comparisons(const Model& model, const RunResults& 
 /// Hertz for the static patch; CONTACT for steady rolling where its case is this one. Empty without contact.
 std::vector<Comparison> theory_comparisons(const Model& model, const RunResults& results);
 
-/// Creepage that the paper states for the smooth rail under this speed, friction and traction [-]; 0 if it does not.
+/// Creepage that the paper states for the smooth rail under this speed, friction and traction [-]; 0 if it
+/// does not.
 double paper_creepage(const Scene& scene);
 
 }  // namespace tread

@@ -36,9 +36,7 @@ struct Run {
     return rolled() && results.samples.back().wheel_x > first;
   }
   /// Whether the wheel has come to the corrugation at all.
-  bool on_corrugation() const {
-    return corrugated() && in_sight();
-  }
+  bool on_corrugation() const { return corrugated() && in_sight(); }
 };
 
 /// Rows of quantity, value, unit and remark.
@@ -64,14 +62,14 @@ std::string stretch(double first, double last) {
 
 KeyFigures rolling_figures(const Run& run) {
   const RunResults& r = run.results;
-  const char* where = run.on_corrugation() ? "over the corrugation" : "over the evaluated stretch";
-  KeyFigures figures = {
-      {fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
-      {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
-      {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
-      {"F_L / F_N, steady", readable(r.traction_coefficient, 3), ""},
-      {"Creepage, steady", readable(100 * r.creepage, 3), "%"},
-      {"Energy error", readable(100 * r.energy_error, 2), "%"}};
+  const char* where =
+      run.on_corrugation() && r.evaluated_first > 0 ? "over the corrugation" : "over the evaluated stretch";
+  KeyFigures figures = {{fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
+                        {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
+                        {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
+                        {"F_L / F_N, steady", readable(r.traction_coefficient, 3), ""},
+                        {"Creepage, steady", readable(100 * r.creepage, 3), "%"},
+                        {"Energy error", readable(100 * r.energy_error, 2), "%"}};
   return figures;
 }
 
@@ -93,7 +91,8 @@ std::string slip_sentence(const Run& run) {
     ++total;
     if (s.slip_area > 0.98 * s.patch_area) ++sliding;
   }
-  return total == 0 ? "" : fmt::format(" The whole patch slides during {:.1f} % of it.", 100.0 * sliding / total);
+  return total == 0 ? ""
+                    : fmt::format(" The whole patch slides during {:.1f} % of it.", 100.0 * sliding / total);
 }
 
 Chapter result_chapter(const Run& run) {
@@ -138,14 +137,18 @@ Chapter preload_chapter(const Run& run) {
     const double force = -contact.force_on_rail.z;
     q.add("Vertical contact force F_N", 1e-3 * force, "kN",
           fmt::format("weight and load: {:.3f} kN", 1e-3 * run.model.wheel_load()));
-    q.add("Lateral contact force on the wheel", -1e-3 * contact.force_on_rail.y, "kN", "positive to the field side");
+    q.add("Lateral contact force on the wheel", -1e-3 * contact.force_on_rail.y, "kN",
+          "positive to the field side");
     q.add("Patch area", 1e6 * contact.area, "mm²");
     q.add("Largest pressure", 1e-6 * run.results.static_pressure, "MPa",
-          fmt::format("average at a rail node; {:.1f} MPa at an integration point", 1e-6 * contact.max_pressure));
+          fmt::format("average at a rail node; {:.1f} MPa at an integration point",
+                      1e-6 * contact.max_pressure));
     q.add("Largest penetration", 1e6 * contact.max_penetration, "µm",
-          fmt::format("{:.1f} % of the Hertz approach of {:.1f} µm", 100 * contact.max_penetration / run.model.hertz_patch.approach,
+          fmt::format("{:.1f} % of the Hertz approach of {:.1f} µm",
+                      100 * contact.max_penetration / run.model.hertz_patch.approach,
                       1e6 * run.model.hertz_patch.approach));
-    q.add("Centre of pressure across the rail", 1e3 * contact.centre.y, "mm", "from the crown's centre line, field side positive");
+    q.add("Centre of pressure across the rail", 1e3 * contact.centre.y, "mm",
+          "from the crown's centre line, field side positive");
     q.add("Centre of pressure across the wheel", 1e3 * (contact.centre.y + scene.wheel->lateral_offset), "mm",
           "from the nominal rolling circle");
     q.add("Tilt of the wheel about x", 1e3 * p.tilt, "mrad");
@@ -156,24 +159,30 @@ Chapter preload_chapter(const Run& run) {
       // I of CN60: 3217 cm4.
       const double foundation = scene.fastenings->stiffness / scene.fastenings->spacing;
       const double lambda = std::pow(foundation / (4 * scene.steel.youngs_modulus * 3217e-8), 0.25);
-      remark = fmt::format("beam on elastic foundation: {:.3f} mm", 1e3 * run.model.wheel_load() * lambda / (2 * foundation));
+      remark = fmt::format("beam on elastic foundation: {:.3f} mm",
+                           1e3 * run.model.wheel_load() * lambda / (2 * foundation));
     }
     q.add("Rail deflection under the wheel", 1e3 * p.rail_deflection, "mm", remark);
   }
   if (run.model.index.slab >= 0) q.add("Slab deflection under the wheel", 1e6 * p.slab_deflection, "µm");
   if (run.model.wheelset) {
-    q.add("Reaction of the held longitudinal motion", p.held_force_x, "N", "of the wheel's mean; should be about zero");
+    q.add("Reaction of the held longitudinal motion", p.held_force_x, "N",
+          "of the wheel's mean; should be about zero");
     q.add("Reaction of the held rotation", p.held_moment, "N m", "about the axle; should be about zero");
   }
-  q.add("Residual / load", p.residual, "-", fmt::format("{} iterations of Newton, {} of conjugate gradients",
-                                                        p.newton_iterations, p.cg_iterations));
+  q.add("Residual / load", p.residual, "-",
+        fmt::format("{} iterations of Newton, {} of conjugate gradients", p.newton_iterations,
+                    p.cg_iterations));
   chapter.blocks.emplace_back(q.take());
   return chapter;
 }
 
 Table body_energy_table(const Run& run) {
   Table table{run.results.block_energy.empty() ? "Energy of deformation" : "Energy of deformation at the end",
-              {{"Body"}, {"One-point stress [J]", Align::right}, {"Hourglass [J]", Align::right}, {"Hourglass share", Align::right}},
+              {{"Body"},
+               {"One-point stress [J]", Align::right},
+               {"Hourglass [J]", Align::right},
+               {"Hourglass share", Align::right}},
               {}};
   for (std::size_t b = 0; b < run.model.mesh.blocks.size(); ++b) {
     const DeformationEnergy energy =
@@ -188,12 +197,13 @@ Table body_energy_table(const Run& run) {
 }
 
 Table momentum_table(const MomentumCheck& momentum, double error) {
-  Table table{fmt::format("Momentum of wheelset, unsprung and sprung mass: error {} %", readable(100 * error, 2)),
-              {{"Direction"},
-               {"Impulse of all forces [N s]", Align::right},
-               {"Change of momentum [N s]", Align::right},
-               {"Impulse of the contact [N s]", Align::right}},
-              {}};
+  Table table{
+      fmt::format("Momentum of wheelset, unsprung and sprung mass: error {} %", readable(100 * error, 2)),
+      {{"Direction"},
+       {"Impulse of all forces [N s]", Align::right},
+       {"Change of momentum [N s]", Align::right},
+       {"Impulse of the contact [N s]", Align::right}},
+      {}};
   const auto row = [&](const char* name, double impulse, double change, double contact) {
     table.rows.push_back({name, readable(impulse), readable(change), readable(contact)});
   };
@@ -208,7 +218,8 @@ Chapter energy_chapter(const Run& run) {
   if (!r.samples.empty()) {
     chapter.blocks.emplace_back(energy_figure(run.model, r));
     chapter.blocks.emplace_back(
-        Text{fmt::format("Energy error {} %: largest residual over frictional work, losses in dampers and range of strain energy.",
+        Text{fmt::format("Energy error {} %: largest residual over the sum of frictional work, losses in "
+                         "dampers and range of strain energy.",
                          readable(100 * r.energy_error, 2))});
     if (run.model.contact) chapter.blocks.emplace_back(momentum_table(r.momentum, r.momentum_error));
   }
@@ -245,11 +256,15 @@ Chapter cost_chapter(const Run& run) {
   q.add("Preload", r.seconds_preload, "s");
   if (r.steps > 0) {
     q.add("Rolling", r.seconds_rolling, "s");
-    q.add("Million element-steps per second", 1e-6 * elements * static_cast<double>(r.steps) / r.seconds_rolling, "");
-    q.add("Time of an element-step", 1e9 * r.seconds_rolling / (elements * static_cast<double>(r.steps)), "ns");
+    q.add("Million element-steps per second",
+          1e-6 * elements * static_cast<double>(r.steps) / r.seconds_rolling, "");
+    q.add("Time of an element-step", 1e9 * r.seconds_rolling / (elements * static_cast<double>(r.steps)),
+          "ns");
   }
-  q.add_text("Threads", std::to_string(threads()), "", fmt::format("instruction set {}", run.model.internal->instruction_set()));
-  q.add_text("Peak memory", bytes_text(peak_memory()), "", fmt::format("estimate: {}", bytes_text(peak_bytes(run.model))));
+  q.add_text("Threads", std::to_string(threads()), "",
+             fmt::format("instruction set {}", run.model.internal->instruction_set()));
+  q.add_text("Peak memory", bytes_text(peak_memory()), "",
+             fmt::format("estimate: {}", bytes_text(peak_bytes(run.model))));
   chapter.blocks.emplace_back(q.take());
   chapter.blocks.emplace_back(phase_table(run.model));
   chapter.blocks.emplace_back(field_table(run.model));
@@ -257,9 +272,12 @@ Chapter cost_chapter(const Run& run) {
 }
 
 Chapter scene_chapter(const Run& run) {
-  Table table{"", {{"Key"}, {"Value", Align::right}, {"Unit"}, {"Source"}, {"Meaning"}}, {}};
-  for (const Entry& entry : run.resolved.entries)
-    table.rows.push_back({entry.path, entry.value, entry.unit, entry.source, entry.description});
+  Table table{"", {{"Key"}, {"Value"}, {"Source"}, {"Meaning"}}, {}};
+  for (const Entry& entry : run.resolved.entries) {
+    std::string meaning = entry.description;
+    std::erase(meaning, '`');
+    table.rows.push_back({entry.path, entry.shown, entry.source, meaning});
+  }
   return {"Scene", {table}};
 }
 
@@ -267,9 +285,11 @@ std::string subtitle(const Run& run) {
   const Scene& scene = run.scene();
   std::string text = run.resolved.name;
   if (scene.motion && scene.wheel) text += fmt::format(" · {:.4g} km/h", 3.6 * scene.motion->speed);
-  if (scene.motion && scene.motion->traction_mu) text += fmt::format(" · mu {:g}", *scene.motion->traction_mu);
+  if (scene.motion && scene.motion->traction_mu)
+    text += fmt::format(" · mu {:g}", *scene.motion->traction_mu);
   if (scene.contact) text += fmt::format(" · f {:g}", scene.contact->friction);
-  text += fmt::format(" · quality {}, contact elements {} mm", scene.quality, readable(1e3 * run.model.sizes.contact, 3));
+  text += fmt::format(" · quality {}, contact elements {} mm", scene.quality,
+                      readable(1e3 * run.model.sizes.contact, 3));
   return text;
 }
 
@@ -292,7 +312,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     report.chapters.push_back({"Patch", {patch_figure(model, results)}});
   }
   report.chapters.push_back(energy_chapter(run));
-  report.chapters.push_back(preload_chapter(run));
+  if (model.contact || results.preload.newton_iterations > 0) report.chapters.push_back(preload_chapter(run));
   report.chapters.push_back(model_chapter(run));
   report.chapters.push_back(cost_chapter(run));
   report.chapters.push_back(scene_chapter(run));

@@ -120,7 +120,9 @@ void evaluate(const Model& model, RunResults& r) {
 
   if (model.contact) {
     const Corrugation& corrugation = model.contact->corrugation();
-    const double half_wave = scene.corrugation && scene.corrugation->kind == "sine" ? 0.5 * scene.corrugation->wavelength : 0;
+    // Less half a wave at each end, where more than one wave is left by that.
+    const double wave = scene.corrugation && scene.corrugation->kind == "sine" ? scene.corrugation->wavelength : 0;
+    const double half_wave = corrugation.last() - corrugation.first() > 1.5 * wave ? 0.5 * wave : 0;
     r.evaluated_first = corrugation.smooth() ? scene.zone_start : corrugation.first() + half_wave;
     r.evaluated_last =
         std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.last() - half_wave);

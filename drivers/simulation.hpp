@@ -83,6 +83,7 @@ class Simulation {
   void start_velocities();
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;
+  double half_step_excess() const;
   double gravity_potential() const;
   Vec3 vehicle_momentum() const;
   double creepage(std::int64_t slot, double radius) const;

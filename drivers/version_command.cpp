@@ -24,12 +24,15 @@ std::string joined(const std::vector<const char*>& names) {
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   if (!json) {
-    fmt::print("tread {}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n", TREAD_VERSION,
-               TREAD_COMPILER, TREAD_BUILD, joined(sets), TREAD_PACKAGES);
+    fmt::print("tread {}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n",
+               TREAD_VERSION, TREAD_COMPILER, TREAD_BUILD, joined(sets), TREAD_PACKAGES);
     return;
   }
   JsonWriter out;
-  out.begin_object().member("version", TREAD_VERSION).member("compiler", TREAD_COMPILER).member("build", TREAD_BUILD);
+  out.begin_object()
+      .member("version", TREAD_VERSION)
+      .member("compiler", TREAD_COMPILER)
+      .member("build", TREAD_BUILD);
   out.key("instruction_sets").begin_array();
   for (const char* name : sets) out.value(name);
   out.end_array().key("packages").begin_object();
@@ -49,7 +52,8 @@ void print_scene_reference(bool json) {
     return;
   }
   JsonWriter out;
-  fmt::print("{}", out.begin_object().member("markdown", std::string_view(scene_reference())).end_object().text());
+  fmt::print("{}",
+             out.begin_object().member("markdown", std::string_view(scene_reference())).end_object().text());
 }
 
 }  // namespace tread

@@ -356,7 +356,7 @@ class SceneBuilder {
 
   /// The entry of a field, still without its source; nothing where the field is absent or not set.
   static std::optional<Entry> make_entry(const Key& key, const Field& field) {
-    Entry entry{key.path, "", key.quantity ? std::string(key.quantity->si) : "", "", key.description};
+    Entry entry{key.path, "", key.quantity ? std::string(key.quantity->si) : "", "", key.description, ""};
     if (const auto* number = std::get_if<double*>(&field)) entry.value = fmt::format("{}", **number);
     if (const auto* number = std::get_if<int*>(&field)) entry.value = fmt::format("{}", **number);
     if (const auto* truth = std::get_if<bool*>(&field)) entry.value = **truth ? "true" : "false";
@@ -372,6 +372,10 @@ class SceneBuilder {
       entry.value = fmt::format("{}", ***number);
     }
     if (std::holds_alternative<std::monostate>(field)) return std::nullopt;
+    const std::optional<double> number = number_at(field);
+    entry.shown = number && !key.unit.empty() ? format_quantity(*number, key.unit)
+                  : entry.unit.empty()        ? entry.value
+                                              : entry.value + " " + entry.unit;
     return entry;
   }
 

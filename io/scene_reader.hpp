@@ -26,6 +26,7 @@ struct Entry {
   std::string unit;         ///< "m"; empty for texts and pure numbers
   std::string source;       ///< "scenes/x.toml:12", "--set", "highspeed-slab-2014: Table 1", or "default"
   std::string description;  ///< what the key means
+  std::string shown;        ///< the value for readers, in the unit of documentation: "15.2 m", "205.9 GPa"
 };
 
 struct ResolvedScene {

@@ -119,11 +119,12 @@ AxleTorque::AxleTorque(const SweptBlock& block, const std::vector<int>& path, co
   for (Node& node : nodes_) node.lever /= inertia;
 }
 
-double AxleTorque::apply(double torque, const double* w, double* force) const {
-  double spin = 0;
+double AxleTorque::apply(double torque, const double* u, const double* w, const BodyFrame& frame,
+                         double* force) const {
+  double spin = frame.spin;
   for (const Node& node : nodes_) {
     force[dof(node.slot, 0)] -= torque * node.lever;
-    spin += node.lever * w[dof(node.slot, 0)];
+    spin += node.lever * (w[dof(node.slot, 0)] + frame.spin * u[dof(node.slot, 2)]);
   }
   return spin;
 }

@@ -107,9 +107,9 @@ class AxleTorque {
   AxleTorque() = default;
   AxleTorque(const SweptBlock& block, const std::vector<int>& path, const double* mass);
 
-  /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns the mean spin relative to the
-  /// frame of the loaded nodes [rad/s], the torque's conjugate.
-  double apply(double torque, const double* w, double* force) const;
+  /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns their power per torque [rad/s]: the
+  /// mean spin of the loaded nodes in space. The radial growth of a spinning body lengthens their levers.
+  double apply(double torque, const double* u, const double* w, const BodyFrame& frame, double* force) const;
   bool empty() const { return nodes_.empty(); }
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 

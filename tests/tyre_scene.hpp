@@ -10,7 +10,8 @@ namespace tread::samples {
 
 /// Overrides as on the command line ("motion.speed=250 km/h").
 inline Scene tyre_scene(const std::vector<std::string>& overrides = {}) {
-  return resolve_scene(SceneSource{"tyre.toml", R"([scene]
+  return resolve_scene(SceneSource{"tyre.toml",
+                                   R"([scene]
 title = "tyre"
 element_size = "5 mm"
 [solution_zone]

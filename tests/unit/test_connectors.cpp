@@ -23,12 +23,13 @@ std::size_t index(std::int64_t i) {
 class Fastened : public testing::Test {
  protected:
   Fastened() {
-    mesh_.add(make_swept_block("rail", Sweep::extruded, rectangle(-0.05, 0.05, 4, 0, 0.1, 2), {samples::steel()}, 0,
-                               {{10, 0.05, 0}}));
-    mesh_.add(make_swept_block("slab", Sweep::extruded, rectangle(-0.2, 0.2, 4, -0.3, -0.1, 2), {samples::concrete()},
-                               0, {{5, 0.1, 0}}));
+    mesh_.add(make_swept_block("rail", Sweep::extruded, rectangle(-0.05, 0.05, 4, 0, 0.1, 2),
+                               {samples::steel()}, 0, {{10, 0.05, 0}}));
+    mesh_.add(make_swept_block("slab", Sweep::extruded, rectangle(-0.2, 0.2, 4, -0.3, -0.1, 2),
+                               {samples::concrete()}, 0, {{5, 0.1, 0}}));
     for (const double x : {0.11, 0.333})
-      elements_.push_back({attach(mesh_.blocks[0], "bottom", x, 0.02), attach(mesh_.blocks[1], "top", x, 0.02), 3e6, 4e3});
+      elements_.push_back(
+          {attach(mesh_.blocks[0], "bottom", x, 0.02), attach(mesh_.blocks[1], "top", x, 0.02), 3e6, 4e3});
     elements_.push_back({attach(mesh_.blocks[0], "bottom", 0.27, -0.03), {}, 5e6, 1e3});  // to the ground
   }
   AlignedVector<double> field() const { return AlignedVector<double>(index(3 * mesh_.slots), 0.0); }
@@ -60,7 +61,9 @@ TEST_F(Fastened, ForcesAreThoseOfSpringsAndDampers) {
   double expected = 0;
   double loss = 0;
   for (const auto& e : elements_) {
-    const auto stretch = [&](const AlignedVector<double>& a) { return e.upper.value(a.data(), 2) - e.lower.value(a.data(), 2); };
+    const auto stretch = [&](const AlignedVector<double>& a) {
+      return e.upper.value(a.data(), 2) - e.lower.value(a.data(), 2);
+    };
     expected += (e.stiffness * stretch(u) + e.damping * stretch(v)) * stretch(test);
     loss += e.damping * stretch(v) * stretch(v) * 1e-6;
   }
@@ -115,8 +118,8 @@ TEST(SprungMass, SuspensionFollowsTheJournal) {
 class Spinning : public testing::Test {
  protected:
   Spinning() {
-    mesh_.add(make_swept_block("ring", Sweep::revolved, rectangle(-0.02, 0.03, 2, 0.05, 0.08, 2), {samples::steel()},
-                               0.1, {{21, kTurn / 21, 0}}));
+    mesh_.add(make_swept_block("ring", Sweep::revolved, rectangle(-0.02, 0.03, 2, 0.05, 0.08, 2),
+                               {samples::steel()}, 0.1, {{21, kTurn / 21, 0}}));
     internal_ = std::make_unique<InternalForce>(mesh_);
     mass_.assign(index(mesh_.slots), 0.0);
     internal_->lumped_mass(mass_.data());
@@ -176,20 +179,33 @@ TEST_F(Spinning, JournalMeansAreThoseOfTheRigidMotion) {
 TEST_F(Spinning, TorqueTurnsTheBodyAsItsInertia) {
   const AxleTorque torque(block(), all_, mass_.data());
   auto u = field(), w = field(), f = field();
-  EXPECT_EQ(torque.apply(500, w.data(), f.data()), 0);
   const BodyFrame frame{{0, 0, 0}, {0, 0, 0}, 0.3, 0};
+  EXPECT_EQ(torque.apply(500, u.data(), w.data(), frame, f.data()), 0);
   constexpr double dt = 1e-6;
   update_spinning_block(block(), {u.data(), w.data(), f.data(), inverse_.data()}, frame, 0, dt);
   const MeanMotion mean = body_.mean_motion(u.data(), w.data(), frame);
   EXPECT_NEAR(mean.spin, dt * 500 / body_.inertia(), 1e-14 * mean.spin);
   EXPECT_LT(norm(mean.velocity), 1e-15);
-  // The conjugate of the torque is the mean spin of the loaded nodes.
-  EXPECT_NEAR(torque.apply(0, w.data(), f.data()), mean.spin, 1e-14 * mean.spin);
+}
+
+TEST_F(Spinning, PowerOfTheTorqueIsThatOfItsNodalForces) {
+  const AxleTorque torque(block(), block().section.paths.at("bottom"), mass_.data());
+  const BodyFrame frame{{0, 0, 0}, {80, 0, 0}, 0.3, 190};
+  const auto u = samples::random_field(mesh_, 1);
+  const auto w = samples::random_field(mesh_, 2);
+  auto f = field();
+  const double spin = torque.apply(500, u.data(), w.data(), frame, f.data());
+  double power = 0;
+  samples::for_each_node(mesh_, [&](const SweptBlock& b, int node, int, std::int64_t slot) {
+    const Vec3 arm = Vec3{0, b.section.p[index(node)], b.section.q[index(node)]} + local(u, slot);
+    power -= dot(local(f, slot), local(w, slot) + spin_cross(frame.spin, arm));
+  });
+  EXPECT_NEAR(500 * spin, power, 1e-13 * power);
 }
 
 TEST_F(Spinning, UnsprungMassIsCarriedAlong) {
-  // An elastic ring with M_a on its bore, pushed there: the momentum of both is the impulse, and on the average
-  // the body accelerates as F / (m + M_a).
+  // An elastic ring with M_a on its bore, pushed there: the momentum of both is the impulse, and on the
+  // average the body accelerates as F / (m + M_a).
   const Journal journal(block(), block().section.paths.at("bottom"), mass_.data());
   const double added = 2 * body_.mass();
   const double gravity = 9.81;

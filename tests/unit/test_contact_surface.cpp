@@ -57,7 +57,8 @@ TEST(SurfaceProfile, EdgeUnderAPointIsFound) {
 
 /// Largest distance of the curve from the circle of the crown, and of its direction.
 std::array<double, 2> distance_to_circle(double element_size, SurfaceKind kind) {
-  const Section section = make_tyre_section(crowned(0.06, kCrown), 0.86, 0, 0.06, size_of(element_size, 30e-3));
+  const Section section =
+      make_tyre_section(crowned(0.06, kCrown), 0.86, 0, 0.06, size_of(element_size, 30e-3));
   const SurfaceProfile profile(section);
   std::array<double, 2> worst{};
   for (int edge = 0; edge < profile.edges(); ++edge)
@@ -101,7 +102,8 @@ TEST(SurfaceProfile, DerivativesAreThoseOfTheCurve) {
 TEST(SurfaceProfile, VerticalPartsAndMissingSurfacesAreRefused) {
   Section section = rectangle(0, 0.02, 2, 0, 0.01, 1);
   EXPECT_THROW(SurfaceProfile{section}, InputError);
-  section.surface.push_back({0, {section.paths.at("right")[0], section.paths.at("right")[1]}, {{{0, 1}, {0, 1}}}});
+  section.surface.push_back(
+      {0, {section.paths.at("right")[0], section.paths.at("right")[1]}, {{{0, 1}, {0, 1}}}});
   EXPECT_THROW(SurfaceProfile{section}, InputError);
 }
 
@@ -150,7 +152,8 @@ TEST(LineWeights, ValuesAndSlopesAreContinuous) {
   const Line line;
   std::vector<double> value;
   std::mt19937 random(5);
-  for (std::size_t i = 0; i < line.at.size(); ++i) value.push_back(std::uniform_real_distribution<double>(-1, 1)(random));
+  for (std::size_t i = 0; i < line.at.size(); ++i)
+    value.push_back(std::uniform_real_distribution<double>(-1, 1)(random));
   const auto sum = [&](const LineWeights& w, const std::array<double, 4>& weights) {
     double total = 0;
     for (std::size_t k = 0; k < 4; ++k) total += weights[k] * value[index(w.ordinal[k])];
@@ -161,11 +164,13 @@ TEST(LineWeights, ValuesAndSlopesAreContinuous) {
     const LineWeights start = line_weights(line.cell(i + 1), 0, SurfaceKind::exact);
     EXPECT_NEAR(sum(end, end.value), value[index(i + 1)], 1e-14);
     EXPECT_NEAR(sum(start, start.value), value[index(i + 1)], 1e-14);
-    EXPECT_NEAR(sum(end, end.slope) / line.cell(i).length, sum(start, start.slope) / line.cell(i + 1).length, 1e-12);
+    EXPECT_NEAR(sum(end, end.slope) / line.cell(i).length, sum(start, start.slope) / line.cell(i + 1).length,
+                1e-12);
     const LineWeights before = line_weights(line.cell(i), 0.3 - 1e-5, SurfaceKind::exact);
     const LineWeights after = line_weights(line.cell(i), 0.3 + 1e-5, SurfaceKind::exact);
     const LineWeights middle = line_weights(line.cell(i), 0.3, SurfaceKind::exact);
-    EXPECT_NEAR((sum(after, after.value) - sum(before, before.value)) / 2e-5, sum(middle, middle.slope), 1e-8);
+    EXPECT_NEAR((sum(after, after.value) - sum(before, before.value)) / 2e-5, sum(middle, middle.slope),
+                1e-8);
   }
 }
 
@@ -215,8 +220,9 @@ TEST(StationFinder, TakesAnyAngleOfAClosedBlock) {
   // Three pitches around, as a tread with a fine arc has them.
   const double fine = 0.01;
   const double rest = (kTurn - 40 * fine - 0.5) / 31;
-  const SweptBlock block = make_swept_block("ring", Sweep::revolved, rectangle(0, 0.02, 1, 0.1, 0.12, 1),
-                                            {samples::steel()}, -0.7, {{40, fine, 0}, {31, rest, 0}, {5, 0.1, 0}});
+  const SweptBlock block =
+      make_swept_block("ring", Sweep::revolved, rectangle(0, 0.02, 1, 0.1, 0.12, 1), {samples::steel()}, -0.7,
+                       {{40, fine, 0}, {31, rest, 0}, {5, 0.1, 0}});
   ASSERT_TRUE(block.closed);
   const StationFinder finder(block);
   std::mt19937 random(3);

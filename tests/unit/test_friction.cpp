@@ -79,7 +79,8 @@ TEST(Friction, RandomPathsDissipateAndTheWorkCloses) {
     EXPECT_LE(size(result.traction), 0.4 * pressure * (1 + 1e-15));
     // A step that takes pressure away and turns the shear round counts the release at the new direction.
     const double squared = traction.along * traction.along + traction.across * traction.across;
-    const double turned = kLaw.tangential_penalty * (traction.along * slip.along + traction.across * slip.across);
+    const double turned =
+        kLaw.tangential_penalty * (traction.along * slip.along + traction.across * slip.across);
     if (pressure >= before || squared + turned >= 0) {
       EXPECT_GE(result.dissipation, -1e-14 * scale);
     }

@@ -19,7 +19,8 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A ring of 12 coarse elements inside, `ratio` fine ones per coarse element outside; two fine quads per coarse one.
+/// A ring of 12 coarse elements inside, `ratio` fine ones per coarse element outside; two fine quads per
+/// coarse one.
 struct TiedRing {
   Mesh mesh;
   TieSpec spec{1, "bottom", 0, "top"};
@@ -27,8 +28,8 @@ struct TiedRing {
   explicit TiedRing(int ratio, double fine_radius = 0.13) {
     Section coarse = rectangle(-0.02, 0.03, 2, 0.1, 0.13, 2);
     Section fine = rectangle(-0.02, 0.03, 4, fine_radius, fine_radius + 0.02, 2);
-    mesh.add(
-        make_swept_block("inside", Sweep::revolved, std::move(coarse), {samples::steel()}, 0.2, {{12, kTurn / 12, 0}}));
+    mesh.add(make_swept_block("inside", Sweep::revolved, std::move(coarse), {samples::steel()}, 0.2,
+                              {{12, kTurn / 12, 0}}));
     mesh.add(make_swept_block("outside", Sweep::revolved, std::move(fine), {samples::steel()}, 0.2,
                               {{12 * ratio, kTurn / (12 * ratio), 0}}));
   }
@@ -142,8 +143,8 @@ TEST(Tie, ListsWhoFollowsWhom) {
 TEST(Tie, DiagonalIsThatOfTheReducedOperator) {
   // Extruded: bases do not turn, the diagonal of T^T D T is exact.
   Mesh mesh;
-  mesh.add(make_swept_block("coarse", Sweep::extruded, rectangle(0, 0.04, 2, -0.02, 0, 1), {samples::steel()}, 0,
-                            {{3, 0.03, 0}}));
+  mesh.add(make_swept_block("coarse", Sweep::extruded, rectangle(0, 0.04, 2, -0.02, 0, 1), {samples::steel()},
+                            0, {{3, 0.03, 0}}));
   mesh.add(make_swept_block("fine", Sweep::extruded, rectangle(0, 0.04, 4, 0, 0.01, 1), {samples::steel()}, 0,
                             {{9, 0.01, 0}}));
   const Ties ties(mesh, {{1, "bottom", 0, "top"}});
@@ -168,7 +169,8 @@ TEST(Tie, LinesThatDoNotMeetAreRefused) {
     const Ties ties(apart.mesh, {apart.spec});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("tie of 'outside' to 'inside'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("tie of 'outside' to 'inside'"), std::string::npos)
+        << error.what();
   }
   TiedRing ring(2);
   EXPECT_THROW(Ties(ring.mesh, {{1, "nowhere", 0, "top"}}), InputError);

@@ -14,6 +14,7 @@
 #include "core/mesh/wheel_section.hpp"
 #include "kernels/contact.hpp"
 #include "kernels/internal_force.hpp"
+#include "kernels/stable_step.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 
@@ -29,9 +30,9 @@ std::size_t index(std::int64_t i) {
 }
 
 struct Placed {
-  double crown;        ///< lateral radius of the tread [m]
-  double angle;        ///< of the wheel [rad]
-  Vec3 offset;         ///< of the axle from where the wheel touches at x = 0, y = 0 [m]
+  double crown;  ///< lateral radius of the tread [m]
+  double angle;  ///< of the wheel [rad]
+  Vec3 offset;   ///< of the axle from where the wheel touches at x = 0, y = 0 [m]
   bool corrugated;
 };
 
@@ -46,7 +47,8 @@ class Placement {
     size.band_half_width = 25e-3;
     const Section rail = make_box_rail_section(0.08, 0.03, 0, size);
     const Section tyre = make_tyre_section(crowned(0.06, placed.crown), 2 * kRadius, 0, 0.03, size);
-    mesh_.add(make_swept_block("rail", Sweep::extruded, rail, {samples::steel()}, -0.1, {{60, 2e-3, 0}, {20, 4e-3, 0}}));
+    mesh_.add(make_swept_block("rail", Sweep::extruded, rail, {samples::steel()}, -0.1,
+                               {{60, 2e-3, 0}, {20, 4e-3, 0}}));
     const double fine = 2.5e-3 / kRadius;
     const int rest = 300;
     mesh_.add(make_swept_block("tyre", Sweep::revolved, tyre, {samples::steel()}, -0.2,
@@ -209,16 +211,42 @@ TEST(PlacedWheel, SpringsAreTheDerivativeOfTheForces) {
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_NEAR(force[i], from_springs[i], 1e-9);
 }
 
-TEST(PlacedWheel, StiffnessToGroundExceedsThatOfEveryPoint) {
-  const Placement placement({0.3, 0.123, {0.0123, 0.002, -1e-4}, false});
-  const InternalForce internal(placement.mesh());
-  std::vector<double> mass(index(placement.mesh().slots), 0.0);
-  std::vector<double> grounded(mass.size(), 0.0);
-  internal.lumped_mass(mass.data());
-  placement.contact().add_grounded_stiffness(mass.data(), grounded.data());
-  for (const ContactPoint& point : placement.contact().points())
-    for (const auto& slots : {point.rail_slot, point.wheel_slot})
-      for (const std::int64_t slot : slots) EXPECT_GT(grounded[index(slot)], 0.25 * kPenalty * 4e-6);
+// The penalty alone may exceed the bound by 0.3 %: smooth interpolation has negative weights. With the
+// bodies' elasticity the bound leaves room. Placements go deep, so that many nodes meet.
+TEST(PlacedWheel, SpringsToGroundBoundTheFrequencyOfThePenalty) {
+  double closest = 0;
+  for (const Placed& placed : placements()) {
+    if (placed.corrugated) continue;
+    const Placement placement({placed.crown, placed.angle, placed.offset + Vec3{0, 0, -1e-4}, false});
+    const Mesh& mesh = placement.mesh();
+    const InternalForce internal(mesh);
+    std::vector<double> mass(index(mesh.slots), 0.0);
+    std::vector<double> grounded(mass.size(), 0.0);
+    internal.lumped_mass(mass.data());
+    placement.contact().add_grounded_stiffness(mass.data(), grounded.data());
+    AlignedVector<double> inverse(index(3 * mesh.slots), 0.0);
+    for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
+      for (int c = 0; c < 3; ++c)
+        if (mass[index(slot)] > 0) inverse[index(dof(slot, c))] = 1 / mass[index(slot)];
+    const auto springs = placement.contact().springs();
+    const auto largest = [&](bool with_springs) {
+      return highest_frequency(
+                 [&](const double* x, double* y) {
+                   internal.apply(x, y);
+                   if (with_springs) {
+                     add_springs(springs, x, y);
+                     return;
+                   }
+                   for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
+                     for (int c = 0; c < 3; ++c) y[dof(slot, c)] += grounded[index(slot)] * x[dof(slot, c)];
+                 },
+                 inverse)
+          .omega;
+    };
+    closest = std::max(closest, largest(true) / largest(false));
+  }
+  measured("highest frequency with contact points / with springs to ground", closest);
+  EXPECT_LT(closest, 0.97);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ std::size_t index(std::int64_t i) {
 
 /// One free node on a spring-damper to the ground.
 struct Oscillator {
-  double mass = 2;            ///< [kg]
-  double stiffness = 8e6;     ///< [N/m]
-  double damping_ratio = 0;   ///< fraction of critical [-]
+  double mass = 2;           ///< [kg]
+  double stiffness = 8e6;    ///< [N/m]
+  double damping_ratio = 0;  ///< fraction of critical [-]
 
   double omega() const { return std::sqrt(stiffness / mass); }
   double damped() const { return omega() * std::sqrt(1 - damping_ratio * damping_ratio); }
@@ -33,13 +33,14 @@ struct Oscillator {
     return 1e-3 * std::exp(-decay * t) * (std::cos(damped() * t) + decay / damped() * std::sin(damped() * t));
   }
   double speed(double t) const {
-    return -1e-3 * omega() * omega() / damped() * std::exp(-damping_ratio * omega() * t) * std::sin(damped() * t);
+    return -1e-3 * omega() * omega() / damped() * std::exp(-damping_ratio * omega() * t) *
+           std::sin(damped() * t);
   }
 };
 
 struct Result {
-  double error;          ///< largest over three periods, relative to the amplitude
-  double energy_error;   ///< stored + dissipated - at the start, relative
+  double error;         ///< largest over three periods, relative to the amplitude
+  double energy_error;  ///< stored + dissipated - at the start, relative
 };
 
 Result integrate(const Oscillator& o, int steps_per_period) {
@@ -70,7 +71,8 @@ Result integrate(const Oscillator& o, int steps_per_period) {
     const double lost = spring.dissipated();
     spring.apply(u.data(), v.data(), dt, f.data());
     update_fixed_block(block, {u.data(), v.data(), f.data(), inverse.data()}, 0, dt, false);
-    const double energy = stored + 0.5 * (before + 0.5 * o.mass * v[z] * v[z]) + 0.5 * (lost + spring.dissipated());
+    const double energy =
+        stored + 0.5 * (before + 0.5 * o.mass * v[z] * v[z]) + 0.5 * (lost + spring.dissipated());
     result.energy_error = std::max(result.energy_error, std::abs(energy - start) / start);
     result.error = std::max(result.error, std::abs(u[z] - o.position((step + 1) * dt)) / 1e-3);
   }
@@ -109,7 +111,8 @@ TEST(Oscillator, FallsFreelyUnderGravity) {
                             {{1, 0.1, 0}}));
   const auto n = index(3 * mesh.slots);
   AlignedVector<double> u(n, 0.0), v(n, 0.0), f(n, 0.0), inverse(index(mesh.slots), 0.0);
-  samples::for_each_node(mesh, [&](const SweptBlock&, int node, int, std::int64_t slot) { inverse[index(slot)] = 1 + node; });
+  samples::for_each_node(
+      mesh, [&](const SweptBlock&, int node, int, std::int64_t slot) { inverse[index(slot)] = 1 + node; });
   constexpr double dt = 1e-3;
   for (double& value : v) value = 0;
   samples::for_each_node(mesh, [&](const SweptBlock&, int, int, std::int64_t slot) {

@@ -63,7 +63,8 @@ TEST(Preload, SphereOnBlockNearsHertzUnderRefinement) {
 }
 
 TEST(Preload, StandingWheelKeepsItsForce) {
-  const Scene scene = samples::tyre_scene({"motion.speed=0 m/s", "motion.duration=0.2 ms", "scene.element_size=4 mm"});
+  const Scene scene =
+      samples::tyre_scene({"motion.speed=0 m/s", "motion.duration=0.2 ms", "scene.element_size=4 mm"});
   Model model(scene);
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
   const double dt = scene.motion->step_safety * step_limit(model).stable_step;

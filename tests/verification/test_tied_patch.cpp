@@ -35,10 +35,10 @@ Tied tied(const char* name, Sweep sweep, bool closed, int ratio) {
   const double level = sweep == Sweep::revolved ? 0.13 : 0.0;
   const double pitch = sweep == Sweep::revolved ? (closed ? kTurn / 14 : 0.3) : 0.03;
   const int count = closed ? 14 : 6;
-  t.mesh.add(make_swept_block("coarse", sweep, rectangle(-0.02, 0.03, 3, level - 0.03, level, 3), {samples::steel()},
-                              0.2, {{count, pitch, 0}}));
-  t.mesh.add(make_swept_block("fine", sweep, rectangle(-0.02, 0.03, 6, level, level + 0.02, 2), {samples::steel()},
-                              0.2, {{count * ratio, pitch / ratio, 0}}));
+  t.mesh.add(make_swept_block("coarse", sweep, rectangle(-0.02, 0.03, 3, level - 0.03, level, 3),
+                              {samples::steel()}, 0.2, {{count, pitch, 0}}));
+  t.mesh.add(make_swept_block("fine", sweep, rectangle(-0.02, 0.03, 6, level, level + 0.02, 2),
+                              {samples::steel()}, 0.2, {{count * ratio, pitch / ratio, 0}}));
   std::mt19937 random(4);
   std::uniform_real_distribution<double> value(-1e-3, 1e-3);
   for (SweptBlock& block : t.mesh.blocks)
@@ -126,7 +126,8 @@ TEST(TiedPatch, RigidMotionsGiveNoForce) {
     for (int motion = 0; motion < 6; ++motion) {
       Vec3 axis;
       axis[motion % 3] = 1;
-      EXPECT_LT(force_of([&](const Vec3& x) { return motion < 3 ? axis : cross(axis, x); }), 1e-11 * stretched)
+      EXPECT_LT(force_of([&](const Vec3& x) { return motion < 3 ? axis : cross(axis, x); }),
+                1e-11 * stretched)
           << t.name << " 1:" << t.ratio << " motion " << motion;
     }
   }

@@ -1,0 +1,113 @@
+// The commands as a user calls them: exit codes, JSON, files.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int code = -1;
+  std::string out;
+};
+
+Outcome call(const std::string& arguments) {
+  Outcome outcome;
+  FILE* pipe = ::popen((std::string(TREAD_EXECUTABLE) + " " + arguments + " 2>/dev/null").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    outcome.out.append(buffer.data(), n);
+  outcome.code = WEXITSTATUS(::pclose(pipe));
+  return outcome;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class Commands : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string scene(const std::string& name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
+  std::string content(const char* name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_commands_{}", ::getpid());
+};
+
+TEST_F(Commands, CheckListsEveryProblemWithItsPlace) {
+  const fs::path file = folder_ / "bad.toml";
+  std::ofstream(file) << "[scene]\ntitle = \"x\"\n[rail]\nlenght = \"3 m\"\nheight = \"3 kg\"\n";
+  const Outcome outcome = call("check --json " + file.string());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.out, "\"ok\": false")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "\"key\": \"rail.lenght\"")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "\"line\": 4")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "\"key\": \"rail.height\"")) << outcome.out;
+}
+
+TEST_F(Commands, MissingSceneIsAProblemToo) {
+  const Outcome outcome = call("mesh --json " + (folder_ / "none.toml").string());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.out, "cannot read")) << outcome.out;
+}
+
+TEST_F(Commands, CheckStatesStepsAndFields) {
+  const Outcome outcome = call("check --json -t 1 " + scene("bar-wave.toml"));
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* part : {"\"ok\": true", "\"steps\": ", "\"memory_bytes\": ", "\"disk_bytes\": ",
+                           "\"name\": \"displacement\""})
+    EXPECT_TRUE(has(outcome.out, part)) << part;
+  EXPECT_FALSE(has(outcome.out, "contact"));
+}
+
+TEST_F(Commands, MeshWritesAFile) {
+  const Outcome outcome = call(fmt::format("mesh -t 1 -o {} {} --set \"scene.element_size=8 mm\"",
+                                           folder_.string(), scene("sphere-on-block.toml")));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(has(outcome.out, "tyre")) << outcome.out;
+  EXPECT_TRUE(fs::exists(folder_ / "mesh.hdf"));
+}
+
+TEST_F(Commands, RunOfABarLeavesEverything) {
+  EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} {}", folder_.string(), scene("bar-wave.toml"))).code, 0);
+  for (const char* name : {"scene.resolved.toml", "run.h5", "histories.csv", "summary.json", "report.html"})
+    EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  const std::string report = content("report.html");
+  EXPECT_TRUE(has(report, "Wave in a bar"));
+  EXPECT_FALSE(has(report, "Creepage"));
+}
+
+TEST_F(Commands, StaticSceneIsComparedWithHertz) {
+  const std::string more = "--set \"scene.element_size=6 mm\" --set \"contact.penetration_ratio=0.05\"";
+  EXPECT_EQ(
+      call(fmt::format("run -t 1 --quiet -o {} {} {}", folder_.string(), more, scene("sphere-on-block.toml")))
+          .code,
+      0);
+  const std::string report = content("report.html");
+  EXPECT_TRUE(has(report, "Hertz for radii 430 and 430 mm"));
+  EXPECT_FALSE(has(report, "Contact forces over"));
+}
+
+TEST_F(Commands, VersionAndReferenceNeedNoScene) {
+  EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
+  EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
+}
+
+}  // namespace
+}  // namespace tread
