@@ -73,6 +73,9 @@ StepLimit step_limit(const Model& model) {
   double beta = 0;
   for (const double b : model.beta) beta = std::max(beta, b);
   limit.stable_step = stable_step(limit.omega, beta);
+  // Contact damping lags by half a step too; its fraction of critical counts as if every mode had it.
+  const double ratio = model.contact ? model.scene.contact->damping_ratio : 0;
+  limit.stable_step *= std::sqrt(1 + ratio * ratio) - ratio;
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
@@ -81,7 +84,7 @@ StepLimit step_limit(const Model& model) {
   if (model.contact)
     limit.reason += fmt::format("; the contact penalty takes {:.0f} % of that",
                                 100 * (1 - stable_step(limit.omega, 0) / limit.without_contact));
-  if (beta > 0)
+  if (beta > 0 || ratio > 0)
     limit.reason += fmt::format("; damping takes {:.1f} % of the rest", 100 * (1 - limit.stable_step / stable_step(limit.omega, 0)));
   return limit;
 }

@@ -150,7 +150,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   double eta = (d.y - wheel_profile_.edge_p(edge, 0)) /
                (wheel_profile_.edge_p(edge, 1) - wheel_profile_.edge_p(edge, 0));
   double gap = std::numeric_limits<double>::max();
-  for (int iteration = 0; iteration < 6; ++iteration) {
+  constexpr int kMaxIterations = 6;
+  for (int iteration = 1;; ++iteration) {
     if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
     const LineCell line = wheel_stations_.cell(cell.station);
@@ -191,7 +192,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     gap = dot(e, normal) / size;
     point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
     if (std::abs(e.x) < 1e-9 && std::abs(shift) < 1e-7) break;
-    if (gap > 0.5 * options_.reach_gap) break;  // far away: no need for more digits
+    if (gap > 0.5 * options_.reach_gap || iteration == kMaxIterations) break;  // far away: no need for more digits
     phi += e.x / p.q;
     eta += shift;
     if (eta < 0 || eta > 1) {
