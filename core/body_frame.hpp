@@ -7,13 +7,14 @@
 
 namespace tread {
 
-/// A frame that moves with constant velocity and constant spin about +y between two re-anchorings. Nodes of the
-/// body store their displacement u in it and their velocity w relative to it, in local (t, y, r) components.
+/// A frame that moves with constant velocity and constant spin about +y between two re-anchorings. Nodes of
+/// the body store their displacement u in it and their velocity w relative to it, in local (t, y, r)
+/// components.
 struct BodyFrame {
-  Vec3 origin;      ///< point on the spin axis [m]
-  Vec3 velocity;    ///< of the origin [m/s]
-  double angle = 0; ///< about +y [rad]
-  double spin = 0;  ///< about +y [rad/s]
+  Vec3 origin;       ///< point on the spin axis [m]
+  Vec3 velocity;     ///< of the origin [m/s]
+  double angle = 0;  ///< about +y [rad]
+  double spin = 0;   ///< about +y [rad/s]
 
   void advance(double dt) {
     origin += dt * velocity;
@@ -29,7 +30,9 @@ inline Vec3 turn(const Vec3& a, double angle) {
 }
 
 /// spin * y-axis x a, in components (t, y, r).
-inline Vec3 spin_cross(double spin, const Vec3& a) { return {spin * a.z, 0, -spin * a.x}; }
+inline Vec3 spin_cross(double spin, const Vec3& a) {
+  return {spin * a.z, 0, -spin * a.x};
+}
 
 /// Components (t, y, r) at space angle `phi` to Cartesian axes, and back.
 inline Vec3 cylindrical_to_cartesian(double phi, const Vec3& a) {

@@ -15,7 +15,8 @@ Corrugation::Corrugation(Sine sine, double start, double length, double centre, 
       width_(width),
       deepest_(sine.depth) {}
 
-Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre, double width)
+Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre,
+                         double width)
     : first_(start + x.front()),
       last_(start + x.back()),
       centre_(centre),

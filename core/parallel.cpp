@@ -8,8 +8,12 @@ namespace {
 int g_threads = 1;
 }
 
-void set_threads(int threads) { g_threads = threads < 1 ? 1 : threads; }
-int threads() { return g_threads; }
+void set_threads(int threads) {
+  g_threads = threads < 1 ? 1 : threads;
+}
+int threads() {
+  return g_threads;
+}
 
 void parallel_ranges(std::int64_t n, const std::function<void(std::int64_t, std::int64_t)>& body) {
   if (n <= 0) return;

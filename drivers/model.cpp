@@ -36,8 +36,9 @@ Attachment attach(const SweptBlock& block, const std::string& path, double x, do
   const auto& nodes = found->second;
   const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
   if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
-    throw InputError(fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
-                                 path, block.name, p(0), p(nodes.size() - 1)));
+    throw InputError(
+        fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
+                    path, block.name, p(0), p(nodes.size() - 1)));
   std::size_t i = 0;
   while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
   const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);
@@ -93,16 +94,16 @@ void Model::build_rail() {
     else
       plan.fine.push_back({static_cast<int>(std::lround(rail.length / sizes.contact)), sizes.contact, 0});
     if (!scene.wheel) plan.fine[0].pitch = rail.length / plan.fine[0].elements;
-    index.rail_cap = mesh.add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes), {scene.steel},
-                                               length.first, plan.fine));
+    index.rail_cap = mesh.add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
+                                               {scene.steel}, length.first, plan.fine));
     return;
   }
   const NestedSegments plan = plan_rail(length, run_span(), zone_span(), sizes);
   RailSections sections = rail_sections(scene, sizes);
-  index.rail_cap = mesh.add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
-                                             length.first, plan.fine));
-  index.rail_base = mesh.add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {scene.steel},
-                                              length.first, plan.coarse));
+  index.rail_cap = mesh.add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
+                                             {scene.steel}, length.first, plan.fine));
+  index.rail_base = mesh.add(make_swept_block("rail", Sweep::extruded, std::move(sections.base),
+                                              {scene.steel}, length.first, plan.coarse));
   tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
 }
 
@@ -126,26 +127,27 @@ void Model::build_slab() {
     at = last;
   }
   stretch(rail.length - at, 0);
-  index.slab = mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(scene, sizes),
-                                         {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
+  index.slab =
+      mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(scene, sizes),
+                                {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
 }
 
 void Model::build_wheel() {
   const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
   if (scene.wheel->shape == "tyre") {
-    index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
-                                            plan.start, plan.tread));
+    index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes),
+                                            {scene.steel}, plan.start, plan.tread));
     return;
   }
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   brake_ring_thickness = sized.brake_ring_thickness;
-  index.tread = mesh.add(
-      make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel}, plan.start, plan.tread));
-  index.disc = mesh.add(
-      make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {scene.steel}, plan.start, plan.disc));
-  index.axle = mesh.add(
-      make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel}, plan.start, plan.axle));
+  index.tread = mesh.add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel},
+                                          plan.start, plan.tread));
+  index.disc = mesh.add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc),
+                                         {scene.steel}, plan.start, plan.disc));
+  index.axle = mesh.add(make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel},
+                                         plan.start, plan.axle));
   tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
   tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
 }
@@ -170,7 +172,8 @@ void Model::restrain() {
       // The foot cannot move sideways over the fastenings.
       const FasteningSpec& f = *scene.fastenings;
       for (int station = 0; station < block.station_count(); ++station) {
-        const double from_end = block.stations[static_cast<std::size_t>(station)] + scene.rail->origin - f.first;
+        const double from_end =
+            block.stations[static_cast<std::size_t>(station)] + scene.rail->origin - f.first;
         const double nearest = std::clamp(std::round(from_end / f.spacing), 0.0, f.count - 1.0);
         if (std::abs(from_end - nearest * f.spacing) <= 0.5 * f.pad_length)
           for (const int node : block.section.paths.at("foot")) hold(block, node, station, 1);
@@ -185,14 +188,16 @@ void Model::restrain() {
     hold_path(block, "bottom", 2);
   }
   if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
-  if (index.tread >= 0 && index.axle < 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
+  if (index.tread >= 0 && index.axle < 0)
+    hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
   // Secondary nodes follow their primaries: their restraint would be a second opinion.
   if (ties) {
     std::vector<std::int64_t> tied;
     for (const std::int64_t slot : ties->secondary_slots())
       for (int c = 0; c < 3; ++c) tied.push_back(dof(slot, c));
     std::sort(tied.begin(), tied.end());
-    std::erase_if(restrained, [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
+    std::erase_if(restrained,
+                  [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
   }
   std::sort(restrained.begin(), restrained.end());
   restrained.erase(std::unique(restrained.begin(), restrained.end()), restrained.end());
@@ -227,7 +232,8 @@ void Model::build_mass() {
 
 void Model::build_fastenings() {
   const FasteningSpec& f = *scene.fastenings;
-  const SweptBlock& rail = mesh.blocks[static_cast<std::size_t>(index.rail_base >= 0 ? index.rail_base : index.rail_cap)];
+  const SweptBlock& rail =
+      mesh.blocks[static_cast<std::size_t>(index.rail_base >= 0 ? index.rail_base : index.rail_cap)];
   const auto& foot = rail.section.paths.at("foot");
   const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
                                rail.section.p[static_cast<std::size_t>(foot.back())]);
@@ -236,11 +242,13 @@ void Model::build_fastenings() {
   for (int i = 0; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       for (int row = 0; row < f.rows; ++row) {
-        const double x = -scene.rail->origin + f.first + i * f.spacing +
-                         f.pad_length * ((column + 0.5) / f.columns - 0.5);
+        const double x =
+            -scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5);
         const double y = middle + f.pad_width * ((row + 0.5) / f.rows - 0.5);
-        SpringDampers::Element element{attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
-        if (index.slab >= 0) element.lower = attach(mesh.blocks[static_cast<std::size_t>(index.slab)], "top", x, y);
+        SpringDampers::Element element{
+            attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
+        if (index.slab >= 0)
+          element.lower = attach(mesh.blocks[static_cast<std::size_t>(index.slab)], "top", x, y);
         elements.push_back(element);
       }
   fastenings.emplace(std::move(elements));
@@ -266,8 +274,8 @@ double Model::wheel_load() const {
 
 namespace {
 
-/// Lateral radius of the gap between two profiles about its lowest point: the parabola that fits it best within
-/// `half_width`.
+/// Lateral radius of the gap between two profiles about its lowest point: the parabola that fits it best
+/// within `half_width`.
 double lateral_radius(const SurfaceProfile& rail, const SurfaceProfile& wheel, double half_width) {
   const auto height = [](const SurfaceProfile& profile, double p) {
     const int edge = profile.edge_at(p);
@@ -307,7 +315,8 @@ void Model::build_contact() {
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
   hertz_radius_y = lateral_radius(rail, wheel, 5e-3);
-  const double modulus = scene.steel.youngs_modulus / (2 * (1 - scene.steel.poissons_ratio * scene.steel.poissons_ratio));
+  const double modulus =
+      scene.steel.youngs_modulus / (2 * (1 - scene.steel.poissons_ratio * scene.steel.poissons_ratio));
   // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
   hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
 

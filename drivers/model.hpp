@@ -1,6 +1,6 @@
 #pragma once
-// The model of a scene: meshed bodies, their operators and what joins and loads them. Everything that a scene lacks
-// is absent here too.
+// The model of a scene: meshed bodies, their operators and what joins and loads them. Everything that a scene
+// lacks is absent here too.
 
 #include <cstdint>
 #include <memory>
@@ -26,7 +26,7 @@ struct BlockIndex {
   int rail_cap = -1;   ///< carries the running surface
   int rail_base = -1;  ///< tied under the cap
   int slab = -1;
-  int tread = -1;      ///< carries the tread surface
+  int tread = -1;  ///< carries the tread surface
   int disc = -1;
   int axle = -1;
 
@@ -46,16 +46,16 @@ struct Model {
   std::vector<TieSpec> tie_specs;
   std::optional<Ties> ties;
   std::unique_ptr<InternalForce> internal;
-  std::vector<std::int64_t> restrained;   ///< unknowns that stay zero
-  AlignedVector<double> mass;             ///< lumped, ties gathered; scalar node field [kg]
-  AlignedVector<double> inverse_mass;     ///< scalar node field, 0 where nothing moves by itself [1/kg]
+  std::vector<std::int64_t> restrained;  ///< unknowns that stay zero
+  AlignedVector<double> mass;            ///< lumped, ties gathered; scalar node field [kg]
+  AlignedVector<double> inverse_mass;    ///< scalar node field, 0 where nothing moves by itself [1/kg]
 
-  std::vector<double> beta;               ///< stiffness-proportional damping by block [s]
+  std::vector<double> beta;  ///< stiffness-proportional damping by block [s]
 
   std::optional<SpringDampers> fastenings;
   std::optional<SpinningBody> wheelset;
-  Journal journal;      ///< carries vehicle or load; empty without either
-  AxleTorque torque;    ///< empty without traction
+  Journal journal;                  ///< carries vehicle or load; empty without either
+  AxleTorque torque;                ///< empty without traction
   double brake_ring_thickness = 0;  ///< of each of the two plates that bring the wheelset to its mass [m]
   std::unique_ptr<Contact> contact;
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
@@ -67,8 +67,8 @@ struct Model {
   std::int64_t nodes() const;
   bool vertical_only(int block) const { return block == index.slab; }
 
-  /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of its deepest
-  /// line. Rebuilds the coefficients where nodes moved.
+  /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of
+  /// its deepest line. Rebuilds the coefficients where nodes moved.
   void apply_corrugation(double centre);
 
  private:
@@ -85,7 +85,8 @@ struct Model {
   Span zone_span() const;
 };
 
-/// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the block.
+/// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the
+/// block.
 Attachment attach(const SweptBlock& block, const std::string& path, double x, double y);
 
 }  // namespace tread

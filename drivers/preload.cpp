@@ -41,7 +41,8 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
   return load;
 }
 
-/// Adds -m rate^2 d2u/ds2, the inertia of material that passes through the steady deflection u, s the station coordinate.
+/// Adds -m rate^2 d2u/ds2, the inertia of material that passes through the steady deflection u, s the station
+/// coordinate.
 void add_steady_inertia(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
   for (const SweptBlock& block : model.mesh.blocks) {
     const double rate = block.sweep == Sweep::revolved ? motion.spin : motion.speed;
@@ -83,7 +84,8 @@ std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<do
       for (int node = 0; node < block.section.nodes(); ++node) {
         const std::int64_t slot = block.base + block.slot(node, station);
         const Vec3 ahead = to_local(block, station, 0, {1, 0, 0});
-        const std::array<Vec3, 2> motion = {ahead, Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}};
+        const std::array<Vec3, 2> motion = {ahead,
+                                            Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}};
         for (std::size_t m = 0; m < 2; ++m)
           for (int c = 0; c < 3; ++c) {
             const auto unknown = static_cast<std::size_t>(dof(slot, c));
@@ -122,7 +124,8 @@ void describe(const Model& model, Preload& out) {
     out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);
   }
   if (model.index.slab >= 0)
-    out.slab_deflection = -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
+    out.slab_deflection =
+        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
 }
 
 }  // namespace
@@ -136,7 +139,8 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
   if (model.contact) {
-    // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each other.
+    // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
+    // other.
     const double overlap = 0.6 * model.hertz_patch.approach;
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
@@ -174,9 +178,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       model.contact->add_forces(residual.data());
       for (Spring& spring : model.contact->springs()) springs.push_back(std::move(spring));
       if (model.contact->points().empty())
-        throw NumericalError(fmt::format(
-            "preload: after {} iterations no point of the wheel touches the rail; check wheel.lateral_offset and the load",
-            iteration));
+        throw NumericalError(
+            fmt::format("preload: after {} iterations no point of the wheel touches the rail; check "
+                        "wheel.lateral_offset and the load",
+                        iteration));
     }
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
@@ -191,20 +196,21 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       held->balance(residual.data());
     }
     out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
-    progress(fmt::format("preload: iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
-                         out.residual, model.contact ? model.contact->points().size() : 0,
+    progress(fmt::format("preload: iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN",
+                         iteration, out.residual, model.contact ? model.contact->points().size() : 0,
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) break;
     if (iteration == kMaxNewton)
-      throw NumericalError(fmt::format("preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}); "
-                                       "a softer contact.penetration_ratio or a finer quality helps",
-                                       out.residual, iteration, kTolerance));
+      throw NumericalError(
+          fmt::format("preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}); "
+                      "a softer contact.penetration_ratio or a finer quality helps",
+                      out.residual, iteration, kTolerance));
     preconditioner.update(tangent, springs);
     std::fill(correction.begin(), correction.end(), 0.0);
     const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
-    const CgResult solved =
-        conjugate_gradients(tangent, &preconditioner, held ? &*held : nullptr, residual, correction, {wanted, 5000});
+    const CgResult solved = conjugate_gradients(tangent, &preconditioner, held ? &*held : nullptr, residual,
+                                                correction, {wanted, 5000});
     if (!solved.converged)
       throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
                                        solved.relative_residual, solved.iterations));

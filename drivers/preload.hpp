@@ -1,6 +1,6 @@
 #pragma once
-// Step 1: static equilibrium under gravity, spin and wheel load with contact, by Newton's method on the contact set.
-// [theory.md, Preload]
+// Step 1: static equilibrium under gravity, spin and wheel load with contact, by Newton's method on the
+// contact set. [theory.md, Preload]
 
 #include <functional>
 
@@ -13,21 +13,21 @@ namespace tread {
 struct Preload {
   AlignedVector<double> displacement;  ///< secondary nodes filled [m]
   BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
-  double residual = 0;                 ///< 2-norm of the balanced residual / wheel load (or external load) [-]
+  double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   int newton_iterations = 0;
   int cg_iterations = 0;
-  double held_force_x = 0;             ///< reaction of the held longitudinal motion of the wheel [N]
-  double held_moment = 0;              ///< reaction of its held rotation about the axle [N m]
-  double tilt = 0;                     ///< of the wheel about x, from the tread's mean [rad]
-  double rail_deflection = 0;          ///< downwards, of the rail's foot under the wheel [m]
-  double slab_deflection = 0;          ///< [m]
+  double held_force_x = 0;     ///< reaction of the held longitudinal motion of the wheel [N]
+  double held_moment = 0;      ///< reaction of its held rotation about the axle [N m]
+  double tilt = 0;             ///< of the wheel about x, from the tread's mean [rad]
+  double rail_deflection = 0;  ///< downwards, of the rail's foot under the wheel [m]
+  double slab_deflection = 0;  ///< [m]
   ContactTotals contact;
 };
 
 using ProgressText = std::function<void(const std::string&)>;
 
-/// Motion whose steady inertia the static state carries: material passes through a deflection that stays under the
-/// wheel. [theory.md, Preload]
+/// Motion whose steady inertia the static state carries: material passes through a deflection that stays
+/// under the wheel. [theory.md, Preload]
 struct SteadyMotion {
   double spin = 0;   ///< of the wheel: centrifugal force about the bent axle [rad/s]
   double speed = 0;  ///< of the deflection along the track [m/s]

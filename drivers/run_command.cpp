@@ -20,11 +20,12 @@ std::string progress_line(const Simulation& simulation, const Sample& sample, co
                           double seconds) {
   const double done = simulation.time() / end;
   const double per_step = simulation.steps() > 0 ? seconds / static_cast<double>(simulation.steps()) : 0;
-  std::string line = fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation.time(), 1e3 * end,
-                                 100 * done, simulation.dt());
+  std::string line = fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation.time(),
+                                 1e3 * end, 100 * done, simulation.dt());
   if (model.contact)
-    line += fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
-                        sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
+    line +=
+        fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
+                    sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
   line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
                       1e9 * per_step / static_cast<double>(model.elements()),
                       done > 0 ? duration_text(seconds / done * (1 - done)) : "?");
@@ -45,12 +46,14 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
       results.samples.push_back(sample);
       histories.append(history_row(model, sample));
       if (!std::isfinite(sample.energy.kinetic + sample.energy.strain))
-        throw NumericalError(fmt::format("the motion is no longer finite at t = {:.6e} s (step {}): the step {:.3e} s is too "
-                                         "long; lower motion.step_safety",
-                                         sample.time, simulation.steps(), results.dt));
+        throw NumericalError(
+            fmt::format("the motion is no longer finite at t = {:.6e} s (step {}): the step {:.3e} s is too "
+                        "long; lower motion.step_safety",
+                        sample.time, simulation.steps(), results.dt));
     }
     if (simulation.steps() % 16 == 0 && progress.due(model.scene.output.progress_interval))
-      progress.say(progress_line(simulation, simulation.sample(), model, motion.duration, progress.seconds() - started));
+      progress.say(progress_line(simulation, simulation.sample(), model, motion.duration,
+                                 progress.seconds() - started));
   }
   histories.close();
   results.seconds_rolling = progress.seconds() - started;
@@ -81,7 +84,8 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   progress.say(fmt::format("[mesh] {} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                            model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
 
-  results.preload = solve_preload(model, motion, [&](const std::string& text) { progress.say("[" + text + "]"); });
+  results.preload =
+      solve_preload(model, motion, [&](const std::string& text) { progress.say("[" + text + "]"); });
   results.seconds_preload = progress.seconds() - results.seconds_mesh;
   if (model.contact) results.static_pressure = model.contact->max_nodal_tractions()[0];
   if (scene.corrugation)
@@ -90,8 +94,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   if (scene.motion) {
     results.limit = step_limit(model);
     results.dt = scene.motion->step_safety * results.limit.stable_step;
-    progress.say(fmt::format("[step] dt {:.3e} s, {} steps; {}", results.dt,
-                             step_count(scene, results.dt),
+    progress.say(fmt::format("[step] dt {:.3e} s, {} steps; {}", results.dt, step_count(scene, results.dt),
                              results.limit.reason));
     roll(model, results, options.output, progress);
   }

@@ -16,8 +16,8 @@ struct RunOptions {
   std::string command;           ///< as typed, for the report
 };
 
-/// Runs the scene and leaves scene.resolved.toml, run.h5, histories.csv, summary.json and report.html in the output
-/// directory. Errors leave as Error.
+/// Runs the scene and leaves scene.resolved.toml, run.h5, histories.csv, summary.json and report.html in the
+/// output directory. Errors leave as Error.
 void run_scene(const ResolvedScene& resolved, const RunOptions& options);
 
 }  // namespace tread

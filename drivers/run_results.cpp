@@ -17,11 +17,14 @@ struct Column {
   double (*value)(const Sample&);
 };
 
-double traction(const Sample& s) { return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0; }
+double traction(const Sample& s) {
+  return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
+}
 
 const std::vector<Column>& wheel_columns() {
   static const std::vector<Column> columns = {
-      {{"wheel_x", "m", "position of the wheel's axis along the rail"}, [](const Sample& s) { return s.wheel_x; }},
+      {{"wheel_x", "m", "position of the wheel's axis along the rail"},
+       [](const Sample& s) { return s.wheel_x; }},
       {{"vertical_force", "N", "F_N, contact force on the wheel, upwards"},
        [](const Sample& s) { return s.vertical_force; }},
       {{"longitudinal_force", "N", "F_L, contact force on the wheel, forwards"},
@@ -39,15 +42,19 @@ const std::vector<Column>& wheel_columns() {
        [](const Sample& s) { return s.max_penetration; }},
       {{"creepage_node", "-", "eq. (3) at the tread node that starts in the patch"},
        [](const Sample& s) { return s.creepage_node; }},
-      {{"creepage_mean", "-", "eq. (3), mean of 28 tread nodes"}, [](const Sample& s) { return s.creepage_mean; }},
+      {{"creepage_mean", "-", "eq. (3), mean of 28 tread nodes"},
+       [](const Sample& s) { return s.creepage_mean; }},
       {{"torque", "N m", "on the axle"}, [](const Sample& s) { return s.torque; }},
-      {{"wheel_speed", "m/s", "mean forward speed of the wheelset"}, [](const Sample& s) { return s.wheel_speed; }},
-      {{"wheel_spin", "rad/s", "mean angular speed of the wheelset"}, [](const Sample& s) { return s.wheel_spin; }},
+      {{"wheel_speed", "m/s", "mean forward speed of the wheelset"},
+       [](const Sample& s) { return s.wheel_speed; }},
+      {{"wheel_spin", "rad/s", "mean angular speed of the wheelset"},
+       [](const Sample& s) { return s.wheel_spin; }},
       {{"wheel_z", "m", "height of the wheelset's mean axis above the crown"},
        [](const Sample& s) { return s.wheel_z; }},
       {{"corrugation_depth", "m", "of the rail under the wheel's axis"},
        [](const Sample& s) { return s.corrugation_depth; }},
-      {{"penalty_energy", "J", "stored in the contact penalties"}, [](const Sample& s) { return s.energy.penalty; }},
+      {{"penalty_energy", "J", "stored in the contact penalties"},
+       [](const Sample& s) { return s.energy.penalty; }},
       {{"frictional_work", "J", "dissipated by friction since the start"},
        [](const Sample& s) { return s.energy.frictional_work; }},
       {{"torque_work", "J", "done by the torque"}, [](const Sample& s) { return s.energy.torque_work; }},
@@ -58,12 +65,16 @@ const std::vector<Column>& wheel_columns() {
 const std::vector<Column>& body_columns() {
   static const std::vector<Column> columns = {
       {{"kinetic_energy", "J", "of all bodies"}, [](const Sample& s) { return s.energy.kinetic; }},
-      {{"strain_energy", "J", "elastic, hourglass part included"}, [](const Sample& s) { return s.energy.strain; }},
+      {{"strain_energy", "J", "elastic, hourglass part included"},
+       [](const Sample& s) { return s.energy.strain; }},
       {{"connector_energy", "J", "in springs"}, [](const Sample& s) { return s.energy.connectors; }},
       {{"gravity_energy", "J", "potential"}, [](const Sample& s) { return s.energy.gravity; }},
-      {{"connector_loss", "J", "dissipated in dampers"}, [](const Sample& s) { return s.energy.connector_loss; }},
-      {{"damping_loss", "J", "dissipated in contact damping"}, [](const Sample& s) { return s.energy.damping_loss; }},
-      {{"energy_residual", "J", "what the balance misses"}, [](const Sample& s) { return s.energy.residual; }},
+      {{"connector_loss", "J", "dissipated in dampers"},
+       [](const Sample& s) { return s.energy.connector_loss; }},
+      {{"damping_loss", "J", "dissipated in contact damping"},
+       [](const Sample& s) { return s.energy.damping_loss; }},
+      {{"energy_residual", "J", "what the balance misses"},
+       [](const Sample& s) { return s.energy.residual; }},
   };
   return columns;
 }
@@ -121,11 +132,12 @@ void evaluate(const Model& model, RunResults& r) {
   if (model.contact) {
     const Corrugation& corrugation = model.contact->corrugation();
     // Less half a wave at each end, where more than one wave is left by that.
-    const double wave = scene.corrugation && scene.corrugation->kind == "sine" ? scene.corrugation->wavelength : 0;
+    const double wave =
+        scene.corrugation && scene.corrugation->kind == "sine" ? scene.corrugation->wavelength : 0;
     const double half_wave = corrugation.last() - corrugation.first() > 1.5 * wave ? 0.5 * wave : 0;
     r.evaluated_first = corrugation.smooth() ? scene.zone_start : corrugation.first() + half_wave;
-    r.evaluated_last =
-        std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.last() - half_wave);
+    r.evaluated_last = std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length
+                                                              : corrugation.last() - half_wave);
     if (r.evaluated_first > reached) r.evaluated_first = 0;
     r.vertical_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
                                   [](const Sample& s) { return s.vertical_force; });
@@ -137,7 +149,9 @@ void evaluate(const Model& model, RunResults& r) {
     const double end = corrugation.smooth() ? reached : std::min(reached, corrugation.first() - 0.02);
     r.steady_last = end;
     r.steady_first = std::max(0.0, end - span);
-    const auto mean = [&](auto value) { return statistics(r.samples, r.steady_first, r.steady_last, value).mean; };
+    const auto mean = [&](auto value) {
+      return statistics(r.samples, r.steady_first, r.steady_last, value).mean;
+    };
     r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
     const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
     r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
@@ -156,14 +170,15 @@ void evaluate(const Model& model, RunResults& r) {
     strain_low = std::min(strain_low, e.strain);
     strain_high = std::max(strain_high, e.strain);
     if (i > 0)
-      r.frictional_work_decrease = std::max(r.frictional_work_decrease,
-                                            r.samples[i - 1].energy.frictional_work - e.frictional_work);
+      r.frictional_work_decrease =
+          std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
   }
   const EnergyLedger& last = r.samples.back().energy;
   const double scale = last.frictional_work + last.connector_loss + strain_high - strain_low;
   r.energy_error = scale > 0 ? worst / scale : 0;
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
-  if (r.momentum.contact_impulse.z > 0) r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
+  if (r.momentum.contact_impulse.z > 0)
+    r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
 }
 
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
@@ -180,8 +195,9 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json.member("mesh_s", r.seconds_mesh);
   json.member("preload_s", r.seconds_preload);
   json.member("rolling_s", r.seconds_rolling);
-  json.member("element_steps_per_s",
-              r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.steps) / r.seconds_rolling : 0.0);
+  json.member("element_steps_per_s", r.seconds_rolling > 0
+                                         ? static_cast<double>(model.elements() * r.steps) / r.seconds_rolling
+                                         : 0.0);
   json.member("preload_residual", r.preload.residual);
   if (model.contact) {
     json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);
@@ -195,7 +211,9 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json.member("wheelset_mass_kg", model.wheelset->mass());
     json.member("wheelset_inertia_kg_m2", model.wheelset->inertia());
     json.key("vertical_force_N").begin_object();
-    json.member("mean", r.vertical_force.mean).member("min", r.vertical_force.min).member("max", r.vertical_force.max);
+    json.member("mean", r.vertical_force.mean)
+        .member("min", r.vertical_force.min)
+        .member("max", r.vertical_force.max);
     json.end_object();
     json.key("longitudinal_force_N").begin_object();
     json.member("mean", r.longitudinal_force.mean)

@@ -39,16 +39,17 @@ struct RunResults {
   MomentumCheck momentum;
   std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
 
-  Statistics vertical_force;        ///< over evaluated() [N]
-  Statistics longitudinal_force;    ///< [N]
-  double traction_coefficient = 0;  ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
-  double creepage = 0;              ///< mean of 28 nodes there [-]
+  Statistics vertical_force;      ///< over evaluated() [N]
+  Statistics longitudinal_force;  ///< [N]
+  double traction_coefficient =
+      0;                ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double creepage = 0;  ///< mean of 28 nodes there [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
-  double vertical_force_steady = 0; ///< mean there [N]
-  double energy_error = 0;          ///< [-]
-  double momentum_error = 0;        ///< [-]
-  double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
-  double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
+  double vertical_force_steady = 0;                        ///< mean there [N]
+  double energy_error = 0;                                 ///< [-]
+  double momentum_error = 0;                               ///< [-]
+  double evaluated_first = 0, evaluated_last = 0;          ///< the stretch of vertical_force [m]
+  double steady_first = 0, steady_last = 0;                ///< the stretch of the steady values [m]
   double frictional_work_decrease = 0;  ///< largest fall between two samples, 0 when monotone [J]
 };
 

@@ -26,7 +26,8 @@ SectionSize section_size(const MeshSizes& sizes, double coarse, double band_cent
   return size;
 }
 
-constexpr double kWheelToRailCoarse = 1.4;  ///< disc elements may be larger than those of the rail's web and foot
+constexpr double kWheelToRailCoarse =
+    1.4;  ///< disc elements may be larger than those of the rail's web and foot
 constexpr double kBandCentre = -2e-3;
 
 WheelProfile wheel_profile(const WheelSpec& wheel) {
@@ -47,7 +48,8 @@ RailSections rail_sections(const Scene& scene, const MeshSizes& sizes) {
 
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes) {
   const RailSpec& rail = *scene.rail;
-  return make_box_rail_section(rail.width, rail.height, rail.crown_radius, section_size(sizes, sizes.section, 0));
+  return make_box_rail_section(rail.width, rail.height, rail.crown_radius,
+                               section_size(sizes, sizes.section, 0));
 }
 
 Section tyre_section(const Scene& scene, const MeshSizes& sizes) {
@@ -61,7 +63,8 @@ Section slab_section(const Scene& scene, const MeshSizes& sizes) {
   // The slab's top touches the lowest point of the rail's foot; the fastenings span what is left.
   double top = 0;
   const RailSections rail = rail_sections(scene, sizes);
-  for (const int node : rail.base.paths.at("foot")) top = std::min(top, rail.base.q[static_cast<std::size_t>(node)]);
+  for (const int node : rail.base.paths.at("foot"))
+    top = std::min(top, rail.base.q[static_cast<std::size_t>(node)]);
   const double left = slab.offset - 0.5 * slab.width;
   const int columns = std::max(2, static_cast<int>(std::lround(slab.width / (1.5 * sizes.slab))));
   const int layers = std::max(2, static_cast<int>(std::lround(slab.thickness / sizes.slab)));
@@ -83,8 +86,7 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   shape.diameter = wheel.diameter;
   shape.lateral_offset = wheel.lateral_offset;
   shape.axle_bore = wheel.axle_bore;
-  const SectionSize size =
-      section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre);
+  const SectionSize size = section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre);
   const WheelProfile profile = wheel_profile(wheel);
 
   // Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
@@ -112,9 +114,10 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
     last_mass = m;
     thickness += (wheel.mass - m) / slope;
     if (!(thickness > 2e-3 && thickness < 0.08))
-      throw InputError(fmt::format("wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; without "
-                                   "rings the half wheelset weighs {:.1f} kg",
-                                   wheel.mass, 1e3 * thickness, mass(0)));
+      throw InputError(fmt::format(
+          "wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; without "
+          "rings the half wheelset weighs {:.1f} kg",
+          wheel.mass, 1e3 * thickness, mass(0)));
   }
   shape.brake_ring_thickness = thickness;
   return {make_wheel_sections(profile, shape, size), thickness};
@@ -128,7 +131,8 @@ void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double 
       const auto a = static_cast<std::size_t>(edge.node[0]);
       const auto b = static_cast<std::size_t>(edge.node[1]);
       if (p < section.p[a] - 1e-9 || p > section.p[b] + 1e-9) continue;
-      return section.q[a] + (section.q[b] - section.q[a]) * (p - section.p[a]) / (section.p[b] - section.p[a]);
+      return section.q[a] +
+             (section.q[b] - section.q[a]) * (p - section.p[a]) / (section.p[b] - section.p[a]);
     }
     return 1e9;
   };

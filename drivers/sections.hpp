@@ -20,11 +20,12 @@ struct SizedWheel {
   double brake_ring_thickness = 0;  ///< of each of the two plates [m]
 };
 
-/// The brake disc rings are as thick as WheelSpec::mass needs with the plan's polygons. InputError if no rings do it.
+/// The brake disc rings are as thick as WheelSpec::mass needs with the plan's polygons. InputError if no
+/// rings do it.
 SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
 
-/// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that fades to
-/// nothing over `fade` [m] (node_shift).
+/// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that
+/// fades to nothing over `fade` [m] (node_shift).
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);
 
 }  // namespace tread

@@ -17,7 +17,12 @@ constexpr int kCreepageNodes = 28;             ///< [paper, section 4.2]
 }  // namespace
 
 Simulation::Simulation(Model& model, const Preload& preload, double dt)
-    : model_(&model), dt_(dt), u_(preload.displacement), v_(u_.size(), 0.0), force_(u_.size(), 0.0), frame_(preload.wheel) {
+    : model_(&model),
+      dt_(dt),
+      u_(preload.displacement),
+      v_(u_.size(), 0.0),
+      force_(u_.size(), 0.0),
+      frame_(preload.wheel) {
   const Scene& scene = model.scene;
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
@@ -59,7 +64,8 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       for (int station = 0; station < block.station_count(); ++station)
         if (block.stations[static_cast<std::size_t>(station)] < block.stations.front() + scene.pulse->length)
           for (int node = 0; node < block.section.nodes(); ++node)
-            v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] = scene.pulse->velocity;
+            v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
+                scene.pulse->velocity;
   }
   start_momentum_ = vehicle_momentum();
 }
@@ -67,13 +73,15 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
 namespace {
 
 /// Derivative of a nodal value along the sweep, by the parabola through three stations.
-double along_sweep(const SweptBlock& block, int node, int station, int component, const AlignedVector<double>& field) {
+double along_sweep(const SweptBlock& block, int node, int station, int component,
+                   const AlignedVector<double>& field) {
   const int count = block.station_count();
   const auto value = [&](int s) {
     return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
   };
   const auto pitch = [&](int s) {  // of the element that starts at s
-    const Tile& tile = block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(s)])];
+    const Tile& tile =
+        block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(s)])];
     return block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
   };
   if (!block.closed && (station == 0 || station == count - 1)) {
@@ -95,8 +103,8 @@ void Simulation::start_velocities() {
   frame_.velocity = {speed, 0, 0};
   frame_.spin = speed / model_->wheel_radius();
   if (!motion || motion->start == "rigid") return;
-  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v du/dx in
-  // the track.
+  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
+  // du/dx in the track.
   for (const SweptBlock& block : model_->mesh.blocks) {
     const double rate = block.sweep == Sweep::revolved ? frame_.spin : -speed;
     for (int station = 0; station < block.station_count(); ++station)
@@ -198,8 +206,9 @@ void Simulation::advance() {
     model_->ties->follow(v_.data());
   }
   if (model_->wheelset)
-    impulse_.z -= dt_ * gravity *
-                  (model_->wheelset->mass() + (model_->scene.vehicle ? model_->scene.vehicle->unsprung_mass : 0.0));
+    impulse_.z -=
+        dt_ * gravity *
+        (model_->wheelset->mass() + (model_->scene.vehicle ? model_->scene.vehicle->unsprung_mass : 0.0));
   frame_.advance(dt_);
   time_ += dt_;
   ++steps_;
@@ -240,13 +249,14 @@ double Simulation::kinetic_energy() const {
   if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_.data(), v_.data(), frame_);
   if (model_->scene.vehicle) {
     const Vec3 v = model_->journal.velocity(u_.data(), v_.data(), frame_);
-    sum += 0.5 * model_->scene.vehicle->unsprung_mass * dot(v, v) + 0.5 * sprung_.mass * sprung_.speed * sprung_.speed;
+    sum += 0.5 * model_->scene.vehicle->unsprung_mass * dot(v, v) +
+           0.5 * sprung_.mass * sprung_.speed * sprung_.speed;
   }
   return sum;
 }
 
-/// The mean of both half steps' kinetic energies exceeds v- . M v+ / 2, which central difference conserves together with
-/// the strain energy, by dt^2 / 4 F . M^-1 F.
+/// The mean of both half steps' kinetic energies exceeds v- . M v+ / 2, which central difference conserves
+/// together with the strain energy, by dt^2 / 4 F . M^-1 F.
 double Simulation::half_step_excess() const {
   const auto excess_of = [&](std::int64_t slot, int component) {
     const double f = force_[static_cast<std::size_t>(dof(slot, component))];
@@ -259,7 +269,8 @@ double Simulation::half_step_excess() const {
     return part;
   });
   for (const std::int64_t unknown : model_->restrained)
-    sum -= excess_of(unknown / (3 * kLanes) * kLanes + unknown % kLanes, static_cast<int>(unknown / kLanes % 3));
+    sum -=
+        excess_of(unknown / (3 * kLanes) * kLanes + unknown % kLanes, static_cast<int>(unknown / kLanes % 3));
   return sum;
 }
 
@@ -279,12 +290,14 @@ double Simulation::gravity_potential() const {
     });
   }
   if (model_->wheelset) {
-    const double height = frame_.origin.z + model_->wheelset->mean_motion(u_.data(), v_.data(), frame_).displacement.z;
+    const double height =
+        frame_.origin.z + model_->wheelset->mean_motion(u_.data(), v_.data(), frame_).displacement.z;
     sum += g * model_->wheelset->mass() * height;
   }
   if (!model_->journal.empty()) {
     const double height = frame_.origin.z + model_->journal.displacement(u_.data(), frame_).z;
-    if (model_->scene.vehicle) sum += g * model_->scene.vehicle->unsprung_mass * height + g * sprung_.mass * sprung_.height;
+    if (model_->scene.vehicle)
+      sum += g * model_->scene.vehicle->unsprung_mass * height + g * sprung_.mass * sprung_.height;
     if (model_->scene.load) sum += model_->scene.load->wheel_load * height;
   }
   return sum;
@@ -313,12 +326,14 @@ double Simulation::creepage(std::int64_t slot, double radius) const {
 
 void Simulation::begin_sample() {
   EnergyLedger& energy = sample_.energy;
-  // force_ still holds K (u + beta v) alone: in the linear blocks u . K u / 2 is the energy of strain and hourglass.
+  // force_ still holds K (u + beta v) alone: in the linear blocks u . K u / 2 is the energy of strain and
+  // hourglass.
   energy.strain = 0;
   for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b) {
     const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
     if (block.sweep == Sweep::extruded) {
-      energy.strain += 0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, force_.data() + 3 * block.base);
+      energy.strain +=
+          0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, force_.data() + 3 * block.base);
     } else {
       const DeformationEnergy part = model_->internal->energy(b, u_.data());
       energy.strain += part.strain + part.hourglass;
@@ -363,13 +378,15 @@ void Simulation::end_sample() {
     sample_.wheel_speed = frame_.velocity.x;
     sample_.wheel_spin = frame_.spin;
     double sum = 0;
-    for (std::size_t k = 0; k < creepage_slots_.size(); ++k) sum += creepage(creepage_slots_[k], creepage_radius_[k]);
+    for (std::size_t k = 0; k < creepage_slots_.size(); ++k)
+      sum += creepage(creepage_slots_[k], creepage_radius_[k]);
     sample_.creepage_node = creepage(creepage_slots_.front(), creepage_radius_.front());
     sample_.creepage_mean = sum / static_cast<double>(creepage_slots_.size());
     sample_.torque = torque_;
   }
   const double closed = energy.kinetic + energy.strain + energy.connectors + energy.penalty + energy.gravity +
-                        energy.frictional_work + energy.connector_loss + energy.damping_loss - energy.torque_work;
+                        energy.frictional_work + energy.connector_loss + energy.damping_loss -
+                        energy.torque_work;
   if (!have_start_energy_) {
     start_energy_ = closed;
     have_start_energy_ = true;

@@ -13,15 +13,15 @@ namespace tread {
 /// Energies and works by kind [J]; `residual` closes the balance.
 struct EnergyLedger {
   double kinetic = 0;
-  double strain = 0;            ///< one-point stress and hourglass, all bodies
-  double connectors = 0;        ///< springs of fastenings and suspension
-  double penalty = 0;           ///< stored in contact
-  double gravity = 0;           ///< potential
-  double frictional_work = 0;   ///< dissipated
-  double connector_loss = 0;    ///< dissipated in dampers of fastenings and suspension
-  double damping_loss = 0;      ///< dissipated in material and contact damping
-  double torque_work = 0;       ///< done by the torque
-  double residual = 0;          ///< stored + dissipated - torque work - stored at the start
+  double strain = 0;           ///< one-point stress and hourglass, all bodies
+  double connectors = 0;       ///< springs of fastenings and suspension
+  double penalty = 0;          ///< stored in contact
+  double gravity = 0;          ///< potential
+  double frictional_work = 0;  ///< dissipated
+  double connector_loss = 0;   ///< dissipated in dampers of fastenings and suspension
+  double damping_loss = 0;     ///< dissipated in material and contact damping
+  double torque_work = 0;      ///< done by the torque
+  double residual = 0;         ///< stored + dissipated - torque work - stored at the start
 };
 
 /// What one sample of the histories shows.
@@ -44,8 +44,8 @@ struct Sample {
 
 /// How far impulses and momentum of wheelset, unsprung and sprung mass agree.
 struct MomentumCheck {
-  Vec3 impulse;   ///< of all external forces [N s]
-  Vec3 change;    ///< of the momentum [N s]
+  Vec3 impulse;          ///< of all external forces [N s]
+  Vec3 change;           ///< of the momentum [N s]
   Vec3 contact_impulse;  ///< size of the contact's impulse, the scale of the error [N s]
 };
 

@@ -20,8 +20,9 @@ StaticSystem::StaticSystem(const Model& model)
 }
 
 void StaticSystem::apply(const double* x, double* y) const {
-  for_chunks(static_cast<std::int64_t>(full_.size()),
-             [&](std::int64_t first, std::int64_t last) { std::copy(x + first, x + last, full_.data() + first); });
+  for_chunks(static_cast<std::int64_t>(full_.size()), [&](std::int64_t first, std::int64_t last) {
+    std::copy(x + first, x + last, full_.data() + first);
+  });
   expand(full_.data());
   model_->internal->apply(full_.data(), y);
   reduce(y);
@@ -43,7 +44,8 @@ StepLimit step_limit(const Model& model) {
   for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
     for (int c = 0; c < 3; ++c)
       if (system.diagonal()[static_cast<std::size_t>(dof(slot, c))] > 0)
-        inverse_mass[static_cast<std::size_t>(dof(slot, c))] = model.inverse_mass[static_cast<std::size_t>(slot)];
+        inverse_mass[static_cast<std::size_t>(dof(slot, c))] =
+            model.inverse_mass[static_cast<std::size_t>(slot)];
 
   std::vector<Spring> springs;
   if (model.fastenings) springs = model.fastenings->springs();
@@ -79,13 +81,15 @@ StepLimit step_limit(const Model& model) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
-  limit.reason = fmt::format("stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-                             block.name, at.x, at.y, at.z, 2 / limit.element.omega, limit.without_contact);
+  limit.reason = fmt::format(
+      "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
+      block.name, at.x, at.y, at.z, 2 / limit.element.omega, limit.without_contact);
   if (model.contact)
     limit.reason += fmt::format("; the contact penalty takes {:.0f} % of that",
                                 100 * (1 - stable_step(limit.omega, 0) / limit.without_contact));
   if (beta > 0 || ratio > 0)
-    limit.reason += fmt::format("; damping takes {:.1f} % of the rest", 100 * (1 - limit.stable_step / stable_step(limit.omega, 0)));
+    limit.reason += fmt::format("; damping takes {:.1f} % of the rest",
+                                100 * (1 - limit.stable_step / stable_step(limit.omega, 0)));
   return limit;
 }
 

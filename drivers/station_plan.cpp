@@ -28,7 +28,9 @@ MeshSizes mesh_sizes(const Scene& scene) {
   return sizes;
 }
 
-double patch_reach(double wheel_radius) { return std::sqrt(2 * wheel_radius * 6e-4); }
+double patch_reach(double wheel_radius) {
+  return std::sqrt(2 * wheel_radius * 6e-4);
+}
 
 namespace {
 
@@ -79,7 +81,8 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   append_uniform(plan, {run.first, zone.first}, coarse, approach);
   append_uniform(plan, zone, coarse, sizes.coarse_ratio);
   append_uniform(plan, {zone.last, run.last}, coarse, approach);
-  for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far)) append(plan, s.elements, s.pitch, 1);
+  for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far))
+    append(plan, s.elements, s.pitch, 1);
   return plan;
 }
 
@@ -91,7 +94,8 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
   const int disc = axle * sizes.axle_ratio;
   const double pitch = turn / disc;
   const int fine =
-      zone.empty() ? 0 : std::min(disc, static_cast<int>(std::ceil((zone.last - zone.first) / (radius * pitch))));
+      zone.empty() ? 0
+                   : std::min(disc, static_cast<int>(std::ceil((zone.last - zone.first) / (radius * pitch))));
   const int approach = std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
 
   WheelPlan plan;

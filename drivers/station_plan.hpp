@@ -1,5 +1,6 @@
 #pragma once
-// Where the stations of the swept blocks stand: fine where the patch passes, coarse elsewhere, nested for the ties.
+// Where the stations of the swept blocks stand: fine where the patch passes, coarse elsewhere, nested for the
+// ties.
 
 #include <vector>
 
@@ -10,14 +11,14 @@ namespace tread {
 
 /// Element sizes that a quality stands for.
 struct MeshSizes {
-  double contact = 0;         ///< h: in the patch, solution zone [m]
-  double far = 0;             ///< largest pitch along the rail [m]
-  double section = 0;         ///< coarse quads of rail base, disc and axle [m]
-  double slab = 0;            ///< pitch and quads of slab and mortar [m]
-  int approach_ratio = 2;     ///< pitch along AB is this many h
-  int coarse_ratio = 4;       ///< tied coarse blocks have this many h per element in the solution zone
-  int axle_ratio = 4;         ///< axle elements per disc element along the sweep
-  double band_half_width = 0; ///< of the fine running band [m]
+  double contact = 0;          ///< h: in the patch, solution zone [m]
+  double far = 0;              ///< largest pitch along the rail [m]
+  double section = 0;          ///< coarse quads of rail base, disc and axle [m]
+  double slab = 0;             ///< pitch and quads of slab and mortar [m]
+  int approach_ratio = 2;      ///< pitch along AB is this many h
+  int coarse_ratio = 4;        ///< tied coarse blocks have this many h per element in the solution zone
+  int axle_ratio = 4;          ///< axle elements per disc element along the sweep
+  double band_half_width = 0;  ///< of the fine running band [m]
 };
 
 /// Throws InputError for an unknown quality.
@@ -40,13 +41,14 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
 
 /// Around the wheel.
 struct WheelPlan {
-  double start = 0;                ///< angle of the first station [rad]
+  double start = 0;  ///< angle of the first station [rad]
   std::vector<Segment> tread;
   std::vector<Segment> disc;
   std::vector<Segment> axle;
 };
 
-/// h over the arc that meets `zone` and, where it starts, the first patch; approach pitch over the rest of the turn.
+/// h over the arc that meets `zone` and, where it starts, the first patch; approach pitch over the rest of
+/// the turn.
 WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
 
 /// Half length of the stretch of track that a wheel in contact can touch [m].

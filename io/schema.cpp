@@ -287,8 +287,9 @@ void add_motion(Keys& keys) {
                                   from(0, 100), "Time T1 in which the torque grows from zero")));
   keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
-  keys.push_back(rolling(choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving"},
-                                "Velocities at t = 0: of rigid bodies, or with the static deflection moving along")));
+  keys.push_back(
+      rolling(choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving"},
+                     "Velocities at t = 0: of rigid bodies, or with the static deflection moving along")));
   keys.push_back(number("motion.step_safety", at(&Scene::motion, &MotionSpec::step_safety), above(0, 1),
                         "Time step divided by the stable step"));
 }
@@ -377,7 +378,7 @@ SceneTable only_with(std::string other, SceneTable table) {
 }
 
 SceneTable material(const std::string& name, Material Scene::*member, double Scene::*fraction,
-               std::string description) {
+                    std::string description) {
   const auto remove = [member, fraction](Scene& scene) {
     scene.*member = Material{};
     scene.*fraction = 0;

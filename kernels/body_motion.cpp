@@ -23,8 +23,10 @@ void visit_tile(const SweptBlock& block, std::size_t t, const double* mass, Visi
     for (int l = 0; l < tile.stations; ++l) {
       const std::int64_t slot =
           block.base + (static_cast<std::int64_t>(t) * block.section.nodes() + node) * kLanes + l;
-      visit(NodeView{slot, block.stations[static_cast<std::size_t>(tile.first_station + l)],
-                     {0, block.section.p[n], block.section.q[n]}, mass[slot]});
+      visit(NodeView{slot,
+                     block.stations[static_cast<std::size_t>(tile.first_station + l)],
+                     {0, block.section.p[n], block.section.q[n]},
+                     mass[slot]});
     }
   }
 }
@@ -46,10 +48,11 @@ Sum sum_over_tiles(const Mesh& mesh, const std::vector<int>& blocks, const doubl
   for (const int b : blocks) {
     const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
     std::vector<Sum> partial(block.tiles.size());
-    parallel_ranges(static_cast<std::int64_t>(block.tiles.size()), [&](std::int64_t first, std::int64_t last) {
-      for (auto t = static_cast<std::size_t>(first); t < static_cast<std::size_t>(last); ++t)
-        visit_tile(block, t, mass, [&](const NodeView& node) { visit(node, partial[t]); });
-    });
+    parallel_ranges(static_cast<std::int64_t>(block.tiles.size()),
+                    [&](std::int64_t first, std::int64_t last) {
+                      for (auto t = static_cast<std::size_t>(first); t < static_cast<std::size_t>(last); ++t)
+                        visit_tile(block, t, mass, [&](const NodeView& node) { visit(node, partial[t]); });
+                    });
     for (const Sum& part : partial) total += part;
   }
   return total;
@@ -100,8 +103,8 @@ MeanMotion SpinningBody::mean_motion(const double* u, const double* w, const Bod
         const Vec3 velocity = read(w, n.slot) + spin_cross(frame.spin, displacement);
         const double phi = n.angle + frame.angle;
         s += MotionSums{n.mass * cylindrical_to_cartesian(phi, displacement),
-                        n.mass * cylindrical_to_cartesian(phi, velocity), n.mass * n.reference.z * displacement.x,
-                        n.mass * n.reference.z * read(w, n.slot).x};
+                        n.mass * cylindrical_to_cartesian(phi, velocity),
+                        n.mass * n.reference.z * displacement.x, n.mass * n.reference.z * read(w, n.slot).x};
       });
   return {(1 / mass_) * sums.displacement, (1 / mass_) * sums.velocity, sums.rotation / inertia_,
           sums.spin / inertia_};
@@ -142,14 +145,15 @@ void SpinningBody::anchor(double* u, double* w, BodyFrame& frame, double dt) con
 
   for (const int b : blocks_) {
     const SweptBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
-    parallel_ranges(static_cast<std::int64_t>(block.tiles.size()), [&](std::int64_t first, std::int64_t last) {
+    parallel_ranges(static_cast<std::int64_t>(block.tiles.size()), [&](std::int64_t first,
+                                                                       std::int64_t last) {
       for (auto t = static_cast<std::size_t>(first); t < static_cast<std::size_t>(last); ++t)
         visit_tile(block, t, nodal_mass_, [&](const NodeView& n) {
           const Vec3 displacement = read(u, n.slot);
           const Vec3 velocity = read(w, n.slot);
           // Absolute position now, seen from the moved frame.
-          const Vec3 arm = n.reference + displacement -
-                           cartesian_to_cylindrical(n.angle + frame.angle, mean.displacement);
+          const Vec3 arm =
+              n.reference + displacement - cartesian_to_cylindrical(n.angle + frame.angle, mean.displacement);
           write(u, n.slot, turn(arm, -mean.rotation) - n.reference);
           // Absolute velocity at the half step, seen from the moved frame.
           const double phi_half = n.angle + before_half.angle;

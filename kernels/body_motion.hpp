@@ -10,10 +10,10 @@ namespace tread {
 
 /// Mass-weighted mean motion of a body relative to its frame, Cartesian.
 struct MeanMotion {
-  Vec3 displacement;     ///< of the mass centre [m]
-  Vec3 velocity;         ///< relative to the frame [m/s]
-  double rotation = 0;   ///< about +y [rad]
-  double spin = 0;       ///< about +y, relative to the frame's [rad/s]
+  Vec3 displacement;    ///< of the mass centre [m]
+  Vec3 velocity;        ///< relative to the frame [m/s]
+  double rotation = 0;  ///< about +y [rad]
+  double spin = 0;      ///< about +y, relative to the frame's [rad/s]
 };
 
 class SpinningBody {
@@ -23,9 +23,11 @@ class SpinningBody {
   SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass);
 
   double mass() const { return mass_; }
-  double inertia() const { return inertia_; }          ///< about the axis [kg m2]
-  double transverse_inertia() const { return transverse_; }  ///< about a diameter through the mass centre [kg m2]
-  double centre_y() const { return centre_y_; }        ///< of mass, on the axis [m]
+  double inertia() const { return inertia_; }  ///< about the axis [kg m2]
+  double transverse_inertia() const {
+    return transverse_;
+  }                                              ///< about a diameter through the mass centre [kg m2]
+  double centre_y() const { return centre_y_; }  ///< of mass, on the axis [m]
   const std::vector<int>& blocks() const { return blocks_; }
 
   /// u, w: displacement and relative velocity fields.
@@ -35,8 +37,9 @@ class SpinningBody {
   double kinetic_energy(const double* u, const double* w, const BodyFrame& frame) const;
   Vec3 momentum(const double* u, const double* w, const BodyFrame& frame) const;
 
-  /// Moves the frame onto the body's mean motion in the plane of rolling (along y it stays); absolute positions at the time of u and absolute velocities at
-  /// the half step before it (`dt` [s] long) stay what they are.
+  /// Moves the frame onto the body's mean motion in the plane of rolling (along y it stays); absolute
+  /// positions at the time of u and absolute velocities at the half step before it (`dt` [s] long) stay what
+  /// they are.
   void anchor(double* u, double* w, BodyFrame& frame, double dt) const;
 
  private:

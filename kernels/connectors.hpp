@@ -1,6 +1,6 @@
 #pragma once
-// Discrete elements between bodies: spring-dampers, the primary suspension, the unsprung mass, the axle's torque.
-// [theory.md, Connectors]
+// Discrete elements between bodies: spring-dampers, the primary suspension, the unsprung mass, the axle's
+// torque. [theory.md, Connectors]
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace tread {
 
-/// A point on a face of a block: a weighted mean of up to four nodes. Slot -1 marks unused entries; all unused: ground.
+/// A point on a face of a block: a weighted mean of up to four nodes. Slot -1 marks unused entries; all
+/// unused: ground.
 struct Attachment {
   std::array<std::int64_t, 4> slot = {-1, -1, -1, -1};
   std::array<double, 4> weight = {0, 0, 0, 0};
@@ -46,7 +47,7 @@ class SpringDampers {
   /// force += K u + C v; the dampers' loss over dt is added to dissipated().
   void apply(const double* u, const double* v, double dt, double* force);
   std::vector<Spring> springs() const;
-  double energy(const double* u) const;             ///< [J]
+  double energy(const double* u) const;              ///< [J]
   double dissipated() const { return dissipated_; }  ///< [J]
 
  private:
@@ -83,13 +84,13 @@ class Journal {
 
 /// Sprung mass M_c on the primary suspension; moves vertically and is carried along.
 struct SprungMass {
-  double mass = 0;       ///< M_c [kg]
-  double stiffness = 0;  ///< K [N/m]
-  double damping = 0;    ///< C [N s/m]
+  double mass = 0;                ///< M_c [kg]
+  double stiffness = 0;           ///< K [N/m]
+  double damping = 0;             ///< C [N s/m]
   double free_length_height = 0;  ///< height of M_c above the journal at which the spring is free [m]
-  double height = 0;     ///< z of M_c [m]
-  double speed = 0;      ///< vertical, at the half step [m/s]
-  double dissipated = 0; ///< in the damper [J]
+  double height = 0;              ///< z of M_c [m]
+  double speed = 0;               ///< vertical, at the half step [m/s]
+  double dissipated = 0;          ///< in the damper [J]
 
   /// Upward force on M_c from the suspension [N].
   double force(double journal_height, double journal_speed) const {
@@ -101,14 +102,16 @@ struct SprungMass {
   }
 };
 
-/// Torque on the nodes of a section line of a revolved block, as tangential forces proportional to mass and radius.
+/// Torque on the nodes of a section line of a revolved block, as tangential forces proportional to mass and
+/// radius.
 class AxleTorque {
  public:
   AxleTorque() = default;
   AxleTorque(const SweptBlock& block, const std::vector<int>& path, const double* mass);
 
-  /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns their power per torque [rad/s]: the
-  /// mean spin of the loaded nodes in space. The radial growth of a spinning body lengthens their levers.
+  /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns their power per torque
+  /// [rad/s]: the mean spin of the loaded nodes in space. The radial growth of a spinning body lengthens
+  /// their levers.
   double apply(double torque, const double* u, const double* w, const BodyFrame& frame, double* force) const;
   bool empty() const { return nodes_.empty(); }
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }

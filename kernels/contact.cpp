@@ -24,8 +24,12 @@ void subtract(double* field, std::int64_t slot, const Vec3& value) {
 }
 
 /// Local (t, y, r) components at the space angle with this cosine and sine.
-Vec3 localise(double c, double s, const Vec3& v) { return {-c * v.x + s * v.z, v.y, -s * v.x - c * v.z}; }
-Vec3 globalise(double c, double s, const Vec3& v) { return {-c * v.x - s * v.z, v.y, s * v.x - c * v.z}; }
+Vec3 localise(double c, double s, const Vec3& v) {
+  return {-c * v.x + s * v.z, v.y, -s * v.x - c * v.z};
+}
+Vec3 globalise(double c, double s, const Vec3& v) {
+  return {-c * v.x - s * v.z, v.y, s * v.x - c * v.z};
+}
 
 /// Points and weights of Gauss on [0, 1].
 std::vector<std::array<double, 2>> gauss(int points) {
@@ -48,12 +52,15 @@ std::vector<std::array<double, 2>> gauss(int points) {
       return {{0.5 - b, wb}, {0.5 - a, wa}, {0.5 + a, wa}, {0.5 + b, wb}};
     }
     default:
-      throw InputError(fmt::format("contact.points = {}: 1 to 4 integration points per direction are available", points));
+      throw InputError(
+          fmt::format("contact.points = {}: 1 to 4 integration points per direction are available", points));
   }
 }
 
 /// Half length of the search window: where a circle of the wheel's radius lies `gap` above its lowest point.
-double reach(double radius, double gap) { return std::sqrt(2 * radius * gap); }
+double reach(double radius, double gap) {
+  return std::sqrt(2 * radius * gap);
+}
 
 }  // namespace
 
@@ -93,7 +100,8 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       first_edge_ = std::min(first_edge_, edge);
       last_edge_ = edge + 1;
     }
-  if (first_edge_ >= last_edge_) throw InputError("contact: the wheel's profile does not lie over the rail's");
+  if (first_edge_ >= last_edge_)
+    throw InputError("contact: the wheel's profile does not lie over the rail's");
 
   history_.resize(static_cast<std::size_t>(history_index(rail_->station_count(), 0, 0)));
   wake_time_.assign(static_cast<std::size_t>(rail_->station_count() * rail_profile_.edges()),
@@ -112,9 +120,10 @@ void Contact::update_window(double wheel_x) {
   const auto low = rail_stations_.find(wheel_x - half);
   const auto high = rail_stations_.find(wheel_x + half);
   if (low.station < 0 || high.station < 0)
-    throw NumericalError(fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
-                                     "m); shorten motion.duration or lengthen rail.length",
-                                     wheel_x, rail_->stations.front(), rail_->stations.back()));
+    throw NumericalError(
+        fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
+                    "m); shorten motion.duration or lengthen rail.length",
+                    wheel_x, rail_->stations.front(), rail_->stations.back()));
   window_first_ = low.station;
   window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
 }
@@ -129,18 +138,21 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   const LineCell rail_cell = rail_stations_.cell(where.station);
   const LineWeights rail_along = line_weights(rail_cell, along, options_.surface);
   const LineWeights rail_across = line_weights(rail_profile_.cell(where.edge), across, options_.surface);
-  Vec3 x{rail_->stations[static_cast<std::size_t>(where.station)] + along * rail_cell.length, profile.p, profile.q};
+  Vec3 x{rail_->stations[static_cast<std::size_t>(where.station)] + along * rail_cell.length, profile.p,
+         profile.q};
   x.z -= corrugation_.depth(x.x, x.y);
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const std::size_t k = 4 * i + j;
-      point.rail_slot[k] = rail_->base + rail_->slot(rail_profile_.node(rail_across.ordinal[j]), rail_along.ordinal[i]);
+      point.rail_slot[k] =
+          rail_->base + rail_->slot(rail_profile_.node(rail_across.ordinal[j]), rail_along.ordinal[i]);
       point.rail_weight[k] = rail_along.value[i] * rail_across.value[j];
       x += point.rail_weight[k] * read(u, point.rail_slot[k]);
     }
   point.position = x;
   point.face = {where.station, where.edge};
-  point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across), along * across};
+  point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across),
+                       along * across};
   point.area = weight * rail_cell.length * std::hypot(profile.dp, profile.dq);
 
   // The wheel point whose deformed position is closest.
@@ -157,7 +169,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     const LineCell line = wheel_stations_.cell(cell.station);
     const LineWeights around = line_weights(line, cell.distance / cell.pitch, options_.surface);
     const LineWeights over = line_weights(wheel_profile_.cell(edge), eta, options_.surface);
-    const std::array<double, 4> turned = {cell.distance + line.length_before, cell.distance, cell.distance - cell.pitch,
+    const std::array<double, 4> turned = {cell.distance + line.length_before, cell.distance,
+                                          cell.distance - cell.pitch,
                                           cell.distance - cell.pitch - line.length_after};
     const auto p = wheel_profile_.evaluate(edge, eta, options_.surface);
     Vec3 surface = exact ? Vec3{0, p.p, p.q} : Vec3{};
@@ -173,7 +186,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
         point.wheel_weight[k] = around.value[i] * over.value[j];
         Vec3 nodal = read(u, point.wheel_slot[k]);
         if (!exact)
-          nodal += {0, wheel_->section.p[static_cast<std::size_t>(node)], wheel_->section.q[static_cast<std::size_t>(node)]};
+          nodal += {0, wheel_->section.p[static_cast<std::size_t>(node)],
+                    wheel_->section.q[static_cast<std::size_t>(node)]};
         value += over.value[j] * nodal;
         slope += over.slope[j] * nodal;
       }
@@ -192,7 +206,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     gap = dot(e, normal) / size;
     point.normal = cylindrical_to_cartesian(phi, (1 / size) * normal);
     if (std::abs(e.x) < 1e-9 && std::abs(shift) < 1e-7) break;
-    if (gap > 0.5 * options_.reach_gap || iteration == kMaxIterations) break;  // far away: no need for more digits
+    if (gap > 0.5 * options_.reach_gap || iteration == kMaxIterations)
+      break;  // far away: no need for more digits
     phi += e.x / p.q;
     eta += shift;
     if (eta < 0 || eta > 1) {
@@ -214,15 +229,16 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
 
 Vec3 Contact::rail_velocity(const ContactState& state, const ContactPoint& point) const {
   Vec3 v;
-  for (std::size_t k = 0; k < kSupport; ++k) v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
+  for (std::size_t k = 0; k < kSupport; ++k)
+    v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
   return v;
 }
 
 Vec3 Contact::wheel_velocity(const ContactState& state, const ContactPoint& point) const {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
-    v += point.wheel_weight[k] *
-         globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4], read(state.velocity, point.wheel_slot[k]));
+    v += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
+                                           read(state.velocity, point.wheel_slot[k]));
   const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
   return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
 }
@@ -315,8 +331,9 @@ void Contact::collect() {
       const double shear2 = point.shear.along * point.shear.along + point.shear.across * point.shear.across;
       totals_.max_shear = std::max(totals_.max_shear, std::sqrt(shear2));
       totals_.max_penetration = std::max(totals_.max_penetration, -point.gap);
-      totals_.penalty_energy += 0.5 * point.area *
-                                (options_.penalty * point.gap * point.gap + shear2 / friction_.tangential_penalty);
+      totals_.penalty_energy +=
+          0.5 * point.area *
+          (options_.penalty * point.gap * point.gap + shear2 / friction_.tangential_penalty);
     }
   }
   double load = 0;
@@ -376,12 +393,14 @@ std::vector<Spring> Contact::springs() const {
   return springs;
 }
 
-std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& block, const SurfaceProfile& profile,
-                                                          int first, int last) const {
+std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& block,
+                                                          const SurfaceProfile& profile, int first,
+                                                          int last) const {
   std::map<std::int64_t, double> stiffness;
   const int cells = block.closed ? block.station_count() : block.station_count() - 1;
   for (int station = 0; station < cells; ++station) {
-    const Tile& tile = block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(station)])];
+    const Tile& tile =
+        block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(station)])];
     const double pitch = block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
     const int next = station + 1 < block.station_count() ? station + 1 : 0;
     for (int edge = first; edge < last; ++edge) {
@@ -389,7 +408,8 @@ std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& bloc
       const double length = block.sweep == Sweep::revolved ? pitch * middle.q : pitch;
       const double share = 0.25 * options_.penalty * length * std::hypot(middle.dp, middle.dq);
       for (const int at : {station, next})
-        for (int end = 0; end < 2; ++end) stiffness[block.base + block.slot(profile.node(edge + end), at)] += share;
+        for (int end = 0; end < 2; ++end)
+          stiffness[block.base + block.slot(profile.node(edge + end), at)] += share;
     }
   }
   return stiffness;
@@ -412,7 +432,8 @@ void Contact::add_grounded_stiffness(const double* mass, double* stiffness) cons
 }
 
 std::int64_t Contact::bytes() const {
-  return static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) + wake_time_.size() * sizeof(wake_time_[0]));
+  return static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) +
+                                   wake_time_.size() * sizeof(wake_time_[0]));
 }
 
 std::array<double, 2> Contact::max_nodal_tractions() const {
@@ -429,7 +450,8 @@ std::array<double, 2> Contact::max_nodal_tractions() const {
       const double length = rail_->stations[static_cast<std::size_t>(station) + 1] -
                             rail_->stations[static_cast<std::size_t>(station)];
       const double share = 0.25 * length * std::hypot(middle.dp, middle.dq);
-      for (int corner = 0; corner < 4; ++corner) area[index(station + corner / 2, edge + corner % 2)] += share;
+      for (int corner = 0; corner < 4; ++corner)
+        area[index(station + corner / 2, edge + corner % 2)] += share;
     }
   for (const ContactPoint& point : points_)
     for (int corner = 0; corner < 4; ++corner)

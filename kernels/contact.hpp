@@ -23,12 +23,12 @@ struct ContactOptions {
   int rail_block = -1;
   int wheel_block = -1;
   SurfaceKind surface = SurfaceKind::exact;
-  int points = 2;             ///< integration points per face and direction
-  double penalty = 0;         ///< normal penalty stiffness per area [Pa/m]
-  double damping = 0;         ///< normal damping per area [Pa s/m]
-  double friction = 0;        ///< coefficient of friction f [-]
-  double wheel_radius = 0;    ///< of the nominal rolling circle [m]
-  double reach_gap = 4e-4;    ///< gap of the undeformed surfaces up to which points are searched [m]
+  int points = 2;           ///< integration points per face and direction
+  double penalty = 0;       ///< normal penalty stiffness per area [Pa/m]
+  double damping = 0;       ///< normal damping per area [Pa s/m]
+  double friction = 0;      ///< coefficient of friction f [-]
+  double wheel_radius = 0;  ///< of the nominal rolling circle [m]
+  double reach_gap = 4e-4;  ///< gap of the undeformed surfaces up to which points are searched [m]
 };
 
 /// Nodes that carry a point of a surface: 4 stations x 4 nodes across.
@@ -41,16 +41,16 @@ struct ContactPoint {
   std::array<double, kSupport> rail_weight;
   std::array<double, kSupport> wheel_weight;
   std::array<double, 4> wheel_cosine, wheel_sine;  ///< of the space angle of the four wheel stations
-  std::array<double, 4> face_weight;               ///< bilinear, of the rail face's corners (for nodal averages)
-  std::array<int, 2> face;                         ///< rail station and surface edge
-  Vec3 normal;         ///< out of the wheel, into the rail; Cartesian
-  Vec3 along, across;  ///< tangents: along the rolling direction; across, to the field side
-  Vec3 position;       ///< on the rail surface [m]
-  double area;         ///< that the point stands for [m2]
-  double gap;          ///< < 0: penetration [m]
-  double pressure;     ///< [Pa]
-  Traction shear;      ///< on the rail [Pa]
-  Traction slip_speed; ///< of the wheel against the rail [m/s]
+  std::array<double, 4> face_weight;  ///< bilinear, of the rail face's corners (for nodal averages)
+  std::array<int, 2> face;            ///< rail station and surface edge
+  Vec3 normal;                        ///< out of the wheel, into the rail; Cartesian
+  Vec3 along, across;                 ///< tangents: along the rolling direction; across, to the field side
+  Vec3 position;                      ///< on the rail surface [m]
+  double area;                        ///< that the point stands for [m2]
+  double gap;                         ///< < 0: penetration [m]
+  double pressure;                    ///< [Pa]
+  Traction shear;                     ///< on the rail [Pa]
+  Traction slip_speed;                ///< of the wheel against the rail [m/s]
   bool slips;
 };
 
@@ -84,7 +84,8 @@ class Contact {
   /// One step of length dt [s] that ends at `time` [s]: search, gap, penalty, friction, frictional work.
   void advance(const ContactState& state, double time, double dt);
 
-  /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last [m/s].
+  /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last
+  /// [m/s].
   Vec3 mean_slip_velocity(const ContactState& state) const;
 
   /// Subtracts the contact forces from `force` (internal minus external).
@@ -96,9 +97,9 @@ class Contact {
   /// Height of the wheel's axis at which its undeformed surface touches the smooth rail [m].
   double touching_height() const { return touching_height_; }
 
-  /// Springs to ground that bound the effect of the penalty at every surface node that contact can reach, whatever
-  /// node it meets: k (1 + m / m_other) per area, with the lightest surface of the other body [N/m]. Both fields are
-  /// scalar node fields; `mass` is lumped.
+  /// Springs to ground that bound the effect of the penalty at every surface node that contact can reach,
+  /// whatever node it meets: k (1 + m / m_other) per area, with the lightest surface of the other body [N/m].
+  /// Both fields are scalar node fields; `mass` is lumped.
   void add_grounded_stiffness(const double* mass, double* stiffness) const;
 
   const std::vector<ContactPoint>& points() const { return points_; }
@@ -123,15 +124,16 @@ class Contact {
     int point;
   };
   /// Penalty times the area that each reachable surface node stands for [N/m].
-  std::map<std::int64_t, double> surface_stiffness(const SweptBlock& block, const SurfaceProfile& profile, int first,
-                                                   int last) const;
+  std::map<std::int64_t, double> surface_stiffness(const SweptBlock& block, const SurfaceProfile& profile,
+                                                   int first, int last) const;
   void update_window(double wheel_x);
   void visit_column(const ContactState& state, int station, double time, double dt);
   void collect();
   double probe(const ContactState& state, const Candidate& where, ContactPoint& point) const;
   Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) const;
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
-  void load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point, double* work) const;
+  void load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point,
+                  double* work) const;
   std::int64_t history_index(int station, int edge, int point) const {
     return (static_cast<std::int64_t>(station) * rail_profile_.edges() + edge) * points_per_face_ + point;
   }
@@ -148,12 +150,12 @@ class Contact {
   CoulombFriction friction_;
   int points_per_face_;
   std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
-  int first_edge_ = 0, last_edge_ = 0;             ///< edges that the wheel's profile can reach, [first, last)
+  int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
 
-  std::vector<Traction> history_;   ///< by integration point of the whole rail [Pa]
-  std::vector<double> wake_time_;   ///< by face: contact cannot start before [s]
+  std::vector<Traction> history_;  ///< by integration point of the whole rail [Pa]
+  std::vector<double> wake_time_;  ///< by face: contact cannot start before [s]
   double touching_height_ = 0;
-  double closing_speed_ = 0;        ///< bound used for wake_time_ [m/s]
+  double closing_speed_ = 0;  ///< bound used for wake_time_ [m/s]
   int window_first_ = 0, window_last_ = 0;
 
   struct Column {

@@ -21,7 +21,8 @@ LineWeights line_weights(const LineCell& cell, double t, SurfaceKind kind) {
   std::array<double, 4> start = {0, -1, 1, 0};
   std::array<double, 4> end = {0, -1, 1, 0};
   if (cell.length_before > 0) {
-    const double a = h / cell.length_before;  // parabola: the slopes of both cells, weighted by the other's length
+    const double a =
+        h / cell.length_before;  // parabola: the slopes of both cells, weighted by the other's length
     start = {-a * a / (1 + a), (a * a - 1) / (1 + a), 1 / (1 + a), 0};
   }
   if (cell.length_after > 0) {
@@ -56,9 +57,10 @@ SurfaceProfile::SurfaceProfile(const Section& section) {
     }
     const double width = edge.p[1] - edge.p[0];
     if (!(width > 0))
-      throw InputError(fmt::format("running surface: edge {} does not advance across the profile (from {:.6f} to "
-                                   "{:.6f} m); leave out vertical parts",
-                                   edges_.size(), edge.p[0], edge.p[1]));
+      throw InputError(
+          fmt::format("running surface: edge {} does not advance across the profile (from {:.6f} to "
+                      "{:.6f} m); leave out vertical parts",
+                      edges_.size(), edge.p[0], edge.p[1]));
     shortest = std::min(shortest, width);
     edges_.push_back(edge);
   }
@@ -74,8 +76,10 @@ SurfaceProfile::SurfaceProfile(const Section& section) {
 }
 
 LineCell SurfaceProfile::cell(int edge) const {
-  const auto length = [&](int e) { return e >= 0 && e < edges() ? edges_[static_cast<std::size_t>(e)].chord : 0.0; };
-  return {std::max(edge - 1, 0), edge,           edge + 1,        std::min(edge + 2, edges()),
+  const auto length = [&](int e) {
+    return e >= 0 && e < edges() ? edges_[static_cast<std::size_t>(e)].chord : 0.0;
+  };
+  return {std::max(edge - 1, 0), edge,         edge + 1,        std::min(edge + 2, edges()),
           length(edge - 1),      length(edge), length(edge + 1)};
 }
 
@@ -87,7 +91,8 @@ SurfaceProfile::Point SurfaceProfile::evaluate(int edge, double eta, SurfaceKind
     return {e.p[0] + eta * dp, e.q[0] + eta * dq, dp, dq};
   }
   const double r = 1 - eta;
-  const std::array<double, 4> h = {r * r * (1 + 2 * eta), eta * r * r, eta * eta * (1 + 2 * r), -eta * eta * r};
+  const std::array<double, 4> h = {r * r * (1 + 2 * eta), eta * r * r, eta * eta * (1 + 2 * r),
+                                   -eta * eta * r};
   const std::array<double, 4> d = {-6 * eta * r, r * (1 - 3 * eta), 6 * eta * r, eta * (3 * eta - 2)};
   return {h[0] * e.p[0] + h[1] * e.tp[0] + h[2] * e.p[1] + h[3] * e.tp[1],
           h[0] * e.q[0] + h[1] * e.tq[0] + h[2] * e.q[1] + h[3] * e.tq[1],
@@ -134,8 +139,10 @@ StationFinder::Cell StationFinder::find(double coordinate) const {
   int station = bucket_[static_cast<std::size_t>(std::min(static_cast<int>(at / width_), last))];
   const int count = block_->station_count();
   const int cells = block_->closed ? count : count - 1;
-  while (station + 1 < cells && block_->stations[static_cast<std::size_t>(station + 1)] - first_ <= at) ++station;
-  const Tile& tile = block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(station)])];
+  while (station + 1 < cells && block_->stations[static_cast<std::size_t>(station + 1)] - first_ <= at)
+    ++station;
+  const Tile& tile =
+      block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(station)])];
   const double pitch = block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
   return {station, station + 1 < count ? station + 1 : 0, pitch,
           at - (block_->stations[static_cast<std::size_t>(station)] - first_)};
@@ -148,10 +155,16 @@ LineCell StationFinder::cell(int station) const {
   const int before = station > 0 ? station - 1 : (closed ? count - 1 : 0);
   const int after = second + 1 < count ? second + 1 : (closed ? 0 : second);
   const auto pitch = [&](int s) {
-    const Tile& tile = block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(s)])];
+    const Tile& tile =
+        block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(s)])];
     return block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
   };
-  return {before, station, second, after, before == station ? 0 : pitch(before), pitch(station),
+  return {before,
+          station,
+          second,
+          after,
+          before == station ? 0 : pitch(before),
+          pitch(station),
           after == second ? 0 : pitch(second)};
 }
 

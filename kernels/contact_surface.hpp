@@ -10,12 +10,12 @@
 
 namespace tread {
 
-/// "exact": cubic Hermite profile curves, true circles and the corrugation's formula carry the geometry, cubics through
-/// the nodal values the displacement. "facets": the nodes' bilinear faces carry both.
+/// "exact": cubic Hermite profile curves, true circles and the corrugation's formula carry the geometry,
+/// cubics through the nodal values the displacement. "facets": the nodes' bilinear faces carry both.
 enum class SurfaceKind { exact, facets };
 
-/// Interpolation in one cell of a line of nodes: weights of the four nodes about it (ordinals along the line; those
-/// without weight repeat a neighbour).
+/// Interpolation in one cell of a line of nodes: weights of the four nodes about it (ordinals along the line;
+/// those without weight repeat a neighbour).
 struct LineWeights {
   std::array<int, 4> ordinal;
   std::array<double, 4> value;
@@ -28,8 +28,8 @@ struct LineCell {
   double length_before, length, length_after;
 };
 
-/// exact: the C1 cubic whose slopes at nodes are those of the parabola through three nodes: reproduces quadratics, so a
-/// flattened circle stays flat between nodes. facets: linear.
+/// exact: the C1 cubic whose slopes at nodes are those of the parabola through three nodes: reproduces
+/// quadratics, so a flattened circle stays flat between nodes. facets: linear.
 LineWeights line_weights(const LineCell& cell, double fraction, SurfaceKind kind);
 
 /// Section curve of a running surface.
@@ -56,7 +56,9 @@ class SurfaceProfile {
   int edge_at(double p) const;
   double first_p() const { return edges_.front().p[0]; }
   double last_p() const { return edges_.back().p[1]; }
-  double edge_p(int edge, int end) const { return edges_[static_cast<std::size_t>(edge)].p[static_cast<std::size_t>(end)]; }
+  double edge_p(int edge, int end) const {
+    return edges_[static_cast<std::size_t>(edge)].p[static_cast<std::size_t>(end)];
+  }
 
  private:
   struct Edge {

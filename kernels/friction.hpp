@@ -22,10 +22,11 @@ struct CoulombFriction {
     double dissipation;  ///< the part of it that is not stored in the elastic stick [J/m2]
   };
 
-  /// One step: `slip` is the movement of the wheel surface relative to the rail in this step [m], `pressure` the
-  /// contact pressure at its end [Pa]; zero pressure releases the traction.
+  /// One step: `slip` is the movement of the wheel surface relative to the rail in this step [m], `pressure`
+  /// the contact pressure at its end [Pa]; zero pressure releases the traction.
   Result advance(const Traction& before, const Traction& slip, double pressure) const {
-    Traction after{before.along + tangential_penalty * slip.along, before.across + tangential_penalty * slip.across};
+    Traction after{before.along + tangential_penalty * slip.along,
+                   before.across + tangential_penalty * slip.across};
     const double limit = friction_coefficient * pressure;
     const double size = std::sqrt(after.along * after.along + after.across * after.across);
     const bool slips = size > limit;
@@ -34,10 +35,11 @@ struct CoulombFriction {
       after.along *= scale;
       after.across *= scale;
     }
-    const double work = 0.5 * ((before.along + after.along) * slip.along + (before.across + after.across) * slip.across);
+    const double work =
+        0.5 * ((before.along + after.along) * slip.along + (before.across + after.across) * slip.across);
     const double stored = 0.5 *
-                          (after.along * after.along + after.across * after.across - before.along * before.along -
-                           before.across * before.across) /
+                          (after.along * after.along + after.across * after.across -
+                           before.along * before.along - before.across * before.across) /
                           tangential_penalty;
     return {after, slips, work, work - stored};
   }

@@ -7,7 +7,8 @@
 
 namespace tread {
 
-HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double>& inverse_mass, int max_iterations) {
+HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double>& inverse_mass,
+                                   int max_iterations) {
   const auto n = static_cast<std::int64_t>(inverse_mass.size());
   AlignedVector<double> root(inverse_mass.size());
   AlignedVector<double> q(inverse_mass.size(), 0.0);
@@ -32,7 +33,8 @@ HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double
   double beta = 0;
   for (int k = 0; k < max_iterations; ++k) {
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) x[i] = root[i] * q[i];
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        x[i] = root[i] * q[i];
     });
     a(x.data(), y.data());
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {

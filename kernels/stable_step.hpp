@@ -7,13 +7,13 @@
 namespace tread {
 
 struct HighestFrequency {
-  double omega = 0;       ///< bound from above on the largest eigenfrequency [rad/s]
-  double residual = 0;    ///< of its square, relative [-]
+  double omega = 0;     ///< bound from above on the largest eigenfrequency [rad/s]
+  double residual = 0;  ///< of its square, relative [-]
   int iterations = 0;
 };
 
-/// Lanczos on M^-1/2 A M^-1/2; the Ritz value bounds the largest eigenvalue from below, its residual norm is added.
-/// `inverse_mass`: 3 * mesh.slots values, zero outside the free unknowns [1/kg].
+/// Lanczos on M^-1/2 A M^-1/2; the Ritz value bounds the largest eigenvalue from below, its residual norm is
+/// added. `inverse_mass`: 3 * mesh.slots values, zero outside the free unknowns [1/kg].
 HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double>& inverse_mass,
                                    int max_iterations = 200);
 

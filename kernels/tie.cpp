@@ -42,18 +42,20 @@ std::vector<SectionPoint> locate_in_section(const SweptBlock& fine, const std::v
       const double dp = coarse.section.p[b] - coarse.section.p[a];
       const double dq = coarse.section.q[b] - coarse.section.q[a];
       const double length2 = dp * dp + dq * dq;
-      const double fraction = std::clamp(
-          ((p - coarse.section.p[a]) * dp + (q - coarse.section.q[a]) * dq) / length2, 0.0, 1.0);
-      const double off = std::hypot(coarse.section.p[a] + fraction * dp - p, coarse.section.q[a] + fraction * dq - q);
+      const double fraction =
+          std::clamp(((p - coarse.section.p[a]) * dp + (q - coarse.section.q[a]) * dq) / length2, 0.0, 1.0);
+      const double off =
+          std::hypot(coarse.section.p[a] + fraction * dp - p, coarse.section.q[a] + fraction * dq - q);
       if (off < distance) {
         distance = off;
         best = {{coarse_path[i], coarse_path[i + 1]}, fraction};
       }
     }
     if (distance > 1e-9)
-      throw InputError(fmt::format("tie of '{}' to '{}': section node {} at ({:.6f}, {:.6f}) m lies {:.3e} m off the "
-                                   "coarse line; make both lines coincide",
-                                   fine.name, coarse.name, node, p, q, distance));
+      throw InputError(
+          fmt::format("tie of '{}' to '{}': section node {} at ({:.6f}, {:.6f}) m lies {:.3e} m off the "
+                      "coarse line; make both lines coincide",
+                      fine.name, coarse.name, node, p, q, distance));
     if (best.fraction < 1e-9) best.fraction = 0;
     if (best.fraction > 1 - 1e-9) best.fraction = 1;
     points.push_back(best);
@@ -78,8 +80,8 @@ StationPoint locate_along(const SweptBlock& fine, int station, const SweptBlock&
   const int count = coarse.station_count();
   if (!coarse.closed && j == count - 1 && at < coarse.stations.back() + tolerance) j = count - 2;
   if (j < 0 || (!coarse.closed && j >= count - 1))
-    throw InputError(fmt::format("tie of '{}' to '{}': station {} at {:.6f} lies beyond the coarse block", fine.name,
-                                 coarse.name, station, at));
+    throw InputError(fmt::format("tie of '{}' to '{}': station {} at {:.6f} lies beyond the coarse block",
+                                 fine.name, coarse.name, station, at));
   const int next = j + 1 < count ? j + 1 : 0;
   const double span = next > 0 ? coarse.stations[static_cast<std::size_t>(next)] : first + turn;
   const double here = coarse.stations[static_cast<std::size_t>(j)];
@@ -105,7 +107,8 @@ void for_each_secondary(const Mesh& mesh, const TieSpec& spec, Visit visit) {
   for (int station = 0; station < fine.station_count(); ++station) {
     const StationPoint along = locate_along(fine, station, coarse);
     for (std::size_t i = 0; i < fine_path.size(); ++i)
-      visit(fine_path[i], station, FacePoint{across[i].node, along.station, across[i].fraction, along.fraction});
+      visit(fine_path[i], station,
+            FacePoint{across[i].node, along.station, across[i].fraction, along.fraction});
   }
 }
 
@@ -124,7 +127,8 @@ void place_on_chords(Mesh& mesh, const TieSpec& spec) {
   for_each_secondary(mesh, spec, [&](int node, int station, const FacePoint& face) {
     Vec3 target;
     for (int corner = 0; corner < 4; ++corner)
-      target += face_weight(face, corner) * position(coarse, face.section_node[static_cast<std::size_t>(corner % 2)],
+      target += face_weight(face, corner) * position(coarse,
+                                                     face.section_node[static_cast<std::size_t>(corner % 2)],
                                                      face.station[static_cast<std::size_t>(corner / 2)]);
     const Vec3 shift = to_local(fine, station, 0, target - position(fine, node, station));
     if (norm(shift) > 1e-12) fine.node_shift[fine.slot(node, station)] += shift;
@@ -146,7 +150,8 @@ Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
                                 : fine.stations[static_cast<std::size_t>(station)] -
                                       coarse.stations[static_cast<std::size_t>(primary_station)];
         const std::int64_t primary =
-            coarse.base + coarse.slot(face.section_node[static_cast<std::size_t>(corner % 2)], primary_station);
+            coarse.base +
+            coarse.slot(face.section_node[static_cast<std::size_t>(corner % 2)], primary_station);
         const double weight = face_weight(face, corner);
         links[static_cast<std::size_t>(corner)] = {primary, weight, std::cos(turn), std::sin(turn)};
         if (weight > 0) by_primary[primary].push_back({slot, weight, std::cos(turn), std::sin(turn)});
@@ -178,9 +183,9 @@ std::vector<TiedSlot> Ties::tied_slots() const {
 }
 
 std::int64_t Ties::bytes() const {
-  return static_cast<std::int64_t>((secondary_.size() + primary_.size() + first_secondary_.size()) * sizeof(std::int64_t) +
-                                   primaries_of_.size() * sizeof(primaries_of_[0]) +
-                                   secondaries_of_.size() * sizeof(secondaries_of_[0]));
+  return static_cast<std::int64_t>(
+      (secondary_.size() + primary_.size() + first_secondary_.size()) * sizeof(std::int64_t) +
+      primaries_of_.size() * sizeof(primaries_of_[0]) + secondaries_of_.size() * sizeof(secondaries_of_[0]));
 }
 
 void Ties::follow(double* field) const {

@@ -1,6 +1,6 @@
 #pragma once
-// Tied surfaces between blocks of different pitch: the fine side's nodes lie on the chords of the coarse side and
-// follow its faces by Cartesian bilinear interpolation; their forces and masses go to the primary nodes.
+// Tied surfaces between blocks of different pitch: the fine side's nodes lie on the chords of the coarse side
+// and follow its faces by Cartesian bilinear interpolation; their forces and masses go to the primary nodes.
 // [theory.md, Ties]
 
 #include <array>
@@ -21,8 +21,9 @@ struct TieSpec {
   std::string primary_path;    ///< nodes ordered by increasing p
 };
 
-/// Moves the secondary nodes onto the chords of the primary faces (node_shift). Call before coefficients are made.
-/// Throws InputError where a secondary node lies off the primary line in the section or has no primary station.
+/// Moves the secondary nodes onto the chords of the primary faces (node_shift). Call before coefficients are
+/// made. Throws InputError where a secondary node lies off the primary line in the section or has no primary
+/// station.
 void place_on_chords(Mesh& mesh, const TieSpec& spec);
 
 class Ties {

@@ -57,7 +57,8 @@ void update_spinning_block(const SweptBlock& block, const UpdateFields& fields, 
           const double moves = inverse[l] > 0 ? 1.0 : 0.0;
           const int y = kLanes + l;
           const int r = 2 * kLanes + l;
-          const double a_t = moves * (weight_t[static_cast<std::size_t>(l)] + spin2 * u[l]) - inverse[l] * f[l];
+          const double a_t =
+              moves * (weight_t[static_cast<std::size_t>(l)] + spin2 * u[l]) - inverse[l] * f[l];
           const double a_r =
               moves * (weight_r[static_cast<std::size_t>(l)] + spin2 * (radius + u[r])) - inverse[l] * f[r];
           const double w_t = w[l] + half * a_t;

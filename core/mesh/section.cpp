@@ -49,7 +49,8 @@ void validate(const Section& section, const std::string& name) {
     std::sort(key.begin(), key.end());
     if (!seen.insert(key).second) report(fmt::format("quad {} repeats an earlier one", quad));
     if (quad_quality(section, quad) <= 1e-3)
-      report(fmt::format("quad {} is inverted, flat or not convex (area {:.3e} m2)", quad, quad_area(section, quad)));
+      report(fmt::format("quad {} is inverted, flat or not convex (area {:.3e} m2)", quad,
+                         quad_area(section, quad)));
   }
   for (std::size_t node = 0; node < used.size(); ++node)
     if (!used[node]) report(fmt::format("node {} belongs to no quad", node));

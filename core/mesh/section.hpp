@@ -11,18 +11,18 @@ namespace tread {
 /// One edge of a running surface: two section nodes and the exact profile's unit tangents at both ends.
 /// Between the ends the exact profile is the cubic Hermite curve through them. [theory.md, Surfaces]
 struct SurfaceEdge {
-  int quad = -1;                             ///< quad that owns the edge
-  std::array<int, 2> node = {-1, -1};        ///< section nodes, in the direction of increasing p
+  int quad = -1;                                      ///< quad that owns the edge
+  std::array<int, 2> node = {-1, -1};                 ///< section nodes, in the direction of increasing p
   std::array<std::array<double, 2>, 2> tangent = {};  ///< unit tangents (dp, dq) at node[0] and node[1]
 };
 
 /// A conforming mesh of convex quads in the plane (p, q). Extruded blocks: p = y, q = z. Revolved blocks:
 /// p = y along the axis, q = r the distance from the axis. Quads run counter-clockwise in (p, q).
 struct Section {
-  std::vector<double> p;                   ///< first coordinate of the nodes [m]
-  std::vector<double> q;                   ///< second coordinate of the nodes [m]
-  std::vector<std::array<int, 4>> quads;   ///< nodes of each quad, counter-clockwise
-  std::vector<int> quad_material;          ///< material of each quad: an index into the block's materials
+  std::vector<double> p;                  ///< first coordinate of the nodes [m]
+  std::vector<double> q;                  ///< second coordinate of the nodes [m]
+  std::vector<std::array<int, 4>> quads;  ///< nodes of each quad, counter-clockwise
+  std::vector<int> quad_material;         ///< material of each quad: an index into the block's materials
 
   /// Running surface, ordered by increasing p; the outward normal (-dq, dp) points out of the body. Empty
   /// where the section has none.
@@ -41,7 +41,8 @@ double quad_area(const Section& section, int quad);
 /// for a quad that is not convex. [-]
 double quad_quality(const Section& section, int quad);
 
-/// Throws InputError that lists the quads which are inverted, flat or repeated and the nodes that no quad uses.
+/// Throws InputError that lists the quads which are inverted, flat or repeated and the nodes that no quad
+/// uses.
 void validate(const Section& section, const std::string& name);
 
 }  // namespace tread

@@ -51,8 +51,7 @@ SweptBlock make_swept_block(std::string name, Sweep sweep, Section section, std:
     const int pitch_class = class_index(block.classes, segment);
     for (int done = 0; done < segment.elements; done += kLanes) {
       const int count = std::min(kLanes, segment.elements - done);
-      block.tiles.push_back(
-          {station, count, count, pitch_class, static_cast<int>(block.tiles.size()) + 1});
+      block.tiles.push_back({station, count, count, pitch_class, static_cast<int>(block.tiles.size()) + 1});
       for (int i = 0; i < count; ++i) block.stations.push_back(at + (done + i) * segment.pitch);
       station += count;
     }

@@ -3,7 +3,8 @@
 //
 // Local basis of a node, components 0, 1, 2 of every vector field:
 //   extruded: (x, y, z), the same for all nodes;
-//   revolved: (t, y, r) at the node's own angle phi about the y axis. phi = 0 points down (-z), phi grows with
+//   revolved: (t, y, r) at the node's own angle phi about the y axis. phi = 0 points down (-z), phi grows
+//   with
 //             positive rotation about +y: r = (-sin phi, 0, -cos phi), t = (-cos phi, 0, sin phi), t x y = r.
 // Element coordinates (xi, eta, zeta): xi along the sweep, (eta, zeta) in the quad.
 
@@ -64,9 +65,7 @@ struct SweptBlock {
   /// touch a shifted node carry coefficients of their own.
   std::map<std::int64_t, Vec3> node_shift;
 
-  std::int64_t slots() const {
-    return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes;
-  }
+  std::int64_t slots() const { return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes; }
   std::int64_t nodes() const { return static_cast<std::int64_t>(stations.size()) * section.nodes(); }
   std::int64_t elements() const;
   int station_count() const { return static_cast<int>(stations.size()); }
@@ -96,8 +95,8 @@ SweptBlock make_swept_block(std::string name, Sweep sweep, Section section, std:
 /// axis, at frame angle 0.
 Vec3 position(const SweptBlock& block, int section_node, int station);
 
-/// Rotates a vector from the node's local basis to Cartesian axes, at frame angle `angle` [rad] (revolved; the
-/// identity for extruded blocks).
+/// Rotates a vector from the node's local basis to Cartesian axes, at frame angle `angle` [rad] (revolved;
+/// the identity for extruded blocks).
 Vec3 to_cartesian(const SweptBlock& block, int station, double angle, const Vec3& local);
 Vec3 to_local(const SweptBlock& block, int station, double angle, const Vec3& cartesian);
 
@@ -110,8 +109,8 @@ struct Mesh {
   int add(SweptBlock block);
 };
 
-/// Index of a component of a node in a vector field of 3 * mesh.slots values: within a group of kLanes slots the
-/// components follow one another, lanes contiguous.
+/// Index of a component of a node in a vector field of 3 * mesh.slots values: within a group of kLanes slots
+/// the components follow one another, lanes contiguous.
 inline std::int64_t dof(std::int64_t slot, int component) {
   return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
 }
