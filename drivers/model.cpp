@@ -67,6 +67,7 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
   build_internal();
   restrain();
   build_mass();
+  set_damping();
   if (scene.fastenings && scene.rail) build_fastenings();
   if (scene.wheel) build_wheel_parts();
   if (scene.contact && scene.rail && scene.wheel) build_contact();
@@ -88,14 +89,12 @@ void Model::build_rail() {
   const RailSpec& rail = *scene.rail;
   const Span length{-rail.origin, rail.length - rail.origin};
   if (rail.profile == "box") {
-    NestedSegments plan;
-    if (scene.wheel)
-      plan = plan_rail(length, run_span(), zone_span(), sizes);
-    else
-      plan.fine.push_back({static_cast<int>(std::lround(rail.length / sizes.contact)), sizes.contact, 0});
-    if (!scene.wheel) plan.fine[0].pitch = rail.length / plan.fine[0].elements;
+    const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
+    const std::vector<Segment> segments = scene.wheel
+                                              ? plan_rail(length, run_span(), zone_span(), sizes).fine
+                                              : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
     index.rail_cap = mesh.add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
-                                               {scene.steel}, length.first, plan.fine));
+                                               {scene.steel}, length.first, segments));
     return;
   }
   const NestedSegments plan = plan_rail(length, run_span(), zone_span(), sizes);
@@ -216,24 +215,25 @@ void Model::build_mass() {
   inverse_mass.assign(mass.size(), 0.0);
   for (std::size_t i = 0; i < mass.size(); ++i)
     if (mass[i] > 0) inverse_mass[i] = 1 / mass[i];
+}
 
+void Model::set_damping() {
+  // beta omega / 2 = fraction at the stiffest of all elements.
+  const double fraction = scene.steel_high_frequency_fraction;
+  const double steel_beta = fraction > 0 ? 2 * fraction / internal->max_frequency().omega : 0.0;
   beta.assign(mesh.blocks.size(), 0.0);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const SweptBlock& block = mesh.blocks[b];
-    for (const Material& material : block.materials) beta[b] = std::max(beta[b], material.rayleigh_beta);
-    if (static_cast<int>(b) != index.slab && scene.steel_high_frequency_fraction > 0) {
-      // beta omega / 2 = fraction at the stiffest element of the block.
-      const double omega = internal->max_frequency().omega;
-      beta[b] = std::max(beta[b], 2 * scene.steel_high_frequency_fraction / omega);
-    }
-    internal->set_beta(static_cast<int>(b), beta[b]);
+  for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
+    double& block_beta = beta[static_cast<std::size_t>(b)];
+    if (b != index.slab) block_beta = steel_beta;
+    for (const Material& material : mesh.blocks[static_cast<std::size_t>(b)].materials)
+      block_beta = std::max(block_beta, material.rayleigh_beta);
+    internal->set_beta(b, block_beta);
   }
 }
 
 void Model::build_fastenings() {
   const FasteningSpec& f = *scene.fastenings;
-  const SweptBlock& rail =
-      mesh.blocks[static_cast<std::size_t>(index.rail_base >= 0 ? index.rail_base : index.rail_cap)];
+  const SweptBlock& rail = mesh.blocks[static_cast<std::size_t>(index.rail_foot())];
   const auto& foot = rail.section.paths.at("foot");
   const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
                                rail.section.p[static_cast<std::size_t>(foot.back())]);
@@ -266,10 +266,12 @@ void Model::build_wheel_parts() {
 
 double Model::wheel_load() const {
   if (!scene.wheel) return 0;
-  double load = scene.load ? scene.load->wheel_load : 0;
-  load += wheelset->mass() * scene.gravity;
-  if (scene.vehicle) load += (scene.vehicle->sprung_mass + scene.vehicle->unsprung_mass) * scene.gravity;
-  return load;
+  return journal_load() + wheelset->mass() * scene.gravity;
+}
+
+double Model::journal_load() const {
+  if (scene.vehicle) return (scene.vehicle->sprung_mass + scene.vehicle->unsprung_mass) * scene.gravity;
+  return scene.load ? scene.load->wheel_load : 0;
 }
 
 namespace {
@@ -348,8 +350,9 @@ void Model::apply_corrugation(double centre) {
     shift_top_layers(cap, shape, 3 * sizes.contact);
     build_internal();
     build_mass();
+    set_damping();
   }
-  ContactOptions options = contact->options();
+  const ContactOptions options = contact->options();
   contact = std::make_unique<Contact>(mesh, options, shape);
 }
 

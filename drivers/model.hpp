@@ -30,6 +30,8 @@ struct BlockIndex {
   int disc = -1;
   int axle = -1;
 
+  /// The block whose foot stands on fastenings or ground.
+  int rail_foot() const { return rail_base >= 0 ? rail_base : rail_cap; }
   std::vector<int> wheel() const;
   std::vector<int> rail() const;
 };
@@ -61,7 +63,8 @@ struct Model {
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
 
-  double wheel_load() const;  ///< static vertical contact force [N]
+  double wheel_load() const;    ///< static vertical contact force [N]
+  double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
   std::int64_t elements() const;
   std::int64_t nodes() const;
@@ -78,6 +81,7 @@ struct Model {
   void build_internal();
   void restrain();
   void build_mass();
+  void set_damping();
   void build_fastenings();
   void build_wheel_parts();
   void build_contact();

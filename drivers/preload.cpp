@@ -31,13 +31,7 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
               m * spin * spin * block.section.q[static_cast<std::size_t>(node)];
       }
     }
-  if (!model.journal.empty()) {
-    const double weight =
-        model.scene.vehicle
-            ? (model.scene.vehicle->sprung_mass + model.scene.vehicle->unsprung_mass) * model.scene.gravity
-            : (model.scene.load ? model.scene.load->wheel_load : 0.0);
-    model.journal.add(load.data(), frame, {0, 0, -weight});
-  }
+  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
   return load;
 }
 
@@ -47,11 +41,10 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
   for (const SweptBlock& block : model.mesh.blocks) {
     const double rate = block.sweep == Sweep::revolved ? motion.spin : motion.speed;
     if (rate == 0) continue;
-    const StationFinder finder(block);
     parallel_ranges(block.station_count(), [&](std::int64_t first, std::int64_t last) {
       for (int station = static_cast<int>(first); station < last; ++station) {
         if (!block.closed && (station == 0 || station == block.station_count() - 1)) continue;
-        const LineCell cell = finder.cell(station);
+        const LineCell cell = station_cell(block, station);
         const double scale = -2 * rate * rate / (cell.length_before + cell.length);
         for (int node = 0; node < block.section.nodes(); ++node) {
           // Values in the basis of the middle station.
@@ -118,7 +111,7 @@ void describe(const Model& model, Preload& out) {
       }
     out.tilt = moment / second;
   }
-  const int base = model.index.rail_base >= 0 ? model.index.rail_base : model.index.rail_cap;
+  const int base = model.index.rail_foot();
   if (base >= 0 && model.index.tread >= 0) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
     out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);

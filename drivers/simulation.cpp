@@ -75,24 +75,20 @@ namespace {
 /// Derivative of a nodal value along the sweep, by the parabola through three stations.
 double along_sweep(const SweptBlock& block, int node, int station, int component,
                    const AlignedVector<double>& field) {
-  const int count = block.station_count();
   const auto value = [&](int s) {
     return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
   };
-  const auto pitch = [&](int s) {  // of the element that starts at s
-    const Tile& tile =
-        block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(s)])];
-    return block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
-  };
-  if (!block.closed && (station == 0 || station == count - 1)) {
-    const int s = station == 0 ? 0 : station - 1;
-    return (value(s + 1) - value(s)) / pitch(s);
+  const int last = block.station_count() - 1;
+  if (!block.closed && (station == 0 || station == last)) {
+    const int s = station == 0 ? 0 : last - 1;
+    return (value(s + 1) - value(s)) / block.pitch(s);
   }
-  const int before = station > 0 ? station - 1 : count - 1;
-  const int after = station + 1 < count ? station + 1 : 0;
-  const double h0 = pitch(before);
-  const double h1 = pitch(station);
-  return ((value(after) - value(station)) / h1 * h0 + (value(station) - value(before)) / h0 * h1) / (h0 + h1);
+  const LineCell cell = station_cell(block, station);
+  const double h0 = cell.length_before;
+  const double h1 = cell.length;
+  const double ahead = (value(cell.second) - value(station)) / h1;
+  const double behind = (value(station) - value(cell.before)) / h0;
+  return (ahead * h0 + behind * h1) / (h0 + h1);
 }
 
 }  // namespace
@@ -158,10 +154,8 @@ void Simulation::connect() {
     const double rate = sprung_.speed - speed;
     sprung_.dissipated += sprung_.damping * rate * rate * dt_;
     sprung_.advance(up, model_->scene.gravity, dt_);
-    impulse_.z += dt_ * (0 - sprung_.mass * model_->scene.gravity);
   } else if (model_->scene.load && !model_->journal.empty()) {
     model_->journal.add(force_.data(), frame_, {0, 0, model_->scene.load->wheel_load});
-    impulse_.z -= dt_ * model_->scene.load->wheel_load;
   }
 }
 
@@ -170,8 +164,8 @@ void Simulation::roll() {
   model_->contact->advance({u_.data(), v_.data(), &frame_}, time_, dt_);
   model_->contact->add_forces(force_.data());
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
-  impulse_ += dt_ * on_wheel;
-  contact_impulse_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
+  contact_impulse_ += dt_ * on_wheel;
+  contact_impulse_size_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
 }
 
 void Simulation::drive() {
@@ -201,14 +195,7 @@ void Simulation::advance() {
   }
   for (const std::int64_t unknown : model_->restrained)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
-  if (model_->ties) {
-    model_->ties->follow(u_.data());
-    model_->ties->follow(v_.data());
-  }
-  if (model_->wheelset)
-    impulse_.z -=
-        dt_ * gravity *
-        (model_->wheelset->mass() + (model_->scene.vehicle ? model_->scene.vehicle->unsprung_mass : 0.0));
+  follow_ties();
   frame_.advance(dt_);
   time_ += dt_;
   ++steps_;
@@ -217,10 +204,13 @@ void Simulation::advance() {
 void Simulation::anchor() {
   if (!model_->wheelset) return;
   model_->wheelset->anchor(u_.data(), v_.data(), frame_, dt_);
-  if (model_->ties) {
-    model_->ties->follow(u_.data());
-    model_->ties->follow(v_.data());
-  }
+  follow_ties();
+}
+
+void Simulation::follow_ties() {
+  if (!model_->ties) return;
+  model_->ties->follow(u_.data());
+  model_->ties->follow(v_.data());
 }
 
 double Simulation::fixed_kinetic_energy() const {
@@ -314,7 +304,8 @@ Vec3 Simulation::vehicle_momentum() const {
 }
 
 MomentumCheck Simulation::momentum_check() const {
-  return {impulse_, vehicle_momentum() - start_momentum_, contact_impulse_};
+  const Vec3 weight = {0, 0, -model_->wheel_load()};
+  return {contact_impulse_ + time_ * weight, vehicle_momentum() - start_momentum_, contact_impulse_size_};
 }
 
 double Simulation::creepage(std::int64_t slot, double radius) const {

@@ -66,7 +66,6 @@ class Simulation {
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
-  double strain_energy_of(int block, bool hourglass) const;
   const AlignedVector<double>& displacement() const { return u_; }
   const AlignedVector<double>& velocity() const { return v_; }
   const BodyFrame& wheel() const { return frame_; }
@@ -88,6 +87,7 @@ class Simulation {
   Vec3 vehicle_momentum() const;
   double creepage(std::int64_t slot, double radius) const;
   void anchor();
+  void follow_ties();
 
   Model* model_;
   double dt_;
@@ -102,7 +102,7 @@ class Simulation {
   double max_torque_ = 0;
   double torque_ = 0, torque_before_ = 0;
   double torque_work_ = 0;
-  Vec3 impulse_, contact_impulse_, start_momentum_;
+  Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
   std::vector<std::int64_t> creepage_slots_;
   std::vector<double> creepage_radius_;
 

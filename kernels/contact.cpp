@@ -135,7 +135,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
 
   // The rail point.
   const auto profile = rail_profile_.evaluate(where.edge, across, options_.surface);
-  const LineCell rail_cell = rail_stations_.cell(where.station);
+  const LineCell rail_cell = station_cell(*rail_, where.station);
   const LineWeights rail_along = line_weights(rail_cell, along, options_.surface);
   const LineWeights rail_across = line_weights(rail_profile_.cell(where.edge), across, options_.surface);
   Vec3 x{rail_->stations[static_cast<std::size_t>(where.station)] + along * rail_cell.length, profile.p,
@@ -166,7 +166,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   for (int iteration = 1;; ++iteration) {
     if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
-    const LineCell line = wheel_stations_.cell(cell.station);
+    const LineCell line = station_cell(*wheel_, cell.station);
     const LineWeights around = line_weights(line, cell.distance / cell.pitch, options_.surface);
     const LineWeights over = line_weights(wheel_profile_.cell(edge), eta, options_.surface);
     const std::array<double, 4> turned = {cell.distance + line.length_before, cell.distance,
@@ -399,9 +399,7 @@ std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& bloc
   std::map<std::int64_t, double> stiffness;
   const int cells = block.closed ? block.station_count() : block.station_count() - 1;
   for (int station = 0; station < cells; ++station) {
-    const Tile& tile =
-        block.tiles[static_cast<std::size_t>(block.tile_of_station[static_cast<std::size_t>(station)])];
-    const double pitch = block.classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
+    const double pitch = block.pitch(station);
     const int next = station + 1 < block.station_count() ? station + 1 : 0;
     for (int edge = first; edge < last; ++edge) {
       const auto middle = profile.evaluate(edge, 0.5, options_.surface);

@@ -105,7 +105,6 @@ class Contact {
   const std::vector<ContactPoint>& points() const { return points_; }
   const ContactTotals& totals() const { return totals_; }
   const Corrugation& corrugation() const { return corrugation_; }
-  void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
   const ContactOptions& options() const { return options_; }
 
   double frictional_work() const { return frictional_work_; }  ///< dissipated by friction since the start [J]
@@ -162,7 +161,6 @@ class Contact {
     std::vector<ContactPoint> points;
     double friction_work = 0;
     double damping_work = 0;
-    double released = 0;
   };
   std::vector<Column> columns_;
   std::vector<ContactPoint> points_;

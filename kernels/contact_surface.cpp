@@ -141,31 +141,22 @@ StationFinder::Cell StationFinder::find(double coordinate) const {
   const int cells = block_->closed ? count : count - 1;
   while (station + 1 < cells && block_->stations[static_cast<std::size_t>(station + 1)] - first_ <= at)
     ++station;
-  const Tile& tile =
-      block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(station)])];
-  const double pitch = block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
-  return {station, station + 1 < count ? station + 1 : 0, pitch,
+  return {station, station + 1 < count ? station + 1 : 0, block_->pitch(station),
           at - (block_->stations[static_cast<std::size_t>(station)] - first_)};
 }
 
-LineCell StationFinder::cell(int station) const {
-  const int count = block_->station_count();
-  const bool closed = block_->closed;
+LineCell station_cell(const SweptBlock& block, int station) {
+  const int count = block.station_count();
   const int second = station + 1 < count ? station + 1 : 0;
-  const int before = station > 0 ? station - 1 : (closed ? count - 1 : 0);
-  const int after = second + 1 < count ? second + 1 : (closed ? 0 : second);
-  const auto pitch = [&](int s) {
-    const Tile& tile =
-        block_->tiles[static_cast<std::size_t>(block_->tile_of_station[static_cast<std::size_t>(s)])];
-    return block_->classes[static_cast<std::size_t>(tile.pitch_class)].pitch;
-  };
+  const int before = station > 0 ? station - 1 : (block.closed ? count - 1 : 0);
+  const int after = second + 1 < count ? second + 1 : (block.closed ? 0 : second);
   return {before,
           station,
           second,
           after,
-          before == station ? 0 : pitch(before),
-          pitch(station),
-          after == second ? 0 : pitch(second)};
+          before == station ? 0 : block.pitch(before),
+          block.pitch(station),
+          after == second ? 0 : block.pitch(second)};
 }
 
 }  // namespace tread

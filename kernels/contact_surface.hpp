@@ -71,6 +71,10 @@ class SurfaceProfile {
   double bucket_width_ = 1;
 };
 
+/// The cell of stations that starts at `station`, with its neighbours; not for the last station of an open
+/// block.
+LineCell station_cell(const SweptBlock& block, int station);
+
 /// Station cell that contains a sweep coordinate; constant time by uniform buckets.
 class StationFinder {
  public:
@@ -84,8 +88,6 @@ class StationFinder {
   };
   /// Closed blocks take any angle; open ones return station -1 outside.
   Cell find(double coordinate) const;
-  /// The cell that starts at a station, with its neighbours.
-  LineCell cell(int station) const;
 
  private:
   const SweptBlock* block_;

@@ -78,6 +78,12 @@ struct SweptBlock {
   }
   std::vector<int> tile_of_station;
 
+  /// Length [m] or angle [rad] of the element that starts at a station.
+  double pitch(int station) const {
+    const auto tile = static_cast<std::size_t>(tile_of_station[static_cast<std::size_t>(station)]);
+    return classes[static_cast<std::size_t>(tiles[tile].pitch_class)].pitch;
+  }
+
   /// Material of the elements of (quad, class).
   const Material& material(int quad, int pitch_class) const {
     const auto index = section.quad_material[static_cast<std::size_t>(quad)] +

@@ -176,22 +176,20 @@ TEST(LineWeights, ValuesAndSlopesAreContinuous) {
 
 TEST(LineWeights, CellsOfBlocksKnowTheirNeighbours) {
   const SweptBlock ring = samples::revolved_closed();
-  const StationFinder closed(ring);
-  const LineCell seam = closed.cell(18);
+  const LineCell seam = station_cell(ring, 18);
   EXPECT_EQ(seam.before, 17);
   EXPECT_EQ(seam.second, 0);
   EXPECT_EQ(seam.after, 1);
   EXPECT_DOUBLE_EQ(seam.length_after, kTurn / 19);
   const SweptBlock bar = samples::extruded();
-  const StationFinder open(bar);
-  const LineCell first = open.cell(0);
+  const LineCell first = station_cell(bar, 0);
   EXPECT_EQ(first.before, 0);
   EXPECT_EQ(first.length_before, 0);
   EXPECT_EQ(first.after, 2);
-  const LineCell last = open.cell(bar.station_count() - 2);
+  const LineCell last = station_cell(bar, bar.station_count() - 2);
   EXPECT_EQ(last.after, last.second);
   EXPECT_EQ(last.length_after, 0);
-  const LineCell graded = open.cell(5);
+  const LineCell graded = station_cell(bar, 5);
   EXPECT_DOUBLE_EQ(graded.length_before, 0.01);
   EXPECT_DOUBLE_EQ(graded.length, 0.004);
 }
