@@ -119,6 +119,7 @@ FrontPlan make_front_plan(const Section& section) {
     entry.closed = static_cast<int>(plan.close.size());
     plan.quads.push_back(entry);
   }
+  plan.open.insert(plan.open.end(), kPrefetchAhead, plan.open.back());
   return plan;
 }
 

@@ -8,6 +8,9 @@
 
 namespace tread {
 
+/// Nodes that a loop over `open` may look ahead.
+inline constexpr int kPrefetchAhead = 8;
+
 struct FrontPlan {
   struct Node {
     int node;  ///< section node
@@ -20,7 +23,7 @@ struct FrontPlan {
     int closed;   ///< entries of `close` used up to here
   };
   std::vector<Quad> quads;
-  std::vector<Node> open;
+  std::vector<Node> open;  ///< all nodes, then kPrefetchAhead times the last one
   std::vector<Node> close;
   int slots = 0;  ///< largest number of nodes in use
 };
