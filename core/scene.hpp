@@ -82,7 +82,7 @@ struct ContactSpec {
   double penetration_ratio = 0.02;  ///< penetration / Hertz approach under the static wheel load [-]
   double damping_ratio = 0.1;       ///< normal damping, fraction of critical [-]
   std::string surface = "exact";    ///< "exact" (profile curves) or "facets"
-  int points = 2;                   ///< integration points per face and direction
+  int points = 3;                   ///< integration points per face and direction
 };
 
 /// [motion]; absent: the scene ends with its static state
@@ -94,7 +94,7 @@ struct MotionSpec {
   double ramp = 5e-3;                     ///< T1 [s]
   bool spin_in_preload = true;
   std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
-  double step_safety = 0.9;      ///< fraction of the computed stable step
+  double step_safety = 0.95;     ///< fraction of the computed stable step
 };
 
 /// [corrugation]

@@ -110,7 +110,7 @@ void Simulation::start_velocities() {
               rate * along_sweep(block, node, station, c, u_);
   }
   for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
-  if (model_->ties) model_->ties->follow(v_.data());
+  if (model_->ties) model_->ties->follow({v_.data()});
   if (!model_->contact) return;
   // Free rolling: the spin at which the patch as a whole does not slip.
   const ContactState state{u_.data(), v_.data(), &frame_};
@@ -208,9 +208,7 @@ void Simulation::anchor() {
 }
 
 void Simulation::follow_ties() {
-  if (!model_->ties) return;
-  model_->ties->follow(u_.data());
-  model_->ties->follow(v_.data());
+  if (model_->ties) model_->ties->follow({u_.data(), v_.data()});
 }
 
 double Simulation::fixed_kinetic_energy() const {

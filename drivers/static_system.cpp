@@ -34,7 +34,7 @@ void StaticSystem::reduce(double* force) const {
 }
 
 void StaticSystem::expand(double* field) const {
-  if (model_->ties) model_->ties->follow(field);
+  if (model_->ties) model_->ties->follow({field});
 }
 
 StepLimit step_limit(const Model& model) {

@@ -23,7 +23,7 @@ struct ContactOptions {
   int rail_block = -1;
   int wheel_block = -1;
   SurfaceKind surface = SurfaceKind::exact;
-  int points = 2;           ///< integration points per face and direction
+  int points = 3;           ///< integration points per face and direction
   double penalty = 0;       ///< normal penalty stiffness per area [Pa/m]
   double damping = 0;       ///< normal damping per area [Pa s/m]
   double friction = 0;      ///< coefficient of friction f [-]

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,8 @@ class Ties {
   /// Who follows whom, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
-  /// Secondary values from the primary ones; vector field of 3 * slots values.
-  void follow(double* field) const;
+  /// Secondary values from the primary ones; vector fields of 3 * slots values.
+  void follow(std::initializer_list<double*> fields) const;
 
   /// Adds the secondary values to the primary ones (transpose of follow) and sets the secondary ones to zero.
   void gather(double* force) const;

@@ -72,7 +72,7 @@ TEST_P(TieRatio, FollowTurnsBasesAndKeepsLinearFields) {
   auto field = exact;
   for (const std::int64_t slot : ties.secondary_slots())
     for (int c = 0; c < 3; ++c) field[index(dof(slot, c))] = 1e9;
-  ties.follow(field.data());
+  ties.follow({field.data()});
   for (std::size_t i = 0; i < field.size(); ++i) EXPECT_NEAR(field[i], exact[i], 1e-14);
 }
 
@@ -84,7 +84,7 @@ TEST_P(TieRatio, GatherIsTheTransposeOfFollow) {
   for (const std::int64_t slot : ties.secondary_slots())
     for (int c = 0; c < 3; ++c) x[index(dof(slot, c))] = 0;
   auto followed = x;
-  ties.follow(followed.data());
+  ties.follow({followed.data()});
   auto gathered = force;
   ties.gather(gathered.data());
   double forward = 0, backward = 0, scale = 0;
@@ -156,7 +156,7 @@ TEST(Tie, DiagonalIsThatOfTheReducedOperator) {
       const std::size_t unknown = index(dof(mesh.blocks[0].slot(node, station), 1));
       AlignedVector<double> unit(d.size(), 0.0);
       unit[unknown] = 1;
-      ties.follow(unit.data());
+      ties.follow({unit.data()});
       for (std::size_t i = 0; i < d.size(); ++i) unit[i] *= d[i];
       ties.gather(unit.data());
       EXPECT_NEAR(unit[unknown], reduced[unknown], 1e-20);

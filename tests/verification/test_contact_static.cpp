@@ -54,6 +54,7 @@ class Placement {
     mesh_.add(make_swept_block("tyre", Sweep::revolved, tyre, {samples::steel()}, -0.2,
                                {{100, fine, 0}, {rest, (kTurn - 100 * fine) / rest, 0}}));
     ContactOptions options;
+    options.points = 2;  // as points_inside() counts
     options.rail_block = 0;
     options.wheel_block = 1;
     options.penalty = kPenalty;

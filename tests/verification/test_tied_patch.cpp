@@ -84,7 +84,7 @@ TEST(TiedPatch, LinearFieldLeavesNoForceInside) {
     const InternalForce internal(t.mesh);
     const Ties ties(t.mesh, t.ties);
     auto u = samples::sample(t.mesh, field);
-    ties.follow(u.data());
+    ties.follow({u.data()});
     AlignedVector<double> f(u.size());
     internal.apply(u.data(), f.data());
     ties.gather(f.data());
@@ -116,7 +116,7 @@ TEST(TiedPatch, RigidMotionsGiveNoForce) {
       auto u = samples::sample(t.mesh, motion);
       for (const std::int64_t slot : ties.secondary_slots())
         for (int c = 0; c < 3; ++c) u[index(dof(slot, c))] = 0;
-      ties.follow(u.data());
+      ties.follow({u.data()});
       AlignedVector<double> f(u.size());
       internal.apply(u.data(), f.data());
       ties.gather(f.data());
