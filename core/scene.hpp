@@ -137,12 +137,6 @@ struct Scene {
   Material slab;
   Material gap_filler;
   Material mortar;
-  /// Fraction of critical damping at the highest frequency (LS-DYNA's positive COEF), by material. The
-  /// classical beta stands in the materials; at most one of the two is not zero. [-]
-  double steel_high_frequency_fraction = 0;
-  double slab_high_frequency_fraction = 0;
-  double gap_filler_high_frequency_fraction = 0;
-  double mortar_high_frequency_fraction = 0;
 
   std::optional<WheelSpec> wheel;
   std::optional<RailSpec> rail;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -218,16 +219,19 @@ void Model::build_mass() {
 }
 
 void Model::set_damping() {
-  // beta omega / 2 = fraction at the stiffest of all elements.
-  const double fraction = scene.steel_high_frequency_fraction;
-  const double steel_beta = fraction > 0 ? 2 * fraction / internal->max_frequency().omega : 0.0;
+  std::map<std::string, double> highest;  // frequency of a material's elements, by its name [rad/s]
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Material& material = mesh.blocks[b].materials.front();  // the others are damped alike
+    double& omega = highest[material.name];
+    if (material.high_frequency_fraction > 0)
+      omega = std::max(omega, internal->max_frequency(static_cast<int>(b)).omega);
+  }
   beta.assign(mesh.blocks.size(), 0.0);
-  for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
-    double& block_beta = beta[static_cast<std::size_t>(b)];
-    if (b != index.slab) block_beta = steel_beta;
-    for (const Material& material : mesh.blocks[static_cast<std::size_t>(b)].materials)
-      block_beta = std::max(block_beta, material.rayleigh_beta);
-    internal->set_beta(b, block_beta);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Material& material = mesh.blocks[b].materials.front();
+    const double fraction = material.high_frequency_fraction;  // of critical: beta omega / 2
+    beta[b] = fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
+    internal->set_beta(static_cast<int>(b), beta[b]);
   }
 }
 

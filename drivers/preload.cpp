@@ -97,20 +97,7 @@ std::vector<TiedSlot> tied_slots(const Model& model) {
 
 void describe(const Model& model, Preload& out) {
   const double* u = out.displacement.data();
-  if (model.index.tread >= 0) {
-    // Tilt: the tread's lateral displacement varies as r sin/cos over the circumference.
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
-    double moment = 0;
-    double second = 0;
-    for (const SurfaceEdge& edge : block.section.surface)
-      for (int station = 0; station < block.station_count(); ++station) {
-        const double down = block.section.q[static_cast<std::size_t>(edge.node[0])] *
-                            std::cos(block.stations[static_cast<std::size_t>(station)]);
-        moment += down * u[dof(block.base + block.slot(edge.node[0], station), 1)];
-        second += down * down;
-      }
-    out.tilt = moment / second;
-  }
+  out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const int base = model.index.rail_foot();
   if (base >= 0 && model.index.tread >= 0) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
@@ -122,6 +109,22 @@ void describe(const Model& model, Preload& out) {
 }
 
 }  // namespace
+
+double wheel_tilt(const Model& model, const double* displacement, double angle) {
+  if (model.index.tread < 0) return 0;
+  // The tread's lateral displacement varies as the depth below the axle.
+  const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  double moment = 0;
+  double second = 0;
+  for (const SurfaceEdge& edge : block.section.surface)
+    for (int station = 0; station < block.station_count(); ++station) {
+      const double down = block.section.q[static_cast<std::size_t>(edge.node[0])] *
+                          std::cos(block.stations[static_cast<std::size_t>(station)] + angle);
+      moment += down * displacement[dof(block.base + block.slot(edge.node[0], station), 1)];
+      second += down * down;
+    }
+  return moment / second;
+}
 
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
   constexpr int kMaxNewton = 40;

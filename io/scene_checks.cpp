@@ -87,6 +87,12 @@ class Checker {
     need(scene_.slab, "slab", "slab");
     need(scene_.gap_filler, "gap_filler", "slab");
     need(scene_.mortar, "mortar", "slab");
+    const auto damped_alike = [](const Material& a, const Material& b) {
+      return a.rayleigh_beta == b.rayleigh_beta && a.high_frequency_fraction == b.high_frequency_fraction;
+    };
+    require(damped_alike(scene_.slab, scene_.gap_filler) && damped_alike(scene_.slab, scene_.mortar),
+            {"material.slab.damping", "material.gap_filler.damping", "material.mortar.damping"},
+            "slab, gap filler and mortar are damped as one body; state the same damping for all three");
     require(scene_.slab_track->gap < scene_.slab_track->pitch, {"slab.gap", "slab.pitch"},
             "the gap is not shorter than the pitch of slab and gap together");
   }

@@ -128,8 +128,8 @@ void add_general(Keys& keys) {
                                     above(0, 1000), "Length of the finely divided rail")));
 }
 
-/// The keys of one material; `fraction` is its high-frequency damping.
-void add_material(Keys& keys, const std::string& name, Material Scene::*material, double Scene::*fraction) {
+/// The keys of one material.
+void add_material(Keys& keys, const std::string& name, Material Scene::*material) {
   const std::string table = "material." + name;
   keys.push_back(required(quantity(table + ".youngs_modulus", at(material, &Material::youngs_modulus),
                                    kStress, "GPa", above(0, 1e13), "Young's modulus")));
@@ -137,18 +137,19 @@ void add_material(Keys& keys, const std::string& name, Material Scene::*material
                                  {0, 0.5, false, true}, "Poisson's ratio")));
   keys.push_back(required(quantity(table + ".density", at(material, &Material::density), kDensity, "kg/m3",
                                    above(0, 1e5), "Density")));
-  const auto damping = [material, fraction](Scene& scene) -> Field {
+  const auto damping = [material](Scene& scene) -> Field {
     if ((scene.*material).name.empty()) return std::monostate{};
-    return DampingField{&(scene.*fraction), &(scene.*material).rayleigh_beta};
+    return DampingField{&(scene.*material).high_frequency_fraction, &(scene.*material).rayleigh_beta};
   };
-  keys.push_back({.path = table + ".damping",
-                  .kind = Kind::damping,
-                  .locate = damping,
-                  .description =
-                      "`{ kind = \"high_frequency_fraction\", value = 1e-4 }`: fraction of critical "
-                      "damping at the mesh's highest frequency; or `{ kind = \"rayleigh_beta\", value = "
-                      "\"1e-8 s\" }`: classical stiffness-proportional damping",
-                  .range = from(0, 1)});
+  keys.push_back(
+      {.path = table + ".damping",
+       .kind = Kind::damping,
+       .locate = damping,
+       .description =
+           "`{ kind = \"high_frequency_fraction\", value = 1e-4 }`: fraction of critical "
+           "damping at the highest frequency of the material's mesh; or `{ kind = \"rayleigh_beta\", value = "
+           "\"1e-8 s\" }`: classical stiffness-proportional damping",
+       .range = from(0, 1)});
 }
 
 void add_wheel(Keys& keys) {
@@ -340,10 +341,10 @@ void add_pulse_and_output(Keys& keys) {
 Keys make_keys() {
   Keys keys;
   add_general(keys);
-  add_material(keys, "steel", &Scene::steel, &Scene::steel_high_frequency_fraction);
-  add_material(keys, "slab", &Scene::slab, &Scene::slab_high_frequency_fraction);
-  add_material(keys, "gap_filler", &Scene::gap_filler, &Scene::gap_filler_high_frequency_fraction);
-  add_material(keys, "mortar", &Scene::mortar, &Scene::mortar_high_frequency_fraction);
+  add_material(keys, "steel", &Scene::steel);
+  add_material(keys, "slab", &Scene::slab);
+  add_material(keys, "gap_filler", &Scene::gap_filler);
+  add_material(keys, "mortar", &Scene::mortar);
   add_wheel(keys);
   add_rail(keys);
   add_fastenings(keys);
@@ -377,12 +378,8 @@ SceneTable only_with(std::string other, SceneTable table) {
   return table;
 }
 
-SceneTable material(const std::string& name, Material Scene::*member, double Scene::*fraction,
-                    std::string description) {
-  const auto remove = [member, fraction](Scene& scene) {
-    scene.*member = Material{};
-    scene.*fraction = 0;
-  };
+SceneTable material(const std::string& name, Material Scene::*member, std::string description) {
+  const auto remove = [member](Scene& scene) { scene.*member = Material{}; };
   return {.name = "material." + name,
           .description = std::move(description),
           .create =
@@ -404,12 +401,10 @@ std::vector<SceneTable> make_tables() {
   return {
       always("scene", "What the scene is called, what it is based on, how fine it is."),
       always("solution_zone", "The part of the rail that is divided finely and watched closely."),
-      material("steel", &Scene::steel, &Scene::steel_high_frequency_fraction, "Wheel and rail."),
-      only_with("slab", material("slab", &Scene::slab, &Scene::slab_high_frequency_fraction, "Slabs.")),
-      only_with("slab", material("gap_filler", &Scene::gap_filler, &Scene::gap_filler_high_frequency_fraction,
-                                 "What fills the gaps between slabs.")),
-      only_with("slab", material("mortar", &Scene::mortar, &Scene::mortar_high_frequency_fraction,
-                                 "The layer under the slabs.")),
+      material("steel", &Scene::steel, "Wheel and rail."),
+      only_with("slab", material("slab", &Scene::slab, "Slabs.")),
+      only_with("slab", material("gap_filler", &Scene::gap_filler, "What fills the gaps between slabs.")),
+      only_with("slab", material("mortar", &Scene::mortar, "The layer under the slabs.")),
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
       component("rail", &Scene::rail, "The flexible rail, or a block or bar in its place."),
       component("fastenings", &Scene::fastenings,

@@ -586,26 +586,34 @@ double BasicInternalForce<Real>::element_frequency(int block, int quad, int stat
 
 template <class Real>
 ElementFrequency BasicInternalForce<Real>::max_frequency() const {
-  std::vector<std::pair<int, Place>> candidates;
+  ElementFrequency highest;
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
-    const SweptBlock& swept = mesh_.blocks[index(block)];
-    const std::size_t quads = swept.section.quads.size();
-    std::vector<bool> seen(quads * swept.classes.size(), false);
-    for_each_element(block, [&](const Place& at) {
-      const std::size_t shared = index(at.pitch_class) * quads + index(at.quad);
-      if (at.lanes < 0 && seen[shared]) return;
-      if (at.lanes < 0) seen[shared] = true;
-      candidates.emplace_back(block, at);
-    });
+    const ElementFrequency of_block = max_frequency(block);
+    if (of_block.omega > highest.omega) highest = of_block;
   }
+  return highest;
+}
+
+template <class Real>
+ElementFrequency BasicInternalForce<Real>::max_frequency(int block) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::size_t quads = swept.section.quads.size();
+  std::vector<Place> candidates;  // one of each kind
+  std::vector<bool> seen(quads * swept.classes.size(), false);
+  for_each_element(block, [&](const Place& at) {
+    const std::size_t shared = index(at.pitch_class) * quads + index(at.quad);
+    if (at.lanes < 0 && seen[shared]) return;
+    if (at.lanes < 0) seen[shared] = true;
+    candidates.push_back(at);
+  });
   std::vector<double> omega(candidates.size());
   parallel_ranges(static_cast<std::int64_t>(omega.size()), [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      omega[i] = frequency(candidates[i].first, candidates[i].second);
+      omega[i] = frequency(block, candidates[i]);
   });
   const auto highest = std::max_element(omega.begin(), omega.end());
   if (highest == omega.end()) return {};
-  const auto& [block, at] = candidates[static_cast<std::size_t>(highest - omega.begin())];
+  const Place& at = candidates[static_cast<std::size_t>(highest - omega.begin())];
   return {*highest, block, at.quad, at.station};
 }
 

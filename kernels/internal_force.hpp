@@ -83,8 +83,9 @@ class BasicInternalForce {
   /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
   double element_frequency(int block, int quad, int station) const;
 
-  /// Maximum over all elements: a bound from above on the frequencies of the assembled blocks.
+  /// Maximum over all elements, or those of one block: a bound from above on the frequencies when assembled.
   ElementFrequency max_frequency() const;
+  ElementFrequency max_frequency(int block) const;
 
   /// Elements with coefficients of their own (whole lanes of a tile's quad).
   std::int64_t perturbed_elements() const;

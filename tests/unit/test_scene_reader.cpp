@@ -130,7 +130,7 @@ TEST(SceneReader, LibraryHoldsTable1) {
   EXPECT_EQ(scene.steel.youngs_modulus, 205.9e9);
   EXPECT_EQ(scene.steel.poissons_ratio, 0.3);
   EXPECT_EQ(scene.steel.density, 7790);
-  EXPECT_EQ(scene.steel_high_frequency_fraction, 1e-4);
+  EXPECT_EQ(scene.steel.high_frequency_fraction, 1e-4);
   EXPECT_EQ(scene.steel.rayleigh_beta, 0);
   EXPECT_EQ(scene.slab.youngs_modulus, 34.5e9);
   EXPECT_EQ(scene.slab.poissons_ratio, 0.25);
@@ -192,7 +192,7 @@ TEST(SceneReader, DampingHasTwoNames) {
       kBase + "[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }\n";
   const ResolvedScene resolved = resolve(text);
   EXPECT_EQ(resolved.scene.steel.rayleigh_beta, 1e-8);
-  EXPECT_EQ(resolved.scene.steel_high_frequency_fraction, 0);
+  EXPECT_EQ(resolved.scene.steel.high_frequency_fraction, 0);
   expect_round_trip(resolved);
 }
 
