@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "kernels/solver/chunks.hpp"
 #include "kernels/stable_step.hpp"
 
@@ -36,6 +37,26 @@ void StaticSystem::reduce(double* force) const {
 void StaticSystem::expand(double* field) const {
   if (model_->ties) model_->ties->follow({field});
 }
+
+namespace {
+
+/// Damping may shorten the step to this share; a classical beta of ordinary size in structural dynamics would
+/// shorten it a thousand times.
+constexpr double kLeastShare = 0.1;
+
+void refuse_heavy_damping(double beta, double damped_step, double omega) {
+  const double free_step = stable_step(omega, 0);
+  if (damped_step >= kLeastShare * free_step) return;
+  const double largest = (1 / kLeastShare - kLeastShare) / omega;
+  throw InputError(fmt::format(
+      "material damping: rayleigh_beta = {:.3g} s would need a time step of {:.2e} s, {:.2g} % of the {:.2e} "
+      "s "
+      "without damping; state at most {:.2g} s, or {{ kind = \"high_frequency_fraction\", value = ... }} "
+      "(LS-DYNA's positive COEF, which the paper's 1e-4 is)",
+      beta, damped_step, 100 * damped_step / free_step, free_step, largest));
+}
+
+}  // namespace
 
 StepLimit step_limit(const Model& model) {
   const StaticSystem system(model);
@@ -75,6 +96,7 @@ StepLimit step_limit(const Model& model) {
   double beta = 0;
   for (const double b : model.beta) beta = std::max(beta, b);
   limit.stable_step = stable_step(limit.omega, beta);
+  refuse_heavy_damping(beta, limit.stable_step, limit.omega);
   // Contact damping lags by half a step too; its fraction of critical counts as if every mode had it.
   const double ratio = model.contact ? model.scene.contact->damping_ratio : 0;
   limit.stable_step *= std::sqrt(1 + ratio * ratio) - ratio;

@@ -103,6 +103,9 @@ TEST(SceneErrors, Types) {
   });
   expect_part(error_of("rail = \"none\""), "x.toml:1:1: rail: expected a table with keys among profile,");
   expect_part(error_of("rail = \"none\""), "(to leave it out, write rail.present = false)");
+  expect_part(
+      error_of(kBase + "[material.slab]\ndamping = { kind = \"high_frequency_fraction\", value = 0.01 }"),
+      "x.toml:4:1: material.slab.damping: slab, gap filler and mortar are damped as one body");
   expect_part(error_of(kBase + "[material.steel]\ndamping = 1e-4"),
               "expected { kind = \"high_frequency_fraction\"");
   expect_part(error_of(kBase + "[material.steel]\ndamping = { kind = \"viscous\", value = 1 }"),

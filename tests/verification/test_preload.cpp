@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/error.hpp"
 #include "drivers/preload.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
@@ -84,6 +85,20 @@ TEST(Preload, StandingWheelKeepsItsForce) {
   measured("standing wheel: largest energy residual", residual, "J");
   EXPECT_GT(low, 0.999 * load);
   EXPECT_LT(high, 1.001 * load);
+}
+
+TEST(StepLimit, RefusesAClassicalDampingThatWouldStopTheRun) {
+  const Model usual(
+      samples::tyre_scene({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}));
+  EXPECT_GT(step_limit(usual).stable_step, 1e-8);
+  const Model heavy(
+      samples::tyre_scene({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-4 s\" }"}));
+  try {
+    step_limit(heavy);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("state at most"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
