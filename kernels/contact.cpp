@@ -140,15 +140,20 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   const LineWeights rail_across = line_weights(rail_profile_.cell(where.edge), across, options_.surface);
   Vec3 x{rail_->stations[static_cast<std::size_t>(where.station)] + along * rail_cell.length, profile.p,
          profile.q};
-  x.z -= corrugation_.depth(x.x, x.y);
+  double depth = exact ? corrugation_.depth(x.x, x.y) : 0.0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const std::size_t k = 4 * i + j;
-      point.rail_slot[k] =
-          rail_->base + rail_->slot(rail_profile_.node(rail_across.ordinal[j]), rail_along.ordinal[i]);
+      const int node = rail_profile_.node(rail_across.ordinal[j]);
+      const int station = rail_along.ordinal[i];
+      point.rail_slot[k] = rail_->base + rail_->slot(node, station);
       point.rail_weight[k] = rail_along.value[i] * rail_across.value[j];
       x += point.rail_weight[k] * read(u, point.rail_slot[k]);
+      if (!exact)
+        depth += point.rail_weight[k] * corrugation_.depth(rail_->stations[static_cast<std::size_t>(station)],
+                                                           rail_->section.p[static_cast<std::size_t>(node)]);
     }
+  x.z -= depth;
   point.position = x;
   point.face = {where.station, where.edge};
   point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across),
