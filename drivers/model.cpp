@@ -127,8 +127,9 @@ void Model::build_slab() {
     at = last;
   }
   stretch(rail.length - at, 0);
+  const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
   index.slab =
-      mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(scene, sizes),
+      mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
                                 {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
 }
 

@@ -58,13 +58,9 @@ Section tyre_section(const Scene& scene, const MeshSizes& sizes) {
                            section_size(sizes, sizes.section, 0));
 }
 
-Section slab_section(const Scene& scene, const MeshSizes& sizes) {
-  const SlabSpec& slab = *scene.slab_track;
-  // The slab's top touches the lowest point of the rail's foot; the fastenings span what is left.
+Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes) {
   double top = 0;
-  const RailSections rail = rail_sections(scene, sizes);
-  for (const int node : rail.base.paths.at("foot"))
-    top = std::min(top, rail.base.q[static_cast<std::size_t>(node)]);
+  for (const int node : rail.paths.at("foot")) top = std::min(top, rail.q[static_cast<std::size_t>(node)]);
   const double left = slab.offset - 0.5 * slab.width;
   const int columns = std::max(2, static_cast<int>(std::lround(slab.width / (1.5 * sizes.slab))));
   const int layers = std::max(2, static_cast<int>(std::lround(slab.thickness / sizes.slab)));

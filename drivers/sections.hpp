@@ -12,7 +12,8 @@ namespace tread {
 
 RailSections rail_sections(const Scene& scene, const MeshSizes& sizes);
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
-Section slab_section(const Scene& scene, const MeshSizes& sizes);
+/// The slab's top touches the lowest point of the foot of `rail`; the fastenings span what is left.
+Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes);
 Section tyre_section(const Scene& scene, const MeshSizes& sizes);
 
 struct SizedWheel {

@@ -104,6 +104,23 @@ TEST_F(Commands, StaticSceneIsComparedWithHertz) {
   EXPECT_FALSE(has(report, "Contact forces over"));
 }
 
+/// The shipped scenes of the wheelset, on a mesh that is fast rather than good.
+TEST_F(Commands, WheelsetScenesRun) {
+  for (const char* name : {"corrugation-d.toml", "smooth.toml", "rigid-ground.toml"}) {
+    EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set "
+                               "\"motion.duration=0.02 ms\" --set \"solution_zone.length=0.1 m\" {} {}",
+                               (folder_ / name).string(),
+                               std::string(name) == "corrugation-d.toml"
+                                   ? "--set \"corrugation.length=0.08 m\" --set \"corrugation.start=2.41 m\""
+                                   : "",
+                               scene(name)))
+                  .code,
+              0)
+        << name;
+    EXPECT_TRUE(fs::exists(folder_ / name / "report.html")) << name;
+  }
+}
+
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
