@@ -144,9 +144,11 @@ void evaluate(const Model& model, RunResults& r) {
     r.longitudinal_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
                                       [](const Sample& s) { return s.longitudinal_force; });
 
-    // Steady values: the last whole fastening span before the patch meets the corrugation.
+    // Steady values: the last whole fastening span in the solution zone, or before the patch meets the
+    // corrugation.
     const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
-    const double end = corrugation.smooth() ? reached : std::min(reached, corrugation.first() - 0.02);
+    const double end = std::min(
+        reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
     r.steady_last = end;
     r.steady_first = std::max(0.0, end - span);
     const auto mean = [&](auto value) {
