@@ -80,7 +80,6 @@ struct LoadSpec {
 struct ContactSpec {
   double friction = 0.5;            ///< coefficient of friction f [-]
   double penetration_ratio = 0.02;  ///< penetration / Hertz approach under the static wheel load [-]
-  double damping_ratio = 0.1;       ///< normal damping, fraction of critical [-]
   std::string surface = "exact";    ///< "exact" (profile curves) or "facets"
   int points = 3;                   ///< integration points per face and direction
 };

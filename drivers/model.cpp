@@ -335,11 +335,6 @@ void Model::build_contact() {
   options.penalty = hertz_patch.max_pressure / (spec.penetration_ratio * hertz_patch.approach);
   options.friction = spec.friction;
   options.wheel_radius = wheel_radius();
-  if (spec.damping_ratio > 0) {
-    // Critical damping of two facing surface layers of one contact element's thickness, per area.
-    const double layer = 0.25 * scene.steel.density * sizes.contact;
-    options.damping = spec.damping_ratio * 2 * std::sqrt(options.penalty * layer);
-  }
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});
 }
 

@@ -33,8 +33,8 @@ struct SteadyMotion {
   double speed = 0;  ///< of the deflection along the track [m/s]
 };
 
-/// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its nodes'
-/// lateral displacement; `angle` is the wheel frame's [rad].
+/// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its
+/// nodes' lateral displacement; `angle` is the wheel frame's [rad].
 double wheel_tilt(const Model& model, const double* displacement, double angle);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.

@@ -132,13 +132,15 @@ void Simulation::step() {
   if (model_->ties) model_->ties->gather(force_.data());
   // 2  fastenings, primary suspension
   connect();
-  // 3  contact: search, gap, penalty, friction, frictional work
-  roll();
+  // 3  contact: search and gap
+  search();
   // 4  torque; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the update)
   drive();
   carry();
-  // 5  velocities, constraints, displacements, frames
-  advance();
+  // 5  velocities and displacements; pressure and friction at the step's end; constraints, frames
+  move();
+  roll();
+  constrain();
   // 6  samples
   if (sampled_) end_sample();
   if (steps_ % kAnchorInterval == 0) anchor();
@@ -159,10 +161,14 @@ void Simulation::connect() {
   }
 }
 
+void Simulation::search() {
+  if (model_->contact) model_->contact->search({u_.data(), v_.data(), &frame_}, time_, dt_);
+}
+
 void Simulation::roll() {
   if (!model_->contact) return;
-  model_->contact->advance({u_.data(), v_.data(), &frame_}, time_, dt_);
-  model_->contact->add_forces(force_.data());
+  model_->contact->resolve({u_.data(), v_.data(), model_->inverse_mass.data()}, frame_, dt_);
+  if (sampled_) model_->contact->add_forces(force_.data());
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
   contact_impulse_ += dt_ * on_wheel;
   contact_impulse_size_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
@@ -183,7 +189,7 @@ void Simulation::carry() {
   model_->journal.add(force_.data(), frame_, (-added / (model_->journal.mass() + added)) * total);
 }
 
-void Simulation::advance() {
+void Simulation::move() {
   const UpdateFields fields{u_.data(), v_.data(), force_.data(), model_->inverse_mass.data()};
   const double gravity = model_->scene.gravity;
   for (std::size_t b = 0; b < model_->mesh.blocks.size(); ++b) {
@@ -193,6 +199,9 @@ void Simulation::advance() {
     else
       update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
   }
+}
+
+void Simulation::constrain() {
   for (const std::int64_t unknown : model_->restrained)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
   follow_ties();

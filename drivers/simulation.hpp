@@ -76,7 +76,9 @@ class Simulation {
   void roll();
   void drive();
   void carry();
-  void advance();
+  void search();
+  void move();
+  void constrain();
   void begin_sample();
   void end_sample();
   void start_velocities();

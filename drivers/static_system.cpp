@@ -76,40 +76,18 @@ StepLimit step_limit(const Model& model) {
   };
   StepLimit limit;
   limit.element = model.internal->max_frequency();
-  const auto bodies = highest_frequency(elastic, inverse_mass);
-  limit.without_contact = stable_step(bodies.omega, 0);
-  limit.omega = bodies.omega;
-
-  if (model.contact) {
-    AlignedVector<double> grounded(static_cast<std::size_t>(model.mesh.slots), 0.0);
-    model.contact->add_grounded_stiffness(model.mass.data(), grounded.data());
-    const Operator with_contact = [&](const double* x, double* y) {
-      elastic(x, y);
-      for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
-        if (grounded[static_cast<std::size_t>(slot)] > 0)
-          for (int c = 0; c < 3; ++c)
-            if (inverse_mass[static_cast<std::size_t>(dof(slot, c))] > 0)
-              y[dof(slot, c)] += grounded[static_cast<std::size_t>(slot)] * x[dof(slot, c)];
-    };
-    limit.omega = highest_frequency(with_contact, inverse_mass).omega;
-  }
+  limit.omega = highest_frequency(elastic, inverse_mass).omega;
   double beta = 0;
   for (const double b : model.beta) beta = std::max(beta, b);
   limit.stable_step = stable_step(limit.omega, beta);
   refuse_heavy_damping(beta, limit.stable_step, limit.omega);
-  // Contact damping lags by half a step too; its fraction of critical counts as if every mode had it.
-  const double ratio = model.contact ? model.scene.contact->damping_ratio : 0;
-  limit.stable_step *= std::sqrt(1 + ratio * ratio) - ratio;
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-      block.name, at.x, at.y, at.z, 2 / limit.element.omega, limit.without_contact);
-  if (model.contact)
-    limit.reason += fmt::format("; the contact penalty takes {:.0f} % of that",
-                                100 * (1 - stable_step(limit.omega, 0) / limit.without_contact));
-  if (beta > 0 || ratio > 0)
+      block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(limit.omega, 0));
+  if (beta > 0)
     limit.reason += fmt::format("; damping takes {:.1f} % of the rest",
                                 100 * (1 - limit.stable_step / stable_step(limit.omega, 0)));
   return limit;

@@ -33,11 +33,10 @@ class StaticSystem {
 
 /// What limits the time step, for the report.
 struct StepLimit {
-  double stable_step = 0;      ///< largest stable step, penalty and damping included [s]
-  double without_contact = 0;  ///< of the elastic bodies alone [s]
-  double omega = 0;            ///< highest frequency with contact [rad/s]
-  ElementFrequency element;    ///< the element with the highest frequency of its own
-  std::string reason;          ///< one sentence
+  double stable_step = 0;    ///< largest stable step of the assembled bodies, damping included [s]
+  double omega = 0;          ///< their highest frequency [rad/s]
+  ElementFrequency element;  ///< the element with the highest frequency of its own
+  std::string reason;        ///< one sentence
 };
 
 StepLimit step_limit(const Model& model);

@@ -263,8 +263,6 @@ void add_contact(Keys& keys) {
   keys.push_back(number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio),
                         above(0, 0.5),
                         "Penetration divided by the Hertz approach: sets the penalty stiffness"));
-  keys.push_back(number("contact.damping_ratio", at(&Scene::contact, &ContactSpec::damping_ratio), {0, 1},
-                        "Normal contact damping as a fraction of critical"));
   keys.push_back(choice("contact.surface", at(&Scene::contact, &ContactSpec::surface), {"exact", "facets"},
                         "Surface that the gap is measured to: the profile's curves or the element faces"));
   keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 4},

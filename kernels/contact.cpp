@@ -23,14 +23,6 @@ void subtract(double* field, std::int64_t slot, const Vec3& value) {
   field[dof(slot, 2)] -= value.z;
 }
 
-/// Local (t, y, r) components at the space angle with this cosine and sine.
-Vec3 localise(double c, double s, const Vec3& v) {
-  return {-c * v.x + s * v.z, v.y, -s * v.x - c * v.z};
-}
-Vec3 globalise(double c, double s, const Vec3& v) {
-  return {-c * v.x - s * v.z, v.y, s * v.x - c * v.z};
-}
-
 /// Points and weights of Gauss on [0, 1].
 std::vector<std::array<double, 2>> gauss(int points) {
   switch (points) {
@@ -113,6 +105,8 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
   const auto capacity = static_cast<std::size_t>((last_edge_ - first_edge_) * points_per_face_);
   for (Column& column : columns_) column.points.reserve(capacity);
   points_.reserve(capacity * columns_.size());
+  solver_.reserve(mesh.slots, points_.capacity(),
+                  4 * (columns_.size() + 4) * static_cast<std::size_t>(last_edge_ - first_edge_ + 4));
 }
 
 void Contact::update_window(double wheel_x) {
@@ -223,7 +217,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     }
   }
   point.gap = gap;
-  if (gap < 0)
+  if (gap < margin_)
     for (std::size_t i = 0; i < 4; ++i) {
       const double space = phi - point.wheel_cosine[i];
       point.wheel_cosine[i] = std::cos(space);
@@ -259,31 +253,17 @@ Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
   return weight > 0 ? (1 / weight) * sum : Vec3{};
 }
 
-void Contact::load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point,
-                         double* work) const {
-  const Vec3 relative = wheel_velocity(state, point) - rail_velocity(state, point);
-  const double closing = dot(relative, point.normal);
-  const double elastic = -options_.penalty * point.gap;
-  point.pressure = std::max(0.0, elastic + options_.damping * closing);
-  work[1] += (point.pressure - elastic) * closing * dt * point.area;
-
+void Contact::set_tangents(ContactPoint& point) const {
   const Vec3 ahead{1, 0, 0};
   const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
   point.along = (1 / norm(along)) * along;
   point.across = cross(point.along, point.normal);
-  point.slip_speed = {dot(relative, point.along), dot(relative, point.across)};
-  const auto result =
-      friction_.advance(history, {point.slip_speed.along * dt, point.slip_speed.across * dt}, point.pressure);
-  history = result.traction;
-  point.shear = result.traction;
-  point.slips = result.slips;
-  work[0] += result.dissipation * point.area;
 }
 
-void Contact::visit_column(const ContactState& state, int station, double time, double dt) {
+void Contact::visit_column(const ContactState& state, int station, double time) {
   Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
   column.points.clear();
-  column.friction_work = column.damping_work = 0;
+  column.released = 0;
   const bool dynamic = state.velocity != nullptr;
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
     double& wake = wake_time_[static_cast<std::size_t>(station * rail_profile_.edges() + edge)];
@@ -293,80 +273,104 @@ void Contact::visit_column(const ContactState& state, int station, double time, 
       ContactPoint point{};
       const double gap = probe(state, {station, edge, k}, point);
       smallest = std::min(smallest, gap);
-      Traction& history = history_[static_cast<std::size_t>(history_index(station, edge, k))];
-      double work[2] = {0, 0};
-      if (gap < 0) {
-        if (dynamic)
-          load_point(state, dt, history, point, work);
-        else
+      point.history = history_index(station, edge, k);
+      History& history = history_[static_cast<std::size_t>(point.history)];
+      if (gap < margin_) {
+        if (dynamic) {
+          point.pressure = history.pressure;
+          point.shear = point.shear_before = history.shear;
+          point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
+        } else {
           point.pressure = -options_.penalty * gap;
+        }
+        set_tangents(point);
         column.points.push_back(point);
-      } else if (history.along != 0 || history.across != 0) {
-        // The point leaves contact: what the stick had stored is released.
-        column.friction_work += 0.5 * (history.along * history.along + history.across * history.across) /
-                                friction_.tangential_penalty * point.area;
+      } else if (history.pressure > 0) {
+        column.released += friction_.stored(history.shear) * point.area;
         history = {};
       }
-      column.friction_work += work[0];
-      column.damping_work += work[1];
     }
-    if (dynamic) wake = smallest > 0 ? time + smallest / closing_speed_ : time;
+    if (dynamic) wake = smallest > margin_ ? time + (smallest - margin_) / closing_speed_ : time;
   }
 }
 
-void Contact::collect() {
+void Contact::gather_columns() {
   points_.clear();
-  totals_ = {};
   for (int station = window_first_; station < window_last_; ++station) {
     const Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
-    frictional_work_ += column.friction_work;
-    damping_work_ += column.damping_work;
-    for (const ContactPoint& point : column.points) {
-      points_.push_back(point);
-      const Vec3 traction =
-          point.pressure * point.normal + point.shear.along * point.along + point.shear.across * point.across;
-      totals_.force_on_rail += point.area * traction;
-      totals_.area += point.area;
-      if (point.slips) totals_.slip_area += point.area;
-      totals_.centre += point.area * point.pressure * point.position;
-      if (point.pressure > totals_.max_pressure) {
-        totals_.max_pressure = point.pressure;
-        totals_.pressure_peak = point.position;
-      }
-      const double shear2 = point.shear.along * point.shear.along + point.shear.across * point.shear.across;
-      totals_.max_shear = std::max(totals_.max_shear, std::sqrt(shear2));
-      totals_.max_penetration = std::max(totals_.max_penetration, -point.gap);
-      totals_.penalty_energy +=
-          0.5 * point.area *
-          (options_.penalty * point.gap * point.gap + shear2 / friction_.tangential_penalty);
-    }
+    frictional_work_ += column.released;
+    points_.insert(points_.end(), column.points.begin(), column.points.end());
   }
+}
+
+void Contact::sum_up() {
+  totals_ = {};
   double load = 0;
-  for (const ContactPoint& point : points_) load += point.area * point.pressure;
+  for (const ContactPoint& point : points_) {
+    totals_.force_on_rail += point.area * point.traction();
+    totals_.area += point.area;
+    if (point.slips) totals_.slip_area += point.area;
+    load += point.area * point.pressure;
+    totals_.centre += point.area * point.pressure * point.position;
+    if (point.pressure > totals_.max_pressure) {
+      totals_.max_pressure = point.pressure;
+      totals_.pressure_peak = point.position;
+    }
+    totals_.max_shear = std::max(totals_.max_shear, std::hypot(point.shear.along, point.shear.across));
+    totals_.max_penetration = std::max(totals_.max_penetration, point.pressure / options_.penalty);
+    totals_.penalty_energy += point.area * stored_energy(point.pressure, point.shear);
+  }
   if (load > 0) totals_.centre = (1 / load) * totals_.centre;
 }
 
 void Contact::find_static(const ContactState& state) {
+  margin_ = 0;
   update_window(state.wheel->origin.x);
-  for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0, 0);
-  collect();
+  for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0);
+  gather_columns();
+  sum_up();
 }
 
-void Contact::advance(const ContactState& state, double time, double dt) {
+void Contact::search(const ContactState& state, double time, double dt) {
   update_window(state.wheel->origin.x);
   const double half = reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
   closing_speed_ = 1.5 * norm(state.wheel->velocity) * half / options_.wheel_radius + 5;
+  margin_ = closing_speed_ * dt;
   parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
-      visit_column(state, window_first_ + static_cast<int>(i), time, dt);
+      visit_column(state, window_first_ + static_cast<int>(i), time);
   });
-  collect();
+  gather_columns();
+}
+
+void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
+  solver_.solve(points_, options_.penalty, friction_, wheel, motion, dt);
+  std::size_t kept = 0;
+  for (const ContactPoint& point : points_) {
+    History& history = history_[static_cast<std::size_t>(point.history)];
+    const Traction slip{dt * point.slip_speed.along, dt * point.slip_speed.across};
+    const double friction = friction_.dissipation(history.shear, point.shear, slip);
+    // What the forces took from the bodies since the step before, less what was stored and rubbed away.
+    const double work = dt * point.pressure * point.closing_speed + point.shear.along * slip.along +
+                        point.shear.across * slip.across;
+    const double stored =
+        stored_energy(point.pressure, point.shear) - stored_energy(history.pressure, history.shear);
+    frictional_work_ += point.area * friction;
+    damping_work_ += point.area * (work - stored - friction);
+    history = {point.shear, point.pressure};
+    if (point.pressure > 0) points_[kept++] = point;
+  }
+  points_.resize(kept);
+  sum_up();
+}
+
+double Contact::stored_energy(double pressure, const Traction& shear) const {
+  return 0.5 * pressure * pressure / options_.penalty + friction_.stored(shear);
 }
 
 void Contact::add_forces(double* force) const {
   for (const ContactPoint& point : points_) {
-    const Vec3 load = point.area * (point.pressure * point.normal + point.shear.along * point.along +
-                                    point.shear.across * point.across);
+    const Vec3 load = point.area * point.traction();
     std::array<Vec3, 4> local{};
     for (std::size_t i = 0; i < 4; ++i) local[i] = localise(point.wheel_cosine[i], point.wheel_sine[i], load);
     for (std::size_t k = 0; k < kSupport; ++k) {
@@ -396,42 +400,6 @@ std::vector<Spring> Contact::springs() const {
     springs.push_back(std::move(spring));
   }
   return springs;
-}
-
-std::map<std::int64_t, double> Contact::surface_stiffness(const SweptBlock& block,
-                                                          const SurfaceProfile& profile, int first,
-                                                          int last) const {
-  std::map<std::int64_t, double> stiffness;
-  const int cells = block.closed ? block.station_count() : block.station_count() - 1;
-  for (int station = 0; station < cells; ++station) {
-    const double pitch = block.pitch(station);
-    const int next = station + 1 < block.station_count() ? station + 1 : 0;
-    for (int edge = first; edge < last; ++edge) {
-      const auto middle = profile.evaluate(edge, 0.5, options_.surface);
-      const double length = block.sweep == Sweep::revolved ? pitch * middle.q : pitch;
-      const double share = 0.25 * options_.penalty * length * std::hypot(middle.dp, middle.dq);
-      for (const int at : {station, next})
-        for (int end = 0; end < 2; ++end)
-          stiffness[block.base + block.slot(profile.node(edge + end), at)] += share;
-    }
-  }
-  return stiffness;
-}
-
-void Contact::add_grounded_stiffness(const double* mass, double* stiffness) const {
-  const int low = wheel_profile_.edge_at(rail_profile_.edge_p(first_edge_, 0));
-  const int high = wheel_profile_.edge_at(rail_profile_.edge_p(last_edge_ - 1, 1));
-  const auto rail = surface_stiffness(*rail_, rail_profile_, first_edge_, last_edge_);
-  const auto wheel = surface_stiffness(*wheel_, wheel_profile_, low, high + 1);
-  const auto lightest = [&](const auto& side) {
-    double least = std::numeric_limits<double>::max();
-    for (const auto& [slot, k] : side) least = std::min(least, mass[slot] / k);
-    return least;
-  };
-  const double rail_least = lightest(rail);
-  const double wheel_least = lightest(wheel);
-  for (const auto& [slot, k] : rail) stiffness[slot] += k * (1 + mass[slot] / k / wheel_least);
-  for (const auto& [slot, k] : wheel) stiffness[slot] += k * (1 + mass[slot] / k / rail_least);
 }
 
 std::int64_t Contact::bytes() const {

@@ -13,8 +13,10 @@
 #include "core/body_frame.hpp"
 #include "core/corrugation.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/contact_point.hpp"
 #include "kernels/contact_surface.hpp"
 #include "kernels/friction.hpp"
+#include "kernels/patch_solver.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
 namespace tread {
@@ -25,33 +27,9 @@ struct ContactOptions {
   SurfaceKind surface = SurfaceKind::exact;
   int points = 3;           ///< integration points per face and direction
   double penalty = 0;       ///< normal penalty stiffness per area [Pa/m]
-  double damping = 0;       ///< normal damping per area [Pa s/m]
   double friction = 0;      ///< coefficient of friction f [-]
   double wheel_radius = 0;  ///< of the nominal rolling circle [m]
   double reach_gap = 4e-4;  ///< gap of the undeformed surfaces up to which points are searched [m]
-};
-
-/// Nodes that carry a point of a surface: 4 stations x 4 nodes across.
-inline constexpr std::size_t kSupport = 16;
-
-/// One integration point of the rail's faces in contact.
-struct ContactPoint {
-  std::array<std::int64_t, kSupport> rail_slot;   ///< nodes about the point, station by station
-  std::array<std::int64_t, kSupport> wheel_slot;  ///< nodes about the opposite point of the wheel
-  std::array<double, kSupport> rail_weight;
-  std::array<double, kSupport> wheel_weight;
-  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of the space angle of the four wheel stations
-  std::array<double, 4> face_weight;  ///< bilinear, of the rail face's corners (for nodal averages)
-  std::array<int, 2> face;            ///< rail station and surface edge
-  Vec3 normal;                        ///< out of the wheel, into the rail; Cartesian
-  Vec3 along, across;                 ///< tangents: along the rolling direction; across, to the field side
-  Vec3 position;                      ///< on the rail surface [m]
-  double area;                        ///< that the point stands for [m2]
-  double gap;                         ///< < 0: penetration [m]
-  double pressure;                    ///< [Pa]
-  Traction shear;                     ///< on the rail [Pa]
-  Traction slip_speed;                ///< of the wheel against the rail [m/s]
-  bool slips;
 };
 
 /// Sums over the patch at one instant.
@@ -81,8 +59,13 @@ class Contact {
   /// Finds the points in contact, without friction (preload).
   void find_static(const ContactState& state);
 
-  /// One step of length dt [s] that ends at `time` [s]: search, gap, penalty, friction, frictional work.
-  void advance(const ContactState& state, double time, double dt);
+  /// Finds the points that touch or may touch before the step of length dt [s] that starts at `time` [s]
+  /// ends.
+  void search(const ContactState& state, double time, double dt);
+
+  /// Pressure and friction of the points found last, in the middle of the step; their impulses are added to
+  /// the motion that the step has without contact.
+  void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);
 
   /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last
   /// [m/s].
@@ -97,18 +80,15 @@ class Contact {
   /// Height of the wheel's axis at which its undeformed surface touches the smooth rail [m].
   double touching_height() const { return touching_height_; }
 
-  /// Springs to ground that bound the effect of the penalty at every surface node that contact can reach,
-  /// whatever node it meets: k (1 + m / m_other) per area, with the lightest surface of the other body [N/m].
-  /// Both fields are scalar node fields; `mass` is lumped.
-  void add_grounded_stiffness(const double* mass, double* stiffness) const;
-
   const std::vector<ContactPoint>& points() const { return points_; }
   const ContactTotals& totals() const { return totals_; }
   const Corrugation& corrugation() const { return corrugation_; }
   const ContactOptions& options() const { return options_; }
 
   double frictional_work() const { return frictional_work_; }  ///< dissipated by friction since the start [J]
-  double damping_work() const { return damping_work_; }        ///< dissipated by contact damping [J]
+  /// Dissipated because the forces lead the motion by half a step, so that the penalty's oscillations die out
+  /// [J].
+  double damping_work() const { return damping_work_; }
 
   /// Bytes of the integration points' histories.
   std::int64_t bytes() const;
@@ -122,17 +102,15 @@ class Contact {
     int edge;
     int point;
   };
-  /// Penalty times the area that each reachable surface node stands for [N/m].
-  std::map<std::int64_t, double> surface_stiffness(const SweptBlock& block, const SurfaceProfile& profile,
-                                                   int first, int last) const;
   void update_window(double wheel_x);
-  void visit_column(const ContactState& state, int station, double time, double dt);
-  void collect();
+  void visit_column(const ContactState& state, int station, double time);
+  void gather_columns();
+  void sum_up();
   double probe(const ContactState& state, const Candidate& where, ContactPoint& point) const;
   Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) const;
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
-  void load_point(const ContactState& state, double dt, Traction& history, ContactPoint& point,
-                  double* work) const;
+  void set_tangents(ContactPoint& point) const;
+  double stored_energy(double pressure, const Traction& shear) const;  // per area [J/m2]
   std::int64_t history_index(int station, int edge, int point) const {
     return (static_cast<std::int64_t>(station) * rail_profile_.edges() + edge) * points_per_face_ + point;
   }
@@ -151,19 +129,24 @@ class Contact {
   std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
   int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
 
-  std::vector<Traction> history_;  ///< by integration point of the whole rail [Pa]
+  struct History {
+    Traction shear;       ///< [Pa]
+    double pressure = 0;  ///< [Pa]
+  };
+  std::vector<History> history_;   ///< by integration point of the whole rail
   std::vector<double> wake_time_;  ///< by face: contact cannot start before [s]
   double touching_height_ = 0;
   double closing_speed_ = 0;  ///< bound used for wake_time_ [m/s]
+  double margin_ = 0;         ///< gap up to which points are kept [m]
   int window_first_ = 0, window_last_ = 0;
 
   struct Column {
     std::vector<ContactPoint> points;
-    double friction_work = 0;
-    double damping_work = 0;
+    double released = 0;  ///< elastic stick of points that have left [J]
   };
   std::vector<Column> columns_;
   std::vector<ContactPoint> points_;
+  PatchSolver solver_;
   ContactTotals totals_;
   double frictional_work_ = 0;
   double damping_work_ = 0;

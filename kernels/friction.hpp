@@ -18,30 +18,37 @@ struct CoulombFriction {
   struct Result {
     Traction traction;  ///< at the end of the step [Pa]
     bool slips;
-    double work;         ///< of the mid-step traction on the slip of the step [J/m2]
-    double dissipation;  ///< the part of it that is not stored in the elastic stick [J/m2]
   };
 
-  /// One step: `slip` is the movement of the wheel surface relative to the rail in this step [m], `pressure`
-  /// the contact pressure at its end [Pa]; zero pressure releases the traction.
-  Result advance(const Traction& before, const Traction& slip, double pressure) const {
-    Traction after{before.along + tangential_penalty * slip.along,
-                   before.across + tangential_penalty * slip.across};
+  /// Traction at the end of a step: `slip` is the movement of the wheel surface relative to the rail in this
+  /// step if the traction at its end were zero, which that traction reduces by `compliance` times itself [m,
+  /// m/Pa]; `pressure` is that at the end of the step; zero pressure releases the traction.
+  Result advance(const Traction& before, const Traction& slip, double pressure, double compliance) const {
+    const double scale = 1 / (1 + tangential_penalty * compliance);
+    Traction after{scale * (before.along + tangential_penalty * slip.along),
+                   scale * (before.across + tangential_penalty * slip.across)};
     const double limit = friction_coefficient * pressure;
-    const double size = std::sqrt(after.along * after.along + after.across * after.across);
+    const double size = std::hypot(after.along, after.across);
     const bool slips = size > limit;
     if (slips) {
-      const double scale = size > 0 ? limit / size : 0.0;
-      after.along *= scale;
-      after.across *= scale;
+      const double share = limit / size;
+      after.along *= share;
+      after.across *= share;
     }
+    return {after, slips};
+  }
+
+  /// Work of the mid-step traction on the slip of a step less the change of what the elastic stick stores:
+  /// the frictional work of the step [J/m2].
+  double dissipation(const Traction& before, const Traction& after, const Traction& slip) const {
     const double work =
         0.5 * ((before.along + after.along) * slip.along + (before.across + after.across) * slip.across);
-    const double stored = 0.5 *
-                          (after.along * after.along + after.across * after.across -
-                           before.along * before.along - before.across * before.across) /
-                          tangential_penalty;
-    return {after, slips, work, work - stored};
+    return work - stored(after) + stored(before);
+  }
+
+  /// Energy in the elastic stick [J/m2].
+  double stored(const Traction& traction) const {
+    return 0.5 * (traction.along * traction.along + traction.across * traction.across) / tangential_penalty;
   }
 };
 

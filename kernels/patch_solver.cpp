@@ -1,0 +1,138 @@
+#include "kernels/patch_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kMaxSweeps = 100;
+constexpr double kTolerance = 1e-6;  ///< last change of a traction / largest pressure
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
+  node_of_.assign(static_cast<std::size_t>(slots), -1);
+  links_.reserve(points);
+  nodes_.reserve(nodes);
+}
+
+void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame& wheel,
+                       const NodeMotion& motion, double dt) {
+  nodes_.clear();
+  links_.resize(points.size());
+  const auto number = [&](std::int64_t slot, bool of_wheel) {
+    int& node = node_of_[static_cast<std::size_t>(slot)];
+    if (node < 0) {
+      node = static_cast<int>(nodes_.size());
+      const double* v = motion.velocity;
+      const Vec3 velocity{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)]};
+      nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity, velocity});
+    }
+    return node;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContactPoint& point = points[i];
+    Link& link = links_[i];
+    double mobility = 0;
+    for (std::size_t k = 0; k < kSupport; ++k) {
+      link.rail[k] = number(point.rail_slot[k], false);
+      link.wheel[k] = number(point.wheel_slot[k], true);
+      mobility += point.rail_weight[k] * point.rail_weight[k] * nodes_[index(link.rail[k])].inverse_mass +
+                  point.wheel_weight[k] * point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
+    }
+    link.compliance = 0.5 * dt * dt * point.area * mobility;
+    link.frame_velocity =
+        wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin);
+  }
+}
+
+void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& impulse) {
+  for (std::size_t station = 0; station < 4; ++station) {
+    const Vec3 local = localise(point.wheel_cosine[station], point.wheel_sine[station], impulse);
+    for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
+      Node& rail = nodes_[index(link.rail[k])];
+      Node& wheel = nodes_[index(link.wheel[k])];
+      rail.velocity += point.rail_weight[k] * rail.inverse_mass * impulse;
+      wheel.velocity += -point.wheel_weight[k] * wheel.inverse_mass * local;
+    }
+  }
+}
+
+Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link) const {
+  Vec3 relative = link.frame_velocity;
+  for (std::size_t station = 0; station < 4; ++station) {
+    Vec3 local;
+    for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
+      local += point.wheel_weight[k] * nodes_[index(link.wheel[k])].velocity;
+      relative += -point.rail_weight[k] * nodes_[index(link.rail[k])].velocity;
+    }
+    relative += globalise(point.wheel_cosine[station], point.wheel_sine[station], local);
+  }
+  return relative;
+}
+
+void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
+                        const BodyFrame& wheel, const NodeMotion& motion, double dt) {
+  link(points, wheel, motion, dt);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    push(points[i], links_[i], dt * points[i].area * points[i].traction());
+
+  // Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
+  for (sweeps_ = 1;; ++sweeps_) {
+    double change = 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ContactPoint& point = points[i];
+      const double compliance = links_[i].compliance;
+      const Vec3 velocity = relative_velocity(point, links_[i]);
+      const Vec3 mean = 0.5 * (point.velocity_before + velocity);
+      point.closing_speed = dot(mean, point.normal);
+      point.slip_speed = {dot(mean, point.along), dot(mean, point.across)};
+      const Vec3 before = point.traction();
+      // Gap in the middle of the step and slip between both middles if the point's own traction were zero.
+      const double gap = point.gap - 0.5 * dt * dot(velocity, point.normal) - compliance * point.pressure;
+      const Traction slip{dt * point.slip_speed.along + compliance * point.shear.along,
+                          dt * point.slip_speed.across + compliance * point.shear.across};
+      point.pressure = std::max(0.0, -penalty * gap / (1 + penalty * compliance));
+      const auto stick = friction.advance(point.shear_before, slip, point.pressure, compliance);
+      point.shear = stick.traction;
+      point.slips = stick.slips;
+      const Vec3 by = point.traction() - before;
+      push(point, links_[i], dt * point.area * by);
+      change = std::max(change, norm(by));
+      largest = std::max(largest, point.pressure);
+    }
+    if (change <= kTolerance * largest || sweeps_ == kMaxSweeps) break;
+  }
+  write_back(motion, wheel.spin, dt);
+}
+
+void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
+  // In the spinning frame half of an impulse acts before the turn of the relative velocity, half after it.
+  const double c = 0.5 * (1 + std::cos(2 * spin * dt));
+  const double s = 0.5 * std::sin(2 * spin * dt);
+  for (const Node& node : nodes_) {
+    node_of_[static_cast<std::size_t>(node.slot)] = -1;
+    Vec3 change = node.velocity - node.free;
+    if (node.of_wheel) change = {c * change.x - s * change.z, change.y, s * change.x + c * change.z};
+    for (int i = 0; i < 3; ++i) {
+      motion.velocity[dof(node.slot, i)] += change[i];
+      motion.displacement[dof(node.slot, i)] += dt * change[i];
+    }
+  }
+}
+
+std::int64_t PatchSolver::bytes() const {
+  return static_cast<std::int64_t>(node_of_.size() * sizeof(int) + nodes_.capacity() * sizeof(Node) +
+                                   links_.capacity() * sizeof(Link));
+}
+
+}  // namespace tread

@@ -1,0 +1,59 @@
+#pragma once
+// Pressure and friction of all points of the patch together, such that they belong to the motion that they
+// themselves cause. [theory.md, Contact]
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/body_frame.hpp"
+#include "kernels/contact_point.hpp"
+#include "kernels/friction.hpp"
+
+namespace tread {
+
+/// Nodal fields after a step without contact, components in the nodes' local bases.
+struct NodeMotion {
+  double* displacement;        ///< at the end of the step [m]
+  double* velocity;            ///< mean of the step, relative to the frame [m/s]
+  const double* inverse_mass;  ///< by slot [1/kg]
+};
+
+class PatchSolver {
+ public:
+  /// Makes room for fields of `slots` nodes, of which `points` points carry `nodes` at once.
+  void reserve(std::int64_t slots, std::size_t points, std::size_t nodes);
+
+  /// Sets pressure, shear, closing and slip speed of the points for a step of length dt [s], from pressure
+  /// and shear as first guess, and adds the impulses to the motion. `penalty` is the normal stiffness [Pa/m].
+  void solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
+             const BodyFrame& wheel, const NodeMotion& motion, double dt);
+
+  int sweeps() const { return sweeps_; }  ///< over all points, of the last solution
+  std::int64_t bytes() const;
+
+ private:
+  struct Node {
+    std::int64_t slot;
+    bool of_wheel;
+    double inverse_mass;  ///< [1/kg]
+    Vec3 free, velocity;  ///< without and with contact, in the node's basis [m/s]
+  };
+  struct Link {
+    std::array<int, kSupport> rail, wheel;  ///< into nodes_
+    Vec3 frame_velocity;                    ///< of the wheel's frame at the point [m/s]
+    double compliance;                      ///< half of dt^2 A sum(w^2 / m) [m/Pa]
+  };
+  void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion,
+            double dt);
+  void push(const ContactPoint& point, const Link& link, const Vec3& impulse);
+  Vec3 relative_velocity(const ContactPoint& point, const Link& link) const;
+  void write_back(const NodeMotion& motion, double spin, double dt);
+
+  std::vector<int> node_of_;  ///< by slot, -1: none
+  std::vector<Node> nodes_;
+  std::vector<Link> links_;
+  int sweeps_ = 0;
+};
+
+}  // namespace tread
