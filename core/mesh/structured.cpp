@@ -209,6 +209,25 @@ Patch fill(const PatchSides& s) {
   return patch;
 }
 
+namespace {
+
+/// Moves inner nodes towards the middle of their neighbours where `held` is below 1: corners of a patch that
+/// lie on a smooth outline get cells of a useful shape.
+void relax(Patch& patch, std::span<const double> held) {
+  constexpr int kPasses = 4;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const Patch before = patch;
+    for (int j = 1; j < patch.rows; ++j)
+      for (int i = 1; i < patch.columns; ++i) {
+        const Point2 middle =
+            0.25 * (before.at(i - 1, j) + before.at(i + 1, j) + before.at(i, j - 1) + before.at(i, j + 1));
+        patch.at(i, j) = patch.at(i, j) + (1 - held[index(i)]) * (middle - patch.at(i, j));
+      }
+  }
+}
+
+}  // namespace
+
 Patch fill_layered(const PatchSides& s, std::span<const double> layers, std::span<const double> weight) {
   check_sides(s);
   Patch patch(static_cast<int>(s.bottom.size()) - 1, static_cast<int>(s.left.size()) - 1);
@@ -232,6 +251,7 @@ Patch fill_layered(const PatchSides& s, std::span<const double> layers, std::spa
     patch.at(i, 0) = s.bottom[index(i)];
     patch.at(i, patch.rows) = s.top[index(i)];
   }
+  relax(patch, weight);
   return patch;
 }
 
