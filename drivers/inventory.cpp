@@ -91,10 +91,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                      {"journal nodes", "displacement", "velocity"},
                      {"force", "sprung mass"}});
   list.add(load, {"wheel load", "journal", {"journal nodes"}, {"force"}});
-  list.add(model.contact != nullptr, {"contact",
+  list.add(model.contact != nullptr, {"contact search",
                                       "rail faces near the wheel",
                                       {"displacement", "velocity", "wheel frame"},
-                                      {"contact points", "force"}});
+                                      {"contact points"}});
   list.add(!model.torque.empty(), {"torque", "end of the axle", {"torque nodes", "velocity"}, {"force"}});
   list.add(vehicle, {"unsprung mass", "journal", {"journal nodes"}, {"force"}});
   list.add(
@@ -108,6 +108,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                    "wheel blocks",
                    with_restraints(model, {"force", "mass", "wheel frame"}),
                    {"velocity", "displacement"}});
+  list.add(model.contact != nullptr, {"contact tractions",
+                                      "points of the patch",
+                                      {"mass", "wheel frame"},
+                                      {"contact points", "velocity", "displacement"}});
   list.add(model.ties.has_value(),
            {"tied motion", "tied nodes", {"tie links"}, {"velocity", "displacement"}});
   list.add(wheel,

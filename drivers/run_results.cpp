@@ -71,7 +71,7 @@ const std::vector<Column>& body_columns() {
       {{"gravity_energy", "J", "potential"}, [](const Sample& s) { return s.energy.gravity; }},
       {{"connector_loss", "J", "dissipated in dampers"},
        [](const Sample& s) { return s.energy.connector_loss; }},
-      {{"damping_loss", "J", "dissipated in contact damping"},
+      {{"damping_loss", "J", "lost because contact forces lead the motion by half a step"},
        [](const Sample& s) { return s.energy.damping_loss; }},
       {{"energy_residual", "J", "what the balance misses"},
        [](const Sample& s) { return s.energy.residual; }},

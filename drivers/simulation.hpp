@@ -19,7 +19,7 @@ struct EnergyLedger {
   double gravity = 0;          ///< potential
   double frictional_work = 0;  ///< dissipated
   double connector_loss = 0;   ///< dissipated in dampers of fastenings and suspension
-  double damping_loss = 0;     ///< dissipated in material and contact damping
+  double damping_loss = 0;     ///< lost because contact forces lead the motion
   double torque_work = 0;      ///< done by the torque
   double residual = 0;         ///< stored + dissipated - torque work - stored at the start
 };

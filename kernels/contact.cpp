@@ -403,8 +403,8 @@ std::vector<Spring> Contact::springs() const {
 }
 
 std::int64_t Contact::bytes() const {
-  return static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) +
-                                   wake_time_.size() * sizeof(wake_time_[0]));
+  return solver_.bytes() + static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) +
+                                                     wake_time_.size() * sizeof(wake_time_[0]));
 }
 
 std::array<double, 2> Contact::max_nodal_tractions() const {
