@@ -26,6 +26,10 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
   const Scene& scene = model.scene;
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
+    if (model.contact) {
+      model.contact->find_static({u_.data(), nullptr, &frame_});
+      model.contact->begin();
+    }
     start_velocities();
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
@@ -114,7 +118,6 @@ void Simulation::start_velocities() {
   if (!model_->contact) return;
   // Free rolling: the spin at which the patch as a whole does not slip.
   const ContactState state{u_.data(), v_.data(), &frame_};
-  model_->contact->find_static({u_.data(), nullptr, &frame_});
   frame_.spin += model_->contact->mean_slip_velocity(state).x / model_->wheel_radius();
 }
 

@@ -103,7 +103,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
   for (const PitchClass& c : rail_->classes) pitch = std::min(pitch, c.pitch);
   columns_.resize(static_cast<std::size_t>(window / pitch) + 3);
   const auto capacity = static_cast<std::size_t>((last_edge_ - first_edge_) * points_per_face_);
-  for (Column& column : columns_) column.points.reserve(capacity);
+  for (std::vector<ContactPoint>& column : columns_) column.reserve(capacity);
   points_.reserve(capacity * columns_.size());
   solver_.reserve(mesh.slots, points_.capacity(),
                   4 * (columns_.size() + 4) * static_cast<std::size_t>(last_edge_ - first_edge_ + 4));
@@ -194,7 +194,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
       surface += around.value[i] * value;
       side += around.slope[i] * value;
       across_tangent += around.value[i] * turn(slope, -turned[i]);
-      point.wheel_cosine[i] = turned[i];  // angles until the point is known to touch
+      point.wheel_cosine[i] = turned[i];  // angles, until set_bases()
     }
 
     const Vec3 e = cartesian_to_cylindrical(phi, d) - surface;
@@ -217,12 +217,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     }
   }
   point.gap = gap;
-  if (gap < margin_)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double space = phi - point.wheel_cosine[i];
-      point.wheel_cosine[i] = std::cos(space);
-      point.wheel_sine[i] = std::sin(space);
-    }
+  for (double& angle : point.wheel_cosine) angle = phi - angle;
   return gap;
 }
 
@@ -253,7 +248,11 @@ Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
   return weight > 0 ? (1 / weight) * sum : Vec3{};
 }
 
-void Contact::set_tangents(ContactPoint& point) const {
+void Contact::set_bases(ContactPoint& point) const {
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.wheel_sine[i] = std::sin(point.wheel_cosine[i]);
+    point.wheel_cosine[i] = std::cos(point.wheel_cosine[i]);
+  }
   const Vec3 ahead{1, 0, 0};
   const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
   point.along = (1 / norm(along)) * along;
@@ -261,9 +260,8 @@ void Contact::set_tangents(ContactPoint& point) const {
 }
 
 void Contact::visit_column(const ContactState& state, int station, double time) {
-  Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
-  column.points.clear();
-  column.released = 0;
+  std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+  column.clear();
   const bool dynamic = state.velocity != nullptr;
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
     double& wake = wake_time_[static_cast<std::size_t>(station * rail_profile_.edges() + edge)];
@@ -274,21 +272,18 @@ void Contact::visit_column(const ContactState& state, int station, double time) 
       const double gap = probe(state, {station, edge, k}, point);
       smallest = std::min(smallest, gap);
       point.history = history_index(station, edge, k);
-      History& history = history_[static_cast<std::size_t>(point.history)];
-      if (gap < margin_) {
-        if (dynamic) {
-          point.pressure = history.pressure;
-          point.shear = point.shear_before = history.shear;
-          point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
-        } else {
-          point.pressure = -options_.penalty * gap;
-        }
-        set_tangents(point);
-        column.points.push_back(point);
-      } else if (history.pressure > 0) {
-        column.released += friction_.stored(history.shear) * point.area;
-        history = {};
+      const History& history = history_[static_cast<std::size_t>(point.history)];
+      // A point that carried pressure stays until a step in which it carries none has released its energy.
+      if (gap >= margin_ && !(dynamic && history.pressure > 0)) continue;
+      set_bases(point);
+      if (dynamic) {
+        point.pressure = history.pressure;
+        point.shear = point.shear_before = history.shear;
+        point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
+      } else {
+        point.pressure = -options_.penalty * gap;
       }
+      column.push_back(point);
     }
     if (dynamic) wake = smallest > margin_ ? time + (smallest - margin_) / closing_speed_ : time;
   }
@@ -297,9 +292,8 @@ void Contact::visit_column(const ContactState& state, int station, double time) 
 void Contact::gather_columns() {
   points_.clear();
   for (int station = window_first_; station < window_last_; ++station) {
-    const Column& column = columns_[static_cast<std::size_t>(station - window_first_)];
-    frictional_work_ += column.released;
-    points_.insert(points_.end(), column.points.begin(), column.points.end());
+    const std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+    points_.insert(points_.end(), column.begin(), column.end());
   }
 }
 
@@ -329,6 +323,12 @@ void Contact::find_static(const ContactState& state) {
   for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0);
   gather_columns();
   sum_up();
+}
+
+void Contact::begin() {
+  std::fill(history_.begin(), history_.end(), History{});
+  for (const ContactPoint& point : points_)
+    history_[static_cast<std::size_t>(point.history)].pressure = point.pressure;
 }
 
 void Contact::search(const ContactState& state, double time, double dt) {

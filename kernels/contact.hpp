@@ -59,6 +59,9 @@ class Contact {
   /// Finds the points in contact, without friction (preload).
   void find_static(const ContactState& state);
 
+  /// Before the first step: it starts from the pressures found last.
+  void begin();
+
   /// Finds the points that touch or may touch before the step of length dt [s] that starts at `time` [s]
   /// ends.
   void search(const ContactState& state, double time, double dt);
@@ -109,7 +112,7 @@ class Contact {
   double probe(const ContactState& state, const Candidate& where, ContactPoint& point) const;
   Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) const;
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
-  void set_tangents(ContactPoint& point) const;
+  void set_bases(ContactPoint& point) const;
   double stored_energy(double pressure, const Traction& shear) const;  // per area [J/m2]
   std::int64_t history_index(int station, int edge, int point) const {
     return (static_cast<std::int64_t>(station) * rail_profile_.edges() + edge) * points_per_face_ + point;
@@ -140,11 +143,7 @@ class Contact {
   double margin_ = 0;         ///< gap up to which points are kept [m]
   int window_first_ = 0, window_last_ = 0;
 
-  struct Column {
-    std::vector<ContactPoint> points;
-    double released = 0;  ///< elastic stick of points that have left [J]
-  };
-  std::vector<Column> columns_;
+  std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
   std::vector<ContactPoint> points_;
   PatchSolver solver_;
   ContactTotals totals_;
