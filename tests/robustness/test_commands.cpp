@@ -104,9 +104,9 @@ TEST_F(Commands, StaticSceneIsComparedWithHertz) {
   EXPECT_FALSE(has(report, "Contact forces over"));
 }
 
-/// The shipped scenes of the wheelset, on a mesh that is fast rather than good.
-TEST_F(Commands, WheelsetScenesRun) {
-  for (const char* name : {"corrugation-d.toml", "smooth.toml", "rigid-ground.toml"}) {
+/// The shipped scenes with a rolling wheel, on a mesh that is fast rather than good.
+TEST_F(Commands, RollingScenesRun) {
+  for (const char* name : {"corrugation-d.toml", "smooth.toml", "rigid-ground.toml", "tyre.toml"}) {
     EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set "
                                "\"motion.duration=0.02 ms\" --set \"solution_zone.length=0.1 m\" {} {}",
                                (folder_ / name).string(),
