@@ -140,7 +140,7 @@ void Simulation::step() {
   // 4  torque; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the update)
   drive();
   carry();
-  // 5  velocities and displacements; pressure and friction at the step's end; constraints, frames
+  // 5  velocities and displacements; pressure and friction of the middle of the step; constraints, frames
   move();
   roll();
   constrain();

@@ -95,14 +95,14 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
   if (first_edge_ >= last_edge_)
     throw InputError("contact: the wheel's profile does not lie over the rail's");
 
-  history_.resize(static_cast<std::size_t>(history_index(rail_->station_count(), 0, 0)));
-  wake_time_.assign(static_cast<std::size_t>(rail_->station_count() * rail_profile_.edges()),
-                    -std::numeric_limits<double>::infinity());
+  const auto faces = static_cast<std::size_t>(face_index(rail_->station_count(), 0));
+  history_.resize(faces * quadrature_.size());
+  wake_time_.assign(faces, -std::numeric_limits<double>::infinity());
   const double window = 2 * reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
   double pitch = 1e30;
   for (const PitchClass& c : rail_->classes) pitch = std::min(pitch, c.pitch);
   columns_.resize(static_cast<std::size_t>(window / pitch) + 3);
-  const auto capacity = static_cast<std::size_t>((last_edge_ - first_edge_) * points_per_face_);
+  const auto capacity = static_cast<std::size_t>(last_edge_ - first_edge_) * quadrature_.size();
   for (std::vector<ContactPoint>& column : columns_) column.reserve(capacity);
   points_.reserve(capacity * columns_.size());
   solver_.reserve(mesh.slots, points_.capacity(),
@@ -264,14 +264,14 @@ void Contact::visit_column(const ContactState& state, int station, double time) 
   column.clear();
   const bool dynamic = state.velocity != nullptr;
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
-    double& wake = wake_time_[static_cast<std::size_t>(station * rail_profile_.edges() + edge)];
+    double& wake = wake_time_[static_cast<std::size_t>(face_index(station, edge))];
     if (dynamic && time < wake) continue;
     double smallest = std::numeric_limits<double>::max();
     for (int k = 0; k < points_per_face_; ++k) {
       ContactPoint point{};
       const double gap = probe(state, {station, edge, k}, point);
       smallest = std::min(smallest, gap);
-      point.history = history_index(station, edge, k);
+      point.history = face_index(station, edge) * points_per_face_ + k;
       const History& history = history_[static_cast<std::size_t>(point.history)];
       // A point that carried pressure stays until a step in which it carries none has released its energy.
       if (gap >= margin_ && !(dynamic && history.pressure > 0)) continue;

@@ -114,8 +114,9 @@ class Contact {
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
   void set_bases(ContactPoint& point) const;
   double stored_energy(double pressure, const Traction& shear) const;  // per area [J/m2]
-  std::int64_t history_index(int station, int edge, int point) const {
-    return (static_cast<std::int64_t>(station) * rail_profile_.edges() + edge) * points_per_face_ + point;
+  /// Of a rail face among all.
+  std::int64_t face_index(int station, int edge) const {
+    return static_cast<std::int64_t>(station) * rail_profile_.edges() + edge;
   }
 
   const Mesh* mesh_;

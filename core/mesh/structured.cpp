@@ -71,6 +71,7 @@ std::vector<double> graded(std::span<const double> breaks, const std::function<d
 
 std::vector<double> evenly(double first, double last, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count) + 1);
   for (int i = 0; i < count; ++i) values.push_back(first + (last - first) * i / count);
   values.push_back(last);
   return values;
@@ -151,6 +152,7 @@ std::vector<Point2> positions(const PlaneCurve& curve, std::span<const double> p
 
 std::vector<Point2> straight(Point2 first, Point2 last, int count) {
   std::vector<Point2> points;
+  points.reserve(static_cast<std::size_t>(count) + 1);
   for (int i = 0; i < count; ++i) points.push_back(first + (static_cast<double>(i) / count) * (last - first));
   points.push_back(last);
   return points;

@@ -59,10 +59,13 @@ std::vector<Point2> at_height(std::span<const double> x, double y);
 
 /// (columns + 1) x (rows + 1) points; column i runs along increasing x, row j along increasing y.
 struct Patch {
-  Patch(int columns_, int rows_)
-      : columns(columns_), rows(rows_), points(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1))) {}
-  Point2& at(int i, int j) { return points[static_cast<std::size_t>(j * (columns + 1) + i)]; }
-  Point2 at(int i, int j) const { return points[static_cast<std::size_t>(j * (columns + 1) + i)]; }
+  Patch(int columns_, int rows_) : columns(columns_), rows(rows_), points(index(columns_, rows_) + 1) {}
+  Point2& at(int i, int j) { return points[index(i, j)]; }
+  Point2 at(int i, int j) const { return points[index(i, j)]; }
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * (static_cast<std::size_t>(columns) + 1) +
+           static_cast<std::size_t>(i);
+  }
   int columns, rows;
   std::vector<Point2> points;
 };
