@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -52,6 +54,18 @@ std::vector<std::array<double, 2>> gauss(int points) {
 /// Half length of the search window: where a circle of the wheel's radius lies `gap` above its lowest point.
 double reach(double radius, double gap) {
   return std::sqrt(2 * radius * gap);
+}
+
+/// Tangents of the point and the bases of the wheel's nodes about it.
+void set_bases(ContactPoint& point) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.wheel_cosine[i] = std::cos(point.wheel_angle[i]);
+    point.wheel_sine[i] = std::sin(point.wheel_angle[i]);
+  }
+  const Vec3 ahead{1, 0, 0};
+  const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
+  point.along = (1 / norm(along)) * along;
+  point.across = cross(point.along, point.normal);
 }
 
 }  // namespace
@@ -194,7 +208,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
       surface += around.value[i] * value;
       side += around.slope[i] * value;
       across_tangent += around.value[i] * turn(slope, -turned[i]);
-      point.wheel_cosine[i] = turned[i];  // angles, until set_bases()
+      point.wheel_angle[i] = phi - turned[i];
     }
 
     const Vec3 e = cartesian_to_cylindrical(phi, d) - surface;
@@ -217,7 +231,6 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
     }
   }
   point.gap = gap;
-  for (double& angle : point.wheel_cosine) angle = phi - angle;
   return gap;
 }
 
@@ -246,17 +259,6 @@ Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
     weight += load;
   }
   return weight > 0 ? (1 / weight) * sum : Vec3{};
-}
-
-void Contact::set_bases(ContactPoint& point) const {
-  for (std::size_t i = 0; i < 4; ++i) {
-    point.wheel_sine[i] = std::sin(point.wheel_cosine[i]);
-    point.wheel_cosine[i] = std::cos(point.wheel_cosine[i]);
-  }
-  const Vec3 ahead{1, 0, 0};
-  const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
-  point.along = (1 / norm(along)) * along;
-  point.across = cross(point.along, point.normal);
 }
 
 void Contact::visit_column(const ContactState& state, int station, double time) {

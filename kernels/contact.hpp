@@ -4,9 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -112,7 +109,6 @@ class Contact {
   double probe(const ContactState& state, const Candidate& where, ContactPoint& point) const;
   Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) const;
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
-  void set_bases(ContactPoint& point) const;
   double stored_energy(double pressure, const Traction& shear) const;  // per area [J/m2]
   /// Of a rail face among all.
   std::int64_t face_index(int station, int edge) const {

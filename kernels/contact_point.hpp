@@ -18,7 +18,8 @@ struct ContactPoint {
   std::array<std::int64_t, kSupport> wheel_slot;  ///< nodes about the opposite point of the wheel
   std::array<double, kSupport> rail_weight;
   std::array<double, kSupport> wheel_weight;
-  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of the space angle of the four wheel stations
+  std::array<double, 4> wheel_angle;               ///< space angle of the four wheel stations [rad]
+  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of it
   std::array<double, 4> face_weight;  ///< bilinear, of the rail face's corners (for nodal averages)
   std::array<int, 2> face;            ///< rail station and surface edge
   Vec3 normal;                        ///< out of the wheel, into the rail; Cartesian
