@@ -76,20 +76,20 @@ StepLimit step_limit(const Model& model) {
   };
   StepLimit limit;
   limit.element = model.internal->max_frequency();
-  limit.omega = highest_frequency(elastic, inverse_mass).omega;
+  const double omega = highest_frequency(elastic, inverse_mass).omega;
   double beta = 0;
   for (const double b : model.beta) beta = std::max(beta, b);
-  limit.stable_step = stable_step(limit.omega, beta);
-  refuse_heavy_damping(beta, limit.stable_step, limit.omega);
+  limit.stable_step = stable_step(omega, beta);
+  refuse_heavy_damping(beta, limit.stable_step, omega);
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-      block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(limit.omega, 0));
+      block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(omega, 0));
   if (beta > 0)
-    limit.reason += fmt::format("; damping takes {:.1f} % of the rest",
-                                100 * (1 - limit.stable_step / stable_step(limit.omega, 0)));
+    limit.reason += fmt::format("; damping takes {:.1f} % of that",
+                                100 * (1 - limit.stable_step / stable_step(omega, 0)));
   return limit;
 }
 

@@ -34,7 +34,6 @@ class StaticSystem {
 /// What limits the time step, for the report.
 struct StepLimit {
   double stable_step = 0;    ///< largest stable step of the assembled bodies, damping included [s]
-  double omega = 0;          ///< their highest frequency [rad/s]
   ElementFrequency element;  ///< the element with the highest frequency of its own
   std::string reason;        ///< one sentence
 };

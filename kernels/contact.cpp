@@ -71,8 +71,7 @@ void set_bases(ContactPoint& point) {
 }  // namespace
 
 Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation corrugation)
-    : mesh_(&mesh),
-      rail_(&mesh.blocks[static_cast<std::size_t>(options.rail_block)]),
+    : rail_(&mesh.blocks[static_cast<std::size_t>(options.rail_block)]),
       wheel_(&mesh.blocks[static_cast<std::size_t>(options.wheel_block)]),
       options_(options),
       corrugation_(std::move(corrugation)),

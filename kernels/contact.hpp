@@ -115,7 +115,6 @@ class Contact {
     return static_cast<std::int64_t>(station) * rail_profile_.edges() + edge;
   }
 
-  const Mesh* mesh_;
   const SweptBlock* rail_;
   const SweptBlock* wheel_;
   ContactOptions options_;

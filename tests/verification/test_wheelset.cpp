@@ -19,8 +19,10 @@
 namespace tread {
 namespace {
 
-/// The paper's wheelset and vehicle on a rail with a fixed foot: nothing but the spin can change its tilt.
-const char* const kScene = R"([scene]
+/// The paper's wheelset, vehicle and rail on a coarse mesh without slab, and the tables in `more`.
+Scene wheelset_scene(const std::string& more) {
+  return resolve_scene(SceneSource{"wheelset.toml",
+                                   R"([scene]
 based_on = "highspeed-slab-2014"
 element_size = "6 mm"
 [solution_zone]
@@ -28,7 +30,16 @@ start = "0 m"
 length = "0.3 m"
 [slab]
 present = false
-[fastenings]
+)" + more,
+                                   {}},
+                       {})
+      .scene;
+}
+
+/// Largest change of the tilt while the wheelset rolls, relative to the static one. The rail's foot is fixed:
+/// nothing but the spin can change the tilt.
+double change_of_tilt(bool finite_rotation) {
+  const Scene scene = wheelset_scene(R"([fastenings]
 present = false
 [rail]
 support = "rigid"
@@ -39,11 +50,7 @@ friction = 0
 [motion]
 speed = "500 km/h"
 duration = "2 ms"
-)";
-
-/// Largest change of the tilt while the wheelset rolls, relative to the static one.
-double change_of_tilt(bool finite_rotation) {
-  const Scene scene = resolve_scene(SceneSource{"wheelset.toml", kScene, {}}, {}).scene;
+)");
   Model model(scene);
   const double speed = scene.motion->speed;
   const Preload preload =
@@ -110,22 +117,10 @@ double beam_deflection(const Scene& scene, const AreaMoments& section, double fo
 }
 
 TEST(Rail, DeflectsAsATimoshenkoBeamOnTheFastenings) {
-  const Scene scene = resolve_scene(SceneSource{"rail.toml",
-                                                R"([scene]
-based_on = "highspeed-slab-2014"
-element_size = "6 mm"
-[solution_zone]
-start = "0 m"
-length = "0.3 m"
-[slab]
-present = false
-[motion]
+  const Scene scene = wheelset_scene(R"([motion]
 speed = "0 m/s"
 duration = "0.1 ms"
-)",
-                                                {}},
-                                    {})
-                          .scene;
+)");
   Model model(scene);
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
   std::vector<AreaMoments> parts;
