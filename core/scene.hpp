@@ -78,10 +78,12 @@ struct LoadSpec {
 
 /// [contact]
 struct ContactSpec {
-  double friction = 0.5;            ///< coefficient of friction f [-]
-  double penetration_ratio = 0.02;  ///< penetration / Hertz approach under the static wheel load [-]
-  std::string surface = "exact";    ///< "exact" (profile curves) or "facets"
-  int points = 3;                   ///< integration points per face and direction
+  double friction = 0.5;  ///< coefficient of friction f [-]
+  /// Penetration / Hertz approach under the static wheel load; absent: the stiffest penalty that the mesh
+  /// bears. [-]
+  std::optional<double> penetration_ratio;
+  std::string surface = "exact";  ///< "exact" (profile curves) or "facets"
+  int points = 3;                 ///< integration points per face and direction
 };
 
 /// [motion]; absent: the scene ends with its static state

@@ -134,12 +134,13 @@ void Model::build_slab() {
 }
 
 void Model::build_wheel() {
-  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
   if (scene.wheel->shape == "tyre") {
+    const WheelPlan plan = plan_tyre(wheel_radius(), run_span(), zone_span(), sizes);
     index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes),
                                             {scene.steel}, plan.start, plan.tread));
     return;
   }
+  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   brake_ring_thickness = sized.brake_ring_thickness;
@@ -317,6 +318,16 @@ double lateral_radius(const SurfaceProfile& rail, const SurfaceProfile& wheel, d
 
 }  // namespace
 
+double Model::penalty_stiffness(const ContactSpec& spec) const {
+  const auto of_ratio = [&](double ratio) {
+    return hertz_patch.max_pressure / (ratio * hertz_patch.approach);
+  };
+  if (spec.penetration_ratio) return of_ratio(*spec.penetration_ratio);
+  // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly. [verification.md]
+  constexpr double kPerElement = 10;
+  return std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, of_ratio(0.02));
+}
+
 void Model::build_contact() {
   const ContactSpec& spec = *scene.contact;
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
@@ -332,7 +343,7 @@ void Model::build_contact() {
   options.wheel_block = index.tread;
   options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
   options.points = spec.points;
-  options.penalty = hertz_patch.max_pressure / (spec.penetration_ratio * hertz_patch.approach);
+  options.penalty = penalty_stiffness(spec);
   options.friction = spec.friction;
   options.wheel_radius = wheel_radius();
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});

@@ -85,6 +85,7 @@ struct Model {
   void build_fastenings();
   void build_wheel_parts();
   void build_contact();
+  double penalty_stiffness(const ContactSpec& spec) const;  ///< per area [Pa/m]
   Span run_span() const;
   Span zone_span() const;
 };

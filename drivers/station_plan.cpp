@@ -107,4 +107,39 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
   return plan;
 }
 
+WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) {
+  const double turn = 2 * std::numbers::pi * radius;
+  if (zone.empty()) zone = {0, 0};
+  run = {std::min(run.first, zone.first), std::max(run.last, zone.last)};
+  const double pitch = sizes.contact * sizes.coarse_ratio / std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+
+  // Lengths on the rolling circle, from the end of the zone backwards.
+  std::vector<Segment> segments;
+  double left = turn;
+  const auto evenly = [&](double length, double size) {
+    length = std::min(length, left);
+    if (length < 1e-9) return;
+    const int count = std::max(1, static_cast<int>(std::ceil(length / size - 1e-6)));
+    segments.push_back({count, length / count, 0});
+    left -= length;
+  };
+  evenly(zone.last - zone.first, sizes.contact);
+  const double behind = std::min(zone.first - run.first, left);
+  const double ahead = std::min(run.last - zone.last, left - behind);
+  evenly(behind, pitch);
+  const double rest = left - ahead;
+  if (rest > 1e-9) {
+    auto growing = graded(0.5 * rest, pitch, 2 * sizes.section);
+    segments.insert(segments.end(), growing.begin(), growing.end());
+    segments.insert(segments.end(), growing.rbegin(), growing.rend());
+    left -= rest;
+  }
+  evenly(ahead, pitch);
+
+  WheelPlan plan;
+  plan.start = -zone.last / radius;
+  for (const Segment& s : segments) plan.tread.push_back({s.elements, s.pitch / radius, 0});
+  return plan;
+}
+
 }  // namespace tread
