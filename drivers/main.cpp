@@ -12,6 +12,7 @@
 #include "drivers/check_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/run_command.hpp"
+#include "drivers/verify_command.hpp"
 #include "drivers/version_command.hpp"
 #include "io/json_writer.hpp"
 #include "io/problems.hpp"
@@ -110,6 +111,27 @@ void add_mesh(CLI::App& app) {
   command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
 }
 
+void add_verify(CLI::App& app) {
+  auto options = std::make_shared<tread::VerifyOptions>();
+  CLI::App& command =
+      *app.add_subcommand("verify", "compare the program with theory; exits 3 if a bound fails");
+  command.add_option("cases", options->names, "names of cases (default: all)");
+  command
+      .add_option("--set", options->overrides,
+                  "input=value for every chosen case that has it, e.g. --set \"radius=0.5 m\"")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", options->output, "directory for verify.md and its figures");
+  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_flag("--list", options->list, "the cases and their inputs");
+  command.add_flag("--json", options->json, "one JSON object a line on stdout");
+  command.add_flag("--quiet", options->quiet, "no progress on stderr");
+  command.callback([options] {
+    bool passed = false;
+    report_problems(options->json, [&] { passed = tread::verify(*options); });
+    if (!passed) throw tread::NumericalError("verify: at least one bound fails");
+  });
+}
+
 void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bool)) {
   auto json = std::make_shared<bool>(false);
   CLI::App& command = *app.add_subcommand(name, text);
@@ -125,6 +147,7 @@ int run(int argc, char** argv) {
   add_run(app, command_line);
   add_check(app);
   add_mesh(app);
+  add_verify(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);
   add_plain(app, "scene-reference", "every key of a scene file, as Markdown", tread::print_scene_reference);
   try {

@@ -82,8 +82,9 @@ Span Model::run_span() const {
 
 Span Model::zone_span() const {
   const double margin = 0.03;
-  if (!scene.motion) return {run_span().first, run_span().last};
-  return {scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
+  const Span zone{scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
+  if (!scene.motion && (zone.first > 0 || zone.last < 0)) return run_span();  // the patch lies elsewhere
+  return zone;
 }
 
 void Model::build_rail() {
@@ -323,7 +324,8 @@ double Model::penalty_stiffness(const ContactSpec& spec) const {
     return hertz_patch.max_pressure / (ratio * hertz_patch.approach);
   };
   if (spec.penetration_ratio) return of_ratio(*spec.penetration_ratio);
-  // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly. [verification.md]
+  // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
+  // [verification.md]
   constexpr double kPerElement = 10;
   return std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, of_ratio(0.02));
 }

@@ -111,7 +111,8 @@ WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) 
   const double turn = 2 * std::numbers::pi * radius;
   if (zone.empty()) zone = {0, 0};
   run = {std::min(run.first, zone.first), std::max(run.last, zone.last)};
-  const double pitch = sizes.contact * sizes.coarse_ratio / std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+  const double pitch =
+      sizes.contact * sizes.coarse_ratio / std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
 
   // Lengths on the rolling circle, from the end of the zone backwards.
   std::vector<Segment> segments;

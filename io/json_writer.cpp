@@ -121,7 +121,10 @@ void JsonWriter::place_value() {
 }
 
 void JsonWriter::new_line() {
-  text_ += '\n' + std::string(2 * scopes_.size(), ' ');
+  if (layout_ == Layout::indented)
+    text_ += '\n' + std::string(2 * scopes_.size(), ' ');
+  else if (text_.back() == ',')
+    text_ += ' ';
 }
 
 void JsonWriter::quote(std::string_view text) {

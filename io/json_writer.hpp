@@ -14,6 +14,9 @@ namespace tread {
 /// not UTF-8 become U+FFFD. Calls out of order throw std::logic_error.
 class JsonWriter {
  public:
+  enum class Layout { indented, line };
+  explicit JsonWriter(Layout layout = Layout::indented) : layout_(layout) {}
+
   JsonWriter& begin_object();
   JsonWriter& end_object();
   JsonWriter& begin_array();
@@ -32,7 +35,7 @@ class JsonWriter {
     return key(name).value(content);
   }
 
-  /// The finished text, indented by two spaces, with a closing newline.
+  /// The finished text, indented by two spaces or in one line, with a closing newline.
   std::string text() const;
 
  private:
@@ -48,6 +51,7 @@ class JsonWriter {
   void new_line();
   void quote(std::string_view text);
 
+  Layout layout_;
   std::string text_;
   std::vector<Scope> scopes_;
   bool after_key_ = false;

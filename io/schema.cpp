@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Range above(double low, double high = kInfinity) {
+Bounds above(double low, double high = kInfinity) {
   return {low, high, true, false};
 }
-Range from(double low, double high = kInfinity) {
+Bounds from(double low, double high = kInfinity) {
   return {low, high, false, false};
 }
 
@@ -48,7 +48,7 @@ std::function<Field(Scene&)> at(Material Scene::*material, double Material::*mem
 }
 
 Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quantity& of, std::string unit,
-             Range range, std::string description) {
+             Bounds range, std::string description) {
   return {.path = std::move(path),
           .kind = Kind::quantity,
           .locate = std::move(locate),
@@ -58,7 +58,7 @@ Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quanti
           .range = range};
 }
 
-Key number(std::string path, std::function<Field(Scene&)> locate, Range range, std::string description,
+Key number(std::string path, std::function<Field(Scene&)> locate, Bounds range, std::string description,
            Kind kind = Kind::number) {
   return {.path = std::move(path),
           .kind = kind,
@@ -203,11 +203,12 @@ void add_rail(Keys& keys) {
 }
 
 void add_fastenings(Keys& keys) {
-  const auto length = [&](const char* name, double FasteningSpec::*member, Range range,
+  const auto length = [&](const char* name, double FasteningSpec::*member, Bounds range,
                           const char* description) {
     keys.push_back(quantity(name, at(&Scene::fastenings, member), kLength, "m", range, description));
   };
-  const auto count = [&](const char* name, int FasteningSpec::*member, Range range, const char* description) {
+  const auto count = [&](const char* name, int FasteningSpec::*member, Bounds range,
+                         const char* description) {
     keys.push_back(number(name, at(&Scene::fastenings, member), range, description, Kind::integer));
   };
   count("fastenings.count", &FasteningSpec::count, {1, 10000}, "Number of fastenings");
@@ -227,7 +228,7 @@ void add_fastenings(Keys& keys) {
 }
 
 void add_slab(Keys& keys) {
-  const auto length = [&](const char* name, double SlabSpec::*member, const char* unit, Range range,
+  const auto length = [&](const char* name, double SlabSpec::*member, const char* unit, Bounds range,
                           const char* description) {
     keys.push_back(quantity(name, at(&Scene::slab_track, member), kLength, unit, range, description));
   };
@@ -260,10 +261,10 @@ void add_vehicle_and_load(Keys& keys) {
 void add_contact(Keys& keys) {
   keys.push_back(number("contact.friction", at(&Scene::contact, &ContactSpec::friction), {0, 2},
                         "Coefficient of friction f"));
-  keys.push_back(number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio),
-                        above(0, 0.5),
-                        "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "
-                        "size, but at most 2 %"));
+  keys.push_back(
+      number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
+             "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "
+             "size, but at most 2 %"));
   keys.push_back(choice("contact.surface", at(&Scene::contact, &ContactSpec::surface), {"exact", "facets"},
                         "Surface that the gap is measured to: the profile's curves or the element faces"));
   keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 4},
@@ -296,7 +297,7 @@ void add_motion(Keys& keys) {
 
 void add_corrugation(Keys& keys) {
   const auto sine = [](Key key) { return only_with("corrugation.kind", "sine", std::move(key)); };
-  const auto length = [](const char* name, auto member, const char* unit, Range range,
+  const auto length = [](const char* name, auto member, const char* unit, Bounds range,
                          const char* description) {
     return quantity(name, at(&Scene::corrugation, member), kLength, unit, range, description);
   };
@@ -453,7 +454,7 @@ std::size_t tolerance(std::string_view word) {
 
 }  // namespace
 
-bool Range::contains(double value) const {
+bool Bounds::contains(double value) const {
   return (open_low ? value > low : value >= low) && (open_high ? value < high : value <= high);
 }
 
@@ -546,7 +547,7 @@ std::string describe_range(const Key& key) {
   const auto text = [&](double value) {
     return key.unit.empty() ? fmt::format("{:.6g}", value) : format_quantity(value, key.unit);
   };
-  const Range& range = key.range;
+  const Bounds& range = key.range;
   std::string low, high;
   if (std::isfinite(range.low)) low = (range.open_low ? "above " : "at least ") + text(range.low);
   if (std::isfinite(range.high)) high = (range.open_high ? "below " : "at most ") + text(range.high);

@@ -37,7 +37,7 @@ enum class Kind {
 };
 
 /// Values from `low` to `high` in SI; an open end is itself excluded.
-struct Range {
+struct Bounds {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool open_low = false;
@@ -60,7 +60,7 @@ struct Key {
   std::string description;
   const Quantity* quantity = nullptr;  ///< what a Kind::quantity measures
   std::string unit = {};               ///< unit in which documentation and messages show it
-  Range range = {};
+  Bounds range = {};
   std::vector<std::string> allowed = {};  ///< of a text; empty: anything
   bool takes_file = false;  ///< a text that may also name a file, relative to the scene's folder
   bool required = false;    ///< must be given where the table is present

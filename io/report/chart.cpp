@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "io/report/assets.hpp"
 #include "io/report/markup.hpp"
 
 namespace tread {
@@ -291,7 +292,16 @@ std::vector<double> ticks(double low, double high, int count) {
   return values;
 }
 
-std::string figure_html(const Figure& figure) {
+namespace {
+
+/// The panels one below another from y = kTop on, and where the last one ends.
+struct Plot {
+  Scale x;
+  double bottom;
+  std::string shapes;
+};
+
+Plot plot(const Figure& figure) {
   for (const Panel& panel : figure.panels)
     for (const Series& series : panel.series)
       if (series.x.size() != series.y.size())
@@ -307,15 +317,43 @@ std::string figure_html(const Figure& figure) {
     panels += panel_svg(panel, at);
     at.first_colour += static_cast<int>(panel.series.size());
   }
+  return {x, at.bottom, bands_svg(figure, x, at.bottom) + panels + abscissa_svg(figure, x, at.bottom)};
+}
+
+}  // namespace
+
+std::string figure_html(const Figure& figure) {
+  const Plot drawn = plot(figure);
   const std::string caption =
       figure.caption.empty() ? "" : "<p class=\"caption\">" + html_text(figure.caption) + "</p>\n";
   return fmt::format(
       "<figure class=\"chart\">\n<figcaption>{}</figcaption>\n{}"
       "<svg viewBox=\"0 0 {:.0f} {:.0f}\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-left=\"{:.0f}\" "
-      "data-right=\"{:.0f}\">\n{}{}{}</svg>\n{}</figure>\n",
-      html_text(figure.title), legend_html(figure), kWidth, at.bottom + kBottom, x.value[0], x.value[1],
-      kLeft, kWidth - kRight, bands_svg(figure, x, at.bottom), panels, abscissa_svg(figure, x, at.bottom),
-      caption);
+      "data-right=\"{:.0f}\">\n{}</svg>\n{}</figure>\n",
+      html_text(figure.title), legend_html(figure), kWidth, drawn.bottom + kBottom, drawn.x.value[0],
+      drawn.x.value[1], kLeft, kWidth - kRight, drawn.shapes, caption);
+}
+
+std::string figure_svg(const Figure& figure) {
+  constexpr double kLine = 20;
+  const Plot drawn = plot(figure);
+  std::string head = fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", kLeft,
+                                 kLine, svg_text(figure.title));
+  double y = kLine;
+  int colour = 0;
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series)
+      head += fmt::format(
+          "<path class=\"curve c{} {}\" d=\"M{:.0f} {:.0f}h26\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
+          colour++ % kColours, stroke_class(series.stroke), kLeft, (y += kLine) - 4, kLeft + 34, y,
+          svg_text(series.label));
+  const double height = y + drawn.bottom + kBottom;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}<g transform=\"translate(0 "
+      "{4:.0f})\">\n{5}</g>\n"
+      "</svg>\n",
+      kWidth, height, kReportStyle, head, y, drawn.shapes);
 }
 
 }  // namespace tread

@@ -57,6 +57,9 @@ struct Figure {
 /// A `figure` element: title, legend, SVG, caption. chart.js adds reading and zooming.
 std::string figure_html(const Figure& figure);
 
+/// The figure as an SVG file that stands alone, title, legend and caption included.
+std::string figure_svg(const Figure& figure);
+
 /// Indices of at most about 2 * groups points that keep the smallest and largest value of each of `groups`
 /// runs of equal length, both ends, and one of each run's values that are not finite.
 std::vector<std::size_t> thinned(std::span<const double> values, std::size_t groups);

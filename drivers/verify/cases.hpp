@@ -1,0 +1,11 @@
+#pragma once
+// The verification cases, one function each; a file holds cases that share a set-up.
+
+#include "drivers/verify/verify_case.hpp"
+
+namespace tread {
+
+VerifyCase hertz_sphere_case();   // hertz.cpp
+VerifyCase hertz_ellipse_case();  // hertz.cpp
+
+}  // namespace tread

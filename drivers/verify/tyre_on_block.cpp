@@ -1,0 +1,172 @@
+#include "drivers/verify/tyre_on_block.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+HertzPatch TyreOnBlock::hertz_patch() const {
+  const double modulus = youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio));
+  return hertz(radius, crown_radius, modulus, load);
+}
+
+Scene TyreOnBlock::scene() const {
+  const HertzPatch patch = hertz_patch();
+  const double a = std::max(patch.semi_axis_x, patch.semi_axis_y);
+  const double thickness = std::min(12 * a, 0.6 * radius);
+  const double zone = 4 * patch.semi_axis_x;
+  const double shift = grid_offset * element_size;
+  const double width = std::min(16 * a, 1.9 * crown_radius);
+  const std::string text = fmt::format(
+      R"([scene]
+element_size = "{h} m"
+gravity = "0 m/s2"
+[solution_zone]
+start = "{start} m"
+length = "{zone} m"
+[material.steel]
+youngs_modulus = "{E} Pa"
+poissons_ratio = {nu}
+density = "7790 kg/m3"
+[wheel]
+shape = "tyre"
+profile = "arc"
+diameter = "{diameter} m"
+crown_radius = "{crown} m"
+width = "{width} m"
+thickness = "{thickness} m"
+lateral_offset = "{shift} m"
+[rail]
+profile = "box"
+support = "rigid"
+inclination = 0
+length = "{length} m"
+origin = "{origin} m"
+width = "{width} m"
+height = "{height} m"
+[load]
+wheel_load = "{load} N"
+[contact]
+friction = {f}
+)",
+      fmt::arg("h", element_size), fmt::arg("start", -0.5 * zone + shift), fmt::arg("zone", zone + roll),
+      fmt::arg("E", youngs_modulus), fmt::arg("nu", poissons_ratio), fmt::arg("diameter", 2 * radius),
+      fmt::arg("crown", crown_radius), fmt::arg("width", width), fmt::arg("thickness", thickness),
+      fmt::arg("height", 12 * a), fmt::arg("shift", shift), fmt::arg("length", 20 * a + 0.1 * radius + roll),
+      fmt::arg("origin", 10 * a + 0.05 * radius), fmt::arg("load", load), fmt::arg("f", friction));
+  return resolve_scene(SceneSource{"verify", text + more, {}}).scene;
+}
+
+std::vector<VerifyInput> tyre_inputs(bool sphere) {
+  std::vector<VerifyInput> inputs = {
+      {"radius", &kLength, "m", 0.43, {0.05, 5}, "the radius of the rolling circle"},
+      {"load", &kForce, "kN", 8926 * 9.81, {10, 1e6}, "the contact force F_N"},
+      {"youngs_modulus", &kStress, "GPa", 205.9e9, {1e6, 1e13}, "Young's modulus of both bodies"},
+      {"poissons_ratio", nullptr, "", 0.3, {0, 0.49}, "Poisson's ratio of both bodies"},
+      {"element_size", &kLength, "mm", 1.1e-3, {1e-5, 0.02}, "the elements' size in the contact"},
+      {"grid_offset", nullptr, "", 0, {-0.5, 0.5}, "the meshes' shift in elements, along and across"}};
+  if (!sphere)
+    inputs.insert(inputs.begin() + 1,
+                  {"crown_radius", &kLength, "m", 0.3, {0.03, 5}, "the wheel's radius across"});
+  return inputs;
+}
+
+TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
+  TyreOnBlock bodies;
+  bodies.radius = inputs["radius"];
+  bodies.crown_radius = sphere ? bodies.radius : inputs["crown_radius"];
+  bodies.load = inputs["load"];
+  bodies.youngs_modulus = inputs["youngs_modulus"];
+  bodies.poissons_ratio = inputs["poissons_ratio"];
+  bodies.element_size = inputs["element_size"];
+  bodies.grid_offset = inputs["grid_offset"];
+  const HertzPatch patch = bodies.hertz_patch();
+  const double smallest = std::min(patch.semi_axis_x, patch.semi_axis_y);
+  const double largest = std::max(patch.semi_axis_x, patch.semi_axis_y);
+  if (largest > 0.12 * std::min(bodies.radius, bodies.crown_radius))
+    throw InputError(fmt::format(
+        "verify: the patch's semi-axis of {:.3g} mm is not small against the radii of {:.3g} and {:.3g} mm; "
+        "Hertz's theory does not hold; lower load",
+        1e3 * largest, 1e3 * bodies.radius, 1e3 * bodies.crown_radius));
+  if (bodies.element_size > 0.7 * smallest || bodies.element_size < smallest / 40)
+    throw InputError(fmt::format(
+        "verify: element_size = {:.3g} mm does not suit the patch's semi-axis of {:.3g} mm; state "
+        "{:.3g} to {:.3g} mm",
+        1e3 * bodies.element_size, 1e3 * smallest, 1e3 * smallest / 40, 0.7e3 * smallest));
+  return bodies;
+}
+
+namespace {
+
+/// Bilinear coordinates of (p, q) in a convex quad, or nothing where it lies outside.
+std::optional<std::array<double, 2>> inside(const Section& section, const std::array<int, 4>& quad, double p,
+                                            double q) {
+  double xi = 0;
+  double eta = 0;
+  const auto at = [&](std::size_t i) {
+    const auto node = static_cast<std::size_t>(quad[i]);
+    return std::array{section.p[node], section.q[node]};
+  };
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const std::array<double, 4> n = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta),
+                                     0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+    const std::array<double, 4> by_xi = {-0.25 * (1 - eta), 0.25 * (1 - eta), 0.25 * (1 + eta),
+                                         -0.25 * (1 + eta)};
+    const std::array<double, 4> by_eta = {-0.25 * (1 - xi), -0.25 * (1 + xi), 0.25 * (1 + xi),
+                                          0.25 * (1 - xi)};
+    double dp = p;
+    double dq = q;
+    double j00 = 0, j01 = 0, j10 = 0, j11 = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      dp -= n[i] * at(i)[0];
+      dq -= n[i] * at(i)[1];
+      j00 += by_xi[i] * at(i)[0];
+      j01 += by_eta[i] * at(i)[0];
+      j10 += by_xi[i] * at(i)[1];
+      j11 += by_eta[i] * at(i)[1];
+    }
+    const double determinant = j00 * j11 - j01 * j10;
+    const double step_xi = (j11 * dp - j01 * dq) / determinant;
+    const double step_eta = (j00 * dq - j10 * dp) / determinant;
+    xi += step_xi;
+    eta += step_eta;
+    if (std::abs(xi) > 3 || std::abs(eta) > 3) return std::nullopt;
+    if (std::abs(step_xi) + std::abs(step_eta) < 1e-12) break;
+  }
+  constexpr double kEdge = 1 + 1e-9;
+  if (std::abs(xi) > kEdge || std::abs(eta) > kEdge) return std::nullopt;
+  return std::array{xi, eta};
+}
+
+}  // namespace
+
+Vec3 displacement_at(const Model& model, int index, double p, double q, double s, const double* u) {
+  const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(index)];
+  const auto cell = StationFinder(block).find(s);
+  for (const std::array<int, 4>& quad : block.section.quads) {
+    const auto local = cell.station < 0 ? std::nullopt : inside(block.section, quad, p, q);
+    if (!local) continue;
+    const auto [xi, eta] = *local;
+    const std::array<double, 4> weight = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta),
+                                          0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+    const double along = cell.distance / cell.pitch;
+    Vec3 sum;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const int station : {cell.station, cell.next}) {
+        const std::int64_t slot = block.base + block.slot(quad[i], station);
+        const double share = weight[i] * (station == cell.station ? 1 - along : along);
+        sum += share * to_cartesian(block, station, 0, {u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]});
+      }
+    return sum;
+  }
+  throw InputError(fmt::format("no element of block '{}' holds the point ({:.4g}, {:.4g}) m at {:.4g}",
+                               block.name, p, q, s));
+}
+
+}  // namespace tread

@@ -1,0 +1,41 @@
+#pragma once
+// The bodies that most verification cases share: a crowned ring, loaded at its bore, on a block.
+
+#include <string>
+#include <vector>
+
+#include "core/hertz.hpp"
+#include "core/scene.hpp"
+#include "drivers/model.hpp"
+#include "drivers/verify/verify_case.hpp"
+
+namespace tread {
+
+struct TyreOnBlock {
+  double radius = 0.43;       ///< of the rolling circle [m]
+  double crown_radius = 0.3;  ///< across [m]
+  double load = 87564.06;     ///< F_N [N]
+  double youngs_modulus = 0;  ///< [Pa]
+  double poissons_ratio = 0;  ///< [-]
+  double friction = 0;        ///< coefficient f [-]
+  double element_size = 0;    ///< in the contact [m]
+  double grid_offset = 0;     ///< by which the meshes are shifted, along and across, in elements [-]
+  double roll = 0;            ///< way that the wheel rolls [m]
+  std::string more;           ///< further tables of the scene
+
+  HertzPatch hertz_patch() const;
+  /// The scene, as a file would state it. The block is 16 semi-axes wide, the bodies 12 semi-axes thick: the
+  /// half-space that theory means.
+  Scene scene() const;
+};
+
+/// Inputs: radius, crown_radius (where `sphere` is false), load, youngs_modulus, poissons_ratio,
+/// element_size, grid_offset.
+std::vector<VerifyInput> tyre_inputs(bool sphere);
+TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
+
+/// Displacement at the point (p, q) of an extruded or revolved block's section and the station coordinate s,
+/// Cartesian. [m]
+Vec3 displacement_at(const Model& model, int block, double p, double q, double s, const double* u);
+
+}  // namespace tread

@@ -1,0 +1,48 @@
+#include "drivers/verify/verify_case.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "drivers/verify/cases.hpp"
+
+namespace tread {
+
+bool VerifyInputs::set(std::string_view name, std::string_view value) {
+  for (VerifyInput& input : inputs_) {
+    if (input.name != name) continue;
+    const double number = input.quantity ? parse_quantity(value, *input.quantity) : parse_number(value);
+    const auto shown = [&](double si) {
+      return input.quantity ? format_quantity(si, input.unit) : fmt::format("{:g}", si);
+    };
+    if (!(number >= input.allowed[0] && number <= input.allowed[1]))
+      throw InputError(fmt::format("--set {} = {}: {} lies between {} and {}", name, value, input.meaning,
+                                   shown(input.allowed[0]), shown(input.allowed[1])));
+    input.value = number;
+    return true;
+  }
+  return false;
+}
+
+double VerifyInputs::operator[](std::string_view name) const {
+  for (const VerifyInput& input : inputs_)
+    if (input.name == name) return input.value;
+  throw std::logic_error("a verification case asks for the unknown input " + std::string(name));
+}
+
+double Finding::error() const {
+  return absolute ? value - reference : value / reference - 1;
+}
+
+bool Finding::pass() const {
+  return !bound || std::abs(error()) <= *bound;
+}
+
+const std::vector<VerifyCase>& verify_cases() {
+  static const std::vector<VerifyCase> cases = {hertz_sphere_case(), hertz_ellipse_case()};
+  return cases;
+}
+
+}  // namespace tread

@@ -1,0 +1,67 @@
+#pragma once
+// What a verification case is: inputs, a computation by the program's own model, figures beside theory.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/preload.hpp"
+#include "io/report.hpp"
+#include "io/units.hpp"
+
+namespace tread {
+
+/// A number that a case depends on and the user may change.
+struct VerifyInput {
+  std::string name;
+  const Quantity* quantity = nullptr;  ///< what it measures; nullptr: a pure number
+  std::string unit;                    ///< in which it is shown
+  double value = 0;                    ///< the default [SI]
+  Range allowed{};                     ///< values that make sense, both ends included [SI]
+  std::string meaning;
+};
+
+/// The inputs of one computation, by name.
+class VerifyInputs {
+ public:
+  explicit VerifyInputs(std::vector<VerifyInput> inputs) : inputs_(std::move(inputs)) {}
+  /// Reads "name=value"; false where the case has no such input. Throws InputError for a value that is wrong.
+  bool set(std::string_view name, std::string_view value);
+  double operator[](std::string_view name) const;
+  const std::vector<VerifyInput>& all() const { return inputs_; }
+
+ private:
+  std::vector<VerifyInput> inputs_;
+};
+
+/// A quantity of ours beside its reference.
+struct Finding {
+  std::string quantity;
+  std::string unit;
+  double value = 0;
+  double reference = 0;
+  std::optional<double> bound{};  ///< largest error that passes; absent: stated without judgement
+  bool absolute = false;          ///< the error is value - reference, else relative to the reference
+
+  double error() const;
+  bool pass() const;
+};
+
+struct CaseResult {
+  std::vector<Finding> findings;
+  std::vector<Figure> figures;
+};
+
+struct VerifyCase {
+  std::string name;
+  std::string summary;  ///< what is compared with what
+  std::vector<VerifyInput> inputs;
+  std::function<CaseResult(const VerifyInputs&, const ProgressText&)> run;
+};
+
+/// All cases, in the order of the documentation.
+const std::vector<VerifyCase>& verify_cases();
+
+}  // namespace tread
