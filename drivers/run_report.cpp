@@ -342,7 +342,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     forces.blocks.emplace_back(passage_figure(model, results));
     report.chapters.push_back(std::move(forces));
     report.chapters.push_back({"Creepage", {creepage_figure(model, results)}});
-    report.chapters.push_back(surface_chapter(run));
+    if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
     report.chapters.push_back(patch_chapter(run));
   }
   report.chapters.push_back(energy_chapter(run));

@@ -195,19 +195,21 @@ void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s)
   json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
 }
 
-/// Largest values over the width, statistics on the axis.
+/// Largest values over the width, statistics on the axis; of the stretch, where there is one.
 void add_surface(JsonWriter& json, const SurfaceResults& s) {
   json.key("surface").begin_object();
-  json.key("stretch_x_m").begin_array().value(s.first).value(s.last).end_array();
   json.member("axis_y_m", s.axis_y);
-  json.member("max_pressure_Pa", s.max_pressure);
-  json.member("max_shear_Pa", s.max_shear);
-  json.member("max_von_mises_Pa", s.max_von_mises);
-  json.member("max_frictional_work_J_per_m2", s.max_work);
-  add_statistics(json, "axis_max_von_mises_Pa", s.von_mises);
-  add_statistics(json, "axis_frictional_work_J_in_1.1_mm_cell", s.cell_work);
-  json.member("axis_frictional_work_range_J_in_1.1_mm_cell", s.cell_work.range());
-  json.member("axis_frictional_work_range_sampled_J_in_1.1_mm_cell", s.sampled_cell_work.range());
+  if (s.last > s.first) {
+    json.key("stretch_x_m").begin_array().value(s.first).value(s.last).end_array();
+    json.member("max_pressure_Pa", s.max_pressure);
+    json.member("max_shear_Pa", s.max_shear);
+    json.member("max_von_mises_Pa", s.max_von_mises);
+    json.member("max_frictional_work_J_per_m2", s.max_work);
+    add_statistics(json, "axis_max_von_mises_Pa", s.von_mises);
+    add_statistics(json, "axis_frictional_work_J_in_1.1_mm_cell", s.cell_work);
+    json.member("axis_frictional_work_range_J_in_1.1_mm_cell", s.cell_work.range());
+    json.member("axis_frictional_work_range_sampled_J_in_1.1_mm_cell", s.sampled_cell_work.range());
+  }
   json.member("frictional_work_every_step_J", s.total_work);
   json.member("frictional_work_sampled_J", s.total_sampled_work);
   json.member("frictional_work_sampled_difference_percent",

@@ -65,14 +65,13 @@ Statistics statistics(const SurfaceResults& surface, Value value) {
 }
 
 /// Of values [station][columns] over the stations of the stretch.
-double largest(const SurfaceFields& fields, const SurfaceResults& surface,
-               const std::vector<double>& values) {
-  const SurfaceGrid& grid = fields.grid();
-  const std::size_t columns = &values == &fields.max_von_mises() ? grid.quad.size() : grid.y.size();
+double largest(const SurfaceFields& fields, const SurfaceResults& surface, const std::vector<double>& values,
+               std::size_t columns) {
   double most = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (grid.x[i / columns] >= surface.first && grid.x[i / columns] <= surface.last)
-      most = std::max(most, values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double x = fields.grid().x[i / columns];
+    if (x >= surface.first && x <= surface.last) most = std::max(most, values[i]);
+  }
   return most;
 }
 
@@ -102,8 +101,10 @@ void write_field(Hdf5File& file, const Field& field, int first, int last) {
 SurfaceResults surface_results(const SurfaceFields& fields, double first, double last) {
   SurfaceResults s;
   const SurfaceGrid& grid = fields.grid();
-  s.axis_row = strongest(fields.max_pressure(), grid.y.size());
-  const int cell_row = strongest(fields.max_von_mises(), grid.quad.size());
+  const std::size_t rows = grid.y.size();
+  const std::size_t cell_rows = grid.quad.size();
+  s.axis_row = strongest(fields.max_pressure(), rows);
+  const int cell_row = strongest(fields.max_von_mises(), cell_rows);
   s.axis_y = grid.y[static_cast<std::size_t>(s.axis_row)];
   s.first = first;
   s.last = std::max(first, last);
@@ -114,10 +115,10 @@ SurfaceResults surface_results(const SurfaceFields& fields, double first, double
                       fields.max_shear()[i], beside(fields, station, cell_row), fields.frictional_work()[i],
                       fields.sampled_frictional_work()[i]});
   }
-  s.max_pressure = largest(fields, s, fields.max_pressure());
-  s.max_shear = largest(fields, s, fields.max_shear());
-  s.max_von_mises = largest(fields, s, fields.max_von_mises());
-  s.max_work = largest(fields, s, fields.frictional_work());
+  s.max_pressure = largest(fields, s, fields.max_pressure(), rows);
+  s.max_shear = largest(fields, s, fields.max_shear(), rows);
+  s.max_von_mises = largest(fields, s, fields.max_von_mises(), cell_rows);
+  s.max_work = largest(fields, s, fields.frictional_work(), rows);
   s.von_mises = statistics(s, [](const AxisNode& n) { return n.max_von_mises; });
   s.cell_work = statistics(s, [](const AxisNode& n) { return kPaperCell * n.work; });
   s.sampled_cell_work = statistics(s, [](const AxisNode& n) { return kPaperCell * n.sampled_work; });
