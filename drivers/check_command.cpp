@@ -22,8 +22,9 @@ namespace {
 // Measured on runs of the scenes in scenes/: 1.3 ... 1.45 and 2900 (tyre) ... 5400 (wheelset).
 constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
 constexpr double kPreloadApplications =
-    5000;                           ///< time of a preload over that of one application of the stiffness
-constexpr double kCsvBytes = 13.5;  ///< of a value in histories.csv
+    5000;                             ///< time of a preload over that of one application of the stiffness
+constexpr double kCsvBytes = 13.5;    ///< of a value in histories.csv
+constexpr double kPatchShare = 0.15;  ///< of a sample in patch.h5 that compression leaves
 constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
 
 struct Estimate {
@@ -63,6 +64,9 @@ Estimate estimate(const Model& model) {
   e.rolling_seconds = kStepOverhead * e.force_seconds * static_cast<double>(e.steps);
   const auto values = static_cast<double>(e.rows) * static_cast<double>(history_channels(model).size());
   e.disk += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)));
+  if (model.contact)
+    e.disk += static_cast<std::int64_t>(kPatchShare * static_cast<double>(e.rows) *
+                                        static_cast<double>(PatchFile::sample_bytes(model.contact->nodes())));
   return e;
 }
 
@@ -78,8 +82,9 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
   }
   line("Memory", fmt::format("about {}", bytes_text(e.memory)));
-  line("Disk", e.rows > 0 ? fmt::format("about {}: {} rows of {} channels, report", bytes_text(e.disk),
-                                        grouped(e.rows), history_channels(model).size())
+  line("Disk", e.rows > 0 ? fmt::format("about {}: {} rows of {} channels, {}report", bytes_text(e.disk),
+                                        grouped(e.rows), history_channels(model).size(),
+                                        model.contact ? "patch, " : "")
                           : fmt::format("about {}", bytes_text(e.disk)));
   line("Time", fmt::format("about {} with {} thread{}: preload {}{}",
                            duration_text(e.preload_seconds + e.rolling_seconds), threads(),

@@ -116,6 +116,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
            {"tied motion", "tied nodes", {"tie links"}, {"velocity", "displacement"}});
   list.add(wheel,
            {"frame", "mean motion of the wheel", {"mass"}, {"wheel frame", "displacement", "velocity"}});
+  list.add(model.contact != nullptr, {"surface fields",
+                                      "rail surface near the patch",
+                                      {"contact points", "displacement"},
+                                      {"surface fields"}});
   list.add(true, {"samples", "on their own clock", {"displacement", "velocity", "force"}, {"samples"}});
   return list.take();
 }
@@ -147,6 +151,8 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(true, {"displacement", "m", "node", vector});
   add(motion, {"velocity", "m/s", "node", vector});
   add(motion, {"force", "N", "node", vector});
+  add(motion && model.contact, {"surface fields", "Pa, J/m2", "rail surface node",
+                                model.contact ? SurfaceFields::bytes(model.contact->nodes().grid()) : 0});
   add(motion, {"samples", "all", "sample",
                motion ? sample_count(*model.scene.motion, model.scene.output) *
                             static_cast<std::int64_t>(sizeof(Sample))
@@ -182,7 +188,8 @@ std::int64_t peak_bytes(const Model& model) {
   for (const FieldInfo& field : fields(model)) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
-    else if (field.name == "velocity" || field.name == "force" || field.name == "samples")
+    else if (field.name == "velocity" || field.name == "force" || field.name == "surface fields" ||
+             field.name == "samples")
       rolling += field.bytes;
     else
       always += field.bytes;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "drivers/figure_parts.hpp"
 #include "drivers/report_references.hpp"
 
 namespace tread {
@@ -32,25 +33,6 @@ Series curve(std::string label, const Model& model, const RunResults& r, const V
   return series;
 }
 
-Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker> levels, double height) {
-  return {std::move(y_label), std::move(series), std::move(levels), height, std::nullopt};
-}
-
-/// Bands and fastenings that every chart over the way shows within `range`.
-void mark_track(const Model& model, const Range& range, Figure& figure) {
-  if (!model.contact) return;
-  const Corrugation& corrugation = model.contact->corrugation();
-  if (!corrugation.smooth() && corrugation.first() < range[1])
-    figure.bands.push_back({corrugation.first(), corrugation.last(), "corrugation"});
-  if (!model.fastenings) return;
-  const FasteningSpec& f = *model.scene.fastenings;
-  for (int i = 0; i < f.count; ++i) {
-    const double x = -model.scene.rail->origin + f.first + i * f.spacing;
-    if (x > range[0] && x < range[1]) figure.positions.push_back({x, ""});
-  }
-  if (!figure.positions.empty()) figure.caption += "Vertical lines: fastenings. ";
-}
-
 Range whole_way(const Model& model, const RunResults& r) {
   return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
 }
@@ -62,17 +44,6 @@ Figure over_the_way(std::string title, const Model& model, const RunResults& r) 
   figure.x_range = whole_way(model, r);
   mark_track(model, *figure.x_range, figure);
   return figure;
-}
-
-Series running_surface(const Corrugation& corrugation, const Range& range) {
-  Series series{"running surface", {}, {}, Stroke::solid};
-  constexpr int kPoints = 800;
-  for (int i = 0; i <= kPoints; ++i) {
-    const double x = range[0] + (range[1] - range[0]) * i / kPoints;
-    series.x.push_back(x);
-    series.y.push_back(-1e3 * corrugation.depth(x, corrugation.centre()));
-  }
-  return series;
 }
 
 Layer merged(std::string label, std::vector<Layer> layers) {
@@ -117,10 +88,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
   figure.title =
       corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
   figure.x_label = abscissa_label(model);
-  const Range range = corrugation.smooth() ? Range{scene.zone_start, scene.zone_start + scene.zone_length}
-                                           : Range{corrugation.first() - 0.12, corrugation.last() + 0.08};
-  const Range way = whole_way(model, r);
-  figure.x_range = Range{std::max(range[0], way[0]), std::min(range[1], way[1])};
+  figure.x_range = stretch_in_sight(model, whole_way(model, r));
   mark_track(model, *figure.x_range, figure);
   figure.panels.push_back(
       panel("Force [kN]",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 #include "drivers/machine.hpp"
@@ -15,6 +16,9 @@
 namespace tread {
 
 namespace {
+
+constexpr const char* kPatchFile = "patch.h5";
+constexpr int kInstants = 10;  ///< [paper, Fig. 16]
 
 std::string progress_line(const Simulation& simulation, const Sample& sample, const Model& model, double end,
                           double seconds) {
@@ -35,6 +39,8 @@ std::string progress_line(const Simulation& simulation, const Sample& sample, co
 void roll(Model& model, RunResults& results, const std::filesystem::path& directory, Progress& progress) {
   const MotionSpec& motion = *model.scene.motion;
   HistoryFile histories(directory, history_channels(model));
+  std::optional<PatchFile> patch;
+  if (model.contact) patch.emplace(directory / kPatchFile, model.contact->nodes());
   Simulation simulation(model, results.preload, results.dt);
   simulation.set_sampling_interval(sampling_interval(model.scene, results.dt));
   const double started = progress.seconds();
@@ -45,6 +51,7 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
       const Sample& sample = simulation.sample();
       results.samples.push_back(sample);
       histories.append(history_row(model, sample));
+      if (patch) patch->append(sample.time, sample.wheel_x, model.contact->nodes());
       if (!std::isfinite(sample.energy.kinetic + sample.energy.strain))
         throw NumericalError(
             fmt::format("the motion is no longer finite at t = {:.6e} s (step {}): the step {:.3e} s is too "
@@ -56,12 +63,28 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
                                  progress.seconds() - started));
   }
   histories.close();
+  if (patch) patch->close();
   results.seconds_rolling = progress.seconds() - started;
   results.steps = simulation.steps();
   results.state_hash = simulation.state_hash();
   results.momentum = simulation.momentum_check();
+  results.surface_fields = simulation.surface();
   for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
     results.block_energy.push_back(model.internal->energy(b, simulation.displacement().data()));
+}
+
+/// The fields of the rail's surface, and the instants of the patch that the report shows: of the last wave of
+/// a corrugation, of the last patch lengths on a smooth rail.
+void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
+  if (!results.surface_fields) return;
+  write_surface(directory / "surface.h5", *results.surface_fields);
+  write_axis(directory / "surface_axis.csv", results.surface);
+  const Scene& scene = model.scene;
+  const bool waves = !model.contact->corrugation().smooth() && scene.corrugation->kind == "sine";
+  const double stretch = waves ? scene.corrugation->wavelength : 4 * model.contact->reach();
+  const double last = results.evaluated_last;
+  results.instants =
+      read_patch(directory / kPatchFile, std::max(last - stretch, results.evaluated_first), last, kInstants);
 }
 
 }  // namespace
@@ -87,7 +110,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   results.preload =
       solve_preload(model, motion, [&](const std::string& text) { progress.say("[" + text + "]"); });
   results.seconds_preload = progress.seconds() - results.seconds_mesh;
-  if (model.contact) results.static_pressure = model.contact->max_nodal_tractions()[0];
+  if (model.contact) results.static_pressure = model.contact->nodes().max_pressure();
   if (scene.corrugation)
     model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
 
@@ -99,6 +122,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
     roll(model, results, options.output, progress);
   }
   evaluate(model, results);
+  leave_surface(model, results, options.output);
   const std::string summary = summary_json(model, resolved, results);
   write_text_file(options.output / "summary.json", summary);
   write_run_report(options.output / "report.html", model, resolved, results, options.command);

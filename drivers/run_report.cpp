@@ -14,6 +14,7 @@
 #include "drivers/progress.hpp"
 #include "drivers/report_figures.hpp"
 #include "drivers/report_references.hpp"
+#include "drivers/surface_figures.hpp"
 #include "io/report.hpp"
 #include "io/report/markup.hpp"
 
@@ -124,6 +125,38 @@ Chapter result_chapter(const Run& run) {
   const std::vector<Comparison> theory = theory_comparisons(run.model, r);
   if (!paper.empty()) chapter.blocks.emplace_back(comparison_table("Beside the paper", "Paper", paper));
   if (!theory.empty()) chapter.blocks.emplace_back(comparison_table("Beside theory", "Theory", theory));
+  return chapter;
+}
+
+Chapter surface_chapter(const Run& run) {
+  const SurfaceResults& s = run.results.surface;
+  Chapter chapter{"Surface", {surface_figure(run.model, run.results)}};
+  Quantities q("");
+  if (s.last > s.first) {
+    q.add("Largest pressure", 1e-6 * s.max_pressure, "MPa", stretch(s.first, s.last) + ", whole width");
+    q.add("Largest surface shear stress", 1e-6 * s.max_shear, "MPa");
+    q.add("Largest Von Mises stress", 1e-6 * s.max_von_mises, "MPa", "centres of the surface elements");
+    q.add("Largest frictional work per area", 1e-3 * s.max_work, "kJ/m²");
+    q.add("Frictional work of a 1.1 mm cell, mean", 1e3 * s.cell_work.mean, "mJ", "on the axis");
+    q.add("Range of it", 1e3 * s.cell_work.range(), "mJ",
+          fmt::format("{} mJ by samples", readable(1e3 * s.sampled_cell_work.range())));
+  }
+  q.add("Frictional work of the whole passage", s.total_work, "J",
+        fmt::format("{} J by samples", readable(s.total_sampled_work)));
+  chapter.blocks.emplace_back(q.take());
+  return chapter;
+}
+
+Chapter patch_chapter(const Run& run) {
+  const RunResults& r = run.results;
+  Chapter chapter{"Patch", {}};
+  if (!r.instants.empty()) {
+    chapter.blocks.emplace_back(instants_figure(run.model, r));
+    chapter.blocks.emplace_back(stick_slip_drawings(run.model, r));
+    chapter.blocks.emplace_back(
+        Text{"Seen from above, rolling to the right; a cell for each surface node that touches."});
+  }
+  chapter.blocks.emplace_back(patch_figure(run.model, r));
   return chapter;
 }
 
@@ -309,7 +342,8 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     forces.blocks.emplace_back(passage_figure(model, results));
     report.chapters.push_back(std::move(forces));
     report.chapters.push_back({"Creepage", {creepage_figure(model, results)}});
-    report.chapters.push_back({"Patch", {patch_figure(model, results)}});
+    if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
+    report.chapters.push_back(patch_chapter(run));
   }
   report.chapters.push_back(energy_chapter(run));
   if (model.contact || results.preload.newton_iterations > 0) report.chapters.push_back(preload_chapter(run));

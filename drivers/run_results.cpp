@@ -161,6 +161,11 @@ void evaluate(const Model& model, RunResults& r) {
     r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
     r.max_shear = mean([](const Sample& s) { return s.max_shear; });
     r.patch_area = mean([](const Sample& s) { return s.patch_area; });
+    // The patch has passed what lies behind its search window.
+    const double reach = model.contact->reach();
+    if (r.surface_fields)
+      r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, reach),
+                                  std::min(r.evaluated_last, reached - reach));
   }
 
   double worst = 0;
@@ -182,6 +187,37 @@ void evaluate(const Model& model, RunResults& r) {
   if (r.momentum.contact_impulse.z > 0)
     r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
 }
+
+namespace {
+
+void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s) {
+  json.key(key).begin_object();
+  json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
+}
+
+/// Largest values over the width, statistics on the axis; of the stretch, where there is one.
+void add_surface(JsonWriter& json, const SurfaceResults& s) {
+  json.key("surface").begin_object();
+  json.member("axis_y_m", s.axis_y);
+  if (s.last > s.first) {
+    json.key("stretch_x_m").begin_array().value(s.first).value(s.last).end_array();
+    json.member("max_pressure_Pa", s.max_pressure);
+    json.member("max_shear_Pa", s.max_shear);
+    json.member("max_von_mises_Pa", s.max_von_mises);
+    json.member("max_frictional_work_J_per_m2", s.max_work);
+    add_statistics(json, "axis_max_von_mises_Pa", s.von_mises);
+    add_statistics(json, "axis_frictional_work_J_in_1.1_mm_cell", s.cell_work);
+    json.member("axis_frictional_work_range_J_in_1.1_mm_cell", s.cell_work.range());
+    json.member("axis_frictional_work_range_sampled_J_in_1.1_mm_cell", s.sampled_cell_work.range());
+  }
+  json.member("frictional_work_every_step_J", s.total_work);
+  json.member("frictional_work_sampled_J", s.total_sampled_work);
+  json.member("frictional_work_sampled_difference_percent",
+              s.total_work > 0 ? 100 * (s.total_sampled_work / s.total_work - 1) : 0.0);
+  json.end_object();
+}
+
+}  // namespace
 
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
   JsonWriter json;
@@ -212,16 +248,8 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json.member("wheel_tilt_rad", r.preload.tilt);
     json.member("wheelset_mass_kg", model.wheelset->mass());
     json.member("wheelset_inertia_kg_m2", model.wheelset->inertia());
-    json.key("vertical_force_N").begin_object();
-    json.member("mean", r.vertical_force.mean)
-        .member("min", r.vertical_force.min)
-        .member("max", r.vertical_force.max);
-    json.end_object();
-    json.key("longitudinal_force_N").begin_object();
-    json.member("mean", r.longitudinal_force.mean)
-        .member("min", r.longitudinal_force.min)
-        .member("max", r.longitudinal_force.max);
-    json.end_object();
+    add_statistics(json, "vertical_force_N", r.vertical_force);
+    add_statistics(json, "longitudinal_force_N", r.longitudinal_force);
     json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
     json.key("steady_x_m").begin_array().value(r.steady_first).value(r.steady_last).end_array();
     json.member("vertical_force_steady_N", r.vertical_force_steady);
@@ -233,6 +261,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json.member("frictional_work_J", r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work);
     json.member("frictional_work_decrease_J", r.frictional_work_decrease);
     json.member("momentum_error", r.momentum_error);
+    if (r.surface_fields) add_surface(json, r.surface);
   }
   json.member("energy_error", r.energy_error);
   json.key("energy_by_body_J").begin_array();

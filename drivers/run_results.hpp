@@ -2,13 +2,17 @@
 // What a run leaves: histories, summary, report.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/model.hpp"
+#include "drivers/patch_file.hpp"
 #include "drivers/preload.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
+#include "drivers/statistics.hpp"
+#include "drivers/surface_results.hpp"
 #include "io/history_file.hpp"
 #include "io/scene_reader.hpp"
 
@@ -22,10 +26,6 @@ std::vector<double> history_row(const Model& model, const Sample& sample);
 std::int64_t step_count(const Scene& scene, double dt);
 std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
 
-struct Statistics {
-  double mean = 0, min = 0, max = 0;
-};
-
 /// Everything that summary.json and the report state, in SI.
 struct RunResults {
   Preload preload;
@@ -38,6 +38,9 @@ struct RunResults {
   std::uint64_t state_hash = 0;
   MomentumCheck momentum;
   std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
+  std::optional<SurfaceFields> surface_fields;  ///< none without contact
+  SurfaceResults surface;                       ///< from surface_fields
+  std::vector<PatchSample> instants;            ///< of patch.h5, for the report
 
   Statistics vertical_force;      ///< over evaluated() [N]
   Statistics longitudinal_force;  ///< [N]

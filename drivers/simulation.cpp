@@ -29,6 +29,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
     if (model.contact) {
       model.contact->find_static({u_.data(), nullptr, &frame_});
       model.contact->begin();
+      surface_.emplace(model.contact->nodes().grid());
     }
     start_velocities();
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
@@ -144,7 +145,8 @@ void Simulation::step() {
   move();
   roll();
   constrain();
-  // 6  samples
+  // 6  fields of the rail's surface, samples
+  record();
   if (sampled_) end_sample();
   if (steps_ % kAnchorInterval == 0) anchor();
 }
@@ -175,6 +177,15 @@ void Simulation::roll() {
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
   contact_impulse_ += dt_ * on_wheel;
   contact_impulse_size_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
+}
+
+void Simulation::record() {
+  if (!surface_) return;
+  const PatchNodes& patch = model_->contact->nodes();
+  surface_->add_step(patch);
+  if (!sampled_) return;
+  surface_->add_sample(patch, static_cast<double>(sampling_) * dt_);
+  surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_.data());
 }
 
 void Simulation::drive() {
@@ -363,14 +374,13 @@ void Simulation::end_sample() {
     energy.penalty = totals.penalty_energy;
     energy.frictional_work = model_->contact->frictional_work();
     energy.damping_loss = model_->contact->damping_work();
-    const auto tractions = model_->contact->max_nodal_tractions();
     sample_.vertical_force = -totals.force_on_rail.z;
     sample_.longitudinal_force = -totals.force_on_rail.x;
     sample_.lateral_force = -totals.force_on_rail.y;
     sample_.patch_area = totals.area;
     sample_.slip_area = totals.slip_area;
-    sample_.max_pressure = tractions[0];
-    sample_.max_shear = tractions[1];
+    sample_.max_pressure = model_->contact->nodes().max_pressure();
+    sample_.max_shear = model_->contact->nodes().max_shear();
     sample_.max_penetration = totals.max_penetration;
     const Corrugation& corrugation = model_->contact->corrugation();
     sample_.corrugation_depth = corrugation.depth(sample_.wheel_x, corrugation.centre());

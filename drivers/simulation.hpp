@@ -1,12 +1,14 @@
 #pragma once
 // Step 2: explicit rolling by central difference. [theory.md, Time step]
 
+#include <optional>
 #include <vector>
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
+#include "kernels/surface_fields.hpp"
 
 namespace tread {
 
@@ -69,11 +71,14 @@ class Simulation {
   const AlignedVector<double>& displacement() const { return u_; }
   const AlignedVector<double>& velocity() const { return v_; }
   const BodyFrame& wheel() const { return frame_; }
+  /// What the wheel leaves on the rail's surface; none without contact.
+  const std::optional<SurfaceFields>& surface() const { return surface_; }
   double torque_at(double time) const;
 
  private:
   void connect();
   void roll();
+  void record();
   void drive();
   void carry();
   void search();
@@ -107,6 +112,7 @@ class Simulation {
   Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
   std::vector<std::int64_t> creepage_slots_;
   std::vector<double> creepage_radius_;
+  std::optional<SurfaceFields> surface_;
 
   Sample sample_;
   double kinetic_before_ = 0;

@@ -180,7 +180,8 @@ void Hdf5File::write(const std::string& name, std::span<const T> values, Shape s
 }
 
 template <class T>
-void Hdf5File::make_extendible(const std::string& name, std::uint64_t chunk, const Shape& row_shape) {
+void Hdf5File::make_extendible(const std::string& name, std::uint64_t chunk, const Shape& row_shape,
+                               Storage storage) {
   Shape start = row_shape;
   start.insert(start.begin(), 0);
   std::vector<hsize_t> limit = sizes(start);
@@ -194,6 +195,11 @@ void Hdf5File::make_extendible(const std::string& name, std::uint64_t chunk, con
   const Id layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(layout, rank, chunks.data());
   H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
+  if (storage == Storage::compressed && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    constexpr unsigned kLevel = 4;
+    H5Pset_shuffle(layout);
+    H5Pset_deflate(layout, kLevel);
+  }
   check.written(H5Dcreate2(id_, name.c_str(), type_of<T>(), space, make_groups(), layout, H5P_DEFAULT),
                 H5Dclose);
 }
@@ -278,6 +284,24 @@ std::vector<T> Hdf5File::read(const std::string& name) const {
 }
 
 template <class T>
+std::vector<T> Hdf5File::read_row(const std::string& name, std::uint64_t row) const {
+  const Check check{path_, name};
+  const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Id place(H5Dget_space(data), H5Sclose);
+  Shape size = extent(place);
+  if (size.empty() || row >= size[0])
+    throw InputError(fmt::format("cannot read '{}' from {}: there is no row {}", name, path_.string(), row));
+  std::vector<hsize_t> first(size.size(), 0);
+  first[0] = row;
+  size[0] = 1;
+  H5Sselect_hyperslab(place, H5S_SELECT_SET, first.data(), nullptr, sizes(size).data(), nullptr);
+  const Id memory(H5Screate_simple(static_cast<int>(size.size()), sizes(size).data(), nullptr), H5Sclose);
+  std::vector<T> values(count(size));
+  check.read(H5Dread(data, type_of<T>(), memory, place, H5P_DEFAULT, values.data()));
+  return values;
+}
+
+template <class T>
 std::vector<T> Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
   const Check check{path_, object};
   const Id attribute =
@@ -308,12 +332,13 @@ void Hdf5File::close() {
   if (id_ >= 0 && H5Fclose(std::exchange(id_, -1)) < 0) fail<ResourceError>("write", path_, "");
 }
 
-#define TREAD_HDF5_TYPE(T)                                                                             \
-  template void Hdf5File::write(const std::string&, std::span<const T>, Shape);                        \
-  template void Hdf5File::make_extendible<T>(const std::string&, std::uint64_t, const Shape&);         \
-  template void Hdf5File::append(const std::string&, std::span<const T>);                              \
-  template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>); \
-  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                 \
+#define TREAD_HDF5_TYPE(T)                                                                              \
+  template void Hdf5File::write(const std::string&, std::span<const T>, Shape);                         \
+  template void Hdf5File::make_extendible<T>(const std::string&, std::uint64_t, const Shape&, Storage); \
+  template void Hdf5File::append(const std::string&, std::span<const T>);                               \
+  template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>);  \
+  template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
+  template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;               \
   template std::vector<T> Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;
 TREAD_HDF5_TYPE(double)
 TREAD_HDF5_TYPE(float)

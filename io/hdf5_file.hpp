@@ -14,6 +14,9 @@ namespace tread {
 /// is read that is missing or of another shape, ResourceError where something cannot be written. Move-only.
 class Hdf5File {
  public:
+  /// Compressed data are exact; rows should be appended in whole chunks.
+  enum class Storage { plain, compressed };
+
   /// Starts an empty file in place of whatever stood there.
   static Hdf5File create(const std::filesystem::path& path);
   static Hdf5File open_to_read(const std::filesystem::path& path);
@@ -33,7 +36,7 @@ class Hdf5File {
   /// rows.
   template <class T>
   void make_extendible(const std::string& name, std::uint64_t chunk,
-                       const std::vector<std::uint64_t>& row_shape = {});
+                       const std::vector<std::uint64_t>& row_shape = {}, Storage storage = Storage::plain);
 
   /// Adds whole rows at the end of a dataset made by make_extendible. Where that fails for want of room the
   /// dataset may have grown by rows that hold zeros.
@@ -52,6 +55,9 @@ class Hdf5File {
   std::vector<std::uint64_t> shape(const std::string& name) const;
   template <class T>
   std::vector<T> read(const std::string& name) const;
+  /// The row at a place along the first dimension.
+  template <class T>
+  std::vector<T> read_row(const std::string& name, std::uint64_t row) const;
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;

@@ -51,11 +51,6 @@ std::vector<std::array<double, 2>> gauss(int points) {
   }
 }
 
-/// Half length of the search window: where a circle of the wheel's radius lies `gap` above its lowest point.
-double reach(double radius, double gap) {
-  return std::sqrt(2 * radius * gap);
-}
-
 /// Tangents of the point and the bases of the wheel's nodes about it.
 void set_bases(ContactPoint& point) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -111,7 +106,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
   const auto faces = static_cast<std::size_t>(face_index(rail_->station_count(), 0));
   history_.resize(faces * quadrature_.size());
   wake_time_.assign(faces, -std::numeric_limits<double>::infinity());
-  const double window = 2 * reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  const double window = 2 * reach();
   double pitch = 1e30;
   for (const PitchClass& c : rail_->classes) pitch = std::min(pitch, c.pitch);
   columns_.resize(static_cast<std::size_t>(window / pitch) + 3);
@@ -120,10 +115,17 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
   points_.reserve(capacity * columns_.size());
   solver_.reserve(mesh.slots, points_.capacity(),
                   4 * (columns_.size() + 4) * static_cast<std::size_t>(last_edge_ - first_edge_ + 4));
+  nodes_ = PatchNodes(make_surface_grid(*rail_, rail_profile_, options_.surface, {first_edge_, last_edge_}),
+                      static_cast<int>(columns_.size()) + 1);
+}
+
+/// A circle of the wheel's radius lies reach_gap and the corrugation's depth above its lowest point there.
+double Contact::reach() const {
+  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + corrugation_.deepest()));
 }
 
 void Contact::update_window(double wheel_x) {
-  const double half = reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  const double half = reach();
   const auto low = rail_stations_.find(wheel_x - half);
   const auto high = rail_stations_.find(wheel_x + half);
   if (low.station < 0 || high.station < 0)
@@ -323,6 +325,7 @@ void Contact::find_static(const ContactState& state) {
   update_window(state.wheel->origin.x);
   for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0);
   gather_columns();
+  nodes_.average(window_first_, window_last_, points_);
   sum_up();
 }
 
@@ -334,7 +337,7 @@ void Contact::begin() {
 
 void Contact::search(const ContactState& state, double time, double dt) {
   update_window(state.wheel->origin.x);
-  const double half = reach(options_.wheel_radius, options_.reach_gap + corrugation_.deepest());
+  const double half = reach();
   closing_speed_ = 1.5 * norm(state.wheel->velocity) * half / options_.wheel_radius + 5;
   margin_ = closing_speed_ * dt;
   parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
@@ -346,22 +349,21 @@ void Contact::search(const ContactState& state, double time, double dt) {
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
   solver_.solve(points_, options_.penalty, friction_, wheel, motion, dt);
-  std::size_t kept = 0;
-  for (const ContactPoint& point : points_) {
+  for (ContactPoint& point : points_) {
     History& history = history_[static_cast<std::size_t>(point.history)];
     const Traction slip{dt * point.slip_speed.along, dt * point.slip_speed.across};
-    const double friction = friction_.dissipation(history.shear, point.shear, slip);
+    point.frictional_work = friction_.dissipation(history.shear, point.shear, slip);
     // What the forces took from the bodies since the step before, less what was stored and rubbed away.
     const double work = dt * point.pressure * point.closing_speed + point.shear.along * slip.along +
                         point.shear.across * slip.across;
     const double stored =
         stored_energy(point.pressure, point.shear) - stored_energy(history.pressure, history.shear);
-    frictional_work_ += point.area * friction;
-    damping_work_ += point.area * (work - stored - friction);
+    frictional_work_ += point.area * point.frictional_work;
+    damping_work_ += point.area * (work - stored - point.frictional_work);
     history = {point.shear, point.pressure};
-    if (point.pressure > 0) points_[kept++] = point;
   }
-  points_.resize(kept);
+  nodes_.average(window_first_, window_last_, points_);
+  std::erase_if(points_, [](const ContactPoint& point) { return point.pressure <= 0; });
   sum_up();
 }
 
@@ -404,39 +406,9 @@ std::vector<Spring> Contact::springs() const {
 }
 
 std::int64_t Contact::bytes() const {
-  return solver_.bytes() + static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) +
-                                                     wake_time_.size() * sizeof(wake_time_[0]));
-}
-
-std::array<double, 2> Contact::max_nodal_tractions() const {
-  const int rows = last_edge_ - first_edge_ + 1;
-  const int columns = window_last_ - window_first_ + 1;
-  std::vector<Vec3> sum(static_cast<std::size_t>(rows * columns));
-  std::vector<double> area(sum.size(), 0.0);
-  const auto index = [&](int station, int edge) {
-    return static_cast<std::size_t>((station - window_first_) * rows + edge - first_edge_);
-  };
-  for (int station = window_first_; station < window_last_; ++station)
-    for (int edge = first_edge_; edge < last_edge_; ++edge) {
-      const auto middle = rail_profile_.evaluate(edge, 0.5, options_.surface);
-      const double length = rail_->stations[static_cast<std::size_t>(station) + 1] -
-                            rail_->stations[static_cast<std::size_t>(station)];
-      const double share = 0.25 * length * std::hypot(middle.dp, middle.dq);
-      for (int corner = 0; corner < 4; ++corner)
-        area[index(station + corner / 2, edge + corner % 2)] += share;
-    }
-  for (const ContactPoint& point : points_)
-    for (int corner = 0; corner < 4; ++corner)
-      sum[index(point.face[0] + corner / 2, point.face[1] + corner % 2)] +=
-          point.area * point.face_weight[static_cast<std::size_t>(corner)] *
-          Vec3{point.pressure, point.shear.along, point.shear.across};
-  std::array<double, 2> largest{};
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (area[i] <= 0) continue;
-    largest[0] = std::max(largest[0], sum[i].x / area[i]);
-    largest[1] = std::max(largest[1], std::hypot(sum[i].y, sum[i].z) / area[i]);
-  }
-  return largest;
+  return solver_.bytes() + nodes_.bytes() +
+         static_cast<std::int64_t>(history_.size() * sizeof(history_[0]) +
+                                   wake_time_.size() * sizeof(wake_time_[0]));
 }
 
 }  // namespace tread

@@ -13,6 +13,7 @@
 #include "kernels/contact_point.hpp"
 #include "kernels/contact_surface.hpp"
 #include "kernels/friction.hpp"
+#include "kernels/patch_nodes.hpp"
 #include "kernels/patch_solver.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
@@ -90,11 +91,15 @@ class Contact {
   /// [J].
   double damping_work() const { return damping_work_; }
 
-  /// Bytes of the integration points' histories.
+  /// Half length of the stretch about the wheel's axis that is searched [m].
+  double reach() const;
+
+  /// Bytes of the integration points' histories and of the nodes about the patch.
   std::int64_t bytes() const;
 
-  /// Largest lumped nodal averages of pressure and shear over the rail's surface nodes [Pa].
-  std::array<double, 2> max_nodal_tractions() const;
+  /// At the rail's surface nodes about the patch. Of a step: its tractions, slip and frictional work, that of
+  /// points that left contact in it included.
+  const PatchNodes& nodes() const { return nodes_; }
 
  private:
   struct Candidate {
@@ -142,6 +147,7 @@ class Contact {
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
   std::vector<ContactPoint> points_;
   PatchSolver solver_;
+  PatchNodes nodes_;
   ContactTotals totals_;
   double frictional_work_ = 0;
   double damping_work_ = 0;

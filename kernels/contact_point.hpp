@@ -35,9 +35,16 @@ struct ContactPoint {
   double closing_speed;               ///< of the surfaces at the start of the step [m/s]
   Traction slip_speed;                ///< of the wheel against the rail at the start of the step [m/s]
   bool slips;
+  double frictional_work;  ///< of the step per area [J/m2]
 
   /// On the rail [Pa].
   Vec3 traction() const { return pressure * normal + shear.along * along + shear.across * across; }
+
+  /// Of the shear stress at the start of the step on the slip speed then; elastic slip included [W/m2].
+  double frictional_power() const {
+    return 0.5 * ((shear_before.along + shear.along) * slip_speed.along +
+                  (shear_before.across + shear.across) * slip_speed.across);
+  }
 };
 
 /// Local (t, y, r) components at the space angle with this cosine and sine, and back.

@@ -88,6 +88,8 @@ TEST_F(Commands, RunOfABarLeavesEverything) {
   EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} {}", folder_.string(), scene("bar-wave.toml"))).code, 0);
   for (const char* name : {"scene.resolved.toml", "run.h5", "histories.csv", "summary.json", "report.html"})
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
+  for (const char* name : {"patch.h5", "surface.h5", "surface_axis.csv"})
+    EXPECT_FALSE(fs::exists(folder_ / name)) << name;
   const std::string report = content("report.html");
   EXPECT_TRUE(has(report, "Wave in a bar"));
   EXPECT_FALSE(has(report, "Creepage"));
@@ -117,7 +119,8 @@ TEST_F(Commands, RollingScenesRun) {
                   .code,
               0)
         << name;
-    EXPECT_TRUE(fs::exists(folder_ / name / "report.html")) << name;
+    for (const char* file : {"patch.h5", "surface.h5", "surface_axis.csv", "report.html"})
+      EXPECT_TRUE(fs::exists(folder_ / name / file)) << name << ": " << file;
   }
 }
 

@@ -195,7 +195,7 @@ TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   const Names names = field_names(model);
   for (const char* absent :
        {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes", "contact points",
-        "wheel frame", "sprung mass", "held motions", "restrained unknowns"})
+        "surface fields", "wheel frame", "sprung mass", "held motions", "restrained unknowns"})
     EXPECT_EQ(names.count(absent), 0U) << absent;
   EXPECT_TRUE(model.journal.empty());
   EXPECT_TRUE(model.torque.empty());

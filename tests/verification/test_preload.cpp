@@ -34,10 +34,9 @@ StaticErrors press(const std::string& element_size) {
   const HertzPatch& hertz = model.hertz_patch;
   const double area = std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y;
   // Pressure at the patch's middle from the load and area of the elements, not from the peak of one point.
-  const auto nodal = model.contact->max_nodal_tractions();
   const double load = model.wheel_load();
   const StaticErrors errors = {-preload.contact.force_on_rail.z / load - 1, preload.residual,
-                               preload.contact.area / area - 1, nodal[0] / hertz.max_pressure - 1,
+                               preload.contact.area / area - 1, model.contact->nodes().max_pressure() / hertz.max_pressure - 1,
                                preload.contact.max_penetration / hertz.approach};
   EXPECT_NEAR(hertz.semi_axis_x, 6.2964e-3, 3e-5);
   measured(element_size + ": F_N / load - 1", errors.force);

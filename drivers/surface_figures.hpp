@@ -1,0 +1,19 @@
+#pragma once
+// The rail's surface and the moving patch in a run's report.
+
+#include "drivers/model.hpp"
+#include "drivers/run_results.hpp"
+#include "io/report.hpp"
+
+namespace tread {
+
+/// Largest stresses and frictional work along the patch's longitudinal axis. [paper, Figs. 12 and 19]
+Figure surface_figure(const Model& model, const RunResults& results);
+
+/// Pressure and surface shear stress on the axis at the results' instants. [paper, Fig. 16]
+Figure instants_figure(const Model& model, const RunResults& results);
+
+/// Where the patch sticks and slips at these instants.
+Drawings stick_slip_drawings(const Model& model, const RunResults& results);
+
+}  // namespace tread

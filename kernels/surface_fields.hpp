@@ -1,0 +1,45 @@
+#pragma once
+// What a passage leaves on the rail's surface: the largest stresses and the frictional work.
+// [theory.md, Fields of the surface]
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/internal_force.hpp"
+#include "kernels/patch_nodes.hpp"
+
+namespace tread {
+
+/// Fields over the nodes, [station][row] of a SurfaceGrid, and its cells. They only observe.
+class SurfaceFields {
+ public:
+  explicit SurfaceFields(const SurfaceGrid& grid);
+
+  /// A step: its tractions and frictional work.
+  void add_step(const PatchNodes& patch);
+
+  /// A sample that stands for `interval` [s]: frictional work as the paper sums it. [paper, eq. (5)]
+  void add_sample(const PatchNodes& patch, double interval);
+
+  /// The stress of the surface elements about the nodes under pressure; `block` is the rail's.
+  void add_stress(const PatchNodes& patch, const InternalForce& force, int block, const double* displacement);
+
+  const SurfaceGrid& grid() const { return grid_; }
+  const std::vector<double>& max_pressure() const { return max_pressure_; }        ///< by node [Pa]
+  const std::vector<double>& max_shear() const { return max_shear_; }              ///< by node [Pa]
+  const std::vector<double>& max_von_mises() const { return max_von_mises_; }      ///< by cell [Pa]
+  const std::vector<double>& frictional_work() const { return frictional_work_; }  ///< by node [J/m2]
+  /// By samples; by node [J/m2].
+  const std::vector<double>& sampled_frictional_work() const { return sampled_work_; }
+
+  /// Of a node's work per area over the whole surface [J].
+  double sum(const std::vector<double>& per_area) const;
+
+  static std::int64_t bytes(const SurfaceGrid& grid);
+
+ private:
+  SurfaceGrid grid_;
+  std::vector<double> max_pressure_, max_shear_, max_von_mises_, frictional_work_, sampled_work_;
+};
+
+}  // namespace tread

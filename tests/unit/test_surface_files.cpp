@@ -1,0 +1,142 @@
+// patch.h5, surface.h5 and the table of the axis: what is written can be read back and has units.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "drivers/patch_file.hpp"
+#include "drivers/surface_results.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Twelve stations of 2 mm by four rows of 3 mm.
+SurfaceGrid plane() {
+  SurfaceGrid grid;
+  for (int i = 0; i < 12; ++i) grid.x.push_back(2e-3 * i);
+  for (int i = 0; i < 4; ++i) grid.y.push_back(3e-3 * i - 4e-3);
+  grid.length.assign(12, 2e-3);
+  grid.width.assign(4, 3e-3);
+  grid.quad = {0, 1, 2};
+  return grid;
+}
+
+/// One point on the middle of a face; its nodes get a quarter of its load each.
+ContactPoint point_on(std::array<int, 2> face, double pressure) {
+  ContactPoint point{};
+  point.face = face;
+  point.face_weight = {0.25, 0.25, 0.25, 0.25};
+  point.area = 6e-6;
+  point.pressure = pressure;
+  point.shear = point.shear_before = {-0.3 * pressure, 0.1 * pressure};
+  point.slip_speed = {-0.5, 0.25};
+  point.frictional_work = 2;
+  point.slips = true;
+  return point;
+}
+
+class SurfaceFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  SurfaceGrid grid_ = plane();
+};
+
+TEST_F(SurfaceFiles, PatchIsReadBackSampleBySample) {
+  constexpr int kSamples = 150;  // more than two blocks, not a whole number of them
+  PatchNodes patch(grid_, 5);
+  {
+    PatchFile file(folder_ / "patch.h5", patch);
+    for (int i = 0; i < kSamples; ++i) {
+      const int first = i * 7 / kSamples;
+      patch.average(first, first + 3, {point_on({first + 1, 1}, 1e6 * (i + 1))});
+      file.append(1e-5 * i, 1e-4 * i, patch);
+      if (i == 70) {  // a run that is killed now leaves whole blocks
+        EXPECT_EQ(Hdf5File::open_to_read(folder_ / "patch.h5").shape("/state")[0], PatchFile::kBlock);
+      }
+    }
+    file.close();
+  }
+  const Hdf5File file = Hdf5File::open_to_read(folder_ / "patch.h5");
+  EXPECT_EQ(file.shape("/pressure"), (std::vector<std::uint64_t>{kSamples, 5, 4}));
+  EXPECT_EQ(file.read<double>("/x"), grid_.x);
+  for (const PatchField& field : patch_fields())
+    EXPECT_EQ(file.read_text_attribute(std::string("/") + field.name, "unit"), field.unit);
+  EXPECT_EQ(file.read_text_attribute("/time", "unit"), "s");
+
+  const std::vector<PatchSample> samples = read_patch(folder_ / "patch.h5", 0, 1e-4 * kSamples, 3);
+  ASSERT_EQ(samples.size(), 3U);
+  const PatchSample& last = samples[2];
+  EXPECT_DOUBLE_EQ(last.wheel_x, 125e-4);
+  EXPECT_EQ(last.first, 125 * 7 / kSamples);
+  ASSERT_EQ(last.state.size(), 20U);
+  ASSERT_EQ(last.fields.size(), 100U);
+  const std::size_t node = grid_.node(1, 1);
+  EXPECT_FLOAT_EQ(last.fields[node], 0.25F * 126e6F);
+  EXPECT_FLOAT_EQ(last.fields[20 + node], -0.3F * 0.25F * 126e6F);
+  EXPECT_FLOAT_EQ(last.fields[80 + node], 0.25F);
+  EXPECT_EQ(last.state[node], static_cast<std::uint8_t>(PatchState::slip));
+  EXPECT_EQ(last.state[0], static_cast<std::uint8_t>(PatchState::out));
+}
+
+TEST_F(SurfaceFiles, InstantsAreNotRepeated) {
+  PatchNodes patch(grid_, 5);
+  PatchFile file(folder_ / "patch.h5", patch);
+  for (int i = 0; i < 3; ++i) {
+    patch.average(0, 3, {});
+    file.append(1e-5 * i, 1e-3 * i, patch);
+  }
+  file.close();
+  EXPECT_EQ(read_patch(folder_ / "patch.h5", 0, 2e-3, 10).size(), 3U);
+}
+
+TEST_F(SurfaceFiles, SurfaceHoldsTheStretchInContact) {
+  PatchNodes patch(grid_, 5);
+  SurfaceFields fields(grid_);
+  for (int station = 3; station < 7; ++station) {
+    patch.average(station - 1, station + 2, {point_on({station, 1}, 4e8)});
+    fields.add_step(patch);
+    fields.add_sample(patch, 1e-5);
+  }
+  write_surface(folder_ / "surface.h5", fields);
+  const Hdf5File file = Hdf5File::open_to_read(folder_ / "surface.h5");
+  EXPECT_EQ(file.shape("/max_pressure"), (std::vector<std::uint64_t>{5, 4}));
+  EXPECT_EQ(file.shape("/max_von_mises"), (std::vector<std::uint64_t>{4, 3}));
+  EXPECT_DOUBLE_EQ(file.read<double>("/x").front(), 6e-3);
+  EXPECT_EQ(file.read<double>("/y"), grid_.y);
+  EXPECT_NEAR(file.read<double>("/max_pressure")[1], 1e8, 1e-6);
+  EXPECT_NEAR(file.read<double>("/frictional_work")[1], 0.5, 1e-12);
+  EXPECT_NEAR(file.read<double>("/frictional_work")[5], 1.0, 1e-12);
+  EXPECT_EQ(file.read_text_attribute("/frictional_work", "unit"), "J/m2");
+  EXPECT_EQ(file.read_text_attribute("/max_pressure", "unit"), "Pa");
+
+  const SurfaceResults surface = surface_results(fields, 7e-3, 13e-3);
+  EXPECT_EQ(surface.axis.size(), 5U);
+  EXPECT_NEAR(surface.max_pressure, 1e8, 1e-6);
+  EXPECT_NEAR(surface.total_work, 4 * 2 * 6e-6, 1e-18);
+  EXPECT_NEAR(surface.total_sampled_work, 4 * 1e-5 * 4e8 * (0.15 + 0.025) * 6e-6, 1e-12);
+  EXPECT_NEAR(surface.cell_work.mean, kPaperCell * 1.0, 1e-15);
+  EXPECT_NEAR(surface.cell_work.range(), 0, 1e-15);
+
+  write_axis(folder_ / "axis.csv", surface);
+  std::ifstream csv(folder_ / "axis.csv");
+  std::string header;
+  std::getline(csv, header);
+  EXPECT_EQ(header.substr(0, 27), "x [m],max_pressure [Pa],max");
+  int rows = 0;
+  for (std::string line; std::getline(csv, line);) ++rows;
+  EXPECT_EQ(rows, 5);
+}
+
+}  // namespace
+}  // namespace tread
