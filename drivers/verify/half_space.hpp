@@ -39,8 +39,7 @@ class OffsetTable {
  public:
   OffsetTable() = default;
   OffsetTable(int reach_x, int reach_y)
-      : reach_x_(reach_x),
-        width_(2 * reach_x + 1),
+      : width_(2 * reach_x + 1),
         values_(std::size_t(width_) * (2 * reach_y + 1)),
         middle_(std::size_t(width_) * reach_y + reach_x) {}
 
@@ -48,16 +47,15 @@ class OffsetTable {
   double at(int di, int dj) const { return values_[middle_ + dj * width_ + di]; }
   /// Coefficients of row dj; element di of the pointer may be negative.
   const double* row(int dj) const { return values_.data() + middle_ + dj * width_; }
-  int reach_x() const { return reach_x_; }
 
  private:
-  int reach_x_ = 0, width_ = 0;
+  int width_ = 0;
   std::vector<double> values_;
   std::ptrdiff_t middle_ = 0;
 };
 
 /// Differences of the two bodies' surface displacements at a cell's centre under unit traction on a cell
-/// [m/Pa]. [Johnson, eqs. 3.25, 3.75; Kalker, sect. 4.2]
+/// [m/Pa]. [Johnson, sect. 3.3 and 3.6]
 struct Influence {
   Influence(const Grid& grid, const Material& material);
 

@@ -332,7 +332,9 @@ FrictionState RollingContact::solve(const Problem& problem, const Drive& drive,
     } else {
       shift = 0.5 * (low + high);
     }
-    if (near.slip_fraction < 1 && (state = newton(problem, drive, near))) return *std::move(state);
+    if (near.slip_fraction == 1) continue;
+    std::optional<FrictionState> balanced = newton(problem, drive, near);
+    if (balanced) return *std::move(balanced);
   }
   throw NumericalError("half-space reference: friction does not converge; try other cells");
 }
@@ -363,7 +365,11 @@ void RollingContact::add_work(const Problem& problem, FrictionState& state) cons
 }
 
 FrictionState RollingContact::shift(const FrictionState& before, double force) const {
-  return solve(step_problem(before, false), {true, force}, before);
+  FrictionState start = before;  // as if all cells stuck [Johnson, sect. 7.2]
+  const double radius = std::sqrt(contact_.area / std::numbers::pi);
+  start.shift = (force - before.force) * (2 - influence_.material.poissons_ratio) /
+                (4 * radius * influence_.material.shear_modulus());
+  return solve(step_problem(before, false), {true, force}, start);
 }
 
 FrictionState RollingContact::roll(const FrictionState& before, double force) const {

@@ -99,7 +99,8 @@ struct SteadySummary {
 
 /// On square cells of side `cell` [m].
 SteadySummary steady_summary(const SteadyCase& steady, double cell);
-/// From cells of `cell` and `cell` / 2 to the limit of fine grids, by first order.
+/// From cells of `cell` and `cell` / 2 to the limit of fine grids, by first order. Slip fraction and largest
+/// shear are those of single cells and scatter: by 12 % and 3 % from cells of a sixth of the patch.
 SteadySummary extrapolated_summary(const SteadyCase& steady, double cell);
 
 }  // namespace tread::half_space
