@@ -76,9 +76,16 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       wheel_stations_(*wheel_),
       friction_{options.friction, options.penalty},
       points_per_face_(options.points * options.points) {
-  const auto line = gauss(options.points);
-  for (const auto& along : line)
-    for (const auto& across : line) quadrature_.push_back({along[0], across[0], along[1] * across[1]});
+  gauss_ = gauss(options.points);
+  for (const auto& along : gauss_)
+    for (const auto& across : gauss_) quadrature_.push_back({along[0], across[0], along[1] * across[1]});
+  double arc = 0;
+  for (int edge = 0; edge < rail_profile_.edges(); ++edge) {
+    const auto middle = rail_profile_.evaluate(edge, 0.5, options_.surface);
+    const double width = std::hypot(middle.dp, middle.dq);
+    for (const auto& at : gauss_) across_.push_back(arc + at[0] * width);
+    arc += width;
+  }
 
   // Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
   double closest = 1e30;
@@ -317,7 +324,69 @@ void Contact::sum_up() {
     totals_.max_penetration = std::max(totals_.max_penetration, point.pressure / options_.penalty);
     totals_.penalty_energy += point.area * stored_energy(point.pressure, point.shear);
   }
-  if (load > 0) totals_.centre = (1 / load) * totals_.centre;
+  if (load <= 0) return;
+  totals_.centre = (1 / load) * totals_.centre;
+  const double area = area_by_rows();
+  totals_.slip_area *= area / totals_.area;
+  totals_.area = area;
+}
+
+/// Counting points would make the area jump by whole points. Along a row of points across the rail the patch
+/// ends where the penetration, linear at its border, falls to zero, at the latest at the next point.
+double Contact::area_by_rows() const {
+  const int per_line = options_.points;
+  const auto place = [&](const ContactPoint& point) {
+    return point.face[1] * per_line + static_cast<int>(point.history % per_line);
+  };
+  const auto s = [&](int n) {
+    return across_[static_cast<std::size_t>(std::clamp(n, 0, static_cast<int>(across_.size()) - 1))];
+  };
+  // The end of a run at point n, whose neighbour in the run is `inner` and out of it n + step.
+  const auto end = [&](const ContactPoint& last, const ContactPoint& inner, int step) {
+    const int n = place(last);
+    const double half_way = 0.5 * (s(n) + s(n + step));
+    const double p = last.pressure;
+    const double rise = inner.pressure - p;
+    if (&last == &inner || rise <= 0) return half_way;
+    const double reached = s(n) + (s(n) - s(place(inner))) * p / rise;
+    return step > 0 ? std::min(reached, s(n + step)) : std::max(reached, s(n + step));
+  };
+  double area = 0;
+  std::size_t first = 0;
+  while (first < points_.size()) {
+    const int station = points_[first].face[0];
+    std::size_t last = first;
+    while (last < points_.size() && points_[last].face[0] == station) ++last;
+    const double length = rail_->pitch(station);
+    for (int line = 0; line < per_line; ++line) {
+      const ContactPoint* begin = nullptr;   // of the run
+      const ContactPoint* second = nullptr;  // in it
+      const ContactPoint* before = nullptr;
+      const ContactPoint* back = nullptr;
+      const auto close = [&] {
+        if (!begin) return;
+        const double thickness = length * gauss_[static_cast<std::size_t>(line)][1];
+        area += thickness *
+                (end(*back, before ? *before : *back, 1) - end(*begin, second ? *second : *begin, -1));
+      };
+      for (std::size_t i = first; i < last; ++i) {
+        const ContactPoint& point = points_[i];
+        if (point.history / per_line % per_line != line) continue;
+        if (back && place(point) == place(*back) + 1) {
+          if (!second) second = &point;
+          before = back;
+        } else {
+          close();
+          begin = &point;
+          second = before = nullptr;
+        }
+        back = &point;
+      }
+      close();
+    }
+    first = last;
+  }
+  return area;
 }
 
 void Contact::find_static(const ContactState& state) {

@@ -111,6 +111,7 @@ class Contact {
   void visit_column(const ContactState& state, int station, double time);
   void gather_columns();
   void sum_up();
+  double area_by_rows() const;
   double probe(const ContactState& state, const Candidate& where, ContactPoint& point) const;
   Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) const;
   Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) const;
@@ -130,7 +131,9 @@ class Contact {
   StationFinder wheel_stations_;
   CoulombFriction friction_;
   int points_per_face_;
+  std::vector<std::array<double, 2>> gauss_;       ///< points and weights on [0, 1]
   std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
+  std::vector<double> across_;  ///< arc length across the rail up to each integration point of a row [m]
   int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
 
   struct History {

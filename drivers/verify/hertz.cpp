@@ -48,7 +48,7 @@ StaticContact press(const TyreOnBlock& bodies, const ProgressText& progress) {
   const Preload preload = solve_preload(model, {}, progress);
   const HertzPatch patch = bodies.hertz_patch();
   StaticContact contact;
-  contact.max_pressure = model.contact->max_nodal_tractions()[0];
+  contact.max_pressure = model.contact->nodes().max_pressure();
   contact.area = preload.contact.area;
   contact.load = -preload.contact.force_on_rail.z;
   contact.points = model.contact->points();
