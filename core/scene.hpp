@@ -94,6 +94,7 @@ struct MotionSpec {
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
   double ramp = 5e-3;                     ///< T1 [s]
   bool spin_in_preload = true;
+  double creepage = 0;           ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
   std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
   double step_safety = 0.95;     ///< fraction of the computed stable step
 };
@@ -131,6 +132,7 @@ struct Scene {
   double zone_start = 2.4;             ///< solution zone [m]
   double zone_length = 0.6;            ///< [m]
   double gravity = 9.81;               ///< [m/s2]
+  bool plane_strain = false;           ///< nothing moves across: a slice of wide bodies
   std::optional<double> element_size;  ///< overrides the quality's contact element size [m]
 
   /// A material that the scene does not contain has an empty name.

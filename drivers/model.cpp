@@ -190,6 +190,10 @@ void Model::restrain() {
         for (int c = 0; c < 2; ++c) hold(block, node, station, c);
     hold_path(block, "bottom", 2);
   }
+  if (scene.plane_strain)
+    for (const SweptBlock& block : mesh.blocks)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, 1);
   if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
   if (index.tread >= 0 && index.axle < 0)
     hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);

@@ -51,8 +51,9 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
     const StationFinder finder(block);
     for (int k = 0; k < kCreepageNodes; ++k) {
       const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
-      creepage_slots_.push_back(block.base + block.slot(nearest, station));
-      creepage_radius_.push_back(block.section.q[static_cast<std::size_t>(nearest)]);
+      creepage_nodes_.push_back({block.base + block.slot(nearest, station),
+                                 block.stations[static_cast<std::size_t>(station)],
+                                 block.section.q[static_cast<std::size_t>(nearest)]});
     }
   }
   if (scene.vehicle) {
@@ -103,7 +104,11 @@ void Simulation::start_velocities() {
   const double speed = motion ? motion->speed : 0.0;
   frame_.velocity = {speed, 0, 0};
   frame_.spin = speed / model_->wheel_radius();
-  if (!motion || motion->start == "rigid") return;
+  if (motion && motion->start == "moving") start_deflected(speed);
+  if (motion) frame_.spin *= (1 + 0.5 * motion->creepage) / (1 - 0.5 * motion->creepage);
+}
+
+void Simulation::start_deflected(double speed) {
   // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
   // du/dx in the track.
   for (const SweptBlock& block : model_->mesh.blocks) {
@@ -329,10 +334,13 @@ MomentumCheck Simulation::momentum_check() const {
   return {contact_impulse_ + time_ * weight, vehicle_momentum() - start_momentum_, contact_impulse_size_};
 }
 
-double Simulation::creepage(std::int64_t slot, double radius) const {
-  const double speed = v_[static_cast<std::size_t>(dof(slot, 0))] +
-                       frame_.spin * (radius + u_[static_cast<std::size_t>(dof(slot, 2))]);
-  const double v = frame_.velocity.x;
+/// `mean`: the wheel's motion relative to its frame.
+double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
+  const CreepageNode& node = creepage_nodes_[index];
+  const double carried = cartesian_to_cylindrical(node.angle + frame_.angle, mean.velocity).x;
+  const double speed = v_[static_cast<std::size_t>(dof(node.slot, 0))] - carried +
+                       frame_.spin * (node.radius + u_[static_cast<std::size_t>(dof(node.slot, 2))]);
+  const double v = frame_.velocity.x + mean.velocity.x;
   return (speed - v) / (0.5 * (speed + v));
 }
 
@@ -386,13 +394,13 @@ void Simulation::end_sample() {
     sample_.corrugation_depth = corrugation.depth(sample_.wheel_x, corrugation.centre());
   }
   if (model_->wheelset) {
-    sample_.wheel_speed = frame_.velocity.x;
-    sample_.wheel_spin = frame_.spin;
+    const MeanMotion mean = model_->wheelset->mean_motion(u_.data(), v_.data(), frame_);
+    sample_.wheel_speed = frame_.velocity.x + mean.velocity.x;
+    sample_.wheel_spin = frame_.spin + mean.spin;
     double sum = 0;
-    for (std::size_t k = 0; k < creepage_slots_.size(); ++k)
-      sum += creepage(creepage_slots_[k], creepage_radius_[k]);
-    sample_.creepage_node = creepage(creepage_slots_.front(), creepage_radius_.front());
-    sample_.creepage_mean = sum / static_cast<double>(creepage_slots_.size());
+    for (std::size_t k = 0; k < creepage_nodes_.size(); ++k) sum += creepage(k, mean);
+    sample_.creepage_node = creepage(0, mean);
+    sample_.creepage_mean = sum / static_cast<double>(creepage_nodes_.size());
     sample_.torque = torque_;
   }
   const double closed = energy.kinetic + energy.strain + energy.connectors + energy.penalty + energy.gravity +

@@ -87,12 +87,13 @@ class Simulation {
   void begin_sample();
   void end_sample();
   void start_velocities();
+  void start_deflected(double speed);
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;
   double half_step_excess() const;
   double gravity_potential() const;
   Vec3 vehicle_momentum() const;
-  double creepage(std::int64_t slot, double radius) const;
+  double creepage(std::size_t node, const MeanMotion& mean) const;
   void anchor();
   void follow_ties();
 
@@ -110,8 +111,13 @@ class Simulation {
   double torque_ = 0, torque_before_ = 0;
   double torque_work_ = 0;
   Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
-  std::vector<std::int64_t> creepage_slots_;
-  std::vector<double> creepage_radius_;
+  /// A node of the tread whose speed makes the creepage.
+  struct CreepageNode {
+    std::int64_t slot;
+    double angle;   ///< in the wheel [rad]
+    double radius;  ///< [m]
+  };
+  std::vector<CreepageNode> creepage_nodes_;
   std::optional<SurfaceFields> surface_;
 
   Sample sample_;

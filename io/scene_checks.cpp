@@ -69,6 +69,8 @@ class Checker {
     require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
     require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
     require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
+    require(!s.plane_strain || !s.rail || s.rail->profile == "box", {"scene.plane_strain", "rail.profile"},
+            "plane strain needs a block under the tyre; state rail.profile = \"box\"");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
     require(!s.motion || s.pulse || (s.wheel && s.rail && s.contact), {"motion"},

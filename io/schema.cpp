@@ -120,6 +120,9 @@ void add_general(Keys& keys) {
                           "Element size in the contact surface, in place of the quality's"));
   keys.push_back(quantity("scene.gravity", at(&Scene::gravity), kAcceleration, "m/s2", from(0, 100),
                           "Acceleration of gravity"));
+  keys.push_back(only_with("wheel.shape", "tyre",
+                           flag("scene.plane_strain", at(&Scene::plane_strain),
+                                "Nothing moves across: a slice of a wide tyre on a wide block")));
   keys.push_back(only_with("wheel", "",
                            quantity("solution_zone.start", at(&Scene::zone_start), kLength, "m",
                                     from(-1000, 1000), "x where the finely divided rail starts")));
@@ -288,6 +291,9 @@ void add_motion(Keys& keys) {
                                   from(0, 100), "Time T1 in which the torque grows from zero")));
   keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
+  keys.push_back(rolling(number("motion.creepage", at(&Scene::motion, &MotionSpec::creepage),
+                                {-2, 2, false, true},
+                                "Creepage at the start, relative to free rolling; -2: a locked wheel")));
   keys.push_back(
       rolling(choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving"},
                      "Velocities at t = 0: of rigid bodies, or with the static deflection moving along")));

@@ -43,13 +43,49 @@ double SpringDampers::energy(const double* u) const {
   return sum;
 }
 
+namespace {
+
+/// Weights of a ring's nodes, node by node and station by station: their masses times 1 + a cos phi + b sin
+/// phi, such that the ring is centred on the axis; masses of unequal stations alone leave it micrometres off.
+/// [kg]
+std::vector<double> centred_weights(const SweptBlock& block, const std::vector<int>& path,
+                                    const double* mass) {
+  const auto visit = [&](auto act) {
+    for (const int node : path)
+      for (int station = 0; station < block.station_count(); ++station) {
+        const double phi = block.stations[static_cast<std::size_t>(station)];
+        act(mass[block.base + block.slot(node, station)], block.section.q[static_cast<std::size_t>(node)],
+            std::cos(phi), std::sin(phi));
+      }
+  };
+  double c = 0, s = 0, cc = 0, cs = 0, ss = 0;  // moments of m r
+  visit([&](double m, double r, double cosine, double sine) {
+    c += m * r * cosine;
+    s += m * r * sine;
+    cc += m * r * cosine * cosine;
+    cs += m * r * cosine * sine;
+    ss += m * r * sine * sine;
+  });
+  const double determinant = cc * ss - cs * cs;
+  const double a = (cs * s - ss * c) / determinant;
+  const double b = (cs * c - cc * s) / determinant;
+  std::vector<double> weights;
+  visit([&](double m, double, double cosine, double sine) {
+    weights.push_back(m * (1 + a * cosine + b * sine));
+  });
+  return weights;
+}
+
+}  // namespace
+
 Journal::Journal(const SweptBlock& block, const std::vector<int>& path, const double* mass) {
+  const std::vector<double> weights = centred_weights(block, path, mass);
   for (const int node : path)
     for (int station = 0; station < block.station_count(); ++station) {
-      const std::int64_t slot = block.base + block.slot(node, station);
       const double phi = block.stations[static_cast<std::size_t>(station)];
-      nodes_.push_back({slot, mass[slot], std::cos(phi), std::sin(phi)});
-      mass_ += mass[slot];
+      nodes_.push_back(
+          {block.base + block.slot(node, station), weights[nodes_.size()], std::cos(phi), std::sin(phi)});
+      mass_ += nodes_.back().weight;
     }
   for (Node& node : nodes_) node.weight /= mass_;
 }
@@ -108,13 +144,14 @@ void Journal::add(double* field, const BodyFrame& frame, const Vec3& load) const
 }
 
 AxleTorque::AxleTorque(const SweptBlock& block, const std::vector<int>& path, const double* mass) {
+  const std::vector<double> weights = centred_weights(block, path, mass);
   double inertia = 0;
   for (const int node : path)
     for (int station = 0; station < block.station_count(); ++station) {
-      const std::int64_t slot = block.base + block.slot(node, station);
       const double r = block.section.q[static_cast<std::size_t>(node)];
-      nodes_.push_back({slot, mass[slot] * r});
-      inertia += mass[slot] * r * r;
+      const double weight = weights[nodes_.size()];
+      nodes_.push_back({block.base + block.slot(node, station), weight * r});
+      inertia += weight * r * r;
     }
   for (Node& node : nodes_) node.lever /= inertia;
 }

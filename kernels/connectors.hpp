@@ -59,7 +59,8 @@ class SpringDampers {
 class Journal {
  public:
   Journal() = default;
-  /// All stations of the section nodes `path` of a revolved block; weights by `mass` (scalar node field).
+  /// All stations of the section nodes `path` of a revolved block; weights by `mass` (scalar node field),
+  /// centred on the axis.
   Journal(const SweptBlock& block, const std::vector<int>& path, const double* mass);
 
   /// Mean displacement from the axis and mean velocity, Cartesian [m], [m/s].

@@ -51,6 +51,12 @@ std::vector<std::array<double, 2>> gauss(int points) {
   }
 }
 
+/// Shares of both ends of a line in a point on it, at in [0, 1]: all for the nearer one.
+std::array<double, 2> nearer_end(double at) {
+  if (std::abs(at - 0.5) < 1e-9) return {0.5, 0.5};
+  return at < 0.5 ? std::array{1.0, 0.0} : std::array{0.0, 1.0};
+}
+
 /// Tangents of the point and the bases of the wheel's nodes about it.
 void set_bases(ContactPoint& point) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -172,8 +178,9 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   x.z -= depth;
   point.position = x;
   point.face = {where.station, where.edge};
-  point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across),
-                       along * across};
+  const auto [here, ahead] = nearer_end(along);
+  const auto [left, right] = nearer_end(across);
+  point.face_share = {here * left, here * right, ahead * left, ahead * right};
   point.area = weight * rail_cell.length * std::hypot(profile.dp, profile.dq);
 
   // The wheel point whose deformed position is closest.

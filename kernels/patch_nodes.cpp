@@ -51,7 +51,7 @@ void PatchNodes::add(const ContactPoint& point) {
     const int row = point.face[1] - grid_.first_edge + corner % 2;
     NodalContact& node = nodes_[grid_.node(station - first_, row)];
     const double share =
-        point.area * point.face_weight[static_cast<std::size_t>(corner)] / grid_.area(station, row);
+        point.area * point.face_share[static_cast<std::size_t>(corner)] / grid_.area(station, row);
     node.frictional_work += share * point.frictional_work;
     if (point.pressure <= 0) continue;
     node.pressure += share * point.pressure;

@@ -8,4 +8,9 @@ namespace tread {
 VerifyCase hertz_sphere_case();   // hertz.cpp
 VerifyCase hertz_ellipse_case();  // hertz.cpp
 
+VerifyCase contact_filter_case();  // contact_filter.cpp
+VerifyCase carter_case();          // carter.cpp
+VerifyCase sliding_case();         // sliding.cpp
+VerifyCase steady_rolling_case();  // steady_rolling.cpp
+
 }  // namespace tread

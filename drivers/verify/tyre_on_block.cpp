@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "io/scene_reader.hpp"
@@ -13,20 +14,27 @@ namespace tread {
 
 HertzPatch TyreOnBlock::hertz_patch() const {
   const double modulus = youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio));
-  return hertz(radius, crown_radius, modulus, load);
+  if (crown_radius > 0) return hertz(radius, crown_radius, modulus, load);
+  const double line_load = load / element_size;
+  const double a = std::sqrt(4 * line_load * radius / (std::numbers::pi * modulus));
+  return {a, 0, 2 * line_load / (std::numbers::pi * a), 0};
 }
 
 Scene TyreOnBlock::scene() const {
   const HertzPatch patch = hertz_patch();
   const double a = std::max(patch.semi_axis_x, patch.semi_axis_y);
-  const double thickness = std::min(12 * a, 0.6 * radius);
-  const double zone = 4 * patch.semi_axis_x;
+  const double ring = thickness > 0 ? thickness : std::min(12 * a, 0.6 * radius);
+  const Span zone = fine.empty() ? Span{-2 * patch.semi_axis_x, 2 * patch.semi_axis_x} : fine;
   const double shift = grid_offset * element_size;
-  const double width = std::min(16 * a, 1.9 * crown_radius);
+  const double end = 10 * a + 0.05 * radius;  // of the block beyond the patch
+  const double left = end + std::max(0.0, -zone.first);
+  const bool slice = crown_radius == 0;
+  const double width = slice ? element_size : std::min(16 * a, 1.9 * crown_radius);
   const std::string text = fmt::format(
       R"([scene]
 element_size = "{h} m"
 gravity = "0 m/s2"
+plane_strain = {slice}
 [solution_zone]
 start = "{start} m"
 length = "{zone} m"
@@ -36,12 +44,11 @@ poissons_ratio = {nu}
 density = "7790 kg/m3"
 [wheel]
 shape = "tyre"
-profile = "arc"
+{profile}
 diameter = "{diameter} m"
-crown_radius = "{crown} m"
 width = "{width} m"
 thickness = "{thickness} m"
-lateral_offset = "{shift} m"
+lateral_offset = "{aside} m"
 [rail]
 profile = "box"
 support = "rigid"
@@ -55,11 +62,14 @@ wheel_load = "{load} N"
 [contact]
 friction = {f}
 )",
-      fmt::arg("h", element_size), fmt::arg("start", -0.5 * zone + shift), fmt::arg("zone", zone + roll),
-      fmt::arg("E", youngs_modulus), fmt::arg("nu", poissons_ratio), fmt::arg("diameter", 2 * radius),
-      fmt::arg("crown", crown_radius), fmt::arg("width", width), fmt::arg("thickness", thickness),
-      fmt::arg("height", 12 * a), fmt::arg("shift", shift), fmt::arg("length", 20 * a + 0.1 * radius + roll),
-      fmt::arg("origin", 10 * a + 0.05 * radius), fmt::arg("load", load), fmt::arg("f", friction));
+      fmt::arg("h", element_size), fmt::arg("start", zone.first + shift),
+      fmt::arg("zone", zone.last - zone.first), fmt::arg("E", youngs_modulus), fmt::arg("nu", poissons_ratio),
+      fmt::arg("diameter", 2 * radius), fmt::arg("slice", slice),
+      fmt::arg("profile", slice ? std::string("profile = \"cylinder\"")
+                                : fmt::format("profile = \"arc\"\ncrown_radius = \"{} m\"", crown_radius)),
+      fmt::arg("width", width), fmt::arg("thickness", ring), fmt::arg("height", 12 * a),
+      fmt::arg("aside", slice ? 0.0 : shift), fmt::arg("length", left + std::max(roll, zone.last) + end),
+      fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction));
   return resolve_scene(SceneSource{"verify", text + more, {}}).scene;
 }
 

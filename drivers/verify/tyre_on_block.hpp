@@ -12,17 +12,21 @@
 namespace tread {
 
 struct TyreOnBlock {
-  double radius = 0.43;       ///< of the rolling circle [m]
-  double crown_radius = 0.3;  ///< across [m]
-  double load = 87564.06;     ///< F_N [N]
+  double radius = 0.43;  ///< of the rolling circle [m]
+  double crown_radius =
+      0.3;                 ///< across; 0: a slice, one element wide, of a wide cylinder in plane strain [m]
+  double load = 87564.06;  ///< F_N [N]
   double youngs_modulus = 0;  ///< [Pa]
   double poissons_ratio = 0;  ///< [-]
   double friction = 0;        ///< coefficient f [-]
   double element_size = 0;    ///< in the contact [m]
   double grid_offset = 0;     ///< by which the meshes are shifted, along and across, in elements [-]
   double roll = 0;            ///< way that the wheel rolls [m]
+  Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
+  double thickness = 0;       ///< of the ring; 0: 12 semi-axes, as the block [m]
   std::string more;           ///< further tables of the scene
 
+  /// Of a slice: semi_axis_y is 0, the load that of one element's width.
   HertzPatch hertz_patch() const;
   /// The scene, as a file would state it. The block is 16 semi-axes wide, the bodies 12 semi-axes thick: the
   /// half-space that theory means.

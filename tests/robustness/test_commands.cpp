@@ -107,22 +107,26 @@ TEST_F(Commands, StaticSceneIsComparedWithHertz) {
 }
 
 /// The shipped scenes with a rolling wheel, on a mesh that is fast rather than good.
-TEST_F(Commands, RollingScenesRun) {
-  for (const char* name : {"corrugation-d.toml", "smooth.toml", "rigid-ground.toml", "tyre.toml"}) {
-    EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set "
-                               "\"motion.duration=0.02 ms\" --set \"solution_zone.length=0.1 m\" {} {}",
-                               (folder_ / name).string(),
-                               std::string(name) == "corrugation-d.toml"
-                                   ? "--set \"corrugation.length=0.08 m\" --set \"corrugation.start=2.41 m\""
-                                   : "",
-                               scene(name)))
-                  .code,
-              0)
-        << name;
-    for (const char* file : {"patch.h5", "surface.h5", "surface_axis.csv", "report.html"})
-      EXPECT_TRUE(fs::exists(folder_ / name / file)) << name << ": " << file;
-  }
+class RollingScenes : public Commands, public testing::WithParamInterface<const char*> {};
+
+TEST_P(RollingScenes, Run) {
+  const std::string name = GetParam();
+  EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} --set \"scene.element_size=8 mm\" --set "
+                             "\"motion.duration=0.02 ms\" --set \"solution_zone.length=0.1 m\" {} {}",
+                             folder_.string(),
+                             name == "corrugation-d.toml"
+                                 ? "--set \"corrugation.length=0.08 m\" --set \"corrugation.start=2.41 m\""
+                                 : "",
+                             scene(name)))
+                .code,
+            0);
+  for (const char* file : {"report.html", "patch.h5", "surface.h5", "surface_axis.csv"})
+    EXPECT_TRUE(fs::exists(folder_ / file)) << file;
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RollingScenes,
+                         testing::Values("corrugation-d.toml", "smooth.toml", "rigid-ground.toml",
+                                         "tyre.toml"));
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));

@@ -39,8 +39,7 @@ SweptBlock rail() {
 ContactPoint point_on(const SweptBlock& block, std::array<int, 2> face, double along, double across) {
   ContactPoint point{};
   point.face = face;
-  point.face_weight = {(1 - along) * (1 - across), (1 - along) * across, along * (1 - across),
-                       along * across};
+  point.face_share[static_cast<std::size_t>(2 * (along > 0.5) + (across > 0.5))] = 1;
   const auto e = static_cast<std::size_t>(face[1]);
   const double width = block.section.p[e + 6] - block.section.p[e + 5];
   point.area = 0.25 * block.pitch(face[0]) * width;

@@ -32,7 +32,7 @@ SurfaceGrid plane() {
 ContactPoint point_on(std::array<int, 2> face, double pressure) {
   ContactPoint point{};
   point.face = face;
-  point.face_weight = {0.25, 0.25, 0.25, 0.25};
+  point.face_share = {0.25, 0.25, 0.25, 0.25};
   point.area = 6e-6;
   point.pressure = pressure;
   point.shear = point.shear_before = {-0.3 * pressure, 0.1 * pressure};

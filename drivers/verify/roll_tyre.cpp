@@ -1,0 +1,110 @@
+#include "drivers/verify/roll_tyre.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "drivers/static_system.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Mean of a sampled quantity from x = first on.
+template <class Value>
+double mean(const std::vector<Sample>& samples, double first, Value value) {
+  double sum = 0;
+  int count = 0;
+  for (const Sample& sample : samples) {
+    if (sample.wheel_x < first) continue;
+    sum += value(sample);
+    ++count;
+  }
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress) {
+  Model model(bodies.scene());
+  const MotionSpec& motion = *model.scene.motion;
+  progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
+  const Preload preload = solve_preload(model, {motion.speed / model.wheel_radius(), motion.speed}, progress);
+  const double stable = motion.step_safety * step_limit(model).stable_step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
+  const double dt = motion.duration / static_cast<double>(steps);
+  Simulation simulation(model, preload, dt);
+  constexpr int kSamples = 1000;
+  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
+  progress(fmt::format("{} steps of {:.3e} s", steps, dt));
+  Rolled rolled;
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (!simulation.sampled()) continue;
+    const Sample& sample = simulation.sample();
+    rolled.samples.push_back(sample);
+    if (!std::isfinite(sample.energy.kinetic)) throw NumericalError("verify: the motion is no longer finite");
+    if (rolled.samples.size() % 100 == 0)
+      progress(fmt::format("x {:.1f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}, creepage {:.4f} %",
+                           1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
+                           sample.longitudinal_force / sample.vertical_force, 100 * sample.creepage_mean));
+  }
+
+  const double first = bodies.roll - observed;
+  const std::vector<Sample>& s = rolled.samples;
+  rolled.force = mean(s, first, [](const Sample& a) { return a.longitudinal_force; });
+  rolled.normal_force = mean(s, first, [](const Sample& a) { return a.vertical_force; });
+  rolled.free_creepage = s.front().creepage_mean;
+  rolled.creepage = mean(s, first, [](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;
+  rolled.slip_fraction = mean(s, first, [](const Sample& a) { return a.slip_area / a.patch_area; });
+  const auto start = std::find_if(s.begin(), s.end(), [&](const Sample& a) { return a.wheel_x >= first; });
+  rolled.work_creepage = (s.back().energy.frictional_work - start->energy.frictional_work) /
+                         (rolled.force * (s.back().wheel_x - start->wheel_x));
+  rolled.lead_loss = (s.back().energy.damping_loss - start->energy.damping_loss) /
+                     (s.back().energy.frictional_work - start->energy.frictional_work);
+  rolled.energy_residual = std::abs(s.back().energy.residual) / s.back().energy.frictional_work;
+
+  const double axle = simulation.wheel().origin.x;
+  for (const ContactPoint& point : model.contact->points())
+    rolled.patch.push_back({point.position.x - axle, point.position.y, point.pressure, -point.shear.along});
+
+  // Nodes that the whole patch has passed.
+  const double half = 1.3 * bodies.hertz_patch().semi_axis_x;
+  rolled.surface = surface_results(*simulation.surface(), first + half, s.back().wheel_x - half);
+  double square = 0;
+  int count = 0;
+  for (const AxisNode& node : rolled.surface.axis) {
+    if (node.x < rolled.surface.first || node.x > rolled.surface.last) continue;
+    rolled.shear_mean += node.max_shear;
+    square += node.max_shear * node.max_shear;
+    rolled.work += node.work;
+    ++count;
+  }
+  rolled.shear_mean /= count;
+  rolled.work /= count;
+  rolled.shear_noise =
+      std::sqrt(std::max(0.0, square / count - rolled.shear_mean * rolled.shear_mean)) / rolled.shear_mean;
+  return rolled;
+}
+
+Figure creepage_figure(const Rolled& rolled, double reference) {
+  Series ours{"mean of 28 nodes less free rolling", {}, {}, Stroke::solid};
+  Series traction{"F_L / F_N", {}, {}, Stroke::solid};
+  for (const Sample& sample : rolled.samples) {
+    ours.x.push_back(1e3 * sample.wheel_x);
+    ours.y.push_back(100 * (sample.creepage_mean - rolled.free_creepage));
+    traction.x.push_back(1e3 * sample.wheel_x);
+    traction.y.push_back(sample.longitudinal_force / sample.vertical_force);
+  }
+  Figure figure;
+  figure.title = "Creepage on the way to steady rolling";
+  figure.x_label = "Position of the wheel [mm]";
+  figure.panels = {{"Creepage [%]", {ours}, {{100 * reference, "theory"}}, 240, std::nullopt},
+                   {"Traction coefficient [-]", {traction}, {}, 160, std::nullopt}};
+  return figure;
+}
+
+}  // namespace tread

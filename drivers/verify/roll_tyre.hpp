@@ -1,0 +1,43 @@
+#pragma once
+// A tyre that rolls on a block, and what is seen of it.
+
+#include <vector>
+
+#include "drivers/simulation.hpp"
+#include "drivers/surface_results.hpp"
+#include "drivers/verify/tyre_on_block.hpp"
+
+namespace tread {
+
+/// A point of the patch at the last step.
+struct PatchPoint {
+  double x = 0, y = 0;             ///< from the wheel's axis, along and across [m]
+  double pressure = 0, shear = 0;  ///< shear on the wheel, forwards [Pa]
+};
+
+/// What the finite elements show over the observed stretch.
+struct Rolled {
+  double force = 0;            ///< mean F_L [N]
+  double normal_force = 0;     ///< mean F_N [N]
+  double creepage = 0;         ///< mean of 28 nodes less that of free rolling [-]
+  double free_creepage = 0;    ///< [-]
+  double work_creepage = 0;    ///< frictional work / (F_L x way) [-]
+  double slip_fraction = 0;    ///< [-]
+  double lead_loss = 0;        ///< by the lead of the contact forces, over the frictional work [-]
+  double energy_residual = 0;  ///< over the frictional work [-]
+  SurfaceResults surface;
+  double shear_mean = 0;   ///< of the nodes' largest shear on the axis [Pa]
+  double shear_noise = 0;  ///< standard deviation / mean of it along the axis [-]
+  double work = 0;         ///< on the axis [J/m2]
+  std::vector<Sample> samples;
+  std::vector<PatchPoint> patch;
+};
+
+/// Runs the scene of the bodies; `observed`: the last part of the way [m].
+Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress);
+
+/// Creepage (mean of 28 nodes, less free rolling) and traction over the way, the creepage's `reference` as a
+/// line.
+Figure creepage_figure(const Rolled& rolled, double reference);
+
+}  // namespace tread
