@@ -1,4 +1,7 @@
 // A wheel that slides: the contact force is f F_N, and friction turns all lost mechanical energy into heat.
+// Large friction makes undamped bodies flutter: at f = 0.5 the slip speed of 2.2 mm elements oscillates with
+// an amplitude that grows e-fold in 0.16 ms, whatever the time step, until parts stick; at f = 0.3 it does
+// not.
 
 #include <fmt/core.h>
 
@@ -43,7 +46,7 @@ CaseResult sliding(const VerifyInputs& inputs, const ProgressText& progress) {
 
 VerifyCase sliding_case() {
   std::vector<VerifyInput> inputs = tyre_inputs(false);
-  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
+  inputs.push_back({"friction", nullptr, "", 0.3, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"creepage", nullptr, "", -2, {-2, 1.9}, "the creepage at the start; -2: a locked wheel"});
   inputs.push_back({"speed", &kSpeed, "m/s", 10, {1, 150}, "the speed at the start"});
   inputs.push_back({"way", &kLength, "mm", 20e-3, {1e-3, 1}, "the way of the wheel"});

@@ -128,6 +128,29 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RollingScenes,
                          testing::Values("corrugation-d.toml", "smooth.toml", "rigid-ground.toml",
                                          "tyre.toml"));
 
+TEST_F(Commands, VerifyTakesInputsAndJudges) {
+  const std::string filter = "verify contact_filter --quiet --json -t 1 --set \"wavelength=40 mm\" ";
+  const Outcome good = call(filter + "--set \"element_size=3.4 mm\"");
+  EXPECT_EQ(good.code, 0) << good.out;
+  EXPECT_TRUE(has(good.out, "{\"case\": \"contact_filter\", \"inputs\": {\"radius\": \"0.43 m\""))
+      << good.out;
+  EXPECT_TRUE(has(good.out, "\"bound\": 0.02, \"pass\": true")) << good.out;
+  // So coarse a mesh misses the largest pressure, and the program says so.
+  const Outcome coarse =
+      call("verify hertz_sphere --quiet --json -t 1 --set \"element_size=3.6 mm\" --set \"load=60 kN\"");
+  EXPECT_EQ(coarse.code, 3) << coarse.out;
+  EXPECT_TRUE(has(coarse.out, "\"pass\": false")) << coarse.out;
+}
+
+TEST_F(Commands, VerifyRefusesWhatItDoesNotKnow) {
+  for (const char* wrong : {"verify hertz_spere", "verify hertz_sphere --set radus=1",
+                            "verify hertz_sphere --set \"radius=1 kg\"",
+                            "verify hertz_sphere --set \"radius=9 m\"", "verify steady_rolling --set mu=0.6",
+                            "verify hertz_sphere --set \"load=90 MN\"", "verify hertz_sphere --set radius"})
+    EXPECT_EQ(call(wrong).code, 2) << wrong;
+  EXPECT_TRUE(has(call("verify --list").out, "steady_rolling: "));
+}
+
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
