@@ -146,10 +146,10 @@ void Simulation::step() {
   // 4  torque; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the update)
   drive();
   carry();
-  // 5  velocities and displacements; pressure and friction of the middle of the step; constraints, frames
+  // 5  velocities, displacements, restraints; pressure and friction of the middle of the step; ties, frames
   move();
   roll();
-  constrain();
+  finish();
   // 6  fields of the rail's surface, samples
   record();
   if (sampled_) end_sample();
@@ -218,11 +218,12 @@ void Simulation::move() {
     else
       update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
   }
-}
-
-void Simulation::constrain() {
+  // Contact must not see restrained nodes move.
   for (const std::int64_t unknown : model_->restrained)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
+}
+
+void Simulation::finish() {
   follow_ties();
   frame_.advance(dt_);
   time_ += dt_;

@@ -83,7 +83,7 @@ class Simulation {
   void carry();
   void search();
   void move();
-  void constrain();
+  void finish();
   void begin_sample();
   void end_sample();
   void start_velocities();
