@@ -57,6 +57,7 @@ void measure_element(const Corners& x, BlockMeasures& out) {
 void measure_elements(const SweptBlock& block, BlockMeasures& out) {
   const auto nodes_at = [&](int station) {
     std::vector<Vec3> nodes;
+    nodes.reserve(static_cast<std::size_t>(block.section.nodes()));
     for (int node = 0; node < block.section.nodes(); ++node) nodes.push_back(position(block, node, station));
     return nodes;
   };

@@ -126,6 +126,15 @@ double wheel_tilt(const Model& model, const double* displacement, double angle) 
   return moment / second;
 }
 
+SteadyMotion steady_motion(const Model& model) {
+  SteadyMotion out;
+  if (!model.scene.motion || !model.scene.wheel) return out;
+  const MotionSpec& motion = *model.scene.motion;
+  if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
+  if (motion.start == "moving") out.speed = motion.speed;
+  return out;
+}
+
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
   constexpr int kMaxNewton = 40;
   constexpr double kTolerance = 1e-7;

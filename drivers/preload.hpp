@@ -33,6 +33,9 @@ struct SteadyMotion {
   double speed = 0;  ///< of the deflection along the track [m/s]
 };
 
+/// That the scene starts with: speed / radius by its creepage, as far as it wants them in the static state.
+SteadyMotion steady_motion(const Model& model);
+
 /// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its
 /// nodes' lateral displacement; `angle` is the wheel frame's [rad].
 double wheel_tilt(const Model& model, const double* displacement, double angle);

@@ -98,17 +98,12 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
 
   const Scene& scene = resolved.scene;
   Model model(scene);
-  SteadyMotion motion;
-  if (scene.motion && scene.wheel) {
-    if (scene.motion->spin_in_preload) motion.spin = scene.motion->speed / model.wheel_radius();
-    if (scene.motion->start == "moving") motion.speed = scene.motion->speed;
-  }
   results.seconds_mesh = progress.seconds();
   progress.say(fmt::format("[mesh] {} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                            model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
 
-  results.preload =
-      solve_preload(model, motion, [&](const std::string& text) { progress.say("[" + text + "]"); });
+  results.preload = solve_preload(model, steady_motion(model),
+                                  [&](const std::string& text) { progress.say("[" + text + "]"); });
   results.seconds_preload = progress.seconds() - results.seconds_mesh;
   if (model.contact) results.static_pressure = model.contact->nodes().max_pressure();
   if (scene.corrugation)

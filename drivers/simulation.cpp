@@ -105,7 +105,13 @@ void Simulation::start_velocities() {
   frame_.velocity = {speed, 0, 0};
   frame_.spin = speed / model_->wheel_radius();
   if (motion && motion->start == "moving") start_deflected(speed);
-  if (motion) frame_.spin *= (1 + 0.5 * motion->creepage) / (1 - 0.5 * motion->creepage);
+  if (!motion || motion->creepage == 0) return;
+  frame_.spin *= motion->spin_ratio();
+  for (const int b : model_->index.wheel()) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
+      v_[static_cast<std::size_t>(i)] *= motion->spin_ratio();
+  }
 }
 
 void Simulation::start_deflected(double speed) {

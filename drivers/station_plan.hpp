@@ -51,8 +51,8 @@ struct WheelPlan {
 /// the turn.
 WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
 
-/// Around a tyre, nothing tied to it: h over the arc that meets `zone`, approach pitch over what meets the rest of
-/// `run`, growing to twice the coarse quads' size over the rest of the turn.
+/// Around a tyre, nothing tied to it: h over the arc that meets `zone`, approach pitch over what meets the
+/// rest of `run`, growing to twice the coarse quads' size over the rest of the turn.
 WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes);
 
 /// Half length of the stretch of track that a wheel in contact can touch [m].

@@ -65,8 +65,8 @@ SweptBlock make_swept_block(std::string name, Sweep sweep, Section section, std:
   }
   block.tile_of_station.resize(block.stations.size());
   for (std::size_t t = 0; t < block.tiles.size(); ++t)
-    for (int i = 0; i < block.tiles[t].stations; ++i)
-      block.tile_of_station[static_cast<std::size_t>(block.tiles[t].first_station + i)] = static_cast<int>(t);
+    std::fill_n(block.tile_of_station.begin() + block.tiles[t].first_station, block.tiles[t].stations,
+                static_cast<int>(t));
   return block;
 }
 

@@ -186,9 +186,9 @@ WebRows web_rows(const WheelShape& shape, const SectionSize& size) {
 Patch plate(double x0, double x1, int columns, std::span<const double> r, int first, int last) {
   const auto x = evenly(x0, x1, columns);
   Patch patch(columns, last - first);
-  for (int j = 0; j <= patch.rows; ++j)
+  for (int row = first; row <= last; ++row)
     for (int i = 0; i <= columns; ++i)
-      patch.at(i, j) = {x[static_cast<std::size_t>(i)], r[static_cast<std::size_t>(first + j)]};
+      patch.at(i, row - first) = {x[static_cast<std::size_t>(i)], r[static_cast<std::size_t>(row)]};
   return patch;
 }
 

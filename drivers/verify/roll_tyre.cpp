@@ -32,7 +32,7 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   Model model(bodies.scene());
   const MotionSpec& motion = *model.scene.motion;
   progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
-  const Preload preload = solve_preload(model, {motion.speed / model.wheel_radius(), motion.speed}, progress);
+  const Preload preload = solve_preload(model, steady_motion(model), progress);
   const double stable = motion.step_safety * step_limit(model).stable_step;
   const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
   const double dt = motion.duration / static_cast<double>(steps);
