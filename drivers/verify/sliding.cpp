@@ -1,7 +1,4 @@
 // A wheel that slides: the contact force is f F_N, and friction turns all lost mechanical energy into heat.
-// Large friction makes undamped bodies flutter: at f = 0.5 the slip speed of 2.2 mm elements oscillates with
-// an amplitude that grows e-fold in 0.16 ms, whatever the time step, until parts stick; at f = 0.3 it does
-// not.
 
 #include <fmt/core.h>
 
@@ -49,7 +46,7 @@ VerifyCase sliding_case() {
   inputs.push_back({"friction", nullptr, "", 0.3, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"creepage", nullptr, "", -2, {-2, 1.9}, "the creepage at the start; -2: a locked wheel"});
   inputs.push_back({"speed", &kSpeed, "m/s", 10, {1, 150}, "the speed at the start"});
-  inputs.push_back({"way", &kLength, "mm", 20e-3, {1e-3, 1}, "the way of the wheel"});
+  inputs.push_back({"way", &kLength, "mm", 8e-3, {1e-3, 1}, "the way of the wheel"});
   for (VerifyInput& input : inputs)
     if (input.name == "element_size") input.value = 2.2e-3;
   return {"sliding", "a wheel slides on a block: force and energy", std::move(inputs), sliding};
