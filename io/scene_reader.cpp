@@ -411,8 +411,7 @@ std::string one_line(std::string text) {
 }
 
 std::string toml_value(const Key& key, const Entry& entry) {
-  const std::string with_unit =
-      entry.unit.empty() ? entry.value : toml_string(entry.value + " " + entry.unit);
+  std::string with_unit = entry.unit.empty() ? entry.value : toml_string(entry.value + " " + entry.unit);
   if (key.kind == Kind::text) return toml_string(entry.value);
   if (key.kind != Kind::damping) return with_unit;
   const char* kind = entry.unit.empty() ? "high_frequency_fraction" : "rayleigh_beta";

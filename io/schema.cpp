@@ -291,9 +291,9 @@ void add_motion(Keys& keys) {
                                   from(0, 100), "Time T1 in which the torque grows from zero")));
   keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
-  keys.push_back(rolling(number("motion.creepage", at(&Scene::motion, &MotionSpec::creepage),
-                                {-2, 2, false, true},
-                                "Creepage at the start, relative to free rolling; -2: a locked wheel")));
+  keys.push_back(
+      rolling(number("motion.creepage", at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
+                     "Creepage at the start, relative to free rolling; -2: a locked wheel")));
   keys.push_back(
       rolling(choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving"},
                      "Velocities at t = 0: of rigid bodies, or with the static deflection moving along")));
@@ -371,9 +371,10 @@ Keys make_keys() {
 }
 
 template <class Spec>
-SceneTable component(std::string name, std::optional<Spec> Scene::*spec, std::string description) {
-  return {.name = std::move(name),
-          .description = std::move(description),
+SceneTable component(const std::string& name, std::optional<Spec> Scene::*spec,
+                     const std::string& description) {
+  return {.name = name,
+          .description = description,
           .create = [spec](Scene& scene) { (scene.*spec).emplace(); },
           .remove = [spec](Scene& scene) { (scene.*spec).reset(); },
           .exists = [spec](const Scene& scene) { return (scene.*spec).has_value(); }};
@@ -521,7 +522,7 @@ std::string similar_path(std::string_view unknown) {
   std::vector<std::string> paths;
   for (const Key& key : scene_keys()) paths.push_back(key.path);
   for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
-  const std::string near = similar_text(unknown, paths);
+  std::string near = similar_text(unknown, paths);
   if (!near.empty()) return near;
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
   const auto elsewhere = std::find_if(paths.begin(), paths.end(), same_leaf);
