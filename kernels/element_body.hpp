@@ -135,8 +135,8 @@ struct PerturbedElement {
       triple += position[mode_xi][j] * gradient[mode_xi][j] + position[mode_h1][j] * gradient[mode_h1][j];
     volume_ratio = triple * (swept.inverse_volume / 64);
     const V inverse = 1 / triple;
-    for (int m = 0; m < kGradientModes; ++m)
-      for (int j = 0; j < 3; ++j) gradient[m][j] *= inverse;
+    for (auto& mode : gradient)
+      for (V& value : mode) value *= inverse;
   }
 
   TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {

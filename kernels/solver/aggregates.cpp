@@ -23,6 +23,7 @@ std::vector<std::vector<int>> node_graph(const Section& section) {
       neighbours[static_cast<std::size_t>(b)].insert(a);
     }
   std::vector<std::vector<int>> graph;
+  graph.reserve(neighbours.size());
   for (const auto& set : neighbours) graph.emplace_back(set.begin(), set.end());
   return graph;
 }
