@@ -94,12 +94,12 @@ struct MotionSpec {
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
   double ramp = 5e-3;                     ///< T1 [s]
   bool spin_in_preload = true;
-  double creepage = 0;  ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
+  double creepage = 0;           ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
+  std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
+  double step_safety = 0.95;     ///< fraction of the computed stable step
 
   /// Spin over that of free rolling. [theory.md, eq. 13]
   double spin_ratio() const { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
-  std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
-  double step_safety = 0.95;     ///< fraction of the computed stable step
 };
 
 /// [corrugation]

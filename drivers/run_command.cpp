@@ -52,11 +52,7 @@ void roll(Model& model, RunResults& results, const std::filesystem::path& direct
       results.samples.push_back(sample);
       histories.append(history_row(model, sample));
       if (patch) patch->append(sample.time, sample.wheel_x, model.contact->nodes());
-      if (!std::isfinite(sample.energy.kinetic + sample.energy.strain))
-        throw NumericalError(
-            fmt::format("the motion is no longer finite at t = {:.6e} s (step {}): the step {:.3e} s is too "
-                        "long; lower motion.step_safety",
-                        sample.time, simulation.steps(), results.dt));
+      simulation.require_finite();
     }
     if (simulation.steps() % 16 == 0 && progress.due(model.scene.output.progress_interval))
       progress.say(progress_line(simulation, simulation.sample(), model, motion.duration,

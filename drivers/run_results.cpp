@@ -86,22 +86,6 @@ std::vector<Column> columns_of(const Model& model) {
   return columns;
 }
 
-template <class Value>
-Statistics statistics(const std::vector<Sample>& samples, double first, double last, Value value) {
-  Statistics s;
-  int count = 0;
-  for (const Sample& sample : samples) {
-    if (sample.wheel_x < first || sample.wheel_x > last) continue;
-    const double v = value(sample);
-    s.min = count == 0 ? v : std::min(s.min, v);
-    s.max = count == 0 ? v : std::max(s.max, v);
-    s.mean += v;
-    ++count;
-  }
-  if (count > 0) s.mean /= count;
-  return s;
-}
-
 }  // namespace
 
 std::vector<Channel> history_channels(const Model& model) {
@@ -139,10 +123,13 @@ void evaluate(const Model& model, RunResults& r) {
     r.evaluated_last = std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length
                                                               : corrugation.last() - half_wave);
     if (r.evaluated_first > reached) r.evaluated_first = 0;
-    r.vertical_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
-                                  [](const Sample& s) { return s.vertical_force; });
-    r.longitudinal_force = statistics(r.samples, r.evaluated_first, r.evaluated_last,
-                                      [](const Sample& s) { return s.longitudinal_force; });
+    const auto between = [](double first, double last) {
+      return [first, last](const Sample& s) { return s.wheel_x >= first && s.wheel_x <= last; };
+    };
+    const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+    r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
+    r.longitudinal_force =
+        statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
 
     // Steady values: the last whole fastening span in the solution zone, or before the patch meets the
     // corrugation.
@@ -152,7 +139,7 @@ void evaluate(const Model& model, RunResults& r) {
     r.steady_last = end;
     r.steady_first = std::max(0.0, end - span);
     const auto mean = [&](auto value) {
-      return statistics(r.samples, r.steady_first, r.steady_last, value).mean;
+      return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
     };
     r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
     const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });

@@ -1,9 +1,12 @@
 #include "drivers/simulation.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "kernels/solver/chunks.hpp"
 #include "kernels/time_update.hpp"
 
@@ -334,6 +337,14 @@ Vec3 Simulation::vehicle_momentum() const {
     sum.z += sprung_.mass * sprung_.speed;
   }
   return sum;
+}
+
+void Simulation::require_finite() const {
+  if (std::isfinite(sample_.energy.kinetic + sample_.energy.strain)) return;
+  throw NumericalError(
+      fmt::format("the motion is no longer finite at t = {:.6e} s (step {}): the step {:.3e} s is too "
+                  "long; lower motion.step_safety",
+                  sample_.time, steps_, dt_));
 }
 
 MomentumCheck Simulation::momentum_check() const {

@@ -65,6 +65,8 @@ class Simulation {
   void set_sampling_interval(std::int64_t steps) { sampling_ = steps; }
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
+  /// NumericalError where the last sample's energies are not finite.
+  void require_finite() const;
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;

@@ -34,6 +34,11 @@ double patch_reach(double wheel_radius) {
 
 namespace {
 
+/// Fine elements per coarse one where the wheel only approaches.
+int approach_parts(const MeshSizes& sizes) {
+  return std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+}
+
 /// Appends `count` coarse elements of one pitch, each cut into `ratio` fine ones.
 void append(NestedSegments& plan, int count, double pitch, int ratio) {
   plan.coarse.push_back({count, pitch, 0});
@@ -72,7 +77,7 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   zone.last = std::min(zone.last, run.last);
   if (zone.empty()) zone = {run.last, run.last};
   const double coarse = sizes.contact * sizes.coarse_ratio;
-  const int approach = std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+  const int approach = approach_parts(sizes);
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
@@ -96,7 +101,7 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
   const int fine =
       zone.empty() ? 0
                    : std::min(disc, static_cast<int>(std::ceil((zone.last - zone.first) / (radius * pitch))));
-  const int approach = std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+  const int approach = approach_parts(sizes);
 
   WheelPlan plan;
   plan.start = zone.empty() ? 0 : -zone.last / radius;
@@ -111,18 +116,16 @@ WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) 
   const double turn = 2 * std::numbers::pi * radius;
   if (zone.empty()) zone = {0, 0};
   run = {std::min(run.first, zone.first), std::max(run.last, zone.last)};
-  const double pitch =
-      sizes.contact * sizes.coarse_ratio / std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
+  const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
 
   // Lengths on the rolling circle, from the end of the zone backwards.
-  std::vector<Segment> segments;
+  NestedSegments lengths;
+  std::vector<Segment>& segments = lengths.fine;
   double left = turn;
   const auto evenly = [&](double length, double size) {
     length = std::min(length, left);
-    if (length < 1e-9) return;
-    const int count = std::max(1, static_cast<int>(std::ceil(length / size - 1e-6)));
-    segments.push_back({count, length / count, 0});
-    left -= length;
+    append_uniform(lengths, {0, length}, size, 1);
+    left -= std::max(length, 0.0);
   };
   evenly(zone.last - zone.first, sizes.contact);
   const double behind = std::min(zone.first - run.first, left);

@@ -47,23 +47,6 @@ double beside(const SurfaceFields& fields, int station, int cell_row) {
   return count > 0 ? sum / count : 0;
 }
 
-/// Of an axis value over the nodes of [first, last].
-template <class Value>
-Statistics statistics(const SurfaceResults& surface, Value value) {
-  Statistics s;
-  int count = 0;
-  for (const AxisNode& node : surface.axis) {
-    if (node.x < surface.first || node.x > surface.last) continue;
-    const double v = value(node);
-    s.min = count == 0 ? v : std::min(s.min, v);
-    s.max = count == 0 ? v : std::max(s.max, v);
-    s.mean += v;
-    ++count;
-  }
-  if (count > 0) s.mean /= count;
-  return s;
-}
-
 /// Of values [station][columns] over the stations of the stretch.
 double largest(const SurfaceFields& fields, const SurfaceResults& surface, const std::vector<double>& values,
                std::size_t columns) {
@@ -119,9 +102,11 @@ SurfaceResults surface_results(const SurfaceFields& fields, double first, double
   s.max_shear = largest(fields, s, fields.max_shear(), rows);
   s.max_von_mises = largest(fields, s, fields.max_von_mises(), cell_rows);
   s.max_work = largest(fields, s, fields.frictional_work(), rows);
-  s.von_mises = statistics(s, [](const AxisNode& n) { return n.max_von_mises; });
-  s.cell_work = statistics(s, [](const AxisNode& n) { return kPaperCell * n.work; });
-  s.sampled_cell_work = statistics(s, [](const AxisNode& n) { return kPaperCell * n.sampled_work; });
+  const auto inside = [&](const AxisNode& n) { return s.covers(n); };
+  s.von_mises = statistics(s.axis, inside, [](const AxisNode& n) { return n.max_von_mises; });
+  s.cell_work = statistics(s.axis, inside, [](const AxisNode& n) { return kPaperCell * n.work; });
+  s.sampled_cell_work =
+      statistics(s.axis, inside, [](const AxisNode& n) { return kPaperCell * n.sampled_work; });
   s.total_work = fields.sum(fields.frictional_work());
   s.total_sampled_work = fields.sum(fields.sampled_frictional_work());
   return s;

@@ -29,6 +29,7 @@ struct SurfaceResults {
   double axis_y = 0;           ///< [m]
   std::vector<AxisNode> axis;  ///< of the stations that were in contact
   double first = 0, last = 0;  ///< the stretch [m]
+  bool covers(const AxisNode& node) const { return node.x >= first && node.x <= last; }
 
   double max_pressure = 0, max_shear = 0, max_von_mises = 0;  ///< of the whole width [Pa]
   double max_work = 0;                                        ///< of the whole width [J/m2]

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -81,7 +82,7 @@ std::vector<VerifyInputs> inputs_of(const std::vector<const VerifyCase*>& cases,
   return inputs;
 }
 
-Table table_of(const std::vector<Outcome>& outcomes) {
+Table table_of(std::span<const Outcome> outcomes) {
   Table table{"",
               {{"Case"},
                {"Quantity"},
@@ -156,7 +157,7 @@ void write_pages(const std::vector<Outcome>& outcomes, const std::filesystem::pa
       if (outcome.inputs.all()[i].value != c.inputs[i].value)
         text += fmt::format(" --set \"{}={}\"", c.inputs[i].name, shown(outcome.inputs.all()[i]));
     text += "`\n\n| quantity | ours | reference | unit | error | bound | |\n|---|---|---|---|---|---|---|\n";
-    const Table table = table_of({outcome});
+    const Table table = table_of({&outcome, 1});
     for (const auto& row : table.rows) {
       for (std::size_t i = 1; i < row.size(); ++i) text += "| " + row[i] + " ";
       text += "|\n";

@@ -348,14 +348,15 @@ double Contact::area_by_rows() const {
   const auto s = [&](int n) {
     return across_[static_cast<std::size_t>(std::clamp(n, 0, static_cast<int>(across_.size()) - 1))];
   };
-  // The end of a run at point n, whose neighbour in the run is `inner` and out of it n + step.
-  const auto end = [&](const ContactPoint& last, const ContactPoint& inner, int step) {
-    const int n = place(last);
+  // Where the stretch that a point stands for ends, towards the place `step` away; null: no point there, or
+  // none on the other side.
+  const auto border = [&](const ContactPoint& point, int step, const ContactPoint* there,
+                          const ContactPoint* opposite) {
+    const int n = place(point);
     const double half_way = 0.5 * (s(n) + s(n + step));
-    const double p = last.pressure;
-    const double rise = inner.pressure - p;
-    if (&last == &inner || rise <= 0) return half_way;
-    const double reached = s(n) + (s(n) - s(place(inner))) * p / rise;
+    if (there || !opposite || opposite->pressure <= point.pressure) return half_way;
+    const double reached =
+        s(n) + (s(n) - s(n - step)) * point.pressure / (opposite->pressure - point.pressure);
     return step > 0 ? std::min(reached, s(n + step)) : std::max(reached, s(n + step));
   };
   double area = 0;
@@ -366,30 +367,20 @@ double Contact::area_by_rows() const {
     while (last < points_.size() && points_[last].face[0] == station) ++last;
     const double length = rail_->pitch(station);
     for (int line = 0; line < per_line; ++line) {
-      const ContactPoint* begin = nullptr;   // of the run
-      const ContactPoint* second = nullptr;  // in it
-      const ContactPoint* before = nullptr;
-      const ContactPoint* back = nullptr;
-      const auto close = [&] {
-        if (!begin) return;
-        const double thickness = length * gauss_[static_cast<std::size_t>(line)][1];
-        area += thickness *
-                (end(*back, before ? *before : *back, 1) - end(*begin, second ? *second : *begin, -1));
+      const double thickness = length * gauss_[static_cast<std::size_t>(line)][1];
+      const ContactPoint* before = nullptr;  // the neighbours of `point` in contact
+      const ContactPoint* point = nullptr;
+      const auto pass = [&](const ContactPoint* next) {
+        const bool joined = point && next && place(*next) == place(*point) + 1;
+        if (point)
+          area += thickness * (border(*point, 1, joined ? next : nullptr, before) -
+                               border(*point, -1, before, joined ? next : nullptr));
+        before = joined ? point : nullptr;
+        point = next;
       };
-      for (std::size_t i = first; i < last; ++i) {
-        const ContactPoint& point = points_[i];
-        if (point.history / per_line % per_line != line) continue;
-        if (back && place(point) == place(*back) + 1) {
-          if (!second) second = &point;
-          before = back;
-        } else {
-          close();
-          begin = &point;
-          second = before = nullptr;
-        }
-        back = &point;
-      }
-      close();
+      for (std::size_t i = first; i < last; ++i)
+        if (points_[i].history / per_line % per_line == line) pass(&points_[i]);
+      pass(nullptr);
     }
     first = last;
   }

@@ -51,12 +51,9 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   const double ramp = inputs["ramp"];
   const double observed = 4 * a;
   bodies.thickness = 0.4 * bodies.radius;
-  bodies.roll = 1.3 * speed * ramp + observed;
-  bodies.fine = {bodies.roll - observed - 2 * a, bodies.roll + 2 * a};
   const auto run = [&](double mu) {
-    bodies.more = fmt::format(
-        "[motion]\nspeed = \"{} m/s\"\nduration = \"{} s\"\ntraction = {{ mu = {}, ramp = \"{} s\" }}\n",
-        speed, bodies.roll / speed, mu, ramp);
+    bodies.roll_on(speed, 1.3 * speed * ramp + observed, observed,
+                   fmt::format("traction = {{ mu = {}, ramp = \"{} s\" }}", mu, ramp));
     return roll_tyre(bodies, observed, progress);
   };
   const Rolled free = run(0);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -91,6 +92,23 @@ struct RollingContact::Drive {
 /// One step, or the steady state. Slip = shift + before - displacement by the tractions. Vectors of the
 /// solver hold the tractions of the n cells in contact, x of all, then y of all, over f p_max, and the shift
 /// over `length` = f p_max times the table's diagonal.
+namespace {
+
+/// Displacement differences of the surfaces along x and y under tractions. [m]
+std::array<std::vector<double>, 2> displacements(const OffsetTable& xx, const OffsetTable& xy,
+                                                 const OffsetTable& yy, const Grid& grid,
+                                                 const Tractions& p) {
+  std::array<std::vector<double>, 2> u;
+  for (std::vector<double>& component : u) component.assign(static_cast<std::size_t>(grid.size()), 0.0);
+  apply(xx, grid, p.x, u[0]);
+  apply(xy, grid, p.y, u[0]);
+  apply(xy, grid, p.x, u[1]);
+  apply(yy, grid, p.y, u[1]);
+  return u;
+}
+
+}  // namespace
+
 struct RollingContact::Problem {
   const Grid& grid;
   const std::vector<int>& cells;
@@ -184,12 +202,7 @@ RollingContact::Problem RollingContact::steady_problem() const {
 RollingContact::Problem RollingContact::step_problem(const FrictionState& before, bool rolling) const {
   const Grid& grid = influence_.grid;
   Tractions p = before.tractions;
-  std::vector<double> ux(grid.size(), 0.0);
-  std::vector<double> uy(grid.size(), 0.0);
-  apply(influence_.xx, grid, p.x, ux);
-  apply(influence_.xy, grid, p.y, ux);
-  apply(influence_.xy, grid, p.x, uy);
-  apply(influence_.yy, grid, p.y, uy);
+  auto [ux, uy] = displacements(influence_.xx, influence_.xy, influence_.yy, grid, p);
   if (rolling) {
     ux = ahead(grid, ux);
     uy = ahead(grid, uy);
@@ -343,12 +356,7 @@ void RollingContact::add_work(const Problem& problem, FrictionState& state) cons
   const Grid& grid = influence_.grid;
   const Tractions& p = state.tractions;
   const Tractions before = problem.steady ? Tractions{ahead(grid, p.x), ahead(grid, p.y)} : problem.arriving;
-  std::vector<double> vx(grid.size(), 0.0);
-  std::vector<double> vy(grid.size(), 0.0);
-  apply(problem.xx, grid, p.x, vx);
-  apply(problem.xy, grid, p.y, vx);
-  apply(problem.xy, grid, p.x, vy);
-  apply(problem.yy, grid, p.y, vy);
+  const auto [vx, vy] = displacements(problem.xx, problem.xy, problem.yy, grid, p);
   double sum = 0;
   std::vector<double> strips(grid.ny, 0.0);
   for (int j = 0; j < grid.ny; ++j) {

@@ -55,10 +55,9 @@ StaticContact press(const TyreOnBlock& bodies, const ProgressText& progress) {
   // Two points on the axis, each three semi-axes deep, and what a half-space still moves there.
   const double depth = 3 * std::max(patch.semi_axis_x, patch.semi_axis_y);
   const double* u = preload.displacement.data();
-  const double y = 0;
-  const double rail = displacement_at(model, model.index.rail_cap, y, -depth, 0, u).z;
+  const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).z;
   const double wheel =
-      displacement_at(model, model.index.tread, y, bodies.radius - depth, 0, u).z + preload.wheel.origin.z;
+      displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).z + preload.wheel.origin.z;
   contact.approach = bodies.radius - wheel + rail + 2 * axis_displacement(bodies, patch, depth);
   return contact;
 }
@@ -100,8 +99,7 @@ CaseResult hertz_case(const VerifyInputs& inputs, const ProgressText& progress, 
   const HertzPatch patch = bodies.hertz_patch();
   const double area = std::numbers::pi * patch.semi_axis_x * patch.semi_axis_y;
   const double smallest = std::min(patch.semi_axis_x, patch.semi_axis_y);
-  // 3 % where 1.1 mm meet the paper's patch, proportional to the element.
-  const double bound = 0.03 * (bodies.element_size / 1.1e-3) * (5.25e-3 / smallest);
+  const double bound = 0.03 * bodies.fineness();
 
   const StaticContact contact = press(bodies, progress);
   CaseResult result;

@@ -4,29 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "drivers/static_system.hpp"
 
 namespace tread {
-
-namespace {
-
-/// Mean of a sampled quantity from x = first on.
-template <class Value>
-double mean(const std::vector<Sample>& samples, double first, Value value) {
-  double sum = 0;
-  int count = 0;
-  for (const Sample& sample : samples) {
-    if (sample.wheel_x < first) continue;
-    sum += value(sample);
-    ++count;
-  }
-  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
 
 Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress) {
   Model model(bodies.scene());
@@ -44,9 +26,9 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   while (simulation.steps() < steps) {
     simulation.step();
     if (!simulation.sampled()) continue;
+    simulation.require_finite();
     const Sample& sample = simulation.sample();
     rolled.samples.push_back(sample);
-    if (!std::isfinite(sample.energy.kinetic)) throw NumericalError("verify: the motion is no longer finite");
     if (rolled.samples.size() % 100 == 0)
       progress(fmt::format("x {:.1f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}, creepage {:.4f} %",
                            1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
@@ -55,11 +37,21 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
 
   const double first = bodies.roll - observed;
   const std::vector<Sample>& s = rolled.samples;
-  rolled.force = mean(s, first, [](const Sample& a) { return a.longitudinal_force; });
-  rolled.normal_force = mean(s, first, [](const Sample& a) { return a.vertical_force; });
+  if (s.back().wheel_x <= first)
+    throw NumericalError(
+        fmt::format("verify: the wheel ends at x = {:.1f} mm, before the observed stretch from {:.1f} mm on; "
+                    "raise speed",
+                    1e3 * s.back().wheel_x, 1e3 * first));
+  const auto mean = [&](auto value) {
+    return statistics(
+               s, [&](const Sample& a) { return a.wheel_x >= first; }, value)
+        .mean;
+  };
+  rolled.force = mean([](const Sample& a) { return a.longitudinal_force; });
+  rolled.normal_force = mean([](const Sample& a) { return a.vertical_force; });
   rolled.free_creepage = s.front().creepage_mean;
-  rolled.creepage = mean(s, first, [](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;
-  rolled.slip_fraction = mean(s, first, [](const Sample& a) { return a.slip_area / a.patch_area; });
+  rolled.creepage = mean([](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;
+  rolled.slip_fraction = mean([](const Sample& a) { return a.slip_area / a.patch_area; });
   const auto start = std::find_if(s.begin(), s.end(), [&](const Sample& a) { return a.wheel_x >= first; });
   rolled.work_creepage = (s.back().energy.frictional_work - start->energy.frictional_work) /
                          (rolled.force * (s.back().wheel_x - start->wheel_x));
@@ -74,19 +66,9 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   // Nodes that the whole patch has passed.
   const double half = 1.3 * bodies.hertz_patch().semi_axis_x;
   rolled.surface = surface_results(*simulation.surface(), first + half, s.back().wheel_x - half);
-  double square = 0;
-  int count = 0;
-  for (const AxisNode& node : rolled.surface.axis) {
-    if (node.x < rolled.surface.first || node.x > rolled.surface.last) continue;
-    rolled.shear_mean += node.max_shear;
-    square += node.max_shear * node.max_shear;
-    rolled.work += node.work;
-    ++count;
-  }
-  rolled.shear_mean /= count;
-  rolled.work /= count;
-  rolled.shear_noise =
-      std::sqrt(std::max(0.0, square / count - rolled.shear_mean * rolled.shear_mean)) / rolled.shear_mean;
+  const auto inside = [&](const AxisNode& node) { return rolled.surface.covers(node); };
+  rolled.shear = statistics(rolled.surface.axis, inside, [](const AxisNode& node) { return node.max_shear; });
+  rolled.work = statistics(rolled.surface.axis, inside, [](const AxisNode& node) { return node.work; }).mean;
   return rolled;
 }
 

@@ -26,9 +26,8 @@ struct Rolled {
   double lead_loss = 0;        ///< by the lead of the contact forces, over the frictional work [-]
   double energy_residual = 0;  ///< over the frictional work [-]
   SurfaceResults surface;
-  double shear_mean = 0;   ///< of the nodes' largest shear on the axis [Pa]
-  double shear_noise = 0;  ///< standard deviation / mean of it along the axis [-]
-  double work = 0;         ///< on the axis [J/m2]
+  Statistics shear;  ///< of the nodes' largest shear on the axis [Pa]
+  double work = 0;   ///< on the axis [J/m2]
   std::vector<Sample> samples;
   std::vector<PatchPoint> patch;
 };

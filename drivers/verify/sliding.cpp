@@ -15,12 +15,9 @@ CaseResult sliding(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = tyre_of(inputs, false);
   bodies.friction = inputs["friction"];
   const double speed = inputs["speed"];
-  bodies.roll = inputs["way"];
-  const double a = bodies.hertz_patch().semi_axis_x;
-  bodies.fine = {-2 * a, bodies.roll + 2 * a};
-  bodies.more = fmt::format("[motion]\nspeed = \"{} m/s\"\nduration = \"{} s\"\ncreepage = {}\n", speed,
-                            bodies.roll / speed, inputs["creepage"]);
-  const double observed = 0.5 * bodies.roll;
+  const double way = inputs["way"];
+  bodies.roll_on(speed, way, way, fmt::format("creepage = {}", inputs["creepage"]));
+  const double observed = 0.5 * way;
   const Rolled rolled = roll_tyre(bodies, observed, progress);
   const EnergyLedger& first = rolled.samples.front().energy;
   const EnergyLedger& last = rolled.samples.back().energy;

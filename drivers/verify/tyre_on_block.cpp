@@ -20,6 +20,18 @@ HertzPatch TyreOnBlock::hertz_patch() const {
   return {a, 0, 2 * line_load / (std::numbers::pi * a), 0};
 }
 
+double TyreOnBlock::fineness() const {
+  const HertzPatch patch = hertz_patch();
+  return (element_size / 1.1e-3) * (5.25e-3 / std::min(patch.semi_axis_x, patch.semi_axis_y));
+}
+
+void TyreOnBlock::roll_on(double speed, double way, double observed, const std::string& keys) {
+  const double a = hertz_patch().semi_axis_x;
+  roll = way;
+  fine = {way - observed - 2 * a, way + 2 * a};
+  more = fmt::format("[motion]\nspeed = \"{} m/s\"\nduration = \"{} s\"\n{}\n", speed, way / speed, keys);
+}
+
 Scene TyreOnBlock::scene() const {
   const HertzPatch patch = hertz_patch();
   const double a = std::max(patch.semi_axis_x, patch.semi_axis_y);
@@ -114,9 +126,14 @@ TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
 
 namespace {
 
-/// Bilinear coordinates of (p, q) in a convex quad, or nothing where it lies outside.
-std::optional<std::array<double, 2>> inside(const Section& section, const std::array<int, 4>& quad, double p,
-                                            double q) {
+std::array<double, 4> bilinear(double xi, double eta) {
+  return {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta),
+          0.25 * (1 - xi) * (1 + eta)};
+}
+
+/// Bilinear weights of (p, q) in a convex quad, or nothing where it lies outside.
+std::optional<std::array<double, 4>> weights_inside(const Section& section, const std::array<int, 4>& quad,
+                                                    double p, double q) {
   double xi = 0;
   double eta = 0;
   const auto at = [&](std::size_t i) {
@@ -124,8 +141,7 @@ std::optional<std::array<double, 2>> inside(const Section& section, const std::a
     return std::array{section.p[node], section.q[node]};
   };
   for (int iteration = 0; iteration < 20; ++iteration) {
-    const std::array<double, 4> n = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta),
-                                     0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+    const std::array<double, 4> n = bilinear(xi, eta);
     const std::array<double, 4> by_xi = {-0.25 * (1 - eta), 0.25 * (1 - eta), 0.25 * (1 + eta),
                                          -0.25 * (1 + eta)};
     const std::array<double, 4> by_eta = {-0.25 * (1 - xi), -0.25 * (1 + xi), 0.25 * (1 + xi),
@@ -151,7 +167,7 @@ std::optional<std::array<double, 2>> inside(const Section& section, const std::a
   }
   constexpr double kEdge = 1 + 1e-9;
   if (std::abs(xi) > kEdge || std::abs(eta) > kEdge) return std::nullopt;
-  return std::array{xi, eta};
+  return bilinear(xi, eta);
 }
 
 }  // namespace
@@ -160,17 +176,14 @@ Vec3 displacement_at(const Model& model, int index, double p, double q, double s
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(index)];
   const auto cell = StationFinder(block).find(s);
   for (const std::array<int, 4>& quad : block.section.quads) {
-    const auto local = cell.station < 0 ? std::nullopt : inside(block.section, quad, p, q);
-    if (!local) continue;
-    const auto [xi, eta] = *local;
-    const std::array<double, 4> weight = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta),
-                                          0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+    const auto weight = cell.station < 0 ? std::nullopt : weights_inside(block.section, quad, p, q);
+    if (!weight) continue;
     const double along = cell.distance / cell.pitch;
     Vec3 sum;
     for (std::size_t i = 0; i < 4; ++i)
       for (const int station : {cell.station, cell.next}) {
         const std::int64_t slot = block.base + block.slot(quad[i], station);
-        const double share = weight[i] * (station == cell.station ? 1 - along : along);
+        const double share = (*weight)[i] * (station == cell.station ? 1 - along : along);
         sum += share * to_cartesian(block, station, 0, {u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]});
       }
     return sum;

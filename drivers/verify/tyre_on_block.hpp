@@ -28,6 +28,12 @@ struct TyreOnBlock {
 
   /// Of a slice: semi_axis_y is 0, the load that of one element's width.
   HertzPatch hertz_patch() const;
+  /// Element over the patch's smaller semi-axis, 1 where 1.1 mm meet the paper's 5.25 mm: bounds grow with
+  /// it.
+  double fineness() const;
+  /// Makes the wheel roll a way of which the last part is `observed` on fine elements [m]; `keys` are further
+  /// ones of the table [motion].
+  void roll_on(double speed, double way, double observed, const std::string& keys);
   /// The scene, as a file would state it. The block is 16 semi-axes wide, the bodies 12 semi-axes thick: the
   /// half-space that theory means.
   Scene scene() const;
