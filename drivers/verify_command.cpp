@@ -34,22 +34,21 @@ std::string shown(const VerifyInput& input) {
   return input.quantity ? format_quantity(input.value, input.unit) : fmt::format("{:g}", input.value);
 }
 
-std::vector<const VerifyCase*> chosen(const std::vector<std::string>& names) {
+/// By the names of cases or groups; without any, the standard ones.
+std::vector<const VerifyCase*> chosen(std::vector<std::string> names) {
+  if (names.empty()) names.emplace_back(kStandardCases);
   std::vector<const VerifyCase*> cases;
-  std::vector<std::string> known;
-  for (const VerifyCase& c : verify_cases()) {
-    known.push_back(c.name);
-    if (names.empty()) cases.push_back(&c);
-  }
   for (const std::string& name : names) {
-    const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) {
-      const std::string near = similar_text(name, known);
-      throw InputError(fmt::format(
-          "verify: there is no case '{}'; {}", name,
-          near.empty() ? "`tread verify --list` names them" : fmt::format("did you mean '{}'?", near)));
-    }
-    cases.push_back(&verify_cases()[static_cast<std::size_t>(at - known.begin())]);
+    const std::size_t before = cases.size();
+    for (const VerifyCase& c : verify_cases())
+      if (c.name == name || c.group == name) cases.push_back(&c);
+    if (cases.size() > before) continue;
+    std::vector<std::string> known = {std::string(kStandardCases), std::string(kExtremes)};
+    for (const VerifyCase& c : verify_cases()) known.push_back(c.name);
+    const std::string near = similar_text(name, known);
+    throw InputError(fmt::format(
+        "verify: there is no case '{}'; {}", name,
+        near.empty() ? "`tread verify --list` names them" : fmt::format("did you mean '{}'?", near)));
   }
   return cases;
 }
@@ -139,7 +138,7 @@ std::string json_lines(const Outcome& outcome) {
 
 void list_cases() {
   for (const VerifyCase& c : verify_cases()) {
-    fmt::print("{}: {}\n", c.name, c.summary);
+    fmt::print("{} ({}): {}\n", c.name, c.group, c.summary);
     for (const VerifyInput& input : c.inputs)
       fmt::print("    {} = {}    {}\n", input.name, shown(input), input.meaning);
   }

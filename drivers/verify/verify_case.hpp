@@ -54,11 +54,16 @@ struct CaseResult {
   std::vector<Figure> figures;
 };
 
+/// Cases that belong together; their name chooses them all.
+inline constexpr std::string_view kStandardCases = "standard";  ///< what `tread verify` runs by itself
+inline constexpr std::string_view kExtremes = "extremes";       ///< where the program's range ends
+
 struct VerifyCase {
   std::string name;
   std::string summary;  ///< what is compared with what
   std::vector<VerifyInput> inputs;
   std::function<CaseResult(const VerifyInputs&, const ProgressText&)> run;
+  std::string_view group = kStandardCases;
 };
 
 /// All cases, in the order of the documentation.
