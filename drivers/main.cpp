@@ -115,12 +115,12 @@ void add_verify(CLI::App& app) {
   auto options = std::make_shared<tread::VerifyOptions>();
   CLI::App& command =
       *app.add_subcommand("verify", "compare the program with theory; exits 3 if a bound fails");
-  command.add_option("cases", options->names, "names of cases (default: all)");
+  command.add_option("cases", options->names, "names of cases or groups (default: standard)");
   command
       .add_option("--set", options->overrides,
                   "input=value for every chosen case that has it, e.g. --set \"radius=0.5 m\"")
       ->allow_extra_args(false);
-  command.add_option("-o,--output", options->output, "directory for verify.md and its figures");
+  command.add_option("-o,--output", options->output, "directory for a page and figures of each case");
   command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
   command.add_flag("--list", options->list, "the cases and their inputs");
   command.add_flag("--json", options->json, "one JSON object a line on stdout");

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <span>
 
@@ -144,31 +145,46 @@ void list_cases() {
   }
 }
 
-/// Markdown table and SVG figures, as docs/verification.md holds them.
-void write_pages(const std::vector<Outcome>& outcomes, const std::filesystem::path& directory) {
-  make_directory(directory);
+/// Inputs that differ from the case's own, each after `lead`.
+std::string changed_inputs(const Outcome& outcome, std::string_view lead) {
   std::string text;
-  for (const Outcome& outcome : outcomes) {
-    const VerifyCase& c = *outcome.verified;
-    text += fmt::format("### {}\n\n{}; {}.\n\n`tread verify {}", c.name, c.summary,
-                        duration_text(outcome.seconds), c.name);
-    for (std::size_t i = 0; i < c.inputs.size(); ++i)
-      if (outcome.inputs.all()[i].value != c.inputs[i].value)
-        text += fmt::format(" --set \"{}={}\"", c.inputs[i].name, shown(outcome.inputs.all()[i]));
-    text += "`\n\n| quantity | ours | reference | unit | error | bound | |\n|---|---|---|---|---|---|---|\n";
-    const Table table = table_of({&outcome, 1});
-    for (const auto& row : table.rows) {
-      for (std::size_t i = 1; i < row.size(); ++i) text += "| " + row[i] + " ";
-      text += "|\n";
-    }
-    text += "\n";
-    for (std::size_t i = 0; i < outcome.result.figures.size(); ++i) {
-      const std::string file = fmt::format("{}-{}.svg", c.name, i);
-      write_text_file(directory / file, figure_svg(outcome.result.figures[i]));
-      text += fmt::format("![{}]({})\n\n", outcome.result.figures[i].title, file);
-    }
+  for (std::size_t i = 0; i < outcome.verified->inputs.size(); ++i) {
+    const VerifyInput& input = outcome.inputs.all()[i];
+    if (input.value != outcome.verified->inputs[i].value)
+      text += fmt::format("{}{}=\"{}\"", lead, input.name, shown(input));
   }
-  write_text_file(directory / "verify.md", text);
+  return text;
+}
+
+/// The case's name and what differs from its own inputs, fit for a file's name.
+std::string page_name(const Outcome& outcome) {
+  std::string name = outcome.verified->name;
+  for (const char c : changed_inputs(outcome, "-"))
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_')
+      name += c;
+    else if (c == '=')
+      name += '-';
+  return name;
+}
+
+/// A chapter of docs/verification.md: Markdown table and SVG figures.
+void write_page(const Outcome& outcome, const std::filesystem::path& directory) {
+  const std::string name = page_name(outcome);
+  const std::string command = "`tread verify " + outcome.verified->name + changed_inputs(outcome, " --set ");
+  std::string text =
+      fmt::format("{}`: {}; {}.\n\n", command, outcome.verified->summary, duration_text(outcome.seconds));
+  text += "| quantity | ours | reference | unit | error | bound | |\n|---|---|---|---|---|---|---|\n";
+  for (const auto& row : table_of({&outcome, 1}).rows) {
+    for (std::size_t i = 1; i < row.size(); ++i) text += "| " + row[i] + " ";
+    text += "|\n";
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < outcome.result.figures.size(); ++i) {
+    const std::string file = fmt::format("{}-{}.svg", name, i);
+    write_text_file(directory / file, figure_svg(outcome.result.figures[i]));
+    text += fmt::format("![{}]({})\n\n", outcome.result.figures[i].title, file);
+  }
+  write_text_file(directory / (name + ".md"), text);
 }
 
 }  // namespace
@@ -181,6 +197,7 @@ bool verify(const VerifyOptions& options) {
   use_threads(options.threads);
   const std::vector<const VerifyCase*> cases = chosen(options.names);
   const std::vector<VerifyInputs> inputs = inputs_of(cases, options.overrides);
+  if (!options.output.empty()) make_directory(options.output);
   Progress progress(options.quiet);
   std::vector<Outcome> outcomes;
   bool passed = true;
@@ -191,12 +208,12 @@ bool verify(const VerifyOptions& options) {
     });
     for (const Finding& f : result.findings) passed = passed && f.pass();
     outcomes.push_back({cases[i], inputs[i], std::move(result), progress.seconds() - started});
+    if (!options.output.empty()) write_page(outcomes.back(), options.output);
     if (!options.json) continue;
     fmt::print("{}", json_lines(outcomes.back()));
     std::fflush(stdout);
   }
   if (!options.json) fmt::print("{}", plain_text(table_of(outcomes)));
-  if (!options.output.empty()) write_pages(outcomes, options.output);
   return passed;
 }
 

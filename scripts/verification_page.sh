@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# scripts/verification_page.sh [CASE...]: runs `tread verify` as listed below for the named cases (default: all, some
+# hours) and puts the pages of docs/verification/ between the marks of docs/verification.md. With --collect nothing is run.
+set -euo pipefail
+root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
+pages="$root/docs/verification"
+document="$root/docs/verification.md"
+
+# One run a line: the case and its inputs; the order is that of the document.
+runs=(
+  'hertz_sphere'
+  'hertz_ellipse'
+  'contact_filter'
+  'carter'
+  'steady_rolling'
+  'sliding'
+)
+
+for run in "${runs[@]}"; do
+  case=${run%% *}
+  [[ ${1:-} == --collect ]] && break
+  [[ $# -gt 0 && " $* " != *" $case "* ]] && continue
+  eval "\"$root/build/release/tread\" verify $run -o \"$pages\"" || true # a bound that fails stands in the page
+done
+
+order=$(printf '%s\n' "${runs[@]%% *}" | awk '!seen[$0]++')
+{
+  sed '/<!-- tread verify: begin -->/q' "$document"
+  for case in $order; do
+    printf '\n### %s\n\n' "$case"
+    for page in "$pages/$case".md "$pages/$case"-*.md; do
+      [[ -f $page ]] && sed 's#](#](verification/#' "$page"
+    done
+  done
+  sed -n '/<!-- tread verify: end -->/,$p' "$document"
+} > "$document.new"
+mv "$document.new" "$document"
