@@ -39,6 +39,15 @@ int approach_parts(const MeshSizes& sizes) {
   return std::max(1, sizes.coarse_ratio / sizes.approach_ratio);
 }
 
+/// A sudden change of pitch changes the contact's compliance and kicks the wheel. So the pitch changes in two
+/// steps, and those of the wheel stand between those of the rail.
+constexpr double kStepLength = 0.05;  // [m]
+
+/// Fine elements per coarse one of the step between approach and zone.
+int step_parts(const MeshSizes& sizes) {
+  return (approach_parts(sizes) + sizes.coarse_ratio) / 2;
+}
+
 /// Appends `count` coarse elements of one pitch, each cut into `ratio` fine ones.
 void append(NestedSegments& plan, int count, double pitch, int ratio) {
   plan.coarse.push_back({count, pitch, 0});
@@ -78,14 +87,18 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   if (zone.empty()) zone = {run.last, run.last};
   const double coarse = sizes.contact * sizes.coarse_ratio;
   const int approach = approach_parts(sizes);
+  Span step{zone.first - 2 * kStepLength, zone.last + 2 * kStepLength};
+  step = {std::max(step.first, run.first), std::min(step.last, run.last)};
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
   std::reverse(before.begin(), before.end());
   for (const Segment& s : before) append(plan, s.elements, s.pitch, 1);
-  append_uniform(plan, {run.first, zone.first}, coarse, approach);
+  append_uniform(plan, {run.first, step.first}, coarse, approach);
+  append_uniform(plan, {step.first, zone.first}, coarse, step_parts(sizes));
   append_uniform(plan, zone, coarse, sizes.coarse_ratio);
-  append_uniform(plan, {zone.last, run.last}, coarse, approach);
+  append_uniform(plan, {zone.last, step.last}, coarse, step_parts(sizes));
+  append_uniform(plan, {step.last, run.last}, coarse, approach);
   for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far))
     append(plan, s.elements, s.pitch, 1);
   return plan;
@@ -98,17 +111,22 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
       static_cast<int>(std::lround(turn * radius / (sizes.contact * sizes.coarse_ratio * sizes.axle_ratio)));
   const int disc = axle * sizes.axle_ratio;
   const double pitch = turn / disc;
-  const int fine =
-      zone.empty() ? 0
-                   : std::min(disc, static_cast<int>(std::ceil((zone.last - zone.first) / (radius * pitch))));
-  const int approach = approach_parts(sizes);
+  const auto elements = [&](double length) { return static_cast<int>(std::ceil(length / (radius * pitch))); };
+  if (!zone.empty()) zone = {zone.first - kStepLength, zone.last + kStepLength};
+  const int fine = zone.empty() ? 0 : std::min(disc, elements(zone.last - zone.first));
+  const int step = fine > 0 ? std::min((disc - fine) / 2, elements(2 * kStepLength)) : 0;
 
   WheelPlan plan;
   plan.start = zone.empty() ? 0 : -zone.last / radius;
   plan.axle.push_back({axle, turn / axle, 0});
   plan.disc.push_back({disc, pitch, 0});
-  if (fine > 0) plan.tread.push_back({fine * sizes.coarse_ratio, pitch / sizes.coarse_ratio, 0});
-  if (fine < disc) plan.tread.push_back({(disc - fine) * approach, pitch / approach, 0});
+  const auto tread = [&](int count, int parts) {
+    if (count > 0) plan.tread.push_back({count * parts, pitch / parts, 0});
+  };
+  tread(fine, sizes.coarse_ratio);
+  tread(step, step_parts(sizes));
+  tread(disc - fine - 2 * step, approach_parts(sizes));
+  tread(step, step_parts(sizes));
   return plan;
 }
 

@@ -36,7 +36,8 @@ struct NestedSegments {
   std::vector<Segment> coarse;
 };
 
-/// Along the rail: h in `zone`, approach pitch in the rest of `run`, growing to the far pitch outside of it.
+/// Along the rail: h in `zone`, a step to the approach pitch on both sides, that pitch in the rest of `run`,
+/// growing to the far pitch outside of it.
 NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes);
 
 /// Around the wheel.
@@ -47,7 +48,7 @@ struct WheelPlan {
   std::vector<Segment> axle;
 };
 
-/// h over the arc that meets `zone` and, where it starts, the first patch; approach pitch over the rest of
+/// h over the arc that meets `zone`, a step to the approach pitch on both sides, that pitch over the rest of
 /// the turn.
 WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
 

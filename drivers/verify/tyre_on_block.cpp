@@ -73,6 +73,9 @@ height = "{height} m"
 wheel_load = "{load} N"
 [contact]
 friction = {f}
+points = {points}
+surface = "{surface}"
+{penetration}
 )",
       fmt::arg("h", element_size), fmt::arg("start", zone.first + shift),
       fmt::arg("zone", zone.last - zone.first), fmt::arg("E", youngs_modulus), fmt::arg("nu", poissons_ratio),
@@ -81,7 +84,9 @@ friction = {f}
                                 : fmt::format("profile = \"arc\"\ncrown_radius = \"{} m\"", crown_radius)),
       fmt::arg("width", width), fmt::arg("thickness", ring), fmt::arg("height", 12 * a),
       fmt::arg("aside", slice ? 0.0 : shift), fmt::arg("length", left + std::max(roll, zone.last) + end),
-      fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction));
+      fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction), fmt::arg("points", points),
+      fmt::arg("surface", facets ? "facets" : "exact"),
+      fmt::arg("penetration", penetration > 0 ? fmt::format("penetration_ratio = {}", penetration) : ""));
   return resolve_scene(SceneSource{"verify", text + more, {}}).scene;
 }
 
@@ -92,7 +97,10 @@ std::vector<VerifyInput> tyre_inputs(bool sphere) {
       {"youngs_modulus", &kStress, "GPa", 205.9e9, {1e6, 1e13}, "Young's modulus of both bodies"},
       {"poissons_ratio", nullptr, "", 0.3, {0, 0.49}, "Poisson's ratio of both bodies"},
       {"element_size", &kLength, "mm", 1.1e-3, {1e-5, 0.02}, "the elements' size in the contact"},
-      {"grid_offset", nullptr, "", 0, {-0.5, 0.5}, "the meshes' shift in elements, along and across"}};
+      {"grid_offset", nullptr, "", 0, {-0.5, 0.5}, "the meshes' shift in elements, along and across"},
+      {"points", nullptr, "", 3, {1, 4}, "contact's integration points per face and direction"},
+      {"facets", nullptr, "", 0, {0, 1}, "1: contact on facets, 0: on exact profiles"},
+      {"penetration", nullptr, "", 0, {0, 0.2}, "over Hertz's approach; 0: the program's own penalty"}};
   if (!sphere)
     inputs.insert(inputs.begin() + 1,
                   {"crown_radius", &kLength, "m", 0.3, {0.03, 5}, "the wheel's radius across"});
@@ -108,6 +116,9 @@ TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
   bodies.poissons_ratio = inputs["poissons_ratio"];
   bodies.element_size = inputs["element_size"];
   bodies.grid_offset = inputs["grid_offset"];
+  bodies.points = static_cast<int>(std::lround(inputs["points"]));
+  bodies.facets = inputs["facets"] >= 0.5;
+  bodies.penetration = inputs["penetration"];
   const HertzPatch patch = bodies.hertz_patch();
   const double smallest = std::min(patch.semi_axis_x, patch.semi_axis_y);
   const double largest = std::max(patch.semi_axis_x, patch.semi_axis_y);

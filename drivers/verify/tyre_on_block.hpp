@@ -24,6 +24,9 @@ struct TyreOnBlock {
   double roll = 0;            ///< way that the wheel rolls [m]
   Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
   double thickness = 0;       ///< of the ring; 0: 12 semi-axes, as the block [m]
+  int points = 3;             ///< of contact per face and direction
+  bool facets = false;        ///< contact on facets instead of exact profiles
+  double penetration = 0;     ///< over Hertz's approach; 0: the program's own penalty [-]
   std::string more;           ///< further tables of the scene
 
   /// Of a slice: semi_axis_y is 0, the load that of one element's width.
@@ -40,7 +43,7 @@ struct TyreOnBlock {
 };
 
 /// Inputs: radius, crown_radius (where `sphere` is false), load, youngs_modulus, poissons_ratio,
-/// element_size, grid_offset.
+/// element_size, grid_offset, points, facets, penetration.
 std::vector<VerifyInput> tyre_inputs(bool sphere);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
 
