@@ -2,6 +2,9 @@
 // What the user asked for, in SI units, as plain data. io fills it, drivers build the model from it. An
 // absent optional is a thing that the scene does not contain and does not pay for.
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +24,11 @@ struct WheelSpec {
   double crown_radius = 0.43;      ///< lateral radius of the profile "arc" [m] (tyre)
   double width = 0.060;            ///< width of the ring [m] (tyre)
   double thickness = 0.060;        ///< radial thickness of the ring [m] (tyre)
-  std::vector<double> profile_y;   ///< first column of the profile's file, in its order [m]
-  std::vector<double> profile_z;   ///< second column [m]
+  std::string bore = "free";       ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
+  /// Of a guided tyre: tread beyond the run, before and behind it; absent: the whole ring. [m]
+  std::optional<double> overhang;
+  std::vector<double> profile_y;  ///< first column of the profile's file, in its order [m]
+  std::vector<double> profile_z;  ///< second column [m]
 };
 
 /// [rail]
@@ -93,6 +99,8 @@ struct MotionSpec {
   std::optional<double> traction_mu;      ///< target traction coefficient; negative brakes [-]
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
   double ramp = 5e-3;                     ///< T1 [s]
+  std::string ramp_shape = "linear";      ///< or "smooth": half a cosine
+  int reversals = 0;  ///< times that the full torque then turns into its opposite, each in 2 T1
   bool spin_in_preload = true;
   double creepage = 0;           ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
   std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
@@ -100,6 +108,18 @@ struct MotionSpec {
 
   /// Spin over that of free rolling. [theory.md, eq. 13]
   double spin_ratio() const { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
+
+  /// Torque over the full torque, -1 to 1, at a time [s].
+  double torque_share(double time) const {
+    if (ramp <= 0) return 1;
+    const double turns = std::min(0.5 * std::max(time / ramp - 1, 0.0), 1.0 * reversals);
+    const double done = std::floor(turns);
+    const double sign = std::fmod(done, 2) == 0 ? 1 : -1;
+    const bool growing = time < ramp;
+    const double part = growing ? time / ramp : turns - done;
+    const double share = ramp_shape == "smooth" ? 0.5 * (1 - std::cos(std::numbers::pi * part)) : part;
+    return growing ? share : sign * (1 - 2 * share);
+  }
 };
 
 /// [corrugation]

@@ -136,7 +136,10 @@ void Model::build_slab() {
 
 void Model::build_wheel() {
   if (scene.wheel->shape == "tyre") {
-    const WheelPlan plan = plan_tyre(wheel_radius(), run_span(), zone_span(), sizes);
+    const std::optional<double>& overhang = scene.wheel->overhang;
+    const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(), *overhang, sizes)
+                                    : plan_tyre(wheel_radius(), run_span(), zone_span(), sizes);
     index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes),
                                             {scene.steel}, plan.start, plan.tread));
     return;
@@ -269,6 +272,10 @@ void Model::build_wheel_parts() {
   wheelset.emplace(mesh, index.wheel(), mass.data());
   const bool tyre = index.axle < 0;
   const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(tyre ? index.tread : index.axle)];
+  if (tyre && scene.wheel->bore == "guided") {
+    guide.emplace(block, block.section.paths.at("bore"), mass.data());
+    return;
+  }
   if (scene.vehicle || scene.load)
     journal = Journal(block, block.section.paths.at(tyre ? "bore" : "journal"), mass.data());
   if (scene.motion && (scene.motion->traction_mu || scene.motion->traction_torque))

@@ -16,6 +16,7 @@
 #include "kernels/body_motion.hpp"
 #include "kernels/connectors.hpp"
 #include "kernels/contact.hpp"
+#include "kernels/guided_bore.hpp"
 #include "kernels/internal_force.hpp"
 #include "kernels/tie.hpp"
 
@@ -56,6 +57,7 @@ struct Model {
 
   std::optional<SpringDampers> fastenings;
   std::optional<SpinningBody> wheelset;
+  std::optional<GuidedBore> guide;  ///< carries load and torque in place of journal and torque
   Journal journal;                  ///< carries vehicle or load; empty without either
   AxleTorque torque;                ///< empty without traction
   double brake_ring_thickness = 0;  ///< of each of the two plates that bring the wheelset to its mass [m]

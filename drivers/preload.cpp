@@ -32,6 +32,10 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
       }
     }
   if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
+  if (model.guide) {
+    model.guide->reduce(load.data());
+    load[static_cast<std::size_t>(model.guide->unknown())] -= model.journal_load() / model.guide->per_rise();
+  }
   return load;
 }
 
@@ -67,7 +71,7 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
 
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean.
 std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<double>& diagonal) {
-  if (!model.wheelset) return std::nullopt;
+  if (!model.wheelset || model.guide) return std::nullopt;
   const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
   std::vector<AlignedVector<double>> motions(2, AlignedVector<double>(n, 0.0));
   auto means = motions;
@@ -89,6 +93,31 @@ std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<do
       }
   }
   return HeldMotions(std::move(motions), std::move(means));
+}
+
+/// Adds the carrier's unknown, which couples to the whole bore, to a preconditioner that does not know it.
+class WithCarrier : public Preconditioner {
+ public:
+  WithCarrier(const Preconditioner& others, std::int64_t unknown, double stiffness)
+      : others_(&others), unknown_(unknown), stiffness_(stiffness) {}
+  void apply(const double* r, double* z) const override {
+    others_->apply(r, z);
+    z[unknown_] = r[unknown_] / stiffness_;
+  }
+
+ private:
+  const Preconditioner* others_;
+  std::int64_t unknown_;
+  double stiffness_;  ///< [N/m]
+};
+
+/// Of the wheel's elements against the carrier's unknown alone [N/m].
+double carrier_stiffness(const StaticSystem& system, std::int64_t unknown) {
+  AlignedVector<double> unit(system.diagonal().size(), 0.0);
+  AlignedVector<double> force(unit.size());
+  unit[static_cast<std::size_t>(unknown)] = 1;
+  system.apply(unit.data(), force.data());
+  return force[static_cast<std::size_t>(unknown)];
 }
 
 std::vector<TiedSlot> tied_slots(const Model& model) {
@@ -169,6 +198,12 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     add_springs(springs, x, y);
   };
   TwoLevelPreconditioner preconditioner(model.mesh, elastic, system.diagonal(), tied_slots(model), {});
+  std::optional<WithCarrier> with_carrier;
+  if (model.guide)
+    with_carrier.emplace(preconditioner, model.guide->unknown(),
+                         carrier_stiffness(system, model.guide->unknown()));
+  const Preconditioner* precondition = &preconditioner;
+  if (with_carrier) precondition = &*with_carrier;
 
   AlignedVector<double> residual(static_cast<std::size_t>(n));
   AlignedVector<double> correction(static_cast<std::size_t>(n));
@@ -214,7 +249,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     preconditioner.update(tangent, springs);
     std::fill(correction.begin(), correction.end(), 0.0);
     const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
-    const CgResult solved = conjugate_gradients(tangent, &preconditioner, held ? &*held : nullptr, residual,
+    const CgResult solved = conjugate_gradients(tangent, precondition, held ? &*held : nullptr, residual,
                                                 correction, {wanted, 5000});
     if (!solved.converged)
       throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",

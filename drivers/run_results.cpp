@@ -58,6 +58,8 @@ const std::vector<Column>& wheel_columns() {
       {{"frictional_work", "J", "dissipated by friction since the start"},
        [](const Sample& s) { return s.energy.frictional_work; }},
       {{"torque_work", "J", "done by the torque"}, [](const Sample& s) { return s.energy.torque_work; }},
+      {{"guide_work", "J", "done by the guide of the bore"},
+       [](const Sample& s) { return s.energy.guide_work; }},
   };
   return columns;
 }

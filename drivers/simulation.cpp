@@ -27,6 +27,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       force_(u_.size(), 0.0),
       frame_(preload.wheel) {
   const Scene& scene = model.scene;
+  if (model.guide) model.guide->settle(u_.data());
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
     if (model.contact) {
@@ -39,8 +40,8 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
       const double radius = model.wheel_radius();
-      max_torque_ = *scene.motion->traction_mu * model.wheel_load() * radius *
-                    (1 + model.wheelset->inertia() / (mass * radius * radius));
+      max_torque_ = *scene.motion->traction_mu * model.wheel_load() * radius;
+      if (!model.guide) max_torque_ *= 1 + model.wheelset->inertia() / (mass * radius * radius);
     }
     // Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
@@ -52,7 +53,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
             std::abs(block.section.p[static_cast<std::size_t>(nearest)] - y))
           nearest = node;
     const StationFinder finder(block);
-    for (int k = 0; k < kCreepageNodes; ++k) {
+    for (int k = 0; k < (model.guide ? 1 : kCreepageNodes); ++k) {
       const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
       creepage_nodes_.push_back({block.base + block.slot(nearest, station),
                                  block.stations[static_cast<std::size_t>(station)],
@@ -138,8 +139,7 @@ void Simulation::start_deflected(double speed) {
 
 double Simulation::torque_at(double time) const {
   if (!model_->scene.motion || max_torque_ == 0) return 0;
-  const double ramp = model_->scene.motion->ramp;
-  return max_torque_ * (ramp > 0 ? std::min(time / ramp, 1.0) : 1.0);
+  return max_torque_ * model_->scene.motion->torque_share(time);
 }
 
 void Simulation::step() {
@@ -205,7 +205,9 @@ void Simulation::record() {
 void Simulation::drive() {
   if (max_torque_ == 0) return;
   torque_ = torque_at(time_);
-  const double spin = model_->torque.apply(torque_, u_.data(), v_.data(), frame_, force_.data());
+  const double spin = model_->guide
+                          ? frame_.spin + model_->guide->motion().spin
+                          : model_->torque.apply(torque_, u_.data(), v_.data(), frame_, force_.data());
   torque_work_ += 0.5 * (torque_before_ + torque_) * spin * dt_;
   torque_before_ = torque_;
 }
@@ -227,6 +229,13 @@ void Simulation::move() {
     else
       update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
   }
+  if (model_->guide) {
+    model_->guide->move({u_.data(), v_.data()}, frame_, dt_, {-model_->journal_load(), torque_});
+    const double impulse = model_->guide->guide_impulse();
+    guide_work_ += 0.5 * (guide_before_ + impulse) * frame_.velocity.x;
+    guide_before_ = impulse;
+    contact_impulse_.x += impulse;
+  }
   // Contact must not see restrained nodes move.
   for (const std::int64_t unknown : model_->restrained)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
@@ -241,8 +250,19 @@ void Simulation::finish() {
 
 void Simulation::anchor() {
   if (!model_->wheelset) return;
-  model_->wheelset->anchor(u_.data(), v_.data(), frame_, dt_);
+  model_->wheelset->anchor(wheel_motion(), u_.data(), v_.data(), frame_, dt_);
+  if (model_->guide) model_->guide->anchored();
   follow_ties();
+}
+
+MeanMotion Simulation::wheel_motion() const {
+  return model_->guide ? model_->guide->motion()
+                       : model_->wheelset->mean_motion(u_.data(), v_.data(), frame_);
+}
+
+double Simulation::axle_height() const {
+  return frame_.origin.z + (model_->guide ? model_->guide->motion().displacement.z
+                                          : model_->journal.displacement(u_.data(), frame_).z);
 }
 
 void Simulation::follow_ties() {
@@ -294,9 +314,13 @@ double Simulation::half_step_excess() const {
       for (int c = 0; c < 3; ++c) part += excess_of(slot, c);
     return part;
   });
-  for (const std::int64_t unknown : model_->restrained)
-    sum -=
-        excess_of(unknown / (3 * kLanes) * kLanes + unknown % kLanes, static_cast<int>(unknown / kLanes % 3));
+  const auto leave_out = [&](const std::vector<std::int64_t>& unknowns) {
+    for (const std::int64_t unknown : unknowns)
+      sum -= excess_of(unknown / (3 * kLanes) * kLanes + unknown % kLanes,
+                       static_cast<int>(unknown / kLanes % 3));
+  };
+  leave_out(model_->restrained);
+  if (model_->guide) leave_out(model_->guide->unknowns());
   return sum;
 }
 
@@ -320,8 +344,8 @@ double Simulation::gravity_potential() const {
         frame_.origin.z + model_->wheelset->mean_motion(u_.data(), v_.data(), frame_).displacement.z;
     sum += g * model_->wheelset->mass() * height;
   }
-  if (!model_->journal.empty()) {
-    const double height = frame_.origin.z + model_->journal.displacement(u_.data(), frame_).z;
+  if (!model_->journal.empty() || model_->guide) {
+    const double height = axle_height();
     if (model_->scene.vehicle)
       sum += g * model_->scene.vehicle->unsprung_mass * height + g * sprung_.mass * sprung_.height;
     if (model_->scene.load) sum += model_->scene.load->wheel_load * height;
@@ -394,6 +418,7 @@ void Simulation::end_sample() {
   EnergyLedger& energy = sample_.energy;
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy()) - half_step_excess();
   energy.torque_work = torque_work_;
+  energy.guide_work = guide_work_;
   energy.connector_loss = (model_->fastenings ? model_->fastenings->dissipated() : 0.0) + sprung_.dissipated;
   if (model_->contact) {
     const ContactTotals& totals = model_->contact->totals();
@@ -412,18 +437,22 @@ void Simulation::end_sample() {
     sample_.corrugation_depth = corrugation.depth(sample_.wheel_x, corrugation.centre());
   }
   if (model_->wheelset) {
-    const MeanMotion mean = model_->wheelset->mean_motion(u_.data(), v_.data(), frame_);
+    const MeanMotion mean = wheel_motion();
     sample_.wheel_speed = frame_.velocity.x + mean.velocity.x;
     sample_.wheel_spin = frame_.spin + mean.spin;
     double sum = 0;
     for (std::size_t k = 0; k < creepage_nodes_.size(); ++k) sum += creepage(k, mean);
     sample_.creepage_node = creepage(0, mean);
     sample_.creepage_mean = sum / static_cast<double>(creepage_nodes_.size());
+    if (model_->guide) {
+      const double rim = sample_.wheel_spin * creepage_nodes_.front().radius;
+      sample_.creepage_mean = (rim - sample_.wheel_speed) / (0.5 * (rim + sample_.wheel_speed));
+    }
     sample_.torque = torque_;
   }
   const double closed = energy.kinetic + energy.strain + energy.connectors + energy.penalty + energy.gravity +
                         energy.frictional_work + energy.connector_loss + energy.damping_loss -
-                        energy.torque_work;
+                        energy.torque_work - energy.guide_work;
   if (!have_start_energy_) {
     start_energy_ = closed;
     have_start_energy_ = true;

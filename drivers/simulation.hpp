@@ -23,7 +23,8 @@ struct EnergyLedger {
   double connector_loss = 0;   ///< dissipated in dampers of fastenings and suspension
   double damping_loss = 0;     ///< lost because contact forces lead the motion
   double torque_work = 0;      ///< done by the torque
-  double residual = 0;         ///< stored + dissipated - torque work - stored at the start
+  double guide_work = 0;       ///< done by the guide that holds the bore's forward speed
+  double residual = 0;         ///< stored + dissipated - work of torque and guide - stored at the start
 };
 
 /// What one sample of the histories shows.
@@ -96,6 +97,10 @@ class Simulation {
   double gravity_potential() const;
   Vec3 vehicle_momentum() const;
   double creepage(std::size_t node, const MeanMotion& mean) const;
+  /// Of the wheel relative to its frame: of the guided bore, or else in the mean over the mass.
+  MeanMotion wheel_motion() const;
+  /// Height of the axle, where the load acts [m].
+  double axle_height() const;
   void anchor();
   void follow_ties();
 
@@ -112,6 +117,7 @@ class Simulation {
   double max_torque_ = 0;
   double torque_ = 0, torque_before_ = 0;
   double torque_work_ = 0;
+  double guide_work_ = 0, guide_before_ = 0;
   Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
   /// A node of the tread whose speed makes the creepage.
   struct CreepageNode {

@@ -18,6 +18,9 @@ StaticSystem::StaticSystem(const Model& model)
   model.internal->diagonal(diagonal_.data());
   if (model.ties) model.ties->gather_diagonal(diagonal_.data());
   for (const std::int64_t unknown : model.restrained) diagonal_[static_cast<std::size_t>(unknown)] = 0;
+  if (model.guide)
+    for (const std::int64_t unknown : model.guide->unknowns())
+      diagonal_[static_cast<std::size_t>(unknown)] = 0;
 }
 
 void StaticSystem::apply(const double* x, double* y) const {
@@ -31,10 +34,12 @@ void StaticSystem::apply(const double* x, double* y) const {
 
 void StaticSystem::reduce(double* force) const {
   if (model_->ties) model_->ties->gather(force);
+  if (model_->guide) model_->guide->reduce(force);
   for (const std::int64_t unknown : model_->restrained) force[unknown] = 0;
 }
 
 void StaticSystem::expand(double* field) const {
+  if (model_->guide) model_->guide->expand(field);
   if (model_->ties) model_->ties->follow({field});
 }
 
@@ -67,6 +72,8 @@ StepLimit step_limit(const Model& model) {
       if (system.diagonal()[static_cast<std::size_t>(dof(slot, c))] > 0)
         inverse_mass[static_cast<std::size_t>(dof(slot, c))] =
             model.inverse_mass[static_cast<std::size_t>(slot)];
+  if (model.guide)
+    inverse_mass[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();
 
   std::vector<Spring> springs;
   if (model.fastenings) springs = model.fastenings->springs();

@@ -19,10 +19,10 @@ class StaticSystem {
   /// Zero at secondary nodes and restrained unknowns: forces of secondary nodes go to their primaries first.
   void reduce(double* force) const;
 
-  /// Fills the secondary nodes of a displacement field.
+  /// Fills the secondary nodes and a guided bore of a displacement field.
   void expand(double* field) const;
 
-  /// Diagonal of the operator, 0 where an unknown is not free [N/m].
+  /// Diagonal of the operator, 0 where an unknown is not free and at a guided bore [N/m].
   const AlignedVector<double>& diagonal() const { return diagonal_; }
 
  private:

@@ -164,4 +164,28 @@ WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) 
   return plan;
 }
 
+WheelPlan plan_tyre_part(double radius, Span run, Span zone, double overhang, const MeshSizes& sizes) {
+  const Span all{run.first - overhang, run.last + overhang};
+  run = {std::max(all.first, run.first - patch_reach(radius)),
+         std::min(all.last, run.last + patch_reach(radius))};
+  zone = {std::max(zone.first, run.first), std::min(zone.last, run.last)};
+  if (zone.empty()) zone = {run.last, run.last};
+  const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
+  // From the end backwards.
+  NestedSegments lengths;
+  std::vector<Segment>& segments = lengths.fine;
+  auto ahead = graded(all.last - run.last, pitch, 2 * sizes.section);
+  segments.insert(segments.end(), ahead.rbegin(), ahead.rend());
+  append_uniform(lengths, {zone.last, run.last}, pitch, 1);
+  append_uniform(lengths, zone, sizes.contact, 1);
+  append_uniform(lengths, {run.first, zone.first}, pitch, 1);
+  const auto behind = graded(run.first - all.first, pitch, 2 * sizes.section);
+  segments.insert(segments.end(), behind.begin(), behind.end());
+
+  WheelPlan plan;
+  plan.start = -all.last / radius;
+  for (const Segment& s : segments) plan.tread.push_back({s.elements, s.pitch / radius, 0});
+  return plan;
+}
+
 }  // namespace tread

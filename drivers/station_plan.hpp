@@ -56,6 +56,9 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
 /// rest of `run`, growing to twice the coarse quads' size over the rest of the turn.
 WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes);
 
+/// Around the part of a tyre that rolls over `run`, and `overhang` [m] of tread before and behind it.
+WheelPlan plan_tyre_part(double radius, Span run, Span zone, double overhang, const MeshSizes& sizes);
+
 /// Half length of the stretch of track that a wheel in contact can touch [m].
 double patch_reach(double wheel_radius);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <utility>
@@ -108,6 +109,17 @@ class Checker {
       require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
               {"wheel.width", "wheel.crown_radius", "wheel.profile"},
               "the ring is wider than the arc of its profile");
+      const bool guided = wheel.bore == "guided";
+      require(!guided || !scene_.vehicle, {"wheel.bore", "vehicle"},
+              "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
+      require(
+          !wheel.overhang || scene_.gravity == 0, {"wheel.overhang", "scene.gravity"},
+          "a part of a ring is not balanced about its axle; state scene.gravity = 0, or leave the overhang "
+          "out");
+      const double run = scene_.motion ? scene_.motion->speed * scene_.motion->duration : 0;
+      require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
+              {"wheel.overhang", "motion.duration"},
+              "the wheel rolls on most of its ring; leave the overhang out");
     } else {
       require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA or a file");
     }

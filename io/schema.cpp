@@ -182,6 +182,15 @@ void add_wheel(Keys& keys) {
                                above(0, 1), "Width of the ring")));
   keys.push_back(tyre(quantity("wheel.thickness", at(&Scene::wheel, &WheelSpec::thickness), kLength, "mm",
                                above(0, 1), "Radial thickness of the ring")));
+  keys.push_back(
+      tyre(choice("wheel.bore", at(&Scene::wheel, &WheelSpec::bore), {"free", "guided"},
+                  "The ring's bore: elastic and free, or on a rigid carrier that moves forward with "
+                  "motion.speed and is free to rise and to turn")));
+  keys.push_back(only_with(
+      "wheel.bore", "guided",
+      quantity("wheel.overhang", at(&Scene::wheel, &WheelSpec::overhang), kLength, "mm", above(0, 10),
+               "Tread before and behind the part that rolls on the rail; absent: the "
+               "whole ring")));
 }
 
 void add_rail(Keys& keys) {
@@ -289,6 +298,12 @@ void add_motion(Keys& keys) {
                           "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
   keys.push_back(rolling(quantity("motion.traction.ramp", at(&Scene::motion, &MotionSpec::ramp), kTime, "ms",
                                   from(0, 100), "Time T1 in which the torque grows from zero")));
+  keys.push_back(
+      rolling(choice("motion.traction.shape", at(&Scene::motion, &MotionSpec::ramp_shape),
+                     {"linear", "smooth"}, "How it grows and reverses: evenly, or as half a cosine")));
+  keys.push_back(rolling(
+      number("motion.traction.reversals", at(&Scene::motion, &MotionSpec::reversals), {0, 1000},
+             "How often the full torque then turns into its opposite, each time in 2 T1", Kind::integer)));
   keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
   keys.push_back(

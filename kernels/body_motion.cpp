@@ -125,8 +125,7 @@ Vec3 SpinningBody::momentum(const double* u, const double* w, const BodyFrame& f
   });
 }
 
-void SpinningBody::anchor(double* u, double* w, BodyFrame& frame, double dt) const {
-  MeanMotion mean = mean_motion(u, w, frame);
+void SpinningBody::anchor(MeanMotion mean, double* u, double* w, BodyFrame& frame, double dt) const {
   // Along the axis the body is restrained, not free: the frame stays there.
   mean.displacement.y = mean.velocity.y = 0;
   BodyFrame moved = frame;

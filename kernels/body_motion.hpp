@@ -37,10 +37,13 @@ class SpinningBody {
   double kinetic_energy(const double* u, const double* w, const BodyFrame& frame) const;
   Vec3 momentum(const double* u, const double* w, const BodyFrame& frame) const;
 
-  /// Moves the frame onto the body's mean motion in the plane of rolling (along y it stays); absolute
-  /// positions at the time of u and absolute velocities at the half step before it (`dt` [s] long) stay what
-  /// they are.
-  void anchor(double* u, double* w, BodyFrame& frame, double dt) const;
+  /// Moves the frame onto a motion relative to it, the body's mean_motion() say, in the plane of rolling
+  /// (along y it stays); absolute positions at the time of u and absolute velocities at the half step before
+  /// it (`dt` [s] long) stay what they are.
+  void anchor(double* u, double* w, BodyFrame& frame, double dt) const {
+    anchor(mean_motion(u, w, frame), u, w, frame, dt);
+  }
+  void anchor(MeanMotion mean, double* u, double* w, BodyFrame& frame, double dt) const;
 
  private:
   template <class Visit>

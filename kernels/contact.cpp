@@ -137,7 +137,8 @@ double Contact::reach() const {
   return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + corrugation_.deepest()));
 }
 
-void Contact::update_window(double wheel_x) {
+void Contact::update_window(const BodyFrame& wheel) {
+  const double wheel_x = wheel.origin.x;
   const double half = reach();
   const auto low = rail_stations_.find(wheel_x - half);
   const auto high = rail_stations_.find(wheel_x + half);
@@ -146,6 +147,12 @@ void Contact::update_window(double wheel_x) {
         fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
                     "m); shorten motion.duration or lengthen rail.length",
                     wheel_x, rail_->stations.front(), rail_->stations.back()));
+  const double angle = half / options_.wheel_radius;
+  if (wheel_stations_.find(-wheel.angle - angle).station < 0 ||
+      wheel_stations_.find(-wheel.angle + angle).station < 0)
+    throw NumericalError(fmt::format(
+        "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out",
+        wheel_x));
   window_first_ = low.station;
   window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
 }
@@ -194,6 +201,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   for (int iteration = 1;; ++iteration) {
     if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
+    if (cell.station < 0) return std::numeric_limits<double>::max();  // beyond a part of a ring
     const LineCell line = station_cell(*wheel_, cell.station);
     const LineWeights around = line_weights(line, cell.distance / cell.pitch, options_.surface);
     const LineWeights over = line_weights(wheel_profile_.cell(edge), eta, options_.surface);
@@ -389,7 +397,7 @@ double Contact::area_by_rows() const {
 
 void Contact::find_static(const ContactState& state) {
   margin_ = 0;
-  update_window(state.wheel->origin.x);
+  update_window(*state.wheel);
   for (int station = window_first_; station < window_last_; ++station) visit_column(state, station, 0);
   gather_columns();
   nodes_.average(window_first_, window_last_, points_);
@@ -403,7 +411,7 @@ void Contact::begin() {
 }
 
 void Contact::search(const ContactState& state, double time, double dt) {
-  update_window(state.wheel->origin.x);
+  update_window(*state.wheel);
   const double half = reach();
   closing_speed_ = 1.5 * norm(state.wheel->velocity) * half / options_.wheel_radius + 5;
   margin_ = closing_speed_ * dt;

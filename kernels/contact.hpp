@@ -107,7 +107,7 @@ class Contact {
     int edge;
     int point;
   };
-  void update_window(double wheel_x);
+  void update_window(const BodyFrame& wheel);
   void visit_column(const ContactState& state, int station, double time);
   void gather_columns();
   void sum_up();
