@@ -81,7 +81,7 @@ Span Model::run_span() const {
 }
 
 Span Model::zone_span() const {
-  const double margin = 0.03;
+  const double margin = scene.wheel ? 0.7 * patch_reach(wheel_radius()) : 0;  // half a patch and more
   const Span zone{scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
   if (!scene.motion && (zone.first > 0 || zone.last < 0)) return run_span();  // the patch lies elsewhere
   return zone;

@@ -34,7 +34,8 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
   if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
   if (model.guide) {
     model.guide->reduce(load.data());
-    load[static_cast<std::size_t>(model.guide->unknown())] -= model.journal_load() / model.guide->per_rise();
+    load[static_cast<std::size_t>(model.guide->unknown())] +=
+        (model.guide->counterweight(spin, frame.angle) - model.journal_load()) / model.guide->per_rise();
   }
   return load;
 }

@@ -189,8 +189,8 @@ void Simulation::roll() {
   model_->contact->resolve({u_.data(), v_.data(), model_->inverse_mass.data()}, frame_, dt_);
   if (sampled_) model_->contact->add_forces(force_.data());
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
-  contact_impulse_ += dt_ * on_wheel;
-  contact_impulse_size_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
+  impulse_ += dt_ * on_wheel;
+  contact_impulse_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
 }
 
 void Simulation::record() {
@@ -229,16 +229,22 @@ void Simulation::move() {
     else
       update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
   }
-  if (model_->guide) {
-    model_->guide->move({u_.data(), v_.data()}, frame_, dt_, {-model_->journal_load(), torque_});
-    const double impulse = model_->guide->guide_impulse();
-    guide_work_ += 0.5 * (guide_before_ + impulse) * frame_.velocity.x;
-    guide_before_ = impulse;
-    contact_impulse_.x += impulse;
-  }
+  if (model_->guide) guide();
   // Contact must not see restrained nodes move.
   for (const std::int64_t unknown : model_->restrained)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
+}
+
+void Simulation::guide() {
+  GuidedBore& carrier = *model_->guide;
+  const MeanMotion before = carrier.motion();
+  const double balance = carrier.counterweight(frame_.spin + before.spin, frame_.angle + before.rotation);
+  carrier.move({u_.data(), v_.data()}, frame_, dt_, {balance - model_->journal_load(), torque_});
+  const double impulse = carrier.guide_impulse();
+  guide_work_ += 0.5 * (guide_before_ + impulse) * frame_.velocity.x;
+  guide_work_ += dt_ * balance * (frame_.velocity.z + carrier.motion().velocity.z);
+  guide_before_ = impulse;
+  impulse_ += Vec3{impulse, 0, dt_ * balance};
 }
 
 void Simulation::finish() {
@@ -290,9 +296,16 @@ double Simulation::fixed_kinetic_energy() const {
   return sum;
 }
 
+/// Where the wheel's frame was at the time of the velocities.
+BodyFrame Simulation::half_step_frame() const {
+  BodyFrame frame = frame_;
+  frame.advance(-0.5 * dt_);
+  return frame;
+}
+
 double Simulation::kinetic_energy() const {
   double sum = fixed_kinetic_energy();
-  if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_.data(), v_.data(), frame_);
+  if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_.data(), v_.data(), half_step_frame());
   if (model_->scene.vehicle) {
     const Vec3 v = model_->journal.velocity(u_.data(), v_.data(), frame_);
     sum += 0.5 * model_->scene.vehicle->unsprung_mass * dot(v, v) +
@@ -355,7 +368,7 @@ double Simulation::gravity_potential() const {
 
 Vec3 Simulation::vehicle_momentum() const {
   Vec3 sum;
-  if (model_->wheelset) sum += model_->wheelset->momentum(u_.data(), v_.data(), frame_);
+  if (model_->wheelset) sum += model_->wheelset->momentum(u_.data(), v_.data(), half_step_frame());
   if (model_->scene.vehicle) {
     sum += model_->scene.vehicle->unsprung_mass * model_->journal.velocity(u_.data(), v_.data(), frame_);
     sum.z += sprung_.mass * sprung_.speed;
@@ -373,7 +386,7 @@ void Simulation::require_finite() const {
 
 MomentumCheck Simulation::momentum_check() const {
   const Vec3 weight = {0, 0, -model_->wheel_load()};
-  return {contact_impulse_ + time_ * weight, vehicle_momentum() - start_momentum_, contact_impulse_size_};
+  return {impulse_ + time_ * weight, vehicle_momentum() - start_momentum_, contact_impulse_};
 }
 
 /// `mean`: the wheel's motion relative to its frame.

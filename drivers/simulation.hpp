@@ -86,11 +86,13 @@ class Simulation {
   void carry();
   void search();
   void move();
+  void guide();
   void finish();
   void begin_sample();
   void end_sample();
   void start_velocities();
   void start_deflected(double speed);
+  BodyFrame half_step_frame() const;
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;
   double half_step_excess() const;
@@ -118,7 +120,9 @@ class Simulation {
   double torque_ = 0, torque_before_ = 0;
   double torque_work_ = 0;
   double guide_work_ = 0, guide_before_ = 0;
-  Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
+  Vec3 impulse_;          ///< on the vehicle by contact and guide [N s]
+  Vec3 contact_impulse_;  ///< its size [N s]
+  Vec3 start_momentum_;
   /// A node of the tread whose speed makes the creepage.
   struct CreepageNode {
     std::int64_t slot;

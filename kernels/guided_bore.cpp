@@ -5,6 +5,15 @@
 namespace tread {
 
 GuidedBore::GuidedBore(const SweptBlock& block, const std::vector<int>& path, const double* mass) {
+  for (int station = 0; station < block.station_count(); ++station) {
+    const double phi = block.stations[static_cast<std::size_t>(station)];
+    double moment = 0;
+    for (int node = 0; node < block.section.nodes(); ++node)
+      moment +=
+          mass[block.base + block.slot(node, station)] * block.section.q[static_cast<std::size_t>(node)];
+    imbalance_down_ += moment * std::cos(phi);
+    imbalance_behind_ += moment * std::sin(phi);
+  }
   for (const int node : path)
     for (int station = 0; station < block.station_count(); ++station) {
       const double phi = block.stations[static_cast<std::size_t>(station)];
@@ -38,6 +47,10 @@ void GuidedBore::reduce(double* force) const {
     t = r = 0;
   }
   force[unknown_] = sum / per_rise_;
+}
+
+double GuidedBore::counterweight(double spin, double angle) const {
+  return spin * spin * (imbalance_down_ * std::cos(angle) - imbalance_behind_ * std::sin(angle));
 }
 
 void GuidedBore::settle(const double* displacement) {

@@ -26,6 +26,7 @@ struct BoreFields {
 class GuidedBore {
  public:
   /// Section nodes `path` of a revolved block, all its stations; `mass`: lumped, scalar node field [kg].
+  /// The carrier balances the block about the axle by a counterweight without inertia.
   GuidedBore(const SweptBlock& block, const std::vector<int>& path, const double* mass);
 
   // Statics: the carrier only rises, and one unknown of the field stands for that.
@@ -40,6 +41,9 @@ class GuidedBore {
   double per_rise() const { return per_rise_; }
   /// Mass that moves with the unknown [kg].
   double static_mass() const { return mass_ / (per_rise_ * per_rise_); }
+
+  /// Vertical force of the counterweight: against the block's centrifugal force about the axle [N].
+  double counterweight(double spin, double angle) const;
 
   /// Takes over the carrier's place from the fields, which move rigidly: after statics.
   void settle(const double* displacement);
@@ -67,10 +71,11 @@ class GuidedBore {
   std::int64_t unknown_ = -1;
   double per_rise_ = 0;
   double mass_ = 0;
-  double rise_ = 0;        ///< of the carrier over the frame [m]
-  double rotation_ = 0;    ///< [rad]
-  double rise_speed_ = 0;  ///< [m/s]
-  double spin_ = 0;        ///< [rad/s]
+  double imbalance_down_ = 0, imbalance_behind_ = 0;  ///< first moments of the block's mass at angle 0 [kg m]
+  double rise_ = 0;                                   ///< of the carrier over the frame [m]
+  double rotation_ = 0;                               ///< [rad]
+  double rise_speed_ = 0;                             ///< [m/s]
+  double spin_ = 0;                                   ///< [rad/s]
   double guide_impulse_ = 0;
 };
 

@@ -83,11 +83,10 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
                                  mu, bodies.friction));
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
-  // A thick ring: its bending modes are fast against the ramp.
-  bodies.thickness = 0.35 * bodies.radius;
+  bodies.guided = true;  // light and rigid: what the torque excites dies out fast
   const double observed = 5 * bodies.hertz_patch().semi_axis_x;
   bodies.roll_on(speed, speed * 1.15 * ramp + observed, observed,
-                 fmt::format("traction = {{ mu = {}, ramp = \"{} s\" }}", mu, ramp));
+                 fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
   const Rolled rolled = roll_tyre(bodies, observed, progress);
   const Reference reference = reference_of(bodies, rolled.force);
 
@@ -117,7 +116,7 @@ VerifyCase steady_rolling_case() {
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
   inputs.push_back({"speed", &kSpeed, "m/s", 20, {1, 150}, "the rolling speed"});
-  inputs.push_back({"ramp", &kTime, "ms", 3e-3, {1e-5, 0.1}, "the time in which the torque grows"});
+  inputs.push_back({"ramp", &kTime, "ms", 1.5e-3, {1e-5, 0.1}, "the time in which the torque grows"});
   return {"steady_rolling", "a wheel of two radii rolls steadily under traction, against the half-space",
           std::move(inputs), steady_rolling};
 }
