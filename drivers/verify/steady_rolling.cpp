@@ -115,8 +115,8 @@ VerifyCase steady_rolling_case() {
   std::vector<VerifyInput> inputs = tyre_inputs(false);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
-  inputs.push_back({"speed", &kSpeed, "m/s", 20, {1, 150}, "the rolling speed"});
-  inputs.push_back({"ramp", &kTime, "ms", 1.5e-3, {1e-5, 0.1}, "the time in which the torque grows"});
+  inputs.push_back({"speed", &kSpeed, "m/s", 40, {1, 150}, "the rolling speed"});
+  inputs.push_back({"ramp", &kTime, "ms", 0.75e-3, {1e-5, 0.1}, "the time in which the torque grows"});
   return {"steady_rolling", "a wheel of two radii rolls steadily under traction, against the half-space",
           std::move(inputs), steady_rolling};
 }
