@@ -23,7 +23,8 @@ struct EnergyLedger {
   double connector_loss = 0;   ///< dissipated in dampers of fastenings and suspension
   double damping_loss = 0;     ///< lost because contact forces lead the motion
   double torque_work = 0;      ///< done by the torque
-  double residual = 0;         ///< stored + dissipated - torque work - stored at the start
+  double hammer_work = 0;      ///< done by the hammer
+  double residual = 0;         ///< stored + dissipated - work of torque and hammer - stored at the start
 };
 
 /// What one sample of the histories shows.
@@ -41,6 +42,8 @@ struct Sample {
   double creepage_mean = 0;                ///< mean of 28 nodes [-]
   double torque = 0;                       ///< [N m]
   double corrugation_depth = 0;            ///< below the wheel [m]
+  double hammer_force = 0;                 ///< on the rail, downwards [N]
+  double hammer_displacement = 0;          ///< of the struck point since the start, downwards [m]
   EnergyLedger energy;
 };
 
@@ -82,6 +85,7 @@ class Simulation {
   void roll();
   void record();
   void drive();
+  void strike();
   void carry();
   void search();
   void move();
@@ -112,6 +116,9 @@ class Simulation {
   double max_torque_ = 0;
   double torque_ = 0, torque_before_ = 0;
   double torque_work_ = 0;
+  double struck_at_ = 0;  ///< displacement of the hammer's point at the start, downwards [m]
+  double hammer_force_ = 0, hammer_displacement_ = 0;
+  double hammer_work_ = 0;
   Vec3 contact_impulse_, contact_impulse_size_, start_momentum_;
   /// A node of the tread whose speed makes the creepage.
   struct CreepageNode {
