@@ -15,5 +15,7 @@ VerifyCase steady_rolling_case();  // steady_rolling.cpp
 
 VerifyCase rail_on_fastenings_case();  // rail_on_fastenings.cpp
 VerifyCase rail_waves_case();          // rail_waves.cpp
+VerifyCase fastening_passing_case();   // fastening_passing.cpp
+VerifyCase wheelset_settling_case();   // wheelset_settling.cpp
 
 }  // namespace tread

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
+#include "drivers/verify/fastened_track.hpp"
 #include "drivers/verify/rail_blow.hpp"
 #include "drivers/verify/track_beam.hpp"
 #include "io/scene_reader.hpp"
@@ -20,34 +21,14 @@ namespace {
 constexpr double kFirstFrequency = 50;   // [Hz]
 constexpr double kLastFrequency = 3000;  // [Hz]
 
-std::string track_text(const VerifyInputs& inputs, double element_size) {
-  return fmt::format(
-      R"([scene]
-based_on = "highspeed-slab-2014"
-element_size = "{h} m"
-[slab]
-present = false
-[fastenings]
-stiffness = "{k} N/m"
-damping = "{c} N s/m"
-spacing = "{spacing} m"
-)",
-      fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]), fmt::arg("c", inputs["damping"]),
-      fmt::arg("spacing", inputs["spacing"]));
-}
-
 /// An even number of spans about x = 0 between two fastenings; the blow falls `aside` of it.
 Scene struck_rail(const VerifyInputs& inputs, double element_size, double aside) {
   const double spacing = inputs["spacing"];
-  const int spans = static_cast<int>(inputs["spans"]);
-  return resolve_scene(SceneSource{"verify",
-                                   track_text(inputs, element_size) +
-                                       fmt::format(
-                                           R"(count = {spans}
-first = "{first} m"
-[rail]
-length = "{length} m"
-origin = "{middle} m"
+  const double spans = inputs["spans"];
+  const std::string text =
+      track_text(inputs, element_size) + fmt::format(R"([rail]
+length = "{} m"
+origin = "{} m"
 [wheel]
 present = false
 [vehicle]
@@ -55,18 +36,16 @@ present = false
 [contact]
 present = false
 [hammer]
-position = "{aside} m"
+position = "{} m"
 force = "1 kN"
-duration = "{blow} s"
+duration = "{} s"
 [motion]
-duration = "{duration} s"
+duration = "{} s"
 )",
-                                           fmt::arg("spans", spans), fmt::arg("first", 0.5 * spacing),
-                                           fmt::arg("length", spans * spacing),
-                                           fmt::arg("middle", 0.5 * spans * spacing),
-                                           fmt::arg("aside", aside), fmt::arg("blow", 0.5 / kLastFrequency),
-                                           fmt::arg("duration", inputs["duration"])),
-                                   {}})
+                                                     spans * spacing, 0.5 * spans * spacing, aside,
+                                                     0.5 / kLastFrequency, inputs["duration"]);
+  return resolve_scene(SceneSource{"verify", text, {}}, {fmt::format("fastenings.count={:.0f}", spans),
+                                                         fmt::format("fastenings.first={} m", 0.5 * spacing)})
       .scene;
 }
 
@@ -200,6 +179,9 @@ duration = "1 ms"
 CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& progress) {
   const double h = inputs["element_size"];
   const double spacing = inputs["spacing"];
+  if (std::fmod(inputs["spans"], 2) != 0)
+    throw InputError(fmt::format(
+        "verify: spans = {:g} is not an even number: x = 0 lies between two fastenings", inputs["spans"]));
   CaseResult result;
   add_static(inputs, progress, result);
 
@@ -235,11 +217,7 @@ CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& pr
                                1e9 * std::abs(s->section.receptance(100)),
                                1e9 * std::abs(beam.receptance(x, x, 100)), 0.05});
     result.findings.push_back({fmt::format("level of the receptance to 1.5 kHz, rms difference, {}", name),
-                               "dB",
-                               level_difference(s->section, beam, x, low, 1500),
-                               0,
-                               {},
-                               true});
+                               "dB", level_difference(s->section, beam, x, low, 1500), 0, 1.0, true});
     result.findings.push_back({fmt::format("the same, 1.5 to 3 kHz, {}", name),
                                "dB",
                                level_difference(s->section, beam, x, 1500, kLastFrequency),
@@ -262,15 +240,12 @@ CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& pr
 }  // namespace
 
 VerifyCase rail_on_fastenings_case() {
+  std::vector<VerifyInput> inputs = track_inputs();
+  inputs.push_back({"spans", nullptr, "", 12, {4, 100}, "the spans of the struck rail, an even number"});
+  inputs.push_back({"duration", &kTime, "ms", 50e-3, {5e-3, 1}, "the observed time"});
   return {"rail_on_fastenings",
           "a rail on its fastenings: deflection, receptance and pinned-pinned mode against a Timoshenko beam",
-          {{"element_size", &kLength, "mm", 6e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
-           {"spacing", &kLength, "m", 0.65, {0.3, 0.66}, "the distance between fastenings"},
-           {"stiffness", &kStiffness, "MN/m", 22e6, {1e5, 1e10}, "a fastening's stiffness"},
-           {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e7}, "a fastening's damping"},
-           {"spans", nullptr, "", 12, {4, 100}, "the fastenings of the struck rail, an even number"},
-           {"duration", &kTime, "ms", 50e-3, {5e-3, 1}, "the observed time"}},
-          rail_on_fastenings};
+          std::move(inputs), rail_on_fastenings};
 }
 
 }  // namespace tread

@@ -185,6 +185,7 @@ BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, doub
 
 void BeamPassage::add_sprung_mass(double mass) {
   vehicle_.sprung_mass += mass;
+  if (vehicle_.stiffness > 0) wheel_[1] += mass * vehicle_.gravity / vehicle_.stiffness;
 }
 
 /// Deflections of wheel and sprung mass at the end of a step under the effective loads of Newmark's method.

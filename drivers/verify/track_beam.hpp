@@ -90,7 +90,7 @@ class BeamPassage {
   /// One step; the wheel is then at x over `roughness` (positive: the rail is lower) [m].
   void step(double x, double roughness = 0);
 
-  /// Mass that joins the sprung mass without speed.
+  /// Mass that joins the sprung mass, the suspension already compressed for it: a step of force on the wheel.
   void add_sprung_mass(double mass);
 
   double time() const { return time_; }
