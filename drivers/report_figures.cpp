@@ -42,7 +42,7 @@ Figure over_the_way(std::string title, const Model& model, const RunResults& r) 
   figure.title = std::move(title);
   figure.x_label = abscissa_label(model);
   figure.x_range = whole_way(model, r);
-  mark_track(model, *figure.x_range, figure);
+  if (model.contact) mark_track(model, *figure.x_range, figure);
   return figure;
 }
 

@@ -99,7 +99,7 @@ Unknowns number_unknowns(const std::vector<const Section*>& parts) {
 }
 
 /// Cowper's kappa by the stress function Psi of a shear force that makes d(sigma)/dx = z: find Psi with
-/// integral (grad Psi - d) . grad N = integral N z for all N. [theory.md, eq. 18]
+/// integral (grad Psi - d) . grad N = integral N z for all N. [theory.md, eq. B3]
 double cowper(const std::vector<const Section*>& parts, const BeamSection& s, double nu) {
   const Unknowns unknowns = number_unknowns(parts);
   BandMatrix<double> laplace(unknowns.count, unknowns.count - 1);

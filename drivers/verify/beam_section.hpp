@@ -18,7 +18,7 @@ struct BeamSection {
 
 /// Of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The section
 /// has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
-/// [theory.md, Beam on fastenings]
+/// [theory.md, eq. B3]
 BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
 
 /// Of the scene's rail, upright, on a fine section mesh whatever the mesh of the scene.
@@ -39,7 +39,7 @@ struct BeamProperties {
 BeamProperties timoshenko(const BeamSection& section, const Material& material);
 BeamProperties euler(const BeamSection& section, const Material& material);
 
-/// Frequency of the waves of wave number k on the free beam, lower branch. [theory.md, eq. 17] [Hz]
+/// Frequency of the waves of wave number k on the free beam, lower branch. [theory.md, eq. B2] [Hz]
 double wave_frequency(const BeamProperties& beam, double wave_number);
 
 /// Wave number of the waves of a frequency on the free beam. [1/m]

@@ -25,13 +25,13 @@ Scene passage_scene(const VerifyInputs& inputs) {
   const double way = inputs["spans"] * inputs["spacing"];
   const std::string text = track_text(inputs, inputs["element_size"]) +
                            fmt::format(R"([solution_zone]
-start = "{} m"
-length = "0.1 m"
+start = "0 m"
+length = "{} m"
 [motion]
 speed = "{} m/s"
 duration = "{} s"
 )",
-                                       way - 0.1, inputs["speed"], way / inputs["speed"]);
+                                       way, inputs["speed"], way / inputs["speed"]);
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 // A rail without a wheel, struck by the hammer: what its cross-sections do.
 
-#include <complex>
 #include <functional>
 #include <vector>
 
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
+#include "drivers/receptance.hpp"
 #include "drivers/simulation.hpp"
 
 namespace tread {
@@ -32,16 +32,6 @@ using BlowSample = std::function<void(double, const double*)>;
 
 /// Runs the scene's own step to its end, samples `interval` apart [s]; returns the last sample's energies.
 EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress);
-
-/// A blow's force and the response at evenly spaced times.
-struct BlowRecord {
-  std::vector<double> time;      ///< [s]
-  std::vector<double> force;     ///< [N]
-  std::vector<double> response;  ///< [m]
-
-  /// Fourier integral of the response over that of the force; both have to be over at the end. [m/N]
-  std::complex<double> receptance(double frequency) const;
-};
 
 /// Frequency of the undamped harmonic that fits values at evenly spaced times best, between `low` and `high`
 /// [Hz].
