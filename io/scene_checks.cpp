@@ -123,6 +123,9 @@ class Checker {
     const bool fastened = rail.support == "fastenings";
     require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
             "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
+    require(rail.support != "free" || scene_.wheel || !scene_.motion || scene_.gravity == 0,
+            {"rail.support", "scene.gravity"},
+            "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
     require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
             fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
                         rail.support));

@@ -150,7 +150,7 @@ CaseResult rail_waves(const VerifyInputs& inputs, const ProgressText& progress) 
 VerifyCase rail_waves_case() {
   return {"rail_waves",
           "bending waves of the free rail after a blow, against Timoshenko's beam",
-          {{"element_size", &kLength, "mm", 4e-3, {1e-3, 7e-3}, "the elements' size in the contact surface"},
+          {{"element_size", &kLength, "mm", 4e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
            {"length", &kLength, "m", 3, {0.5, 20}, "the length of the rail"},
            {"highest_frequency", &kFrequency, "Hz", 3000, {100, 4000}, "the highest frequency"},
            {"duration", &kTime, "ms", 20e-3, {5e-3, 1}, "the observed time"}},

@@ -195,8 +195,10 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
       {"[material.steel]\npresent = false", "x.toml:3:11: material.steel: the wheel needs [material.steel]"},
       {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
        "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
-      {"[rail]\npresent = false\n[hammer]\nforce = \"1 kN\"\nduration = \"1 ms\"",
-       "HAMMER"},
+      {"[hammer]\nposition = \"20 m\"\nforce = \"1 kN\"\nduration = \"1 ms\"",
+       "x.toml:4:1: hammer.position: the struck point, x = 20 m, is not on the rail, -6.1 m to 9.1 m"},
+      {"[motion]\npresent = false\n[hammer]\nforce = \"1 kN\"\nduration = \"1 ms\"",
+       "x.toml:5:2: hammer: a hammer needs [motion] with the duration"},
   });
   EXPECT_EQ(error_of(""),
             "x.toml: scene.based_on: the scene is empty; add [wheel] or [rail], or scene.based_on = "
