@@ -49,10 +49,12 @@ Figure receptance_figure(const Scene& scene, const RunResults& r) {
   Figure figure;
   figure.title = "Receptance of the struck point";
   figure.x_label = "Frequency [Hz]";
-  figure.panels = {panel("log10 of the receptance [m/N]", {std::move(amplitude)}, {}, 260)};
+  figure.panels = {panel("log10 of [m/N]", {std::move(amplitude)}, {}, 260)};
   figure.caption =
       "Fourier integral of the displacement over that of the force. It holds where the motion is over at the "
-      "end of the run.";
+      "end of the run. The struck point's indentation under the point load, which depends on the mesh, is "
+      "part "
+      "of it.";
   return figure;
 }
 
