@@ -90,7 +90,7 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
   build_mass();
   set_damping();
   if (scene.fastenings && scene.rail) build_fastenings();
-  if (scene.hammer)
+  if (scene.hammer && scene.rail)
     hammer =
         attach_to_surface(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], scene.hammer->position, 0);
   if (scene.wheel) build_wheel_parts();

@@ -130,7 +130,7 @@ CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& pro
 
 VerifyCase fastening_passing_case() {
   std::vector<VerifyInput> inputs = track_inputs();
-  inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {10, 150}, "the speed"});
+  inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {15, 150}, "the speed"});
   inputs.push_back({"spans", nullptr, "", 3, {2, 8}, "the spans of the way, the last is evaluated"});
   return {"fastening_passing",
           "the half wheelset rolls over fastenings: the periodic part of F_N against a mass over a beam",

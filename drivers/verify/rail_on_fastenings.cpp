@@ -55,6 +55,21 @@ struct Strike {
   double energy_error = 0;  ///< residual over the hammer's work [-]
 };
 
+/// The Fourier integral of a motion that goes on is not a receptance.
+void require_decay(const std::vector<double>& response) {
+  constexpr double kLeft = 0.03;
+  const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const double most = std::abs(*std::max_element(response.begin(), response.end(), larger));
+  const double last = std::abs(*std::max_element(
+      response.end() - static_cast<std::ptrdiff_t>(response.size() / 10), response.end(), larger));
+  if (last > kLeft * most)
+    throw InputError(
+        fmt::format("verify: the rail still moves by {:.2g} % of its largest deflection when the observed "
+                    "time ends: that is no "
+                    "receptance; state a longer duration or more damping",
+                    100 * last / most));
+}
+
 Strike strike(const Scene& scene, const ProgressText& progress) {
   constexpr double kInterval = 2e-5;  // between samples [s]
   Model model(scene);
@@ -81,6 +96,7 @@ Strike strike(const Scene& scene, const ProgressText& progress) {
       },
       progress);
   out.energy_error = std::abs(energy.residual) / energy.hammer_work;
+  require_decay(out.section.response);
   return out;
 }
 

@@ -190,7 +190,7 @@ VerifyCase wheelset_settling_case() {
   inputs.push_back(
       {"sprung_mass", &kMass, "kg", 7000, {100, 1e5}, "the sprung mass before the step of load"});
   inputs.push_back({"added_mass", &kMass, "kg", 1000, {1, 1e4}, "the sprung mass that the step adds"});
-  inputs.push_back({"duration", &kTime, "ms", 30e-3, {5e-3, 1}, "the observed time"});
+  inputs.push_back({"duration", &kTime, "ms", 20e-3, {10e-3, 1}, "the observed time"});
   return {"wheelset_settling", "the standing wheelset after a step of load, against a mass over a beam",
           std::move(inputs), wheelset_settling};
 }
