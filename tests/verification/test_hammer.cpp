@@ -97,8 +97,9 @@ TEST(Hammer, ReceptanceOfAnOscillator) {
 }
 
 TEST(Hammer, FrequencyOfAHarmonicRecord) {
-  std::vector<double> values;
-  for (int i = 0; i < 500; ++i) values.push_back(std::sin(2 * std::numbers::pi * 61.7 * i * 2e-5 + 0.4));
+  std::vector<double> values(500);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = std::sin(2 * std::numbers::pi * 61.7 * static_cast<double>(i) * 2e-5 + 0.4);
   EXPECT_NEAR(harmonic_frequency(values, 2e-5, 20, 8000), 61.7, 0.01);
 }
 
