@@ -143,6 +143,17 @@ struct PulseSpec {
   double length = 0;    ///< [m]
 };
 
+/// [hammer]: a blow on the rail head, a half sine of downward force from t = 0 on
+struct HammerSpec {
+  double position = 0;  ///< x of the struck point [m]
+  double force = 0;     ///< largest [N]
+  double duration = 0;  ///< of the half sine [s]
+
+  double force_at(double time) const {
+    return time < duration ? force * std::sin(std::numbers::pi * time / duration) : 0.0;
+  }
+};
+
 /// [output]
 struct OutputSpec {
   double history_interval = 1e-5;  ///< [s]
@@ -174,6 +185,7 @@ struct Scene {
   std::optional<MotionSpec> motion;
   std::optional<CorrugationSpec> corrugation;
   std::optional<PulseSpec> pulse;
+  std::optional<HammerSpec> hammer;
   OutputSpec output;
 };
 

@@ -96,6 +96,7 @@ std::vector<PhaseInfo> phases(const Model& model) {
                                       {"displacement", "velocity", "wheel frame"},
                                       {"contact points"}});
   list.add(!model.torque.empty(), {"torque", "end of the axle", {"torque nodes", "velocity"}, {"force"}});
+  list.add(model.hammer.has_value(), {"hammer", "rail head", {"displacement"}, {"force"}});
   list.add(vehicle, {"unsprung mass", "journal", {"journal nodes"}, {"force"}});
   list.add(
       fixed_blocks(model),

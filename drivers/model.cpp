@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -30,11 +31,12 @@ std::vector<int> BlockIndex::rail() const {
   return blocks;
 }
 
-Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
-  const auto found = block.section.paths.find(path);
-  if (found == block.section.paths.end())
-    throw InputError(fmt::format("block '{}' has no line '{}' to attach to", block.name, path));
-  const auto& nodes = found->second;
+namespace {
+
+/// On the line `nodes` of the section, called `path` in messages.
+Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes, const std::string& path,
+                          const std::array<double, 2>& at_xy) {
+  const auto [x, y] = at_xy;
   const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
   if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
     throw InputError(
@@ -56,6 +58,24 @@ Attachment attach(const SweptBlock& block, const std::string& path, double x, do
   return at;
 }
 
+}  // namespace
+
+Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
+  const auto found = block.section.paths.find(path);
+  if (found == block.section.paths.end())
+    throw InputError(fmt::format("block '{}' has no line '{}' to attach to", block.name, path));
+  return attach_to_line(block, found->second, path, {x, y});
+}
+
+Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
+  std::vector<int> nodes;
+  for (const SurfaceEdge& edge : block.section.surface) {
+    if (nodes.empty()) nodes.push_back(edge.node[0]);
+    nodes.push_back(edge.node[1]);
+  }
+  return attach_to_line(block, nodes, "running surface", {x, y});
+}
+
 Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
   if (scene.rail) build_rail();
   if (scene.slab_track) build_slab();
@@ -70,6 +90,9 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
   build_mass();
   set_damping();
   if (scene.fastenings && scene.rail) build_fastenings();
+  if (scene.hammer && scene.rail)
+    hammer =
+        attach_to_surface(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], scene.hammer->position, 0);
   if (scene.wheel) build_wheel_parts();
   if (scene.contact && scene.rail && scene.wheel) build_contact();
 }
@@ -99,7 +122,8 @@ void Model::build_rail() {
                                                {scene.steel}, length.first, segments));
     return;
   }
-  const NestedSegments plan = plan_rail(length, run_span(), zone_span(), sizes);
+  const NestedSegments plan =
+      scene.wheel ? plan_rail(length, run_span(), zone_span(), sizes) : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
   index.rail_cap = mesh.add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
                                              {scene.steel}, length.first, plan.fine));

@@ -56,6 +56,7 @@ struct Model {
   std::vector<double> beta;  ///< stiffness-proportional damping by block [s]
 
   std::optional<SpringDampers> fastenings;
+  std::optional<Attachment> hammer;  ///< the struck point of the rail's crown
   std::optional<SpinningBody> wheelset;
   std::optional<GuidedBore> guide;  ///< carries load and torque in place of journal and torque
   Journal journal;                  ///< carries vehicle or load; empty without either
@@ -95,5 +96,8 @@ struct Model {
 /// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the
 /// block.
 Attachment attach(const SweptBlock& block, const std::string& path, double x, double y);
+
+/// The same on the running surface.
+Attachment attach_to_surface(const SweptBlock& block, double x, double y);
 
 }  // namespace tread

@@ -42,7 +42,7 @@ Figure over_the_way(std::string title, const Model& model, const RunResults& r) 
   figure.title = std::move(title);
   figure.x_label = abscissa_label(model);
   figure.x_range = whole_way(model, r);
-  mark_track(model, *figure.x_range, figure);
+  if (model.contact) mark_track(model, *figure.x_range, figure);
   return figure;
 }
 
@@ -179,6 +179,7 @@ Figure energy_figure(const Model& model, const RunResults& r) {
     large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
   small.push_back(kind("strain", &EnergyLedger::strain));
   if (model.scene.gravity != 0 || model.scene.load) small.push_back(kind("gravity", &EnergyLedger::gravity));
+  if (model.hammer) small.push_back(kind("work of the hammer", &EnergyLedger::hammer_work, Stroke::dashed));
   if (model.contact) small.push_back(kind("frictional work", &EnergyLedger::frictional_work, Stroke::dashed));
   if (model.fastenings || model.scene.vehicle) {
     small.push_back(kind("springs", &EnergyLedger::connectors));
@@ -189,10 +190,9 @@ Figure energy_figure(const Model& model, const RunResults& r) {
   figure.panels.push_back(
       panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })},
             {}, 110));
-  figure.caption +=
-      model.contact
-          ? "Residual: stored and dissipated energy less the torque's work and the energy at the start."
-          : "Residual: the sum less that at the start.";
+  figure.caption += model.contact ? "Residual: stored and dissipated energy less the work of torque and "
+                                    "hammer and the energy at the start."
+                                  : "Residual: the sum less that at the start.";
   return figure;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "drivers/hammer_figures.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/mesh_measures.hpp"
@@ -345,6 +346,8 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
     report.chapters.push_back(patch_chapter(run));
   }
+  if (model.hammer && !results.samples.empty())
+    report.chapters.push_back({"Hammer", {blow_figure(results), receptance_figure(model.scene, results)}});
   report.chapters.push_back(energy_chapter(run));
   if (model.contact || results.preload.newton_iterations > 0) report.chapters.push_back(preload_chapter(run));
   report.chapters.push_back(model_chapter(run));

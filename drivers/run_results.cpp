@@ -81,9 +81,20 @@ const std::vector<Column>& body_columns() {
   return columns;
 }
 
+const std::vector<Column>& hammer_columns() {
+  static const std::vector<Column> columns = {
+      {{"hammer_force", "N", "on the rail head, downwards"}, [](const Sample& s) { return s.hammer_force; }},
+      {{"hammer_displacement", "m", "of the struck point since the start, downwards"},
+       [](const Sample& s) { return s.hammer_displacement; }},
+      {{"hammer_work", "J", "done by the hammer"}, [](const Sample& s) { return s.energy.hammer_work; }},
+  };
+  return columns;
+}
+
 std::vector<Column> columns_of(const Model& model) {
   std::vector<Column> columns;
   if (model.contact) columns = wheel_columns();
+  if (model.hammer) columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
   columns.insert(columns.end(), body_columns().begin(), body_columns().end());
   return columns;
 }

@@ -77,6 +77,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
             v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
                 scene.pulse->velocity;
   }
+  if (model.hammer) struck_at_ = -model.hammer->value(u_.data(), 2);
   start_momentum_ = vehicle_momentum();
 }
 
@@ -152,8 +153,10 @@ void Simulation::step() {
   connect();
   // 3  contact: search and gap
   search();
-  // 4  torque; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the update)
+  // 4  torque, hammer; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the
+  // update)
   drive();
+  strike();
   carry();
   // 5  velocities, displacements, restraints; pressure and friction of the middle of the step; ties, frames
   move();
@@ -210,6 +213,16 @@ void Simulation::drive() {
                           : model_->torque.apply(torque_, u_.data(), v_.data(), frame_, force_.data());
   torque_work_ += 0.5 * (torque_before_ + torque_) * spin * dt_;
   torque_before_ = torque_;
+}
+
+void Simulation::strike() {
+  if (!model_->hammer) return;
+  const double force = model_->scene.hammer->force_at(time_);
+  const double displacement = -model_->hammer->value(u_.data(), 2) - struck_at_;
+  hammer_work_ += 0.5 * (hammer_force_ + force) * (displacement - hammer_displacement_);
+  hammer_force_ = force;
+  hammer_displacement_ = displacement;
+  model_->hammer->add(force_.data(), 2, force);
 }
 
 void Simulation::carry() {
@@ -432,6 +445,9 @@ void Simulation::end_sample() {
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy()) - half_step_excess();
   energy.torque_work = torque_work_;
   energy.guide_work = guide_work_;
+  energy.hammer_work = hammer_work_;
+  sample_.hammer_force = hammer_force_;
+  sample_.hammer_displacement = hammer_displacement_;
   energy.connector_loss = (model_->fastenings ? model_->fastenings->dissipated() : 0.0) + sprung_.dissipated;
   if (model_->contact) {
     const ContactTotals& totals = model_->contact->totals();
@@ -465,7 +481,7 @@ void Simulation::end_sample() {
   }
   const double closed = energy.kinetic + energy.strain + energy.connectors + energy.penalty + energy.gravity +
                         energy.frictional_work + energy.connector_loss + energy.damping_loss -
-                        energy.torque_work - energy.guide_work;
+                        energy.torque_work - energy.guide_work - energy.hammer_work;
   if (!have_start_energy_) {
     start_energy_ = closed;
     have_start_energy_ = true;

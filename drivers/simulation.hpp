@@ -24,7 +24,8 @@ struct EnergyLedger {
   double damping_loss = 0;     ///< lost because contact forces lead the motion
   double torque_work = 0;      ///< done by the torque
   double guide_work = 0;       ///< done by the guide that holds the bore's forward speed
-  double residual = 0;         ///< stored + dissipated - work of torque and guide - stored at the start
+  double hammer_work = 0;      ///< done by the hammer
+  double residual = 0;  ///< stored + dissipated - work of torque, guide and hammer - stored at the start
 };
 
 /// What one sample of the histories shows.
@@ -42,6 +43,8 @@ struct Sample {
   double creepage_mean = 0;                ///< mean of 28 nodes [-]
   double torque = 0;                       ///< [N m]
   double corrugation_depth = 0;            ///< below the wheel [m]
+  double hammer_force = 0;                 ///< on the rail, downwards [N]
+  double hammer_displacement = 0;          ///< of the struck point since the start, downwards [m]
   EnergyLedger energy;
 };
 
@@ -83,6 +86,7 @@ class Simulation {
   void roll();
   void record();
   void drive();
+  void strike();
   void carry();
   void search();
   void move();
@@ -123,6 +127,9 @@ class Simulation {
   Vec3 impulse_;          ///< on the vehicle by contact and guide [N s]
   Vec3 contact_impulse_;  ///< its size [N s]
   Vec3 start_momentum_;
+  double struck_at_ = 0;  ///< displacement of the hammer's point at the start, downwards [m]
+  double hammer_force_ = 0, hammer_displacement_ = 0;
+  double hammer_work_ = 0;
   /// A node of the tread whose speed makes the creepage.
   struct CreepageNode {
     std::int64_t slot;

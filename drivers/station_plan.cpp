@@ -104,6 +104,12 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   return plan;
 }
 
+NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes) {
+  NestedSegments plan;
+  append_uniform(plan, rail, sizes.contact * sizes.coarse_ratio, 1);
+  return plan;
+}
+
 WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
   constexpr double turn = 2 * std::numbers::pi;
   // Whole axle elements around, each of axle_ratio disc elements of coarse_ratio tread elements.

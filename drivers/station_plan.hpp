@@ -40,6 +40,9 @@ struct NestedSegments {
 /// growing to the far pitch outside of it.
 NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes);
 
+/// Along a rail without a wheel: one pitch, that of the tied coarse blocks. Waves run along all of it.
+NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes);
+
 /// Around the wheel.
 struct WheelPlan {
   double start = 0;  ///< angle of the first station [rad]

@@ -35,6 +35,7 @@ class Checker {
       require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
               "the pulse is longer than the bar");
     }
+    if (scene_.rail && scene_.hammer) check_hammer(*scene_.rail, *scene_.hammer);
     return std::move(problems_);
   }
 
@@ -74,8 +75,10 @@ class Checker {
             "plane strain needs a block under the tyre; state rail.profile = \"box\"");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
-    require(!s.motion || s.pulse || (s.wheel && s.rail && s.contact), {"motion"},
-            "motion needs [wheel], [rail] and [contact], or [pulse]");
+    require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
+    require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
+    require(!s.motion || s.pulse || (s.hammer && s.rail) || (s.wheel && s.rail && s.contact), {"motion"},
+            "motion needs [wheel], [rail] and [contact], or [pulse], or [rail] and [hammer]");
     require(s.wheel || s.rail, {"scene.based_on"},
             "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
   }
@@ -132,6 +135,9 @@ class Checker {
     const bool fastened = rail.support == "fastenings";
     require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
             "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
+    require(rail.support != "free" || scene_.wheel || !scene_.motion || scene_.gravity == 0,
+            {"rail.support", "scene.gravity"},
+            "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
     require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
             fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
                         rail.support));
@@ -178,6 +184,15 @@ class Checker {
         std::abs(*motion.traction_mu) <= scene_.contact->friction, {"motion.traction.mu", "contact.friction"},
         fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
                     *motion.traction_mu, scene_.contact->friction));
+  }
+
+  void check_hammer(const RailSpec& rail, const HammerSpec& hammer) {
+    const double left = -rail.origin;
+    const double right = rail.length - rail.origin;
+    require(hammer.position >= left - kLengthTolerance && hammer.position <= right + kLengthTolerance,
+            {"hammer.position", "rail.length", "rail.origin"},
+            fmt::format("the struck point, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m",
+                        hammer.position, left, right));
   }
 
   void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {

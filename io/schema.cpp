@@ -348,11 +348,17 @@ void add_corrugation(Keys& keys) {
   keys.push_back(only_with("corrugation.kind", "table", required(std::move(file))));
 }
 
-void add_pulse_and_output(Keys& keys) {
+void add_impacts_and_output(Keys& keys) {
   keys.push_back(required(quantity("pulse.velocity", at(&Scene::pulse, &PulseSpec::velocity), kSpeed, "m/s",
                                    {-1000, 1000}, "Initial velocity along x of the bar's left end")));
   keys.push_back(required(quantity("pulse.length", at(&Scene::pulse, &PulseSpec::length), kLength, "m",
                                    above(0, 1000), "Length of the part that has it")));
+  keys.push_back(quantity("hammer.position", at(&Scene::hammer, &HammerSpec::position), kLength, "m",
+                          from(-1000, 1000), "x of the struck point on the rail's crown"));
+  keys.push_back(required(quantity("hammer.force", at(&Scene::hammer, &HammerSpec::force), kForce, "kN",
+                                   {-1e6, 1e6}, "Largest force of the blow, downwards")));
+  keys.push_back(required(quantity("hammer.duration", at(&Scene::hammer, &HammerSpec::duration), kTime, "ms",
+                                   above(0, 1), "Duration of the blow, a half sine from t = 0 on")));
   keys.push_back(quantity("output.history_interval", at(&Scene::output, &OutputSpec::history_interval), kTime,
                           "s", above(0, 100), "Simulated time between samples of the histories"));
   keys.push_back(quantity("output.progress_interval", at(&Scene::output, &OutputSpec::progress_interval),
@@ -374,7 +380,7 @@ Keys make_keys() {
   add_contact(keys);
   add_motion(keys);
   add_corrugation(keys);
-  add_pulse_and_output(keys);
+  add_impacts_and_output(keys);
   for (const SceneTable& table : scene_tables()) {
     if (!table.removable()) continue;
     keys.push_back({.path = table.name + ".present",
@@ -442,6 +448,9 @@ std::vector<SceneTable> make_tables() {
       component("corrugation", &Scene::corrugation,
                 "Periodic or measured depth of the rail's running surface."),
       component("pulse", &Scene::pulse, "An initial velocity at one end of a bar: a rail without a wheel."),
+      component("hammer", &Scene::hammer,
+                "A blow on the rail head; the histories hold its force and the struck point's "
+                "displacement."),
       always("output", "How often results are sampled."),
   };
 }

@@ -13,4 +13,9 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 
+VerifyCase rail_on_fastenings_case();  // rail_on_fastenings.cpp
+VerifyCase rail_waves_case();          // rail_waves.cpp
+VerifyCase fastening_passing_case();   // fastening_passing.cpp
+VerifyCase wheelset_settling_case();   // wheelset_settling.cpp
+
 }  // namespace tread

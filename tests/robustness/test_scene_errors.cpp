@@ -184,7 +184,7 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
        "false"},
       {"[contact]\npresent = false",
        "2 problems\nx.toml: wheel: wheel and rail need [contact]\n"
-       "x.toml: motion: motion needs [wheel], [rail] and [contact], or [pulse]"},
+       "x.toml: motion: motion needs [wheel], [rail] and [contact], or [pulse], or [rail] and [hammer]"},
       {"[fastenings]\npresent = false",
        "2 problems\nx.toml: slab: a slab needs fastenings; add [fastenings]\n"
        "x.toml: rail.support: the rail stands on fastenings; add [fastenings], or "
@@ -195,6 +195,10 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
       {"[material.steel]\npresent = false", "x.toml:3:11: material.steel: the wheel needs [material.steel]"},
       {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
        "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
+      {"[hammer]\nposition = \"20 m\"\nforce = \"1 kN\"\nduration = \"1 ms\"",
+       "x.toml:4:1: hammer.position: the struck point, x = 20 m, is not on the rail, -6.1 m to 9.1 m"},
+      {"[motion]\npresent = false\n[hammer]\nforce = \"1 kN\"\nduration = \"1 ms\"",
+       "x.toml:5:2: hammer: a hammer needs [motion] with the duration"},
   });
   EXPECT_EQ(error_of(""),
             "x.toml: scene.based_on: the scene is empty; add [wheel] or [rail], or scene.based_on = "

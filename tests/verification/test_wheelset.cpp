@@ -3,16 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "core/mesh/structured.hpp"
 #include "drivers/preload.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
+#include "drivers/verify/track_beam.hpp"
 #include "io/scene_reader.hpp"
 #include "tests/measured.hpp"
 
@@ -80,44 +78,6 @@ TEST(Wheelset, LinearLawLacksTheStiffnessOfTheSpinStress) {
   EXPECT_GT(linear, 0.05);
 }
 
-/// Deflection under a force at `origin` of a Timoshenko beam on the springs of the scene's fastenings. [m]
-double beam_deflection(const Scene& scene, const AreaMoments& section, double force) {
-  constexpr double kShearShare = 0.4;  // of a rail's area that carries shear
-  constexpr int kElements = 760;
-  const double length = scene.rail->length / kElements;
-  const double bending = scene.steel.youngs_modulus * section.yy;
-  const double phi =
-      12 * bending / (kShearShare * section.area * scene.steel.shear_modulus() * length * length);
-  Eigen::Matrix4d element;
-  element << 12, 6 * length, -12, 6 * length,                                             //
-      6 * length, (4 + phi) * length * length, -6 * length, (2 - phi) * length * length,  //
-      -12, -6 * length, 12, -6 * length,                                                  //
-      6 * length, (2 - phi) * length * length, -6 * length, (4 + phi) * length * length;
-  element *= bending / (length * length * length * (1 + phi));
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(2 * kElements + 2, 2 * kElements + 2);
-  for (int e = 0; e < kElements; ++e) stiffness.block<4, 4>(2 * e, 2 * e) += element;
-  // Springs and force act on the nearest beam nodes by linear weights.
-  const auto weights = [&](double x) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(2 * kElements + 2);
-    const int e = std::min(static_cast<int>(x / length), kElements - 1);
-    row[2 * e] = 1 - (x / length - e);
-    row[2 * e + 2] = x / length - e;
-    return row;
-  };
-  const FasteningSpec& fastenings = *scene.fastenings;
-  for (int i = 0; i < fastenings.count; ++i)
-    for (int column = 0; column < fastenings.columns; ++column) {
-      const double x = fastenings.first + i * fastenings.spacing +
-                       fastenings.pad_length * ((column + 0.5) / fastenings.columns - 0.5);
-      const Eigen::VectorXd row = weights(x);
-      const int at = 2 * std::min(static_cast<int>(x / length), kElements - 1);
-      stiffness.block<4, 4>(at, at) +=
-          fastenings.stiffness / fastenings.columns * row.segment<4>(at) * row.segment<4>(at).transpose();
-    }
-  const Eigen::VectorXd load = weights(scene.rail->origin);
-  return force * load.dot(stiffness.ldlt().solve(load));
-}
-
 TEST(Rail, DeflectsAsATimoshenkoBeamOnTheFastenings) {
   const Scene scene = wheelset_scene(R"([motion]
 speed = "0 m/s"
@@ -125,10 +85,8 @@ duration = "0.1 ms"
 )");
   Model model(scene);
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
-  std::vector<AreaMoments> parts;
-  for (const int block : model.index.rail())
-    parts.push_back(area_moments(model.mesh.blocks[static_cast<std::size_t>(block)].section));
-  const double beam = beam_deflection(scene, sum(parts), model.wheel_load());
+  const TrackBeam rail = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel));
+  const double beam = rail.deflection(rail.static_state(0, model.wheel_load()), 0);
   measured("rail's foot under the wheel", preload.rail_deflection, "m");
   measured("Timoshenko beam", beam, "m");
   EXPECT_NEAR(preload.rail_deflection / beam, 1, 0.015);

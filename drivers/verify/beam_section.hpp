@@ -1,0 +1,48 @@
+#pragma once
+// What a beam knows of a cross-section: area, moments of inertia, Cowper's shear coefficient.
+
+#include <vector>
+
+#include "core/mesh/section.hpp"
+#include "core/scene.hpp"
+
+namespace tread {
+
+struct BeamSection {
+  double area = 0;               ///< A [m2]
+  double height = 0;             ///< z of the centroid [m]
+  double vertical = 0;           ///< I, integral of z^2 about the centroid: vertical bending [m4]
+  double lateral = 0;            ///< integral of y^2 [m4]
+  double shear_coefficient = 0;  ///< kappa, vertical bending [-]
+};
+
+/// Of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The section
+/// has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
+/// [theory.md, eq. B3]
+BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
+
+/// Of the scene's rail, upright, on a fine section mesh whatever the mesh of the scene.
+/// InputError without [rail].
+BeamSection rail_beam_section(const Scene& scene);
+
+/// The same quads, each cut into n x n.
+Section refined(const Section& section, int n);
+
+/// What bends: stiffnesses and masses per length.
+struct BeamProperties {
+  double bending_stiffness = 0;  ///< E I [N m2]
+  double shear_stiffness = 0;    ///< kappa G A [N]; 0: rigid in shear (Euler)
+  double mass = 0;               ///< rho A [kg/m]
+  double rotary_inertia = 0;     ///< rho I [kg m]
+};
+
+BeamProperties timoshenko(const BeamSection& section, const Material& material);
+BeamProperties euler(const BeamSection& section, const Material& material);
+
+/// Frequency of the waves of wave number k on the free beam, lower branch. [theory.md, eq. B2] [Hz]
+double wave_frequency(const BeamProperties& beam, double wave_number);
+
+/// Wave number of the waves of a frequency on the free beam. [1/m]
+double wave_number(const BeamProperties& beam, double frequency);
+
+}  // namespace tread

@@ -1,0 +1,41 @@
+#include "drivers/verify/fastened_track.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace tread {
+
+namespace {
+
+constexpr double kRail = 15.2;    ///< length of the library's rail [m]
+constexpr double kFirst = 0.125;  ///< its first fastening [m]
+
+}  // namespace
+
+std::vector<VerifyInput> track_inputs() {
+  return {{"element_size", &kLength, "mm", 6e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
+          {"spacing", &kLength, "m", 0.65, {0.3, 1}, "the distance between fastenings"},
+          {"stiffness", &kStiffness, "MN/m", 22e6, {1e6, 1e9}, "a fastening's stiffness"},
+          {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e6}, "a fastening's damping"}};
+}
+
+std::string track_text(const VerifyInputs& inputs, double element_size) {
+  return fmt::format(
+      R"([scene]
+based_on = "highspeed-slab-2014"
+element_size = "{h} m"
+[slab]
+present = false
+[fastenings]
+count = {count}
+spacing = "{spacing} m"
+stiffness = "{k} N/m"
+damping = "{c} N s/m"
+)",
+      fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]), fmt::arg("c", inputs["damping"]),
+      fmt::arg("spacing", inputs["spacing"]),
+      fmt::arg("count", 1 + static_cast<int>(std::floor((kRail - 2 * kFirst) / inputs["spacing"] + 1e-9))));
+}
+
+}  // namespace tread

@@ -1,0 +1,140 @@
+// The half wheelset rolls over the smooth rail: the part of F_N that repeats with the fastenings, against a
+// rigid mass on a Hertz spring over the beam on the same fastenings.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "drivers/verify/cases.hpp"
+#include "drivers/verify/fastened_track.hpp"
+#include "drivers/verify/wheel_on_beam.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kEndOfRail = 0.5;  ///< least distance of the wheel from the rail's ends [m]
+constexpr double kBeamStep = 2e-5;  ///< of the beam's time integration [s]
+
+Scene passage_scene(const VerifyInputs& inputs) {
+  const double way = inputs["spans"] * inputs["spacing"];
+  const std::string text =
+      track_text(inputs, inputs["element_size"]) + fmt::format(R"([solution_zone]
+start = "0 m"
+length = "{} m"
+[motion]
+speed = "{} m/s"
+duration = "{} s"
+)",
+                                                               way, inputs["speed"], way / inputs["speed"]);
+  return resolve_scene(SceneSource{"verify", text, {}}).scene;
+}
+
+ForceCurve rolled(Model& model, const ProgressText& progress) {
+  const MotionSpec& motion = *model.scene.motion;
+  progress(fmt::format("{} elements", model.elements()));
+  const Preload preload = solve_preload(model, steady_motion(model), progress);
+  const double stable = motion.step_safety * step_limit(model).stable_step;
+  // A little more than the way, so that it is covered.
+  const auto steps = static_cast<std::int64_t>(std::ceil(1.002 * motion.duration / stable));
+  Simulation simulation(model, preload, stable);
+  constexpr double kInterval = 1e-5;
+  simulation.set_sampling_interval(std::max<std::int64_t>(1, std::llround(kInterval / stable)));
+  ForceCurve curve;
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (!simulation.sampled()) continue;
+    simulation.require_finite();
+    const Sample& sample = simulation.sample();
+    curve.time.push_back(sample.time);
+    curve.x.push_back(sample.wheel_x);
+    curve.force.push_back(sample.vertical_force);
+    if (curve.time.size() % 200 == 0)
+      progress(fmt::format("x {:.3f} m, F_N {:.2f} kN", sample.wheel_x, 1e-3 * sample.vertical_force));
+  }
+  return curve;
+}
+
+/// The same way on the beam, from far enough behind to have settled.
+ForceCurve rolled_on_beam(const Model& model, const TrackBeam& beam) {
+  const MotionSpec& motion = *model.scene.motion;
+  const double start = beam.left() + kEndOfRail;
+  BeamPassage passage(beam, beam_vehicle(model), start, kBeamStep);
+  ForceCurve curve;
+  const double end = motion.speed * motion.duration + 0.01;
+  for (double x = start; x < end;) {
+    x = start + motion.speed * (passage.time() + kBeamStep);
+    passage.step(x);
+    if (x < 0) continue;
+    curve.time.push_back(x / motion.speed);
+    curve.x.push_back(x);
+    curve.force.push_back(passage.force());
+  }
+  return curve;
+}
+
+CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& progress) {
+  const Scene scene = passage_scene(inputs);
+  Model model(scene);
+  const double spacing = scene.fastenings->spacing;
+  const double last = scene.motion->speed * scene.motion->duration;
+  const ForceCurve ours = rolled(model, progress);
+  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel));
+  const ForceCurve theory = rolled_on_beam(model, beam);
+
+  constexpr int kHarmonics = 3;
+  const Harmonics a = harmonics(ours, spacing, 1, last, kHarmonics);
+  const Harmonics before = harmonics(ours, spacing, 1, last - spacing, kHarmonics);
+  const Harmonics b = harmonics(theory, spacing, 1, last, kHarmonics);
+  const double load = model.wheel_load();
+  CaseResult result;
+  const auto part = [&](const Harmonics& h) { return 100 * 0.5 * (h.high - h.low) / load; };
+  result.findings = {
+      {"half range of the part periodic with the fastenings / static", "%", part(a), part(b), 0.15},
+      {"the same, one span before", "%", part(before), part(a), {}},
+      {"amplitude of its first harmonic / static", "%", 100 * a.amplitude[0] / load,
+       100 * b.amplitude[0] / load, 0.15},
+      {"place of its crest in the span", "-", a.phase[0], b.phase[0], 0.05, true},
+      {"amplitude of the second harmonic / static",
+       "%",
+       100 * a.amplitude[1] / load,
+       100 * b.amplitude[1] / load,
+       {}},
+      {"mean of F_N over the last span", "kN", 1e-3 * a.mean, 1e-3 * load, 0.01}};
+
+  Series curve{"tread", {}, {}, Stroke::solid};
+  Series reference{"rigid mass over the beam", {}, {}, Stroke::dashed};
+  for (const auto& [from, to] : {std::pair{&ours, &curve}, std::pair{&theory, &reference}}) {
+    to->x = from->x;
+    for (const double force : from->force) to->y.push_back(1e-3 * force);
+  }
+  Figure figure;
+  figure.title = "Contact force on the smooth rail";
+  figure.x_label = "Position of the wheel [m]";
+  figure.panels = {{"F_N [kN]", {curve, reference}, {{1e-3 * load, "static"}}, 260, std::nullopt}};
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = 0; i < f.count; ++i) {
+    const double x = f.first + i * f.spacing - scene.rail->origin;
+    if (x > 0 && x < last) figure.positions.push_back({x, i % 2 == 0 ? "fastening" : ""});
+  }
+  result.figures.push_back(figure);
+  return result;
+}
+
+}  // namespace
+
+VerifyCase fastening_passing_case() {
+  std::vector<VerifyInput> inputs = track_inputs();
+  inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {15, 150}, "the speed"});
+  inputs.push_back({"spans", nullptr, "", 3, {2, 8}, "the spans of the way, the last is evaluated"});
+  return {"fastening_passing",
+          "the half wheelset rolls over fastenings: the periodic part of F_N against a mass over a beam",
+          std::move(inputs), fastening_passing};
+}
+
+}  // namespace tread

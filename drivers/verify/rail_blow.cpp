@@ -1,0 +1,102 @@
+#include "drivers/verify/rail_blow.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/static_system.hpp"
+
+namespace tread {
+
+RailAxis::RailAxis(const Model& model)
+    : model_(&model), x_(model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())].stations) {}
+
+double RailAxis::deflection(int station, const double* u) const {
+  double sum = 0;
+  double mass = 0;
+  for (const int b : model_->index.rail()) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      const double m = model_->mass[static_cast<std::size_t>(slot)];
+      sum -= m * u[dof(slot, 2)];
+      mass += m;
+    }
+  }
+  return sum / mass;
+}
+
+double RailAxis::deflection_at(double x, const double* u) const {
+  const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
+  const auto i = static_cast<int>(above - x_.begin()) - 1;
+  const double share = (x - *(above - 1)) / (*above - *(above - 1));
+  return (1 - share) * deflection(i, u) + share * deflection(i + 1, u);
+}
+
+EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress) {
+  const MotionSpec& motion = *model.scene.motion;
+  const Preload preload = solve_preload(model, {}, progress);
+  // Whole steps between samples.
+  const double stable = motion.step_safety * step_limit(model).stable_step;
+  const auto every = static_cast<std::int64_t>(std::ceil(interval / stable));
+  const double dt = interval / static_cast<double>(every);
+  const auto samples = static_cast<std::int64_t>(std::ceil(motion.duration / interval));
+  Simulation simulation(model, preload, dt);
+  simulation.set_sampling_interval(every);
+  progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), samples * every, dt));
+  for (std::int64_t i = 0; i <= samples * every; ++i) {
+    if (i % every == 0) sample(simulation.time(), simulation.displacement().data());
+    simulation.step();
+    if (simulation.sampled()) simulation.require_finite();
+  }
+  return simulation.sample().energy;
+}
+
+namespace {
+
+/// Share of the values' squares that a harmonic of this frequency explains.
+double explained(const std::vector<double>& values, double step_angle) {
+  double ss = 0, cc = 0, sc = 0, vs = 0, vc = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double s = std::sin(step_angle * static_cast<double>(i));
+    const double c = std::cos(step_angle * static_cast<double>(i));
+    ss += s * s;
+    cc += c * c;
+    sc += s * c;
+    vs += values[i] * s;
+    vc += values[i] * c;
+  }
+  const double det = ss * cc - sc * sc;
+  return (vs * vs * cc - 2 * vs * vc * sc + vc * vc * ss) / det;
+}
+
+}  // namespace
+
+double harmonic_frequency(const std::vector<double>& values, double interval, double low, double high) {
+  const double turn = 2 * std::numbers::pi * interval;
+  // A quarter of the resolution 1 / T, then ever finer about the best.
+  double pitch = 0.25 / (interval * static_cast<double>(values.size()));
+  double best = low;
+  double most = -1;
+  for (double f = low; f <= high; f += pitch) {
+    const double share = explained(values, turn * f);
+    if (share <= most) continue;
+    most = share;
+    best = f;
+  }
+  for (int i = 0; i < 24; ++i) {
+    pitch *= 0.5;
+    for (const double f : {best - pitch, best + pitch}) {
+      const double share = explained(values, turn * f);
+      if (share <= most) continue;
+      most = share;
+      best = f;
+      break;
+    }
+  }
+  return best;
+}
+
+}  // namespace tread

@@ -1,0 +1,40 @@
+#pragma once
+// A rail without a wheel, struck by the hammer: what its cross-sections do.
+
+#include <functional>
+#include <vector>
+
+#include "drivers/model.hpp"
+#include "drivers/preload.hpp"
+#include "drivers/receptance.hpp"
+#include "drivers/simulation.hpp"
+
+namespace tread {
+
+/// Vertical motion of a rail's cross-sections, by station.
+class RailAxis {
+ public:
+  explicit RailAxis(const Model& model);
+
+  const std::vector<double>& stations() const { return x_; }
+  /// Mean downward displacement of a cross-section, weighted by mass. [m]
+  double deflection(int station, const double* u) const;
+  /// The same at x, linear between stations.
+  double deflection_at(double x, const double* u) const;
+
+ private:
+  const Model* model_;
+  std::vector<double> x_;  ///< [m]
+};
+
+/// Called with time and displacements at every sample, the start included.
+using BlowSample = std::function<void(double, const double*)>;
+
+/// Runs the scene's own step to its end, samples `interval` apart [s]; returns the last sample's energies.
+EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress);
+
+/// Frequency of the undamped harmonic that fits values at evenly spaced times best, between `low` and `high`
+/// [Hz].
+double harmonic_frequency(const std::vector<double>& values, double interval, double low, double high);
+
+}  // namespace tread

@@ -1,0 +1,263 @@
+#include "drivers/verify/track_beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Shape functions of deflection and rotation at xi = 0 ... 1 of an element of length l and their
+/// derivatives. [Friedman, Kosmatka, An improved two-node Timoshenko beam finite element, Comput. Struct. 47
+/// (1993)]
+struct BeamShape {
+  std::array<double, 4> deflection{}, slope{};    ///< w, dw/dx
+  std::array<double, 4> rotation{}, curvature{};  ///< theta, dtheta/dx
+};
+
+BeamShape beam_shape(double xi, double l, double phi) {
+  const double c = 1 / (1 + phi);
+  const double x2 = xi * xi;
+  const double x3 = x2 * xi;
+  BeamShape s;
+  s.deflection = {c * (2 * x3 - 3 * x2 - phi * xi + 1 + phi),
+                  c * l * (x3 - (2 + 0.5 * phi) * x2 + (1 + 0.5 * phi) * xi),
+                  -c * (2 * x3 - 3 * x2 - phi * xi), c * l * (x3 - (1 - 0.5 * phi) * x2 - 0.5 * phi * xi)};
+  s.slope = {c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (4 + phi) * xi + 1 + 0.5 * phi),
+             -c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (2 - phi) * xi - 0.5 * phi)};
+  s.rotation = {6 * c / l * (x2 - xi), c * (3 * x2 - (4 + phi) * xi + 1 + phi), -6 * c / l * (x2 - xi),
+                c * (3 * x2 - (2 - phi) * xi)};
+  s.curvature = {6 * c / (l * l) * (2 * xi - 1), c / l * (6 * xi - 4 - phi), -6 * c / (l * l) * (2 * xi - 1),
+                 c / l * (6 * xi - 2 + phi)};
+  return s;
+}
+
+void add_outer(BandMatrix<double>& matrix, int first, double factor, const std::array<double, 4>& v) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j <= i; ++j)
+      matrix.at(first + i, first + j) +=
+          factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
+}
+
+constexpr int kBand = 3;
+
+int element_count(double length, double element) {
+  return std::max(2, static_cast<int>(std::ceil(length / element - 1e-9)));
+}
+
+}  // namespace
+
+TrackBeam::TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
+                     double element)
+    : left_(left),
+      length_(length),
+      pitch_(length / element_count(length, element)),
+      elements_(element_count(length, element)),
+      phi_(properties.shear_stiffness > 0
+               ? 12 * properties.bending_stiffness / (properties.shear_stiffness * pitch_ * pitch_)
+               : 0),
+      stiffness_(2 * elements_ + 2, kBand),
+      damping_(stiffness_),
+      mass_(stiffness_) {
+  for (int e = 0; e < elements_; ++e) add_element(properties, e);
+  if (ends == BeamEnds::free) return;
+  const int component = ends == BeamEnds::guided ? 1 : 0;
+  for (const int node : {0, elements_}) {
+    stiffness_.restrain(2 * node + component, properties.bending_stiffness);
+    mass_.restrain(2 * node + component, 0);
+  }
+}
+
+void TrackBeam::add_element(const BeamProperties& properties, int element) {
+  // Four Gauss points integrate all products of the shape functions exactly.
+  constexpr std::array<double, 2> kPoint = {0.33998104358485626, 0.86113631159405258};
+  constexpr std::array<double, 2> kWeight = {0.65214515486254614, 0.34785484513745386};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (const double side : {-1.0, 1.0}) {
+      const BeamShape s = beam_shape(0.5 + 0.5 * side * kPoint[k], pitch_, phi_);
+      const double weight = 0.5 * pitch_ * kWeight[k];
+      std::array<double, 4> shear{};
+      for (std::size_t i = 0; i < 4; ++i) shear[i] = s.slope[i] - s.rotation[i];
+      add_outer(stiffness_, 2 * element, weight * properties.bending_stiffness, s.curvature);
+      add_outer(stiffness_, 2 * element, weight * properties.shear_stiffness, shear);
+      add_outer(mass_, 2 * element, weight * properties.mass, s.deflection);
+      add_outer(mass_, 2 * element, weight * properties.rotary_inertia, s.rotation);
+    }
+}
+
+TrackBeam::Shape TrackBeam::shape(double x) const {
+  const double at = (x - left_) / pitch_;
+  const int element = std::clamp(static_cast<int>(at), 0, elements_ - 1);
+  return {2 * element, beam_shape(at - element, pitch_, phi_).deflection};
+}
+
+void TrackBeam::support(double x, double stiffness, double damping) {
+  const Shape s = shape(x);
+  add_outer(stiffness_, s.first, stiffness, s.value);
+  add_outer(damping_, s.first, damping, s.value);
+}
+
+std::vector<double> TrackBeam::static_state(double x, double force) const {
+  BandMatrix<double> factor = stiffness_;
+  factor.factorise();
+  std::vector<double> load(static_cast<std::size_t>(factor.size()));
+  const Shape s = shape(x);
+  for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] = force * s.value[i];
+  return factor.solve(std::move(load));
+}
+
+double TrackBeam::deflection(const std::vector<double>& state, double x) const {
+  const Shape s = shape(x);
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += s.value[i] * state[static_cast<std::size_t>(s.first) + i];
+  return sum;
+}
+
+std::complex<double> TrackBeam::receptance(double x_force, double x, double frequency) const {
+  const double omega = 2 * std::numbers::pi * frequency;
+  BandMatrix<std::complex<double>> factor(stiffness_.size(), kBand);
+  factor.add(1.0, stiffness_);
+  factor.add({0, omega}, damping_);
+  factor.add(-omega * omega, mass_);
+  factor.factorise();
+  std::vector<std::complex<double>> load(static_cast<std::size_t>(factor.size()));
+  const Shape s = shape(x_force);
+  for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] = s.value[i];
+  const auto state = factor.solve(std::move(load));
+  const Shape t = shape(x);
+  std::complex<double> sum;
+  for (std::size_t i = 0; i < 4; ++i) sum += t.value[i] * state[static_cast<std::size_t>(t.first) + i];
+  return sum;
+}
+
+/// Sylvester's law of inertia: K - omega^2 M has as many negative pivots as there are modes below omega.
+int TrackBeam::modes_below(double omega) const {
+  BandMatrix<double> factor = stiffness_;
+  factor.add(-omega * omega, mass_);
+  factor.factorise();
+  int count = 0;
+  for (int i = 0; i < factor.size(); ++i) count += factor.at(i, i) < 0 ? 1 : 0;
+  return count;
+}
+
+double TrackBeam::eigenfrequency(int n) const {
+  double low = 0;
+  double high = 1;
+  while (modes_below(high) <= n) high *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (modes_below(middle) <= n ? low : high) = middle;
+  }
+  return 0.5 * (low + high) / (2 * std::numbers::pi);
+}
+
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties) {
+  if (!scene.rail) throw InputError("a rail beam needs [rail]");
+  const RailSpec& rail = *scene.rail;
+  TrackBeam beam(properties, -rail.origin, rail.length, BeamEnds::guided);
+  if (!scene.fastenings) return beam;
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = 0; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      beam.support(-rail.origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
+                   f.stiffness / f.columns, f.damping / f.columns);
+  return beam;
+}
+
+BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, double x, double dt)
+    : beam_(&beam), vehicle_(vehicle), dt_(dt), factor_(beam.stiffness()) {
+  factor_.add(2 / dt, beam.damping());
+  factor_.add(4 / (dt * dt), beam.mass());
+  factor_.factorise();
+  force_ = vehicle.load();
+  u_ = beam.static_state(x, force_);
+  v_.resize(u_.size());
+  a_.resize(u_.size());
+  rail_ = beam.deflection(u_, x);
+  approach_ = std::pow(force_ / vehicle.contact, 2.0 / 3);
+  wheel_[0] = rail_ + approach_;
+  wheel_[1] =
+      wheel_[0] + (vehicle.stiffness > 0 ? vehicle.sprung_mass * vehicle.gravity / vehicle.stiffness : 0);
+}
+
+void BeamPassage::add_sprung_mass(double mass) {
+  vehicle_.sprung_mass += mass;
+  if (vehicle_.stiffness > 0) wheel_[1] += mass * vehicle_.gravity / vehicle_.stiffness;
+}
+
+/// Deflections of wheel and sprung mass at the end of a step under the effective loads of Newmark's method.
+BeamPassage::Pair BeamPassage::solve_vehicle(const Pair& load) const {
+  const double c = vehicle_.stiffness + 2 / dt_ * vehicle_.damping;
+  const double a = c + 4 / (dt_ * dt_) * vehicle_.unsprung_mass;
+  const double b = c + 4 / (dt_ * dt_) * vehicle_.sprung_mass;
+  if (vehicle_.sprung_mass == 0) return {load[0] / a, 0};
+  const double det = a * b - c * c;
+  return {(b * load[0] + c * load[1]) / det, (a * load[1] + c * load[0]) / det};
+}
+
+void BeamPassage::step(double x, double roughness) {
+  const double h1 = 2 / dt_;
+  const double h2 = 4 / (dt_ * dt_);
+  // Beam without contact, and under a unit force at x.
+  const std::size_t n = u_.size();
+  std::vector<double> inertia(n), drag(n), unit(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    inertia[i] = h2 * u_[i] + 2 * h1 * v_[i] + a_[i];
+    drag[i] = h1 * u_[i] + v_[i];
+  }
+  std::vector<double> load = beam_->mass().times(inertia);
+  const std::vector<double> damped = beam_->damping().times(drag);
+  for (std::size_t i = 0; i < n; ++i) load[i] += damped[i];
+  const TrackBeam::Shape shape = beam_->shape(x);
+  for (std::size_t i = 0; i < 4; ++i) unit[static_cast<std::size_t>(shape.first) + i] = shape.value[i];
+  std::vector<double> next = factor_.solve(std::move(load));
+  const std::vector<double> response = factor_.solve(std::move(unit));
+
+  // Vehicle without contact, and under a unit force on the wheel.
+  const Pair mass = {vehicle_.unsprung_mass, vehicle_.sprung_mass};
+  Pair push{};
+  const double stretch_drag =
+      vehicle_.damping * (h1 * (wheel_[0] - wheel_[1]) + wheel_speed_[0] - wheel_speed_[1]);
+  for (std::size_t i = 0; i < 2; ++i)
+    push[i] =
+        mass[i] * (h2 * wheel_[i] + 2 * h1 * wheel_speed_[i] + wheel_acceleration_[i] + vehicle_.gravity) +
+        (i == 0 ? stretch_drag : -stretch_drag);
+  const Pair free = solve_vehicle(push);
+  const Pair pushed = solve_vehicle({-1, 0});
+
+  // approach = wheel - rail - roughness, both linear in the force.
+  const double gap = free[0] - beam_->deflection(next, x) - roughness;
+  const double flexibility = beam_->deflection(response, x) - pushed[0];
+  double d = std::max(approach_, 1e-9);
+  for (int i = 0; i < 50; ++i) {
+    const double root = std::sqrt(std::max(d, 0.0));
+    const double change = (d + flexibility * vehicle_.contact * root * root * root - gap) /
+                          (1 + 1.5 * flexibility * vehicle_.contact * root);
+    d -= change;
+    if (std::abs(change) < 1e-15) break;
+  }
+  approach_ = d;
+  force_ = vehicle_.contact * std::pow(std::max(d, 0.0), 1.5);
+
+  for (std::size_t i = 0; i < n; ++i) {
+    next[i] += force_ * response[i];
+    const double acceleration = h2 * (next[i] - u_[i]) - 2 * h1 * v_[i] - a_[i];
+    v_[i] += 0.5 * dt_ * (a_[i] + acceleration);
+    a_[i] = acceleration;
+    u_[i] = next[i];
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double moved = free[i] + force_ * pushed[i];
+    const double acceleration = h2 * (moved - wheel_[i]) - 2 * h1 * wheel_speed_[i] - wheel_acceleration_[i];
+    wheel_speed_[i] += 0.5 * dt_ * (wheel_acceleration_[i] + acceleration);
+    wheel_acceleration_[i] = acceleration;
+    wheel_[i] = moved;
+  }
+  rail_ = beam_->deflection(u_, x);
+  time_ += dt_;
+}
+
+}  // namespace tread

@@ -1,0 +1,115 @@
+#pragma once
+// The reference for a rail on its fastenings: a Timoshenko or Euler beam on spring-dampers, w positive
+// downwards. [theory.md, Beam on fastenings]
+
+#include <array>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "drivers/verify/band_matrix.hpp"
+#include "drivers/verify/beam_section.hpp"
+
+namespace tread {
+
+enum class BeamEnds {
+  free,
+  guided,  ///< no rotation: what u_x = 0 at the rail's ends means
+  pinned   ///< no deflection
+};
+
+/// Finite elements with the cubic shape functions that solve the static beam exactly and the consistent mass
+/// of deflection and rotation. Unknowns: (w, rotation) of node after node.
+class TrackBeam {
+ public:
+  /// From `left` on, elements no longer than `element` [m].
+  TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
+            double element = 0.01);
+
+  /// A spring-damper to ground at x [N/m], [N s/m].
+  void support(double x, double stiffness, double damping);
+
+  double left() const { return left_; }
+  double length() const { return length_; }
+
+  /// w and slope-free deflection under unit loads: shape functions at x.
+  struct Shape {
+    int first = 0;  ///< unknown of the first of four values
+    std::array<double, 4> value{};
+  };
+  Shape shape(double x) const;
+
+  /// Nodal values under a force at x, downwards, at rest.
+  std::vector<double> static_state(double x, double force) const;
+  double deflection(const std::vector<double>& state, double x) const;
+
+  /// w(x) over a harmonic force at x_force. [m/N]
+  std::complex<double> receptance(double x_force, double x, double frequency) const;
+
+  /// The n-th undamped eigenfrequency, n from 0, rigid motion included. [Hz]
+  double eigenfrequency(int n) const;
+
+  const BandMatrix<double>& stiffness() const { return stiffness_; }
+  const BandMatrix<double>& damping() const { return damping_; }
+  const BandMatrix<double>& mass() const { return mass_; }
+
+ private:
+  void add_element(const BeamProperties& properties, int element);
+  int modes_below(double omega) const;
+
+  double left_, length_, pitch_;
+  int elements_;
+  double phi_;  ///< 12 E I / (kappa G A l^2)
+  BandMatrix<double> stiffness_, damping_, mass_;
+};
+
+/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground. [InputError without
+/// rail]
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties);
+
+/// What a wheel is in the beam's world.
+struct BeamVehicle {
+  double unsprung_mass = 0;  ///< wheelset and what is fixed to it [kg]
+  double sprung_mass = 0;    ///< [kg]
+  double stiffness = 0;      ///< of the suspension [N/m]
+  double damping = 0;        ///< [N s/m]
+  double contact = 0;        ///< C of F = C approach^(3/2) [N/m^1.5]
+  double gravity = 9.81;     ///< [m/s2]
+
+  double load() const { return (unsprung_mass + sprung_mass) * gravity; }
+};
+
+/// The wheel on the beam in the time domain: average acceleration [Newmark 1959], the contact solved within
+/// the step.
+class BeamPassage {
+ public:
+  /// In equilibrium at x, at rest.
+  BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, double x, double dt);
+
+  /// One step; the wheel is then at x over `roughness` (positive: the rail is lower) [m].
+  void step(double x, double roughness = 0);
+
+  /// Mass that joins the sprung mass, the suspension already compressed for it: a step of force on the wheel.
+  void add_sprung_mass(double mass);
+
+  double time() const { return time_; }
+  double force() const { return force_; }      ///< F_N [N]
+  double wheel() const { return wheel_[0]; }   ///< deflection of the wheel [m]
+  double rail() const { return rail_; }        ///< of the rail under it [m]
+  double sprung() const { return wheel_[1]; }  ///< of the sprung mass [m]
+
+ private:
+  using Pair = std::array<double, 2>;  ///< of wheel and sprung mass
+  Pair solve_vehicle(const Pair& load) const;
+
+  const TrackBeam* beam_;
+  BeamVehicle vehicle_;
+  double dt_;
+  BandMatrix<double> factor_;  ///< of K + 2 C / dt + 4 M / dt^2
+  std::vector<double> u_, v_, a_;
+  Pair wheel_{}, wheel_speed_{}, wheel_acceleration_{};
+  double time_ = 0, force_ = 0, rail_ = 0, approach_ = 0;
+};
+
+}  // namespace tread

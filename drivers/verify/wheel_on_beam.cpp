@@ -1,0 +1,66 @@
+#include "drivers/verify/wheel_on_beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+BeamVehicle beam_vehicle(const Model& model) {
+  BeamVehicle vehicle;
+  vehicle.gravity = model.scene.gravity;
+  vehicle.unsprung_mass = model.wheelset->mass();
+  if (model.scene.vehicle) {
+    const VehicleSpec& spec = *model.scene.vehicle;
+    vehicle.unsprung_mass += spec.unsprung_mass;
+    vehicle.sprung_mass = spec.sprung_mass;
+    vehicle.stiffness = spec.suspension_stiffness;
+    vehicle.damping = spec.suspension_damping;
+  }
+  vehicle.contact = model.wheel_load() / std::pow(model.hertz_patch.approach, 1.5);
+  return vehicle;
+}
+
+Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count) {
+  const double first = last - periods * period;
+  if (curve.x.empty() || curve.x.front() > first || curve.x.back() < last)
+    throw NumericalError("verify: the wheel's way does not cover the periods to evaluate");
+  const auto value = [&](double x) {
+    const auto above = std::upper_bound(curve.x.begin() + 1, curve.x.end() - 1, x);
+    const auto i = static_cast<std::size_t>(above - curve.x.begin()) - 1;
+    const double share = (x - curve.x[i]) / (curve.x[i + 1] - curve.x[i]);
+    return (1 - share) * curve.force[i] + share * curve.force[i + 1];
+  };
+  constexpr int kParts = 400;  // of a period
+  const int points = kParts * periods;
+  std::vector<std::complex<double>> sums(static_cast<std::size_t>(count) + 1);
+  for (int i = 0; i < points; ++i) {
+    const double x = first + period * (i + 0.5) / kParts;
+    const double force = value(x);
+    for (std::size_t n = 0; n < sums.size(); ++n)
+      sums[n] +=
+          force * std::polar(1.0 / points, -2 * std::numbers::pi * static_cast<double>(n) * x / period);
+  }
+  Harmonics h;
+  h.mean = sums[0].real();
+  for (std::size_t n = 1; n < sums.size(); ++n) {
+    h.amplitude.push_back(2 * std::abs(sums[n]));
+    const double turns = -std::arg(sums[n]) / (2 * std::numbers::pi);
+    h.phase.push_back(turns < 0 ? turns + 1 : turns);
+  }
+  h.low = h.high = h.mean;
+  for (int i = 0; i < kParts; ++i) {
+    double force = h.mean;
+    for (std::size_t n = 1; n < sums.size(); ++n)
+      force +=
+          2 * (sums[n] * std::polar(1.0, 2 * std::numbers::pi * static_cast<double>(n) * i / kParts)).real();
+    h.low = std::min(h.low, force);
+    h.high = std::max(h.high, force);
+  }
+  return h;
+}
+
+}  // namespace tread

@@ -1,0 +1,30 @@
+#pragma once
+// The scene's wheel and rail as a rigid mass on a Hertz spring over a beam.
+
+#include "drivers/model.hpp"
+#include "drivers/verify/track_beam.hpp"
+
+namespace tread {
+
+/// The model's wheelset with M_a as one mass, its vehicle, the Hertz spring of its undeformed surfaces.
+BeamVehicle beam_vehicle(const Model& model);
+
+/// F_N at times and places of a passage. [N]
+struct ForceCurve {
+  std::vector<double> time;   ///< [s]
+  std::vector<double> x;      ///< of the wheel [m]
+  std::vector<double> force;  ///< [N]
+};
+
+/// Mean, and amplitude and phase of the first harmonics of a period in x over whole periods.
+struct Harmonics {
+  double mean = 0;
+  std::vector<double> amplitude;  ///< of harmonic 1, 2, ...
+  std::vector<double> phase;      ///< x of the first crest over the period, 0 ... 1
+  double low = 0, high = 0;       ///< extremes of mean and harmonics together
+};
+
+/// Over [last - periods * period, last], by trapezoids. NumericalError where the curve does not cover it.
+Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count);
+
+}  // namespace tread

@@ -1,0 +1,162 @@
+// The beam on fastenings against closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "drivers/verify/beam_section.hpp"
+#include "drivers/verify/track_beam.hpp"
+#include "io/scene_reader.hpp"
+#include "tests/measured.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kBending = 205.9e9 * 3217e-8;  // E I of CN60 [N m2]
+constexpr double kArea = 77.45e-4;              // [m2]
+constexpr double kShear = 205.9e9 / 2.6 * kArea;
+constexpr double kMass = 60.64;  // [kg/m]
+const BeamProperties kEuler = {kBending, 0, kMass, 0};
+
+BeamProperties timoshenko_rail(double kappa) {
+  return {kBending, kappa * kShear, kMass, kMass * 3217e-8 / kArea};
+}
+
+/// n x n squares of a rectangle.
+Section rectangle_section(double width, double height, int n) {
+  Section one;
+  one.p = {0, width, width, 0};
+  one.q = {0, 0, height, height};
+  one.quads = {{0, 1, 2, 3}};
+  return refined(one, n);
+}
+
+TEST(BeamSectionProperties, OfARectangle) {
+  const double nu = 0.3;
+  const Section narrow = rectangle_section(0.02, 0.2, 16);
+  const BeamSection s = beam_section({&narrow}, nu);
+  EXPECT_NEAR(s.area, 0.004, 1e-15);
+  EXPECT_NEAR(s.height, 0.1, 1e-15);
+  EXPECT_NEAR(s.vertical, 0.02 * 0.2 * 0.2 * 0.2 / 12, 1e-12);
+  // Cowper (1966): a rectangle that bends in its plane, whatever its width.
+  EXPECT_NEAR(s.shear_coefficient, 10 * (1 + nu) / (12 + 11 * nu), 3e-3);
+  const Section square = rectangle_section(0.2, 0.2, 16);
+  EXPECT_NEAR(beam_section({&square}, nu).shear_coefficient, 10 * (1 + nu) / (12 + 11 * nu), 3e-3);
+  EXPECT_NEAR(beam_section({&square}, 0).shear_coefficient, 5.0 / 6, 3e-3);
+}
+
+TEST(BeamSectionProperties, OfCN60) {
+  const Scene scene =
+      resolve_scene(SceneSource{"x.toml", "[scene]\nbased_on = \"highspeed-slab-2014\"\n", {}}, {}).scene;
+  const BeamSection s = rail_beam_section(scene);
+  measured("A", 1e4 * s.area, "cm2");
+  measured("I vertical", 1e8 * s.vertical, "cm4");
+  measured("I lateral", 1e8 * s.lateral, "cm4");
+  measured("kappa", s.shear_coefficient);
+  EXPECT_NEAR(s.area, 77.45e-4, 0.005 * 77.45e-4);
+  EXPECT_NEAR(s.vertical, 3217e-8, 0.005 * 3217e-8);
+  EXPECT_NEAR(s.lateral, 524e-8, 0.01 * 524e-8);
+  EXPECT_GT(s.shear_coefficient, 0.34);
+  EXPECT_LT(s.shear_coefficient, 0.53);
+}
+
+TEST(TrackBeam, RestsOnAWinklerFoundation) {
+  const double k = 22e6 / 0.65;
+  const double force = 8926 * 9.81;
+  TrackBeam beam(kEuler, -20, 40, BeamEnds::guided, 0.05);
+  for (int i = 0; i <= 1600; ++i) beam.support(-20 + 0.025 * i, k * 0.025 * (i % 1600 == 0 ? 0.5 : 1), 0);
+  const double beta = std::pow(k / (4 * kBending), 0.25);
+  const double theory = force * beta / (2 * k);
+  EXPECT_NEAR(theory, 1.375e-3, 1e-6);
+  EXPECT_NEAR(beam.deflection(beam.static_state(0, force), 0), theory, 1e-4 * theory);
+  EXPECT_NEAR(std::abs(beam.receptance(0, 0.3, 0.001)), beam.deflection(beam.static_state(0, 1), 0.3), 1e-12);
+}
+
+TEST(TrackBeam, PinnedPinnedFrequency) {
+  const double k = std::numbers::pi / 0.65;
+  EXPECT_NEAR(wave_frequency(kEuler, k), 1229, 1);
+  const double wanted[][2] = {{0.34, 916}, {0.40, 945}, {0.45, 964}, {0.53, 989}};
+  for (const auto& [kappa, frequency] : wanted)
+    EXPECT_NEAR(wave_frequency(timoshenko_rail(kappa), k), frequency, 1) << kappa;
+  EXPECT_NEAR(TrackBeam(kEuler, 0, 0.65, BeamEnds::pinned).eigenfrequency(0), 1229, 1);
+  EXPECT_NEAR(TrackBeam(timoshenko_rail(0.4), 0, 0.65, BeamEnds::pinned).eigenfrequency(0), 945, 1);
+}
+
+TEST(TrackBeam, FreeAndGuidedBeamsHaveTheirFrequencies) {
+  const double length = 2;
+  const double scale = std::sqrt(kBending / kEuler.mass) / (2 * std::numbers::pi * length * length);
+  const TrackBeam free(kEuler, 0, length, BeamEnds::free);
+  EXPECT_LT(free.eigenfrequency(1), 0.1);  // two rigid motions
+  EXPECT_NEAR(free.eigenfrequency(2), scale * std::pow(4.730040745, 2), 1e-3);
+  EXPECT_NEAR(free.eigenfrequency(3), scale * std::pow(7.853204624, 2), 1e-2);
+  // Between guided ends run pure cosines.
+  const BeamProperties rail = timoshenko_rail(0.4);
+  const TrackBeam guided(rail, 0, length, BeamEnds::guided);
+  for (int n = 1; n < 8; ++n) {
+    const double theory = wave_frequency(rail, n * std::numbers::pi / length);
+    const double error = guided.eigenfrequency(n) / theory - 1;
+    EXPECT_NEAR(error, 0, 6e-4) << n;
+    // Second order in the element.
+    const TrackBeam coarse(rail, 0, length, BeamEnds::guided, 0.02);
+    if (n > 4) {
+      EXPECT_NEAR((coarse.eigenfrequency(n) / theory - 1) / error, 4, 0.1);
+    }
+    EXPECT_NEAR(wave_number(rail, theory), n * std::numbers::pi / length, 1e-9);
+  }
+}
+
+TEST(TrackBeam, ReceptanceOfAFreeRigidBeam) {
+  // A short, stiff beam is a mass: a force in the middle moves it by -1 / (m omega^2).
+  const TrackBeam beam(kEuler, -0.1, 0.2, BeamEnds::free);
+  const double omega = 2 * std::numbers::pi * 5;
+  EXPECT_NEAR(beam.receptance(0, 0, 5).real() * -omega * omega * 0.2 * kEuler.mass, 1, 1e-4);
+}
+
+BeamVehicle wheel() {
+  BeamVehicle v;
+  v.unsprung_mass = 926;
+  v.sprung_mass = 8000;
+  v.stiffness = 880e3;
+  v.damping = 4e3;
+  v.contact = 9.1e10;
+  return v;
+}
+
+TEST(BeamPassage, StaysInEquilibrium) {
+  TrackBeam beam(timoshenko_rail(0.4), -3, 6, BeamEnds::guided, 0.05);
+  for (int i = 0; i < 9; ++i) beam.support(-2.6 + 0.65 * i, 22e6, 200e3);
+  BeamPassage passage(beam, wheel(), 0, 2e-5);
+  for (int i = 0; i < 500; ++i) passage.step(0);
+  EXPECT_NEAR(passage.force(), wheel().load(), 1e-6 * wheel().load());
+}
+
+TEST(BeamPassage, WheelOnAStiffBeamOscillatesOnItsContact) {
+  // A beam that hardly moves: the wheel on the Hertz spring alone, displaced a little by a step of roughness.
+  const BeamProperties stiff = {1e16, 0, 1e9, 0};
+  TrackBeam beam(stiff, -1, 2, BeamEnds::guided, 0.1);
+  beam.support(0, 1e16, 0);
+  BeamVehicle v = wheel();
+  v.stiffness = v.damping = 0;
+  v.sprung_mass = 0;
+  const double dt = 1e-6;
+  BeamPassage passage(beam, v, 0, dt);
+  const double still = passage.wheel();
+  // Period of small oscillations about the static approach d: k = 3/2 C sqrt(d).
+  const double d = std::pow(v.load() / v.contact, 2.0 / 3);
+  const double period = 2 * std::numbers::pi * std::sqrt(v.unsprung_mass / (1.5 * v.contact * std::sqrt(d)));
+  double turned = 0;
+  double before = passage.wheel();
+  bool falling = false;
+  for (int i = 0; i < 20000 && turned == 0; ++i) {
+    passage.step(0, 0.01 * d);
+    if (falling && passage.wheel() < before) turned = passage.time();
+    falling = passage.wheel() > before;
+    before = passage.wheel();
+  }
+  EXPECT_GT(before, still);
+  EXPECT_NEAR(turned, 0.5 * period, 0.01 * period);
+}
+
+}  // namespace
+}  // namespace tread
