@@ -103,7 +103,7 @@ struct MotionSpec {
   int reversals = 0;  ///< times that the full torque then turns into its opposite, each in 2 T1
   bool spin_in_preload = true;
   double creepage = 0;           ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
-  std::string start = "moving";  ///< velocities at t = 0: "rigid" bodies, or a "moving" steady deflection
+  std::string start = "moving";  ///< motion at t = 0: "rigid", "moving" static deflection, "rolling" before
   double step_safety = 0.95;     ///< fraction of the computed stable step
 
   /// Spin over that of free rolling. [theory.md, eq. 13]

@@ -17,7 +17,10 @@ namespace tread {
 namespace {
 
 /// Gravity, centrifugal force and vehicle weight as an external force field.
-AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, double spin) {
+AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, const SteadyMotion& motion) {
+  const double spin = motion.spin;
+  // Run in, the wheel is accelerated by what the contact force exceeds the static one.
+  const double inertia = motion.run_in ? motion.run_in->force - model.wheel_load() : 0;
   AlignedVector<double> load(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   for (const SweptBlock& block : model.mesh.blocks)
     for (int station = 0; station < block.station_count(); ++station) {
@@ -31,7 +34,7 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
               m * spin * spin * block.section.q[static_cast<std::size_t>(node)];
       }
     }
-  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
+  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load() - inertia});
   if (model.guide) {
     model.guide->reduce(load.data());
     load[static_cast<std::size_t>(model.guide->unknown())] +=
@@ -162,6 +165,7 @@ SteadyMotion steady_motion(const Model& model) {
   const MotionSpec& motion = *model.scene.motion;
   if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
   if (motion.start == "moving") out.speed = motion.speed;
+  if (motion.start == "rolling" && motion.speed > 0) out.run_in = run_in(model);
   return out;
 }
 
@@ -172,6 +176,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const auto n = static_cast<std::int64_t>(system.diagonal().size());
 
   Preload out;
+  out.motion = motion;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
   if (model.contact) {
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
@@ -180,7 +185,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }
-  AlignedVector<double> load = external_load(model, out.wheel, motion.spin);
+  AlignedVector<double> load = external_load(model, out.wheel, motion);
   const auto held = held_wheel(model, system.diagonal());
   double scale = model.wheel_load();
   if (scale <= 0) {

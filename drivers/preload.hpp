@@ -3,15 +3,26 @@
 // contact set. [theory.md, Preload]
 
 #include <functional>
+#include <optional>
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "drivers/beam/run_in.hpp"
 #include "drivers/model.hpp"
 
 namespace tread {
 
+/// Motion whose steady inertia the static state carries: material passes through a deflection that stays
+/// under the wheel. [theory.md, Preload]
+struct SteadyMotion {
+  double spin = 0;              ///< of the wheel: centrifugal force about the bent axle [rad/s]
+  double speed = 0;             ///< of the deflection along the track [m/s]
+  std::optional<RunIn> run_in;  ///< its contact force replaces the static one
+};
+
 struct Preload {
   AlignedVector<double> displacement;  ///< secondary nodes filled [m]
+  SteadyMotion motion;                 ///< that it carries
   BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   int newton_iterations = 0;
@@ -25,13 +36,6 @@ struct Preload {
 };
 
 using ProgressText = std::function<void(const std::string&)>;
-
-/// Motion whose steady inertia the static state carries: material passes through a deflection that stays
-/// under the wheel. [theory.md, Preload]
-struct SteadyMotion {
-  double spin = 0;   ///< of the wheel: centrifugal force about the bent axle [rad/s]
-  double speed = 0;  ///< of the deflection along the track [m/s]
-};
 
 /// That the scene starts with: speed / radius by its creepage, as far as it wants them in the static state.
 SteadyMotion steady_motion(const Model& model);

@@ -28,6 +28,8 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       frame_(preload.wheel) {
   const Scene& scene = model.scene;
   if (model.guide) model.guide->settle(u_.data());
+  const std::optional<RunIn>& run_in = preload.motion.run_in;
+  if (run_in) place(*run_in);
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
     if (model.contact) {
@@ -35,7 +37,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       model.contact->begin();
       surface_.emplace(model.contact->nodes().grid());
     }
-    start_velocities();
+    start_velocities(run_in);
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
@@ -68,6 +70,10 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
     const Vec3 journal = frame_.origin + model.journal.displacement(u_.data(), frame_);
     sprung_.free_length_height = sprung_.mass * scene.gravity / sprung_.stiffness;
     sprung_.height = journal.z;
+    if (run_in) {
+      sprung_.height -= run_in->stretch;
+      sprung_.speed = -run_in->sprung_speed;
+    }
   }
   if (scene.pulse) {
     for (const SweptBlock& block : model.mesh.blocks)
@@ -104,12 +110,61 @@ double along_sweep(const SweptBlock& block, int node, int station, int component
 
 }  // namespace
 
-void Simulation::start_velocities() {
+/// Adds motions of the rail's sections, deflection downwards and rotation, to a field: [m] or [m/s].
+template <class Motion>
+void Simulation::add_to_rail(const Motion& motion, AlignedVector<double>& field) const {
+  // Rotation is about the rail's centroid.
+  double mass = 0;
+  double moment = 0;
+  for (const int b : model_->index.rail()) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const double m =
+          model_->mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1);
+      mass += m;
+      moment += m * block.section.q[static_cast<std::size_t>(node)];
+    }
+  }
+  for (const int b : model_->index.rail()) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station) {
+      const auto [deflection, rotation] = motion(block.stations[static_cast<std::size_t>(station)]);
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const double above = block.section.q[static_cast<std::size_t>(node)] - moment / mass;
+        field[static_cast<std::size_t>(dof(slot, 0))] += above * rotation;
+        field[static_cast<std::size_t>(dof(slot, 2))] -= deflection;
+      }
+    }
+  }
+  for (const std::int64_t unknown : model_->restrained) field[static_cast<std::size_t>(unknown)] = 0;
+  if (model_->ties) model_->ties->follow({field.data()});
+}
+
+void Simulation::place(const RunIn& run_in) {
+  add_to_rail(
+      [&](double x) {
+        const RunIn::Section section = run_in.at(x);
+        return std::pair(section.deflection, section.rotation);
+      },
+      u_);
+  frame_.origin.z -= run_in.at(0).deflection;
+}
+
+void Simulation::start_velocities(const std::optional<RunIn>& run_in) {
   const MotionSpec* motion = model_->scene.motion ? &*model_->scene.motion : nullptr;
   const double speed = motion ? motion->speed : 0.0;
-  frame_.velocity = {speed, 0, 0};
+  frame_.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
   frame_.spin = speed / model_->wheel_radius();
-  if (motion && motion->start == "moving") start_deflected(speed);
+  if (motion && motion->start != "rigid") start_deflected(speed);
+  if (run_in)
+    add_to_rail(
+        [&](double x) {
+          const RunIn::Section section = run_in->at(x);
+          return std::pair(section.deflection_rate, section.rotation_rate);
+        },
+        v_);
+  if (motion && motion->start != "rigid") roll_freely();
   if (!motion || motion->creepage == 0) return;
   frame_.spin *= motion->spin_ratio();
   for (const int b : model_->index.wheel()) {
@@ -132,6 +187,9 @@ void Simulation::start_deflected(double speed) {
   }
   for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
   if (model_->ties) model_->ties->follow({v_.data()});
+}
+
+void Simulation::roll_freely() {
   if (!model_->contact) return;
   // Free rolling: the spin at which the patch as a whole does not slip.
   const ContactState state{u_.data(), v_.data(), &frame_};

@@ -94,8 +94,12 @@ class Simulation {
   void finish();
   void begin_sample();
   void end_sample();
-  void start_velocities();
+  template <class Motion>
+  void add_to_rail(const Motion& motion, AlignedVector<double>& field) const;
+  void place(const RunIn& run_in);
+  void start_velocities(const std::optional<RunIn>& run_in);
   void start_deflected(double speed);
+  void roll_freely();
   BodyFrame half_step_frame() const;
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;

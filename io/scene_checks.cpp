@@ -177,6 +177,9 @@ class Checker {
   }
 
   void check_motion(const MotionSpec& motion) {
+    require(motion.start != "rolling" || (scene_.fastenings && scene_.wheel && scene_.wheel->bore == "free"),
+            {"motion.start"},
+            "only a free wheel on a rail on [fastenings] can have been rolling; state start = \"moving\"");
     require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
             "state the traction by mu or by torque, not both");
     if (!motion.traction_mu || !scene_.contact) return;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "drivers/beam/run_in.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"

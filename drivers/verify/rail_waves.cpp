@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "drivers/beam/track_beam.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/rail_blow.hpp"
-#include "drivers/verify/track_beam.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {

@@ -9,21 +9,6 @@
 
 namespace tread {
 
-BeamVehicle beam_vehicle(const Model& model) {
-  BeamVehicle vehicle;
-  vehicle.gravity = model.scene.gravity;
-  vehicle.unsprung_mass = model.wheelset->mass();
-  if (model.scene.vehicle) {
-    const VehicleSpec& spec = *model.scene.vehicle;
-    vehicle.unsprung_mass += spec.unsprung_mass;
-    vehicle.sprung_mass = spec.sprung_mass;
-    vehicle.stiffness = spec.suspension_stiffness;
-    vehicle.damping = spec.suspension_damping;
-  }
-  vehicle.contact = model.wheel_load() / std::pow(model.hertz_patch.approach, 1.5);
-  return vehicle;
-}
-
 Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count) {
   const double first = last - periods * period;
   if (curve.x.empty() || curve.x.front() > first || curve.x.back() < last)

@@ -1,13 +1,9 @@
 #pragma once
-// The scene's wheel and rail as a rigid mass on a Hertz spring over a beam.
+// Curves of F_N over the fastenings and what repeats in them.
 
-#include "drivers/model.hpp"
-#include "drivers/verify/track_beam.hpp"
+#include <vector>
 
 namespace tread {
-
-/// The model's wheelset with M_a as one mass, its vehicle, the Hertz spring of its undeformed surfaces.
-BeamVehicle beam_vehicle(const Model& model);
 
 /// F_N at times and places of a passage. [N]
 struct ForceCurve {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/beam/run_in.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"

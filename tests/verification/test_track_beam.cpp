@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/verify/beam_section.hpp"
-#include "drivers/verify/track_beam.hpp"
+#include "drivers/beam/beam_section.hpp"
+#include "drivers/beam/track_beam.hpp"
 #include "io/scene_reader.hpp"
 #include "tests/measured.hpp"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "drivers/beam/track_beam.hpp"
 #include "drivers/preload.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
-#include "drivers/verify/track_beam.hpp"
 #include "io/scene_reader.hpp"
 #include "tests/measured.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/scene.hpp"
-#include "drivers/verify/band_matrix.hpp"
-#include "drivers/verify/beam_section.hpp"
+#include "drivers/beam/band_matrix.hpp"
+#include "drivers/beam/beam_section.hpp"
 
 namespace tread {
 
@@ -31,6 +31,8 @@ class TrackBeam {
   void support(double x, double stiffness, double damping);
 
   double left() const { return left_; }
+  double pitch() const { return pitch_; }
+  int nodes() const { return elements_ + 1; }
   double length() const { return length_; }
 
   /// w and slope-free deflection under unit loads: shape functions at x.
@@ -64,9 +66,9 @@ class TrackBeam {
   BandMatrix<double> stiffness_, damping_, mass_;
 };
 
-/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground. [InputError without
-/// rail]
-TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties);
+/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground; to its left it goes
+/// on for so many more spans. [InputError without rail]
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
 /// What a wheel is in the beam's world.
 struct BeamVehicle {
@@ -74,10 +76,13 @@ struct BeamVehicle {
   double sprung_mass = 0;    ///< [kg]
   double stiffness = 0;      ///< of the suspension [N/m]
   double damping = 0;        ///< [N s/m]
+  double pressed = 0;        ///< further force on the wheel, downwards [N]
   double contact = 0;        ///< C of F = C approach^(3/2) [N/m^1.5]
   double gravity = 9.81;     ///< [m/s2]
 
-  double load() const { return (unsprung_mass + sprung_mass) * gravity; }
+  double load() const { return (unsprung_mass + sprung_mass) * gravity + pressed; }
+  /// Of the sprung mass below its place over the wheel without load [m].
+  double static_stretch() const { return stiffness > 0 ? sprung_mass * gravity / stiffness : 0; }
 };
 
 /// The wheel on the beam in the time domain: average acceleration [Newmark 1959], the contact solved within
@@ -94,10 +99,14 @@ class BeamPassage {
   void add_sprung_mass(double mass);
 
   double time() const { return time_; }
-  double force() const { return force_; }      ///< F_N [N]
-  double wheel() const { return wheel_[0]; }   ///< deflection of the wheel [m]
-  double rail() const { return rail_; }        ///< of the rail under it [m]
-  double sprung() const { return wheel_[1]; }  ///< of the sprung mass [m]
+  double force() const { return force_; }                       ///< F_N [N]
+  double wheel() const { return wheel_[0]; }                    ///< deflection of the wheel [m]
+  double rail() const { return rail_; }                         ///< of the rail under it [m]
+  double sprung() const { return wheel_[1]; }                   ///< of the sprung mass [m]
+  double wheel_speed() const { return wheel_speed_[0]; }        ///< downwards [m/s]
+  double sprung_speed() const { return wheel_speed_[1]; }       ///< downwards [m/s]
+  const std::vector<double>& beam_state() const { return u_; }  ///< w [m] and rotation [rad] of each node
+  const std::vector<double>& beam_rate() const { return v_; }   ///< their rates [m/s], [rad/s]
 
  private:
   using Pair = std::array<double, 2>;  ///< of wheel and sprung mass

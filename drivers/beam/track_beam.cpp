@@ -1,4 +1,4 @@
-#include "drivers/verify/track_beam.hpp"
+#include "drivers/beam/track_beam.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,13 +154,14 @@ double TrackBeam::eigenfrequency(int n) const {
   return 0.5 * (low + high) / (2 * std::numbers::pi);
 }
 
-TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties) {
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans) {
   if (!scene.rail) throw InputError("a rail beam needs [rail]");
   const RailSpec& rail = *scene.rail;
-  TrackBeam beam(properties, -rail.origin, rail.length, BeamEnds::guided);
+  const double more = scene.fastenings ? more_spans * scene.fastenings->spacing : 0;
+  TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
   if (!scene.fastenings) return beam;
   const FasteningSpec& f = *scene.fastenings;
-  for (int i = 0; i < f.count; ++i)
+  for (int i = -more_spans; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       beam.support(-rail.origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
                    f.stiffness / f.columns, f.damping / f.columns);
@@ -179,8 +180,7 @@ BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, doub
   rail_ = beam.deflection(u_, x);
   approach_ = std::pow(force_ / vehicle.contact, 2.0 / 3);
   wheel_[0] = rail_ + approach_;
-  wheel_[1] =
-      wheel_[0] + (vehicle.stiffness > 0 ? vehicle.sprung_mass * vehicle.gravity / vehicle.stiffness : 0);
+  wheel_[1] = wheel_[0] + vehicle.static_stretch();
 }
 
 void BeamPassage::add_sprung_mass(double mass) {
@@ -224,7 +224,7 @@ void BeamPassage::step(double x, double roughness) {
   for (std::size_t i = 0; i < 2; ++i)
     push[i] =
         mass[i] * (h2 * wheel_[i] + 2 * h1 * wheel_speed_[i] + wheel_acceleration_[i] + vehicle_.gravity) +
-        (i == 0 ? stretch_drag : -stretch_drag);
+        (i == 0 ? vehicle_.pressed + stretch_drag : -stretch_drag);
   const Pair free = solve_vehicle(push);
   const Pair pushed = solve_vehicle({-1, 0});
 

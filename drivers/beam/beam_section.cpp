@@ -1,4 +1,4 @@
-#include "drivers/verify/beam_section.hpp"
+#include "drivers/beam/beam_section.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "drivers/beam/band_matrix.hpp"
 #include "drivers/sections.hpp"
-#include "drivers/verify/band_matrix.hpp"
 
 namespace tread {
 

@@ -1,0 +1,37 @@
+#pragma once
+// How the start of rolling looks to a wheel that has been rolling: rail and vehicle as a beam on the scene's
+// fastenings leaves them that a rigid wheel has run over. [theory.md, Start]
+
+#include <vector>
+
+#include "drivers/beam/track_beam.hpp"
+#include "drivers/model.hpp"
+
+namespace tread {
+
+/// The model's wheelset with M_a as one mass, its vehicle or load, the Hertz spring of its undeformed
+/// surfaces.
+BeamVehicle beam_vehicle(const Model& model);
+
+/// The state at x = 0 less the static one under the same contact force; deflections and speeds downwards.
+struct RunIn {
+  double force = 0;         ///< F_N [N]
+  double wheel_speed = 0;   ///< [m/s]
+  double stretch = 0;       ///< of the sprung mass towards the wheel, more than under its weight [m]
+  double sprung_speed = 0;  ///< [m/s]
+
+  /// What a section of the beam does more than in the static state; rates as seen from the wheel.
+  struct Section {
+    double deflection = 0, rotation = 0;            ///< [m], [rad]
+    double deflection_rate = 0, rotation_rate = 0;  ///< [m/s], [rad/s]
+  };
+  Section at(double x) const;
+
+  double left = 0, pitch = 0;     ///< of the sections [m]
+  std::vector<Section> sections;  ///< at least two
+};
+
+/// The wheel has rolled over the fastenings for a time in which its start is forgotten.
+RunIn run_in(const Model& model);
+
+}  // namespace tread
