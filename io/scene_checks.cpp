@@ -73,8 +73,10 @@ class Checker {
             "plane strain needs a block under the tyre; state rail.profile = \"box\"");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
-    require(!s.motion || s.pulse || (s.wheel && s.rail && s.contact), {"motion"},
-            "motion needs [wheel], [rail] and [contact], or [pulse]");
+    require(!s.motion || s.pulse || s.wheel, {"motion"}, "motion needs [wheel], or [pulse] on a bar");
+    require(!s.motion || !s.wheel || s.rail || (!s.load && !s.vehicle), {"motion", "rail"},
+            "a wheel without a rail moves freely and carries neither load nor vehicle; add [rail], or state "
+            "load.present = false or vehicle.present = false");
     require(s.wheel || s.rail, {"scene.based_on"},
             "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
   }

@@ -12,5 +12,6 @@ VerifyCase contact_filter_case();  // contact_filter.cpp
 VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
+VerifyCase moving_frames_case();   // moving_frames.cpp
 
 }  // namespace tread
