@@ -13,5 +13,6 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 VerifyCase moving_frames_case();   // moving_frames.cpp
+VerifyCase wheelset_modes_case();  // wheelset_modes.cpp
 
 }  // namespace tread

@@ -35,7 +35,8 @@ struct Ring {
     return std::max(3.0, std::round((slice ? 0.4 : 0.14) * radius / element_size)) * element_size;
   }
   double width() const { return slice ? element_size : thickness(); }
-  double turn() const { return 2 * std::numbers::pi * radius; }
+  /// In which elements have one size: at least a turn, or the ring would be out of balance.
+  double fine() const { return std::max(way, 1.01 * 2 * std::numbers::pi * radius); }
   Scene scene() const;
 };
 
@@ -63,10 +64,10 @@ lateral_offset = "0 mm"
 speed = "{speed} m/s"
 duration = "{duration} s"
 {more})",
-      fmt::arg("h", element_size), fmt::arg("slice", slice),
-      fmt::arg("zone", more.empty() ? 1.01 * turn() : way), fmt::arg("density", kDensity),
-      fmt::arg("diameter", 2 * radius), fmt::arg("width", width()), fmt::arg("thickness", thickness()),
-      fmt::arg("speed", speed), fmt::arg("duration", way / speed), fmt::arg("more", more));
+      fmt::arg("h", element_size), fmt::arg("slice", slice), fmt::arg("zone", fine()),
+      fmt::arg("density", kDensity), fmt::arg("diameter", 2 * radius), fmt::arg("width", width()),
+      fmt::arg("thickness", thickness()), fmt::arg("speed", speed), fmt::arg("duration", way / speed),
+      fmt::arg("more", more));
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 
@@ -161,8 +162,7 @@ Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress
   const MotionSpec& motion = *model.scene.motion;
   const Preload preload = solve_preload(model, steady_motion(model), progress);
   const double stable = motion.step_safety * step_limit(model).stable_step;
-  const std::int64_t steps =
-      std::max(wanted, static_cast<std::int64_t>(std::ceil(motion.duration / stable)));
+  const std::int64_t steps = std::max(wanted, static_cast<std::int64_t>(std::ceil(motion.duration / stable)));
   Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
   simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
   progress(fmt::format("{} elements, {} steps of {:.3e} s, {:.3g} m", model.elements(), steps,
@@ -205,7 +205,7 @@ wheel_load = "{load} N"
 [contact]
 friction = 0
 )",
-                     fmt::arg("length", ring.way + 2 * end), fmt::arg("end", end),
+                     fmt::arg("length", ring.fine() + 2 * end), fmt::arg("end", end),
                      fmt::arg("h", ring.element_size), fmt::arg("height", 3 * ring.element_size),
                      fmt::arg("load", load));
 }
@@ -282,15 +282,18 @@ CaseResult moving_frames(const VerifyInputs& inputs, const ProgressText& progres
   slice.more = ground(slice, load);
   const Run rolling = run_ring(slice, steps("rolling_steps"), progress);
   add_drifts("rolling", rolling, result);
-  result.findings.push_back({"rolling: lost by the lead of the contact forces / kinetic energy", "-",
-                             rolling.moments.back().loss / rolling.kinetic, 0, {}, true});
-  result.findings.push_back(
-      {"rolling: mean F_N", "kN",
-       1e-3 * statistics(
-                  rolling.moments, [](const Moment&) { return true; },
-                  [](const Moment& m) { return m.force; })
-                  .mean,
-       1e-3 * load, 1e-3});
+  result.findings.push_back({"rolling: lost by the lead of the contact forces / kinetic energy",
+                             "-",
+                             rolling.moments.back().loss / rolling.kinetic,
+                             0,
+                             {},
+                             true});
+  result.findings.push_back({"rolling: mean F_N", "kN",
+                             1e-3 * statistics(
+                                        rolling.moments, [](const Moment&) { return true; },
+                                        [](const Moment& m) { return m.force; })
+                                        .mean,
+                             1e-3 * load, 1e-3});
   result.figures.push_back(drift_figure("A wheel that rolls without friction", rolling));
   return result;
 }
