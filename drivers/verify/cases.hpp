@@ -14,5 +14,6 @@ VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 VerifyCase moving_frames_case();   // moving_frames.cpp
 VerifyCase wheelset_modes_case();  // wheelset_modes.cpp
+VerifyCase ring_modes_case();      // ring_modes.cpp
 
 }  // namespace tread

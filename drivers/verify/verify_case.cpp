@@ -42,8 +42,9 @@ bool Finding::pass() const {
 
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = {
-      hertz_sphere_case(),   hertz_ellipse_case(), contact_filter_case(), carter_case(),
-      steady_rolling_case(), sliding_case(),       moving_frames_case(),  wheelset_modes_case()};
+      hertz_sphere_case(),  hertz_ellipse_case(),  contact_filter_case(),
+      carter_case(),        steady_rolling_case(), sliding_case(),
+      moving_frames_case(), wheelset_modes_case(), ring_modes_case()};
   return cases;
 }
 
