@@ -186,41 +186,58 @@ MeshedWheelset wheelset_of(double element_size, int count, const ProgressText& p
   return out;
 }
 
-/// Motion along the axis over the distance from it, mean of the disc's and tread's nodes in rings of 20 mm.
-Figure shape_figure(const Model& model, const MeshedWheelset& wheelset) {
-  constexpr double kRing = 0.02;
-  Panel along{"Along the axis [-]", {}, {}, 240, std::nullopt};
-  Panel plane{"Radial, torsion: around [-]", {}, {}, 240, std::nullopt};
+/// Motion of one section node in a mode, and where it is shown.
+struct ShapePoint {
+  double at = 0;         ///< [mm]
+  std::size_t node = 0;  ///< of all section nodes
+};
+
+/// A curve for each of the lowest modes.
+Panel shape_panel(const MeshedWheelset& wheelset, const std::string& label,
+                  const std::vector<ShapePoint>& points, std::vector<double> NaturalMode::*motion) {
+  constexpr std::size_t kCurves = 6;
+  Panel panel{label, {}, {}, 300, std::nullopt};
   for (const std::string& name : wheelset.order) {
-    if (along.series.size() == 5) break;
+    if (panel.series.size() == kCurves) break;
     const NaturalMode& mode = wheelset.elastic.at(name);
-    std::map<int, std::array<double, 3>> rings;  // sums of both motions, count
-    std::size_t node = 0;
-    for (const int b : model.index.wheel()) {
-      const Section& section = model.mesh.blocks[static_cast<std::size_t>(b)].section;
-      for (const double r : section.q) {
-        auto& ring = rings[static_cast<int>(r / kRing)];
-        ring[0] += mode.along_axis[node];
-        ring[1] += mode.in_plane[node];
-        ring[2] += 1;
-        ++node;
-      }
+    Series curve{fmt::format("{}: {:.0f} Hz", name, mode.frequency), {}, {}, Stroke::solid};
+    for (const ShapePoint& point : points) {
+      curve.x.push_back(point.at);
+      curve.y.push_back((mode.*motion)[point.node]);
     }
-    Series a{fmt::format("{}: {:.0f} Hz", name, mode.frequency), {}, {}, Stroke::solid};
-    Series p = a;
-    for (const auto& [ring, sums] : rings) {
-      for (Series* s : {&a, &p}) s->x.push_back(1e3 * kRing * (ring + 0.5));
-      a.y.push_back(sums[0] / sums[2]);
-      p.y.push_back(sums[1] / sums[2]);
-    }
-    along.series.push_back(std::move(a));
-    plane.series.push_back(std::move(p));
+    panel.series.push_back(std::move(curve));
   }
-  Figure figure;
-  figure.title = "Modes of the free half wheelset: mean motion of all nodes at a distance from the axis";
-  figure.x_label = "Distance from the axis [mm]";
-  figure.panels = {along, plane};
-  return figure;
+  return panel;
+}
+
+std::vector<Figure> shape_figures(const Model& model, const MeshedWheelset& wheelset) {
+  std::vector<ShapePoint> bore, web;
+  std::size_t node = 0;
+  for (const int b : model.index.wheel()) {
+    const Section& section = model.mesh.blocks[static_cast<std::size_t>(b)].section;
+    const double inner = *std::min_element(section.q.begin(), section.q.end());
+    const auto tie = section.paths.find("tie_inner");
+    const double middle = tie == section.paths.end()
+                              ? 0
+                              : 0.5 * (section.p[static_cast<std::size_t>(tie->second.front())] +
+                                       section.p[static_cast<std::size_t>(tie->second.back())]);
+    for (std::size_t i = 0; i < section.p.size(); ++i, ++node) {
+      if (b == model.index.axle && section.q[i] < inner + 1e-6) bore.push_back({1e3 * section.p[i], node});
+      if (b == model.index.disc && std::abs(section.p[i] - middle) < 1e-4)
+        web.push_back({1e3 * section.q[i], node});
+    }
+  }
+  const auto by_place = [](const ShapePoint& a, const ShapePoint& b) { return a.at < b.at; };
+  std::sort(bore.begin(), bore.end(), by_place);
+  std::sort(web.begin(), web.end(), by_place);
+  Figure disc, axle;
+  disc.title = "Modes of the free half wheelset: middle plane of the disc";
+  disc.x_label = "Distance from the axis [mm]";
+  disc.panels = {shape_panel(wheelset, "Motion along the axis [-]", web, &NaturalMode::along_axis)};
+  axle.title = "Modes of the free half wheelset: bore of the axle";
+  axle.x_label = "y, 0 at the rail's centre line [mm]";
+  axle.panels = {shape_panel(wheelset, "Radial motion, in torsion around [-]", bore, &NaturalMode::in_plane)};
+  return {disc, axle};
 }
 
 CaseResult wheelset_modes(const VerifyInputs& inputs, const ProgressText& progress) {
@@ -260,7 +277,7 @@ CaseResult wheelset_modes(const VerifyInputs& inputs, const ProgressText& progre
   if (torsion != fine.elastic.end())
     result.findings.push_back({"torsion, 1, against a shaft with a rigid disc", "Hz",
                                torsion->second.frequency, fine.shaft_torsion, 0.05});
-  result.figures = {shape_figure(Model(free_wheelset(size)), fine)};
+  result.figures = shape_figures(Model(free_wheelset(size)), fine);
   return result;
 }
 
