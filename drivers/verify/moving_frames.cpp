@@ -19,7 +19,9 @@ namespace tread {
 namespace {
 
 constexpr int kSamples = 1000;
-constexpr double kDensity = 7790;  // [kg/m3]
+constexpr double kDensity = 7790;           // [kg/m3]
+constexpr double kYoungsModulus = 205.9e9;  // [Pa]
+constexpr double kPoissonsRatio = 0.3;
 
 /// A plain ring of steel, and the whole turn of it in elements of one size.
 struct Ring {
@@ -50,8 +52,8 @@ plane_strain = {slice}
 start = "0 m"
 length = "{zone} m"
 [material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0.3
+youngs_modulus = "{E} Pa"
+poissons_ratio = {nu}
 density = "{density} kg/m3"
 [wheel]
 shape = "tyre"
@@ -64,10 +66,10 @@ lateral_offset = "0 mm"
 speed = "{speed} m/s"
 duration = "{duration} s"
 {more})",
-      fmt::arg("h", element_size), fmt::arg("slice", slice), fmt::arg("zone", fine()),
-      fmt::arg("density", kDensity), fmt::arg("diameter", 2 * radius), fmt::arg("width", width()),
-      fmt::arg("thickness", thickness()), fmt::arg("speed", speed), fmt::arg("duration", way / speed),
-      fmt::arg("more", more));
+      fmt::arg("h", element_size), fmt::arg("slice", slice), fmt::arg("E", kYoungsModulus),
+      fmt::arg("nu", kPoissonsRatio), fmt::arg("zone", fine()), fmt::arg("density", kDensity),
+      fmt::arg("diameter", 2 * radius), fmt::arg("width", width()), fmt::arg("thickness", thickness()),
+      fmt::arg("speed", speed), fmt::arg("duration", way / speed), fmt::arg("more", more));
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 
@@ -88,10 +90,8 @@ struct Moment {
 struct Run {
   std::vector<Moment> moments;
   double kinetic = 0;      ///< at the start [J]
-  double strain = 0;       ///< at the start [J]
   double hoop_stress = 0;  ///< mean over the section at the start [Pa]
   double wanted_hoop = 0;  ///< what balances the centrifugal force of half the ring [Pa]
-  double load = 0;         ///< [N]
 
   /// Change over the run by the least-squares line through the values after the first tenth.
   template <class Value>
@@ -168,7 +168,6 @@ Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress
   progress(fmt::format("{} elements, {} steps of {:.3e} s, {:.3g} m", model.elements(), steps,
                        simulation.dt(), ring.way));
   Run run;
-  run.load = model.wheel_load();
   const auto started = std::chrono::steady_clock::now();
   while (simulation.steps() < steps) {
     simulation.step();
@@ -177,7 +176,6 @@ Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress
     run.moments.push_back(moment_of(model, simulation));
     if (run.moments.size() == 1) {
       run.kinetic = simulation.sample().energy.kinetic;
-      run.strain = simulation.sample().energy.strain;
       compare_hoop(model, simulation.displacement().data(), simulation.wheel().spin, run);
     }
     if (run.moments.size() % 100 != 0) continue;
@@ -234,7 +232,13 @@ Figure drift_figure(const std::string& title, const Run& run) {
   return figure;
 }
 
-void add_drifts(const std::string& name, const Run& run, CaseResult& result) {
+/// Bounds of what may change over a run, relative to its size at the start; `way`: of the mass centre's place
+/// beside its straight way, relative to that.
+struct DriftBounds {
+  double stress, speed, way, energy;
+};
+
+void add_drifts(const std::string& name, const Run& run, const DriftBounds& bounds, CaseResult& result) {
   const Moment& first = run.moments.front();
   const Moment& last = run.moments.back();
   const auto relative = [&](double Moment::*value) {
@@ -242,59 +246,60 @@ void add_drifts(const std::string& name, const Run& run, CaseResult& result) {
   };
   double worst = 0;
   for (const Moment& m : run.moments) worst = std::max(worst, std::abs(m.residual));
-  const Vec3 off = last.mass_centre - first.mass_centre - Vec3{first.speed * (last.time - first.time), 0, 0};
-  result.findings.insert(
-      result.findings.end(),
-      {{name + ": trend of the mean stress", "-", relative(&Moment::mean_stress), 0, 1e-6, true},
-       {name + ": trend of the largest stress", "-", relative(&Moment::largest_stress), 0, 1e-6, true},
-       {name + ": trend of the spin", "-", relative(&Moment::spin), 0, 1e-6, true},
-       {name + ": trend of the speed", "-", relative(&Moment::speed), 0, 1e-6, true},
-       {name + ": mass centre beside its straight way", "um", 1e6 * std::hypot(off.x, off.z), 0, 1, true},
-       {name + ": largest energy residual / kinetic energy", "-", worst / run.kinetic, 0, 1e-9, true}});
+  const double way = first.speed * (last.time - first.time);
+  const Vec3 off = last.mass_centre - first.mass_centre - Vec3{way, 0, 0};
+  const auto add = [&](const char* quantity, double value, double bound) {
+    result.findings.push_back({name + ": " + quantity, "-", value, 0, bound, true});
+  };
+  add("trend of the mean stress", relative(&Moment::mean_stress), bounds.stress);
+  add("trend of the largest stress", relative(&Moment::largest_stress), bounds.stress);
+  add("trend of the spin", relative(&Moment::spin), bounds.speed);
+  add("trend of the speed", relative(&Moment::speed), bounds.speed);
+  add("mass centre beside its straight way / way", std::hypot(off.x, off.z) / way, bounds.way);
+  add("largest energy residual / kinetic energy", worst / run.kinetic, bounds.energy);
+}
+
+void spin_freely(const VerifyInputs& inputs, const ProgressText& progress, CaseResult& result) {
+  Ring ring{inputs["radius"], inputs["element_size"], inputs["speed"], false, 1, ""};
+  const auto steps = std::llround(inputs["steps"]);
+  ring.way = ring.speed * stable_step_of(ring) * static_cast<double>(steps);
+  const Run run = run_ring(ring, steps, progress);
+  result.findings.push_back({"free: mean hoop stress against half a ring's balance", "MPa",
+                             1e-6 * run.hoop_stress, 1e-6 * run.wanted_hoop, 0.01});
+  // Nothing acts on it: what is left is rounding and the preload's residual.
+  add_drifts("free", run, {1e-7, 1e-9, 1e-9, 1e-10}, result);
+  result.figures.push_back(drift_figure("A wheel that spins freely", run));
+}
+
+void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progress, CaseResult& result) {
+  Ring ring{inputs["radius"], inputs["rolling_element_size"], inputs["speed"], true, 1, ""};
+  const auto steps = std::llround(inputs["rolling_steps"]);
+  const double a = inputs["semi_axis"];
+  if (a > 0.06 * ring.radius || ring.element_size > 0.7 * a)
+    throw InputError(fmt::format(
+        "verify: semi_axis = {:.3g} mm lies between {:.3g} mm, for which elements of {:.3g} mm are small "
+        "enough, and {:.3g} mm, small against the radius",
+        1e3 * a, 1e3 * ring.element_size / 0.7, 1e3 * ring.element_size, 60 * ring.radius));
+  const double modulus = kYoungsModulus / (2 * (1 - kPoissonsRatio * kPoissonsRatio));
+  const double load = std::numbers::pi * modulus * a * a / (4 * ring.radius) * ring.element_size;
+  ring.more = ground(ring, load);
+  ring.way = ring.speed * stable_step_of(ring) * static_cast<double>(steps);
+  ring.more = ground(ring, load);
+  const Run run = run_ring(ring, steps, progress);
+  // Both meshes pass one another like gears and shake the undamped bodies.
+  add_drifts("rolling", run, {0.01, 1e-4, 1e-4, 1e-6}, result);
+  result.findings.push_back({"rolling: resistance by the lead of the contact forces / F_N", "-",
+                             run.moments.back().loss / (ring.way * load), 0, 1e-4, true});
+  const auto every = [](const Moment&) { return true; };
+  const Statistics force = statistics(run.moments, every, [](const Moment& m) { return m.force; });
+  result.findings.push_back({"rolling: mean F_N", "kN", 1e-3 * force.mean, 1e-3 * load, 1e-3});
+  result.figures.push_back(drift_figure("A wheel that rolls without friction", run));
 }
 
 CaseResult moving_frames(const VerifyInputs& inputs, const ProgressText& progress) {
   CaseResult result;
-  const auto steps = [&](const char* name) { return std::llround(inputs[name]); };
-  Ring ring;
-  ring.radius = inputs["radius"];
-  ring.speed = inputs["speed"];
-  ring.element_size = inputs["element_size"];
-  ring.way = 1;
-  const double dt = stable_step_of(ring);
-  ring.way = ring.speed * dt * static_cast<double>(steps("steps"));
-  const Run free = run_ring(ring, steps("steps"), progress);
-  result.findings.push_back({"free: mean hoop stress against half a ring's balance", "MPa",
-                             1e-6 * free.hoop_stress, 1e-6 * free.wanted_hoop, 0.01});
-  add_drifts("free", free, result);
-  result.figures.push_back(drift_figure("A wheel that spins freely", free));
-
-  Ring slice = ring;
-  slice.slice = true;
-  slice.element_size = inputs["rolling_element_size"];
-  const double a = inputs["semi_axis"];
-  const double modulus = 205.9e9 / (2 * (1 - 0.3 * 0.3));
-  const double load = std::numbers::pi * modulus * a * a / (4 * slice.radius) * slice.element_size;
-  slice.way = 1;
-  slice.more = ground(slice, load);
-  const double slice_dt = stable_step_of(slice);
-  slice.way = slice.speed * slice_dt * static_cast<double>(steps("rolling_steps"));
-  slice.more = ground(slice, load);
-  const Run rolling = run_ring(slice, steps("rolling_steps"), progress);
-  add_drifts("rolling", rolling, result);
-  result.findings.push_back({"rolling: lost by the lead of the contact forces / kinetic energy",
-                             "-",
-                             rolling.moments.back().loss / rolling.kinetic,
-                             0,
-                             {},
-                             true});
-  result.findings.push_back({"rolling: mean F_N", "kN",
-                             1e-3 * statistics(
-                                        rolling.moments, [](const Moment&) { return true; },
-                                        [](const Moment& m) { return m.force; })
-                                        .mean,
-                             1e-3 * load, 1e-3});
-  result.figures.push_back(drift_figure("A wheel that rolls without friction", rolling));
+  spin_freely(inputs, progress, result);
+  roll_without_friction(inputs, progress, result);
   return result;
 }
 
@@ -310,11 +315,11 @@ VerifyCase moving_frames_case() {
            {"rolling_element_size",
             &kLength,
             "mm",
-            6e-3,
+            4e-3,
             {1e-4, 0.1},
             "the elements' size of the wheel that rolls"},
-           {"semi_axis", &kLength, "mm", 9e-3, {1e-4, 0.1}, "half the length of its patch"},
-           {"rolling_steps", nullptr, "", 1e5, {1000, 1e8}, "the steps of the wheel that rolls"}},
+           {"semi_axis", &kLength, "mm", 12e-3, {1e-4, 0.1}, "half the length of its patch"},
+           {"rolling_steps", nullptr, "", 5e4, {1000, 1e8}, "the steps of the wheel that rolls"}},
           moving_frames};
 }
 
