@@ -100,24 +100,19 @@ SweptOutline outline_of(const Model& model) {
   return outline;
 }
 
-/// Lowest torsion of the axle as a shaft that carries the disc as a rigid body in the hub's middle: the
-/// lowest frequency at which a twist that leaves one end without torque arrives at the other without.
-/// [Holzer's method] [Hz]
-double shaft_torsion(const Model& model) {
-  const Section& axle = model.mesh.blocks[static_cast<std::size_t>(model.index.axle)].section;
-  const Material& steel = model.scene.steel;
-  const auto [first, last] = std::minmax_element(axle.p.begin(), axle.p.end());
-  const auto& hub = axle.paths.at("tie");
-  const double hub_middle =
-      0.5 * (axle.p[static_cast<std::size_t>(hub.front())] + axle.p[static_cast<std::size_t>(hub.back())]);
-  SweptOutline shaft;
-  add_border(axle, shaft);
-  const double disc = steel.density * (outline_of(model).polar - shaft.polar);
-  constexpr int kParts = 2000;
-  const double length = (*last - *first) / kParts;
-  std::vector<double> polar(kParts);  // of the cross-section [m4]
-  for (int i = 0; i < kParts; ++i) {
-    const double p = *first + (i + 0.5) * length;
+/// A shaft in slices of equal length.
+struct Shaft {
+  double first = 0, slice = 0;  ///< y of its end, length of a slice [m]
+  std::vector<double> polar;    ///< second polar moment of the cross-section in the middle of each slice [m4]
+};
+
+Shaft shaft_of(const Section& axle) {
+  constexpr int kSlices = 2000;
+  Shaft shaft;
+  shaft.first = *std::min_element(axle.p.begin(), axle.p.end());
+  shaft.slice = (*std::max_element(axle.p.begin(), axle.p.end()) - shaft.first) / kSlices;
+  for (int i = 0; i < kSlices; ++i) {
+    const double p = shaft.first + (i + 0.5) * shaft.slice;
     double inner = 1e9, outer = 0;
     for (const auto& quad : axle.quads)
       for (std::size_t e = 0; e < 4; ++e) {
@@ -128,29 +123,47 @@ double shaft_torsion(const Model& model) {
         inner = std::min(inner, r);
         outer = std::max(outer, r);
       }
-    polar[static_cast<std::size_t>(i)] = std::numbers::pi / 2 * (std::pow(outer, 4) - std::pow(inner, 4));
+    shaft.polar.push_back(std::numbers::pi / 2 * (std::pow(outer, 4) - std::pow(inner, 4)));
   }
+  return shaft;
+}
+
+/// Lowest torsion of the axle as a shaft that carries the disc as a rigid body in the hub's middle: the
+/// lowest frequency at which a twist that leaves one end without torque arrives at the other without.
+/// [Holzer's method] [Hz]
+double shaft_torsion(const Model& model) {
+  const Section& axle = model.mesh.blocks[static_cast<std::size_t>(model.index.axle)].section;
+  const Material& steel = model.scene.steel;
+  const Shaft shaft = shaft_of(axle);
+  const auto& hub = axle.paths.at("tie");
+  const double hub_middle =
+      0.5 * (axle.p[static_cast<std::size_t>(hub.front())] + axle.p[static_cast<std::size_t>(hub.back())]);
+  const auto disc_slice = static_cast<std::size_t>((hub_middle - shaft.first) / shaft.slice);
+  SweptOutline alone;
+  add_border(axle, alone);
+  const double disc = steel.density * (outline_of(model).polar - alone.polar);
   const auto torque_left = [&](double frequency) {
     const double omega2 = std::pow(2 * std::numbers::pi * frequency, 2);
     double twist = 1, torque = 0;
-    for (int i = 0; i < kParts; ++i) {
-      const double p = *first + (i + 0.5) * length;
-      const double j = polar[static_cast<std::size_t>(i)];
-      const bool holds_disc = std::abs(p - hub_middle) <= 0.5 * length;
-      const double inertia = steel.density * j * length + (holds_disc ? disc : 0);
-      twist += 0.5 * length * torque / (steel.shear_modulus() * j);
+    for (std::size_t i = 0; i < shaft.polar.size(); ++i) {
+      const double half = 0.5 * shaft.slice / (steel.shear_modulus() * shaft.polar[i]);
+      const double inertia = steel.density * shaft.polar[i] * shaft.slice + (i == disc_slice ? disc : 0.0);
+      twist += half * torque;
       torque -= omega2 * inertia * twist;
-      twist += 0.5 * length * torque / (steel.shear_modulus() * j);
+      twist += half * torque;
     }
     return torque;
   };
-  double low = 10;
+  constexpr double kStep = 10, kHighest = 1e5;
+  double low = kStep;
   const bool negative = torque_left(low) < 0;
-  while ((torque_left(low + 10) < 0) == negative)
-    if ((low += 10) > 1e5) throw NumericalError("verify: the axle's shaft has no torsion below 100 kHz");
-  double high = low + 10;
-  for (int i = 0; i < 50; ++i)
-    ((torque_left(0.5 * (low + high)) < 0) == negative ? low : high) = 0.5 * (low + high);
+  while (low < kHighest && (torque_left(low + kStep) < 0) == negative) low += kStep;
+  if (low >= kHighest) throw NumericalError("verify: the axle's shaft has no torsion below 100 kHz");
+  double high = low + kStep;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((torque_left(middle) < 0) == negative ? low : high) = middle;
+  }
   return low;
 }
 
