@@ -73,11 +73,13 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
   }
 }
 
-/// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean.
+/// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
+/// rail its height too.
 std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<double>& diagonal) {
   if (!model.wheelset || model.guide) return std::nullopt;
   const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
-  std::vector<AlignedVector<double>> motions(2, AlignedVector<double>(n, 0.0));
+  const std::size_t count = model.contact ? 2 : 3;
+  std::vector<AlignedVector<double>> motions(count, AlignedVector<double>(n, 0.0));
   auto means = motions;
   for (const int b : model.wheelset->blocks()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
@@ -85,9 +87,10 @@ std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<do
       for (int node = 0; node < block.section.nodes(); ++node) {
         const std::int64_t slot = block.base + block.slot(node, station);
         const Vec3 ahead = to_local(block, station, 0, {1, 0, 0});
-        const std::array<Vec3, 2> motion = {ahead,
-                                            Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}};
-        for (std::size_t m = 0; m < 2; ++m)
+        const Vec3 up = to_local(block, station, 0, {0, 0, 1});
+        const std::array<Vec3, 3> motion = {
+            ahead, Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}, up};
+        for (std::size_t m = 0; m < count; ++m)
           for (int c = 0; c < 3; ++c) {
             const auto unknown = static_cast<std::size_t>(dof(slot, c));
             if (diagonal[unknown] <= 0) continue;

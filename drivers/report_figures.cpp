@@ -221,7 +221,8 @@ Drawings side_drawings(const Model& model) {
   const std::vector<Layer> layers = layers_of(model, [&](const SweptBlock& block) {
     if (block.sweep == Sweep::extruded) return side_layer(block.name, block);
     SweptBlock without_flange = block;  // the flange would hide where wheel and rail meet
-    for (double& radius : without_flange.section.q) radius = std::min(radius, height);
+    if (model.contact)
+      for (double& radius : without_flange.section.q) radius = std::min(radius, height);
     return side_layer(block.name, without_flange, {0, 0, height});
   });
   if (!model.contact) return {{"Side view", layers, std::nullopt, 920}};

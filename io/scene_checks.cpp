@@ -77,8 +77,11 @@ class Checker {
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
     require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
     require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
-    require(!s.motion || s.pulse || (s.hammer && s.rail) || (s.wheel && s.rail && s.contact), {"motion"},
-            "motion needs [wheel], [rail] and [contact], or [pulse], or [rail] and [hammer]");
+    require(!s.motion || s.pulse || s.wheel || (s.hammer && s.rail), {"motion"},
+            "motion needs [wheel], or [pulse] on a bar, or [rail] and [hammer]");
+    require(!s.motion || !s.wheel || s.rail || (!s.load && !s.vehicle), {"motion", "rail"},
+            "a wheel without a rail moves freely and carries neither load nor vehicle; add [rail], or state "
+            "load.present = false or vehicle.present = false");
     require(s.wheel || s.rail, {"scene.based_on"},
             "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
   }

@@ -12,6 +12,9 @@ VerifyCase contact_filter_case();  // contact_filter.cpp
 VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
+VerifyCase moving_frames_case();   // moving_frames.cpp
+VerifyCase wheelset_modes_case();  // wheelset_modes.cpp
+VerifyCase ring_modes_case();      // ring_modes.cpp
 
 VerifyCase rail_on_fastenings_case();  // rail_on_fastenings.cpp
 VerifyCase rail_waves_case();          // rail_waves.cpp

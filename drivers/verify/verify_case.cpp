@@ -42,9 +42,10 @@ bool Finding::pass() const {
 
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = {
-      hertz_sphere_case(),      hertz_ellipse_case(),    contact_filter_case(),     carter_case(),
-      steady_rolling_case(),    sliding_case(),          rail_on_fastenings_case(), rail_waves_case(),
-      fastening_passing_case(), wheelset_settling_case()};
+      hertz_sphere_case(),      hertz_ellipse_case(),     contact_filter_case(),     carter_case(),
+      steady_rolling_case(),    sliding_case(),           rail_on_fastenings_case(), rail_waves_case(),
+      fastening_passing_case(), wheelset_settling_case(), moving_frames_case(),      wheelset_modes_case(),
+      ring_modes_case()};
   return cases;
 }
 

@@ -182,9 +182,13 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
        "x.toml:3:2: load: a wheel carries a vehicle or a load; leave one out, for example with "
        "vehicle.present = "
        "false"},
-      {"[contact]\npresent = false",
-       "2 problems\nx.toml: wheel: wheel and rail need [contact]\n"
-       "x.toml: motion: motion needs [wheel], [rail] and [contact], or [pulse], or [rail] and [hammer]"},
+      {"[contact]\npresent = false", "x.toml: wheel: wheel and rail need [contact]"},
+      {"[rail]\npresent = false\n[fastenings]\npresent = false\n[slab]\npresent = false\n[contact]\npresent "
+       "= "
+       "false",
+       "x.toml: motion: a wheel without a rail moves freely and carries neither load nor vehicle; add "
+       "[rail], or "
+       "state load.present = false or vehicle.present = false"},
       {"[fastenings]\npresent = false",
        "2 problems\nx.toml: slab: a slab needs fastenings; add [fastenings]\n"
        "x.toml: rail.support: the rail stands on fastenings; add [fastenings], or "

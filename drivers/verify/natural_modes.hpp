@@ -1,0 +1,31 @@
+#pragma once
+// Natural modes of a scene's wheel at rest, and what shape they have.
+
+#include <string>
+#include <vector>
+
+#include "drivers/model.hpp"
+#include "drivers/preload.hpp"
+
+namespace tread {
+
+/// Which displacement, by mass, most of a mode's motion is.
+enum class Direction { around, along_axis, radial };
+
+struct NaturalMode {
+  double frequency = 0;  ///< [Hz]
+  int waves = 0;         ///< around the axle
+  Direction direction = Direction::around;
+  double share = 0;  ///< of the motion that has these waves [-]
+  /// Amplitudes of the tread's, disc's and axle's section nodes along the axis and radially (for torsion:
+  /// around), largest 1; node by node, block after block.
+  std::vector<double> along_axis, in_plane;
+
+  std::string name() const;
+};
+
+/// The lowest modes of a model that is a wheel alone, rigid ones included, one of each pair. Throws
+/// NumericalError without convergence.
+std::vector<NaturalMode> natural_modes(const Model& model, int count, const ProgressText& progress);
+
+}  // namespace tread
