@@ -6,6 +6,7 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "drivers/energy_watch.hpp"
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
 #include "kernels/surface_fields.hpp"
@@ -60,13 +61,12 @@ class Simulation {
   double dt() const { return dt_; }
   std::int64_t steps() const { return steps_; }
 
-  /// One step. Sampled steps fill sample().
+  /// One step. Sampled steps fill sample(). NumericalError where the energies, looked at in sampled steps and
+  /// every few steps between, are not finite or cannot be.
   void step();
   void set_sampling_interval(std::int64_t steps) { sampling_ = steps; }
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
-  /// NumericalError where the last sample's energies are not finite.
-  void require_finite() const;
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
@@ -88,6 +88,8 @@ class Simulation {
   void finish();
   void begin_sample();
   void end_sample();
+  void watch(double excess);
+  [[noreturn]] void stop() const;
   void start_velocities();
   void start_deflected(double speed);
   double kinetic_energy() const;
@@ -105,6 +107,7 @@ class Simulation {
   std::int64_t steps_ = 0;
   std::int64_t sampling_ = 100;
   bool sampled_ = false;
+  bool measured_ = false;  ///< energies are looked at in this step
 
   AlignedVector<double> u_, v_, force_;
   BodyFrame frame_;
@@ -126,6 +129,7 @@ class Simulation {
   double kinetic_before_ = 0;
   double start_energy_ = 0;
   bool have_start_energy_ = false;
+  EnergyWatch energy_watch_;
 };
 
 }  // namespace tread

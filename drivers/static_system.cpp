@@ -42,23 +42,28 @@ namespace {
 
 /// Damping may shorten the step to this share; a classical beta of ordinary size in structural dynamics would
 /// shorten it a thousand times.
-constexpr double kLeastShare = 0.1;
+constexpr double kLeastShare = 0.5;
 
 void refuse_heavy_damping(double beta, double damped_step, double omega) {
   const double free_step = stable_step(omega, 0);
   if (damped_step >= kLeastShare * free_step) return;
   const double largest = (1 / kLeastShare - kLeastShare) / omega;
   throw InputError(fmt::format(
-      "material damping: rayleigh_beta = {:.3g} s would need a time step of {:.2e} s, {:.2g} % of the {:.2e} "
-      "s "
-      "without damping; state at most {:.2g} s, or {{ kind = \"high_frequency_fraction\", value = ... }} "
-      "(LS-DYNA's positive COEF, which the paper's 1e-4 is)",
-      beta, damped_step, 100 * damped_step / free_step, free_step, largest));
+      "material damping: a stiffness-proportional beta of {:.3g} s needs a time step of 2/w (sqrt(1 + xi^2) - "
+      "xi) = {:.2e} s, {:.2g} % of the 2/w = {:.2e} s without damping (w = {:.3e} rad/s, xi = beta w/2 = "
+      "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
+      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which the "
+      "paper's 1e-4 is)",
+      beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega, 100 * kLeastShare,
+      largest, 0.5 * largest * omega));
 }
 
-}  // namespace
+double largest_beta(const Model& model) {
+  return model.beta.empty() ? 0 : *std::max_element(model.beta.begin(), model.beta.end());
+}
 
-StepLimit step_limit(const Model& model) {
+/// Of the assembled bodies without damping, from above [rad/s].
+double assembled_frequency(const Model& model) {
   const StaticSystem system(model);
   const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
   AlignedVector<double> inverse_mass(n, 0.0);
@@ -74,11 +79,20 @@ StepLimit step_limit(const Model& model) {
     system.apply(x, y);
     add_springs(springs, x, y);
   };
+  return highest_frequency(elastic, inverse_mass).omega;
+}
+
+}  // namespace
+
+double stable_step_of(const Model& model) {
+  return stable_step(assembled_frequency(model), largest_beta(model));
+}
+
+StepLimit step_limit(const Model& model) {
   StepLimit limit;
   limit.element = model.internal->max_frequency();
-  const double omega = highest_frequency(elastic, inverse_mass).omega;
-  double beta = 0;
-  for (const double b : model.beta) beta = std::max(beta, b);
+  const double omega = assembled_frequency(model);
+  const double beta = largest_beta(model);
   limit.stable_step = stable_step(omega, beta);
   refuse_heavy_damping(beta, limit.stable_step, omega);
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
