@@ -31,6 +31,27 @@ Place fastest_node(const Model& model, const double* velocity) {
   return fastest;
 }
 
+/// And the way out.
+std::string cause(double dt, double stable) {
+  constexpr double kMargin = 0.01;
+  if (dt > stable)
+    return fmt::format(
+        "The time step of {:.4e} s exceeds the stable step of {:.4e} s by {:.2g} %; lower motion.step_safety",
+        dt, stable, 100 * (dt / stable - 1));
+  if (dt > (1 - kMargin) * stable)
+    return fmt::format(
+        "The time step of {:.4e} s lies within {:g} % of the stable step of {:.4e} s, where the highest "
+        "frequencies "
+        "grow large; lower motion.step_safety",
+        dt, 100 * kMargin, stable);
+  return fmt::format(
+      "The time step of {:.4e} s is {:.3g} of the stable one of the undeformed bodies, so deformation or "
+      "contact is "
+      "the cause: look at the last samples before; check load, speed and the materials' units, and try "
+      "motion.step_safety = {:.2g}",
+      dt, dt / stable, 0.5 * dt / stable);
+}
+
 }  // namespace
 
 std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
@@ -42,20 +63,10 @@ std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
     text += "the motion is no longer finite";
   const Place place = fastest_node(model, stop.velocity);
   const Vec3 at = position(*place.block, place.node, place.station);
-  text += fmt::format("; fastest: block '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
-                      place.block->name, at.x, at.y, at.z, place.speed);
-  const double stable = stable_step_of(model);
-  if (stop.dt > stable)
-    text += fmt::format(
-        "The time step of {:.4e} s exceeds the stable step of {:.4e} s by {:.2g} %; lower motion.step_safety",
-        stop.dt, stable, 100 * (stop.dt / stable - 1));
-  else
-    text += fmt::format(
-        "The time step of {:.4e} s is {:.3g} of the stable one of the undeformed bodies, so deformation or contact "
-        "is the cause: look at the last samples before; check load, speed and the materials' units, and try "
-        "motion.step_safety = {:.2g}",
-        stop.dt, stop.dt / stable, 0.5 * stop.dt / stable);
-  return text;
+  text +=
+      fmt::format("; fastest: block '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
+                  place.block->name, at.x, at.y, at.z, place.speed);
+  return text + cause(stop.dt, stable_step_of(model));
 }
 
 }  // namespace tread

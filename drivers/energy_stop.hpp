@@ -19,8 +19,8 @@ struct EnergyStop {
   const double* velocity = nullptr;
 };
 
-/// Names the instant, the energy, the fastest place, the cause (a step beyond the stable one, computed anew, or
-/// something else) and the way out.
+/// Names the instant, the energy, the fastest place, the cause (a step beyond the stable one, computed anew,
+/// or something else) and the way out.
 std::string energy_stop_text(const Model& model, const EnergyStop& stop);
 
 }  // namespace tread

@@ -19,7 +19,7 @@ constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the w
 /// Longest stretch of steps without a look at the energies: a motion whose step is 2 % too long grows by
 /// e^0.4 in each.
 constexpr std::int64_t kWatchInterval = 64;
-constexpr int kCreepageNodes = 28;             ///< [paper, section 4.2]
+constexpr int kCreepageNodes = 28;  ///< [paper, section 4.2]
 
 }  // namespace
 
@@ -347,10 +347,8 @@ Vec3 Simulation::vehicle_momentum() const {
 }
 
 void Simulation::watch(double excess) {
-  const EnergyLedger& energy = sample_.energy;
-  const double kinetic = energy.kinetic + excess;
-  if (!have_start_energy_) energy_watch_.start(energy, kinetic, fixed_kinetic_energy());
-  if (!energy_watch_.sound(energy, kinetic)) stop();
+  if (!have_start_energy_) energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy());
+  if (!energy_watch_.sound(sample_.energy, excess)) stop();
 }
 
 void Simulation::stop() const {

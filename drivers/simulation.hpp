@@ -68,6 +68,9 @@ class Simulation {
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
 
+  /// Of the last sample.
+  const EnergyWatch& energy_watch() const { return energy_watch_; }
+
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
   const AlignedVector<double>& displacement() const { return u_; }

@@ -49,13 +49,15 @@ void refuse_heavy_damping(double beta, double damped_step, double omega) {
   if (damped_step >= kLeastShare * free_step) return;
   const double largest = (1 / kLeastShare - kLeastShare) / omega;
   throw InputError(fmt::format(
-      "material damping: a stiffness-proportional beta of {:.3g} s needs a time step of 2/w (sqrt(1 + xi^2) - "
+      "material damping: a stiffness-proportional beta of {:.3g} s needs a time step of 2/w (sqrt(1 + xi^2) "
+      "- "
       "xi) = {:.2e} s, {:.2g} % of the 2/w = {:.2e} s without damping (w = {:.3e} rad/s, xi = beta w/2 = "
       "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
-      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which the "
+      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which "
+      "the "
       "paper's 1e-4 is)",
-      beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega, 100 * kLeastShare,
-      largest, 0.5 * largest * omega));
+      beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega,
+      100 * kLeastShare, largest, 0.5 * largest * omega));
 }
 
 double largest_beta(const Model& model) {
