@@ -41,6 +41,12 @@ std::vector<Candidate> candidates(const VerifyInputs& inputs) {
   TyreScene tied = tyre;
   tied.rail = "CN60";
   list.push_back({"tied blocks, in contact", tied.scene()});
+  TyreScene fastened = tyre;
+  fastened.support = "fastenings";
+  fastened.more =
+      "[fastenings]\ncount = 2\nspacing = \"0.3 m\"\nfirst = \"0.15 m\"\npad_length = \"0.1 m\"\n"
+      "pad_width = \"60 mm\"\ndamping = \"2 MN s/m\"\n";
+  list.push_back({"fastenings' dampers times 10, in contact", fastened.scene()});
   return list;
 }
 
