@@ -3,7 +3,7 @@
 #
 #   perf/absent_features.sh [PROGRAM]      default: build/release/tread
 #
-# The scene beside this script lacks friction, damping, corrugation, slab and torque. Every feature is stated as zero or
+# The scene beside this script lacks friction, damping, corrugation, slab, dampers and torque. Every feature is stated as zero or
 # as not present, which must cost nothing (0.5 %) and leave the same state, and then given a value, which shows what it
 # costs. Two runs of different length each: their difference is free of what is done once. Exits 3 where a bound fails.
 set -euo pipefail
@@ -42,9 +42,9 @@ count() {
 # per_step ARGUMENT...: sets `each`, instructions per step, and `state` at the end of the longer run. Both runs hold one
 # sample, at their first step.
 per_step() {
-  count "15 us" "$@"
+  count "10 us" "$@"
   local instructions_before=$instructions steps_before=$steps
-  count "60 us" "$@"
+  count "40 us" "$@"
   each=$(((instructions - instructions_before) / (steps - steps_before)))
 }
 
@@ -73,11 +73,11 @@ absent "torque: mu = 0" --set motion.traction.mu=0
 absent "torque: 0 N m" --set "motion.traction.torque=0 N m"
 absent "damping: high_frequency_fraction 0" --set 'material.steel.damping={ kind = "high_frequency_fraction", value = 0 }'
 absent "damping: rayleigh_beta 0 s" --set 'material.steel.damping={ kind = "rayleigh_beta", value = "0 s" }'
-absent "fastenings' dampers: 0" --set "fastenings.damping=0 N s/m"
 absent "slab: not present" --set slab.present=false
 absent "corrugation: not present" --set corrugation.present=false
 absent "vehicle: not present" --set vehicle.present=false
 present "friction 0.5" --set contact.friction=0.5
+present "fastenings' dampers: 200 kN s/m" --set "fastenings.damping=200 kN s/m"
 present "torque: 1 kN m, friction 0.5" --set contact.friction=0.5 --set "motion.traction.torque=1 kN m"
 present "damping: high_frequency_fraction 1e-4" \
   --set 'material.steel.damping={ kind = "high_frequency_fraction", value = 1e-4 }'

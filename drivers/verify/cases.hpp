@@ -13,7 +13,8 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 
-VerifyCase extremes_damping_case();  // extremes_damping.cpp
-VerifyCase extremes_step_case();     // extremes_step.cpp
+VerifyCase extremes_damping_case();   // extremes_damping.cpp
+VerifyCase extremes_elements_case();  // extremes_elements.cpp
+VerifyCase extremes_step_case();      // extremes_step.cpp
 
 }  // namespace tread
