@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drivers/simulation.hpp"
 
@@ -40,11 +41,15 @@ bool EnergyWatch::sound(const EnergyLedger& energy, double excess) {
       stored_ + slowed_ + fallen_ + driven_ + kKineticFloor * kinetic_ + kGravityFloor * std::abs(gravity_);
   const double unbalanced = total_of(energy) - total_;
   const double oscillating = (excess - excess_) / kLargestExcess;
-  const bool by_balance = !(oscillating > std::abs(unbalanced));
+  if (!std::isfinite(unbalanced + excess)) {
+    missed_ = share_ = std::numeric_limits<double>::infinity();
+    return false;
+  }
+  const bool by_balance = std::abs(unbalanced) >= oscillating;
   missed_ = by_balance ? unbalanced : excess - excess_;
   const double judged = by_balance ? std::abs(unbalanced) : oscillating;
   share_ = judged == 0 ? 0 : judged / supplied_;
-  return share_ <= 1;  // false for what is not finite
+  return share_ <= 1;
 }
 
 }  // namespace tread
