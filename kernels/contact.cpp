@@ -192,7 +192,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   double gap = std::numeric_limits<double>::max();
   constexpr int kMaxIterations = 6;
   for (int iteration = 1;; ++iteration) {
-    if (!(eta >= -0.5 && eta <= 1.5)) return std::numeric_limits<double>::max();  // beyond the wheel's surface
+    if (!(eta >= -0.5 && eta <= 1.5))
+      return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
     const LineCell line = station_cell(*wheel_, cell.station);
     const LineWeights around = line_weights(line, cell.distance / cell.pitch, options_.surface);
