@@ -88,8 +88,8 @@ std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<do
         const std::int64_t slot = block.base + block.slot(node, station);
         const Vec3 ahead = to_local(block, station, 0, {1, 0, 0});
         const Vec3 up = to_local(block, station, 0, {0, 0, 1});
-        const std::array<Vec3, 3> motion = {
-            ahead, Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}, up};
+        const std::array<Vec3, 3> motion = {ahead,
+                                            Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}, up};
         for (std::size_t m = 0; m < count; ++m)
           for (int c = 0; c < 3; ++c) {
             const auto unknown = static_cast<std::size_t>(dof(slot, c));

@@ -36,30 +36,64 @@ std::string progress_line(const Simulation& simulation, const Sample& sample, co
   return line;
 }
 
-void roll(Model& model, RunResults& results, const std::filesystem::path& directory, Progress& progress) {
-  const MotionSpec& motion = *model.scene.motion;
-  HistoryFile histories(directory, history_channels(model));
+/// A value that is not finite ends a run before it reaches a file.
+const std::vector<double>& checked(const std::vector<double>& row, const std::vector<Channel>& channels) {
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (!std::isfinite(row[i]))
+      throw NumericalError(
+          fmt::format("'{}' is not a finite number at t = {:.6e} s", channels[i].name, row[0]));
+  return row;
+}
+
+/// The files that grow while a run lasts.
+struct GrowingFiles {
+  std::vector<Channel> channels;
+  HistoryFile histories;
   std::optional<PatchFile> patch;
-  if (model.contact) patch.emplace(directory / kPatchFile, model.contact->nodes());
-  Simulation simulation(model, results.preload, results.dt);
-  simulation.set_sampling_interval(sampling_interval(model.scene, results.dt));
+
+  GrowingFiles(const Model& model, const std::filesystem::path& directory)
+      : channels(history_channels(model)), histories(directory, channels) {
+    if (model.contact) patch.emplace(directory / kPatchFile, model.contact->nodes());
+  }
+  void append(const Model& model, const Sample& sample) {
+    histories.append(checked(history_row(model, sample), channels));
+    if (patch) patch->append(sample.time, sample.wheel_x, model.contact->nodes());
+  }
+  void close() {
+    histories.close();
+    if (patch) patch->close();
+  }
+};
+
+void step_to_the_end(Simulation& simulation, GrowingFiles& files, const Model& model, RunResults& results,
+                     Progress& progress) {
   const double started = progress.seconds();
   const auto steps = step_count(model.scene, results.dt);
   while (simulation.steps() < steps) {
     simulation.step();
     if (simulation.sampled()) {
-      const Sample& sample = simulation.sample();
-      results.samples.push_back(sample);
-      histories.append(history_row(model, sample));
-      if (patch) patch->append(sample.time, sample.wheel_x, model.contact->nodes());
-      simulation.require_finite();
+      results.samples.push_back(simulation.sample());
+      files.append(model, simulation.sample());
     }
     if (simulation.steps() % 16 == 0 && progress.due(model.scene.output.progress_interval))
-      progress.say(progress_line(simulation, simulation.sample(), model, motion.duration,
+      progress.say(progress_line(simulation, simulation.sample(), model, model.scene.motion->duration,
                                  progress.seconds() - started));
   }
-  histories.close();
-  if (patch) patch->close();
+}
+
+void roll(Model& model, RunResults& results, const std::filesystem::path& directory, Progress& progress) {
+  GrowingFiles files(model, directory);
+  Simulation simulation(model, results.preload, results.dt);
+  simulation.set_sampling_interval(sampling_interval(model.scene, results.dt));
+  const double started = progress.seconds();
+  try {
+    step_to_the_end(simulation, files, model, results, progress);
+  } catch (const NumericalError& error) {
+    files.close();
+    throw NumericalError(fmt::format("{}; {} samples before it are kept in {}", error.what(),
+                                     results.samples.size(), directory.string()));
+  }
+  files.close();
   results.seconds_rolling = progress.seconds() - started;
   results.steps = simulation.steps();
   results.state_hash = simulation.state_hash();

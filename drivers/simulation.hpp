@@ -6,6 +6,7 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "drivers/energy_watch.hpp"
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
 #include "kernels/surface_fields.hpp"
@@ -25,7 +26,13 @@ struct EnergyLedger {
   double torque_work = 0;      ///< done by the torque
   double guide_work = 0;       ///< done by the guide that holds the bore's forward speed
   double hammer_work = 0;      ///< done by the hammer
-  double residual = 0;  ///< stored + dissipated - work of torque, guide and hammer - stored at the start
+  double residual = 0;         ///< total() less that at the start
+
+  /// Stored and dissipated energy less the work of torque, guide and hammer: constant [J].
+  double total() const {
+    return kinetic + strain + connectors + penalty + gravity + frictional_work + connector_loss +
+           damping_loss - torque_work - guide_work - hammer_work;
+  }
 };
 
 /// What one sample of the histories shows.
@@ -64,13 +71,15 @@ class Simulation {
   double dt() const { return dt_; }
   std::int64_t steps() const { return steps_; }
 
-  /// One step. Sampled steps fill sample().
+  /// One step. Sampled steps fill sample(). NumericalError where the energies, looked at in sampled steps and
+  /// every few steps between, are not finite or cannot be.
   void step();
   void set_sampling_interval(std::int64_t steps) { sampling_ = steps; }
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
-  /// NumericalError where the last sample's energies are not finite.
-  void require_finite() const;
+
+  /// Of the last sample.
+  const EnergyWatch& energy_watch() const { return energy_watch_; }
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
@@ -94,6 +103,8 @@ class Simulation {
   void finish();
   void begin_sample();
   void end_sample();
+  void watch(double excess);
+  [[noreturn]] void stop() const;
   template <class Motion>
   void add_to_rail(const Motion& motion, AlignedVector<double>& field) const;
   void place(const RunIn& run_in);
@@ -120,6 +131,7 @@ class Simulation {
   std::int64_t steps_ = 0;
   std::int64_t sampling_ = 100;
   bool sampled_ = false;
+  bool measured_ = false;  ///< energies are looked at in this step
 
   AlignedVector<double> u_, v_, force_;
   BodyFrame frame_;
@@ -147,6 +159,7 @@ class Simulation {
   double kinetic_before_ = 0;
   double start_energy_ = 0;
   bool have_start_energy_ = false;
+  EnergyWatch energy_watch_;
 };
 
 }  // namespace tread

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "kernels/solver/chunks.hpp"
@@ -47,47 +48,126 @@ namespace {
 
 /// Damping may shorten the step to this share; a classical beta of ordinary size in structural dynamics would
 /// shorten it a thousand times.
-constexpr double kLeastShare = 0.1;
+constexpr double kLeastShare = 0.5;
 
 void refuse_heavy_damping(double beta, double damped_step, double omega) {
   const double free_step = stable_step(omega, 0);
   if (damped_step >= kLeastShare * free_step) return;
   const double largest = (1 / kLeastShare - kLeastShare) / omega;
   throw InputError(fmt::format(
-      "material damping: rayleigh_beta = {:.3g} s would need a time step of {:.2e} s, {:.2g} % of the {:.2e} "
-      "s "
-      "without damping; state at most {:.2g} s, or {{ kind = \"high_frequency_fraction\", value = ... }} "
-      "(LS-DYNA's positive COEF, which the paper's 1e-4 is)",
-      beta, damped_step, 100 * damped_step / free_step, free_step, largest));
+      "material damping: a stiffness-proportional beta of {:.3g} s needs a time step of 2/w (sqrt(1 + xi^2) "
+      "- "
+      "xi) = {:.2e} s, {:.2g} % of the 2/w = {:.2e} s without damping (w = {:.3e} rad/s, xi = beta w/2 = "
+      "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
+      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which "
+      "the "
+      "paper's 1e-4 is)",
+      beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega,
+      100 * kLeastShare, largest, 0.5 * largest * omega));
+}
+
+double largest_beta(const Model& model) {
+  return model.beta.empty() ? 0 : *std::max_element(model.beta.begin(), model.beta.end());
+}
+
+/// The free unknowns' inverse masses, and the elastic operator with the fastenings' springs.
+class AssembledBodies {
+ public:
+  explicit AssembledBodies(const Model& model)
+      : system_(model), inverse_mass_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0) {
+    for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
+      for (int c = 0; c < 3; ++c)
+        if (system_.diagonal()[static_cast<std::size_t>(dof(slot, c))] > 0)
+          inverse_mass_[static_cast<std::size_t>(dof(slot, c))] =
+              model.inverse_mass[static_cast<std::size_t>(slot)];
+    if (model.guide)
+      inverse_mass_[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();
+    if (!model.fastenings) return;
+    springs_ = model.fastenings->springs();
+    for (const SpringDampers::Element& element : model.fastenings->elements())
+      damping_.push_back(element.damping);
+  }
+
+  bool damped() const {
+    return std::any_of(damping_.begin(), damping_.end(), [](double c) { return c > 0; });
+  }
+
+  /// From above, material damping aside; with dampers as the springs (k + 2 c / dt) / (1 + 2 beta / dt) that
+  /// they are at the limit of the step dt, or without them [rad/s].
+  double frequency() const { return frequency_with(springs_); }
+  double frequency(double beta, double dt) const {
+    std::vector<Spring> springs = springs_;
+    for (std::size_t i = 0; i < springs.size(); ++i)
+      springs[i].stiffness = (springs[i].stiffness + 2 * damping_[i] / dt) / (1 + 2 * beta / dt);
+    return frequency_with(springs);
+  }
+
+ private:
+  double frequency_with(const std::vector<Spring>& springs) const {
+    const Operator elastic = [&](const double* x, double* y) {
+      system_.apply(x, y);
+      add_springs(springs, x, y);
+    };
+    return highest_frequency(elastic, inverse_mass_).omega;
+  }
+
+  StaticSystem system_;
+  AlignedVector<double> inverse_mass_;
+  std::vector<Spring> springs_;
+  std::vector<double> damping_;  ///< of each spring [N s/m]
+};
+
+/// Of the sprung mass on the journal [s].
+double suspension_step(const Model& model) {
+  if (!model.scene.vehicle) return std::numeric_limits<double>::infinity();
+  const VehicleSpec& vehicle = *model.scene.vehicle;
+  const double mass = 1 / (1 / vehicle.sprung_mass + 1 / (model.journal.mass() + vehicle.unsprung_mass));
+  const double omega = std::sqrt(vehicle.suspension_stiffness / mass);
+  return stable_step(omega, vehicle.suspension_damping / vehicle.suspension_stiffness);
+}
+
+struct AssembledStep {
+  double omega = 0;     ///< of the bodies without damping, from above [rad/s]
+  double material = 0;  ///< stable step with the materials' damping [s]
+  double stable = 0;    ///< with all dampers [s]
+};
+
+AssembledStep assembled_step(const Model& model) {
+  const AssembledBodies bodies(model);
+  const double beta = largest_beta(model);
+  AssembledStep step;
+  step.omega = bodies.frequency();
+  step.material = step.stable = stable_step(step.omega, beta);
+  // A shorter step makes the dampers stiffer: comes down on the answer from above and takes a little less.
+  constexpr double kTolerance = 1e-3;
+  constexpr int kMaxIterations = 50;
+  double last = step.material;
+  for (int i = 0; bodies.damped() && i < kMaxIterations; ++i) {
+    const double next = stable_step(bodies.frequency(beta, last), beta);
+    const bool settled = next >= (1 - kTolerance) * last;
+    if (settled && i == 0) break;  // the dampers do not matter
+    step.stable = (1 - 2 * kTolerance) * next;
+    if (settled) break;
+    last = next;
+  }
+  step.stable = std::min(step.stable, suspension_step(model));
+  return step;
 }
 
 }  // namespace
 
-StepLimit step_limit(const Model& model) {
-  const StaticSystem system(model);
-  const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
-  AlignedVector<double> inverse_mass(n, 0.0);
-  for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
-    for (int c = 0; c < 3; ++c)
-      if (system.diagonal()[static_cast<std::size_t>(dof(slot, c))] > 0)
-        inverse_mass[static_cast<std::size_t>(dof(slot, c))] =
-            model.inverse_mass[static_cast<std::size_t>(slot)];
-  if (model.guide)
-    inverse_mass[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();
+double stable_step_of(const Model& model) {
+  return assembled_step(model).stable;
+}
 
-  std::vector<Spring> springs;
-  if (model.fastenings) springs = model.fastenings->springs();
-  const Operator elastic = [&](const double* x, double* y) {
-    system.apply(x, y);
-    add_springs(springs, x, y);
-  };
+StepLimit step_limit(const Model& model) {
   StepLimit limit;
   limit.element = model.internal->max_frequency();
-  const double omega = highest_frequency(elastic, inverse_mass).omega;
-  double beta = 0;
-  for (const double b : model.beta) beta = std::max(beta, b);
-  limit.stable_step = stable_step(omega, beta);
-  refuse_heavy_damping(beta, limit.stable_step, omega);
+  const AssembledStep step = assembled_step(model);
+  const double omega = step.omega;
+  const double beta = largest_beta(model);
+  limit.stable_step = step.stable;
+  refuse_heavy_damping(beta, step.material, omega);
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
@@ -95,8 +175,11 @@ StepLimit step_limit(const Model& model) {
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
       block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(omega, 0));
   if (beta > 0)
-    limit.reason += fmt::format("; damping takes {:.1f} % of that",
-                                100 * (1 - limit.stable_step / stable_step(omega, 0)));
+    limit.reason +=
+        fmt::format("; damping takes {:.1f} % of that", 100 * (1 - step.material / stable_step(omega, 0)));
+  if (step.stable < step.material)
+    limit.reason += fmt::format("; fastenings' dampers and suspension take {:.1f} % of that",
+                                100 * (1 - step.stable / step.material));
   return limit;
 }
 

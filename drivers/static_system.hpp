@@ -38,6 +38,10 @@ struct StepLimit {
   std::string reason;        ///< one sentence
 };
 
+/// InputError where damping takes more than half of the step.
 StepLimit step_limit(const Model& model);
+
+/// Largest stable step of the assembled bodies, however short [s].
+double stable_step_of(const Model& model);
 
 }  // namespace tread

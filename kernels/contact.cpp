@@ -199,7 +199,8 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   double gap = std::numeric_limits<double>::max();
   constexpr int kMaxIterations = 6;
   for (int iteration = 1;; ++iteration) {
-    if (eta < -0.5 || eta > 1.5) return std::numeric_limits<double>::max();  // beyond the wheel's surface
+    if (!(eta >= -0.5 && eta <= 1.5))
+      return std::numeric_limits<double>::max();  // beyond the wheel's surface
     const auto cell = wheel_stations_.find(phi - state.wheel->angle);
     if (cell.station < 0) return std::numeric_limits<double>::max();  // beyond a part of a ring
     const LineCell line = station_cell(*wheel_, cell.station);

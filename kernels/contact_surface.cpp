@@ -131,8 +131,8 @@ StationFinder::Cell StationFinder::find(double coordinate) const {
   double at = coordinate - first_;
   if (block_->closed) {
     at -= span_ * std::floor(at / span_);
-    if (at >= span_) at = 0;
-  } else if (at < 0 || at > span_) {
+    if (!(at >= 0 && at < span_)) at = 0;  // what is not finite too
+  } else if (!(at >= 0 && at <= span_)) {
     return {-1, -1, 0, 0};
   }
   const int last = static_cast<int>(bucket_.size()) - 1;

@@ -21,4 +21,8 @@ VerifyCase rail_waves_case();          // rail_waves.cpp
 VerifyCase fastening_passing_case();   // fastening_passing.cpp
 VerifyCase wheelset_settling_case();   // wheelset_settling.cpp
 
+VerifyCase extremes_damping_case();   // extremes_damping.cpp
+VerifyCase extremes_elements_case();  // extremes_elements.cpp
+VerifyCase extremes_step_case();      // extremes_step.cpp
+
 }  // namespace tread

@@ -41,11 +41,14 @@ bool Finding::pass() const {
 }
 
 const std::vector<VerifyCase>& verify_cases() {
-  static const std::vector<VerifyCase> cases = {
-      hertz_sphere_case(),      hertz_ellipse_case(),     contact_filter_case(),     carter_case(),
-      steady_rolling_case(),    sliding_case(),           rail_on_fastenings_case(), rail_waves_case(),
-      fastening_passing_case(), wheelset_settling_case(), moving_frames_case(),      wheelset_modes_case(),
-      ring_modes_case()};
+  static const std::vector<VerifyCase> cases = {hertz_sphere_case(),       hertz_ellipse_case(),
+                                                contact_filter_case(),     carter_case(),
+                                                steady_rolling_case(),     sliding_case(),
+                                                rail_on_fastenings_case(), rail_waves_case(),
+                                                fastening_passing_case(),  wheelset_settling_case(),
+                                                moving_frames_case(),      wheelset_modes_case(),
+                                                ring_modes_case(),         extremes_step_case(),
+                                                extremes_damping_case(),   extremes_elements_case()};
   return cases;
 }
 

@@ -63,7 +63,6 @@ Settling settle(const VerifyInputs& inputs, const ProgressText& progress) {
     }
     simulation.step();
     if (!simulation.sampled()) continue;
-    simulation.require_finite();
     if (i % (100 * every) == 0)
       progress(fmt::format("t {:.2f} ms, wheelset {:.2f} um lower, F_N {:.3f} kN", 1e3 * simulation.time(),
                            1e6 * settling.back(), 1e-3 * simulation.sample().vertical_force));

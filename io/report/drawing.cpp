@@ -71,7 +71,9 @@ std::string length_text(double metres) {
 }
 
 std::string scale_bar(const View& view, double bottom) {
-  const double length = ticks(0, view.window.high[0] - view.window.low[0], 6).at(1);
+  const std::vector<double> marks = ticks(0, view.window.high[0] - view.window.low[0], 6);
+  if (marks.size() < 2) return {};  // a window without width
+  const double length = marks[1];
   const double right = kMargin + length * view.scale;
   return fmt::format(
       "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}v6h{2:.1f}v-6\"/><text class=\"tick\" x=\"{3:.1f}\" "

@@ -63,8 +63,9 @@ struct TileForces {
   TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }
 };
 
-/// The instruction sets that this program contains and this processor has, widest first; the last is the
-/// baseline. Results agree between them to rounding, not in bits.
+/// The instruction sets that this program contains and this processor has: the one that the environment's
+/// TREAD_INSTRUCTION_SET names, then the widest first, down to the baseline. InputError where it names none
+/// of them. Results agree between them to rounding, not in bits.
 const std::vector<const TileForces*>& tile_forces();
 
 }  // namespace tread

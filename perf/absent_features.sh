@@ -1,0 +1,86 @@
+#!/bin/bash
+# What an absent feature costs: instructions per step by callgrind, portable lanes, one thread.
+#
+#   perf/absent_features.sh [PROGRAM]      default: build/release/tread
+#
+# The scene beside this script lacks friction, damping, corrugation, slab, dampers and torque. Every feature is stated as zero or
+# as not present, which must cost nothing (0.5 %) and leave the same state, and then given a value, which shows what it
+# costs. Two runs of different length each: their difference is free of what is done once. Exits 3 where a bound fails.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+program=${1:-$here/../build/release/tread}
+scene=$here/absent_features.toml
+bound=0.005
+
+command -v valgrind >/dev/null || {
+  echo "There is no valgrind on this machine; install it (package valgrind) to count instructions." >&2
+  exit 4
+}
+[[ -x $program ]] || {
+  echo "There is no program $program; build it, or name it as the first argument." >&2
+  exit 4
+}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export TREAD_INSTRUCTION_SET=baseline
+
+value_of() { sed -n "s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$work/out/summary.json" | head -n 1; }
+
+# count DURATION ARGUMENT...: sets `instructions` of all steps, `steps` and `state`.
+count() {
+  local duration=$1
+  shift
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='tread::Simulation::step()' \
+    "$program" run "$scene" -t 1 --quiet -o "$work/out" --set "motion.duration=$duration" "$@" 2>"$work/log" ||
+    { cat "$work/log" >&2; exit 3; }
+  instructions=$(sed -n 's/.*Collected *: *//p' "$work/log")
+  steps=$(value_of steps)
+  state=$(value_of state_hash)
+}
+
+# per_step ARGUMENT...: sets `each`, instructions per step, and `state` at the end of the longer run. Both runs hold one
+# sample, at their first step.
+per_step() {
+  count "10 us" "$@"
+  local instructions_before=$instructions steps_before=$steps
+  count "40 us" "$@"
+  each=$(((instructions - instructions_before) / (steps - steps_before)))
+}
+
+failed=0
+report() { # NAME, compare with `base`
+  local share verdict=""
+  share=$(awk -v a="$each" -v b="$base" 'BEGIN { printf "%+.3f", 100 * (a / b - 1) }')
+  if [[ ${2:-} == absent ]]; then
+    verdict=ok
+    awk -v s="$share" -v b="$bound" 'BEGIN { exit !(s <= 100 * b && s >= -100 * b) }' || verdict="FAILS: it costs"
+    [[ $state == "$base_state" ]] || verdict="FAILS: another state"
+    [[ $verdict == ok ]] || failed=1
+  fi
+  printf '| %-44s | %11s | %9s %% | %s | %s |\n' "$1" "$each" "$share" "$state" "$verdict"
+}
+
+printf '| %-44s | %11s | %11s | %-16s | |\n' "scene" "per step" "difference" "state"
+printf '|---|---|---|---|---|\n'
+per_step
+base=$each base_state=$state
+report "nothing"
+absent() { local name=$1; shift; per_step "$@"; report "$name" absent; }
+present() { local name=$1; shift; per_step "$@"; report "$name"; }
+
+absent "torque: mu = 0" --set motion.traction.mu=0
+absent "torque: 0 N m" --set "motion.traction.torque=0 N m"
+absent "damping: high_frequency_fraction 0" --set 'material.steel.damping={ kind = "high_frequency_fraction", value = 0 }'
+absent "damping: rayleigh_beta 0 s" --set 'material.steel.damping={ kind = "rayleigh_beta", value = "0 s" }'
+absent "slab: not present" --set slab.present=false
+absent "corrugation: not present" --set corrugation.present=false
+absent "vehicle: not present" --set vehicle.present=false
+present "friction 0.5" --set contact.friction=0.5
+present "fastenings' dampers: 200 kN s/m" --set "fastenings.damping=200 kN s/m"
+present "torque: 1 kN m, friction 0.5" --set contact.friction=0.5 --set "motion.traction.torque=1 kN m"
+present "damping: high_frequency_fraction 1e-4" \
+  --set 'material.steel.damping={ kind = "high_frequency_fraction", value = 1e-4 }'
+present "corrugation in the gap, 50 um" --set "corrugation.depth=50 um" --set "corrugation.wavelength=20 mm" \
+  --set "corrugation.start=-20 mm" --set "corrugation.length=60 mm" --set corrugation.apply=gap
+exit $((failed * 3))
