@@ -352,6 +352,7 @@ void Model::build_contact() {
   options.penalty = penalty_stiffness(spec);
   options.friction = spec.friction;
   options.wheel_radius = wheel_radius();
+  options.reach_gap = std::max(options.reach_gap, 3 * hertz_patch.approach);
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});
 }
 

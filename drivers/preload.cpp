@@ -222,7 +222,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     out.cg_iterations += solved.iterations;
     add_scaled(n, 1.0, correction.data(), u);
   }
-  if (model.contact) out.contact = model.contact->totals();
+  if (model.contact) {
+    model.contact->require_room(out.wheel);
+    out.contact = model.contact->totals();
+  }
   describe(model, out);
   return out;
 }

@@ -68,6 +68,10 @@ class Contact {
   /// the motion that the step has without contact.
   void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);
 
+  /// NumericalError where the patch found last comes to the end of the surface that is searched: beyond it points
+  /// would be missed.
+  void require_room(const BodyFrame& wheel) const;
+
   /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last
   /// [m/s].
   Vec3 mean_slip_velocity(const ContactState& state) const;
