@@ -423,9 +423,11 @@ void Contact::require_room(const BodyFrame& wheel) const {
                         (last_edge_ < rail_profile_.edges() && point.face[1] == last_edge_ - 1);
     if (std::abs(ahead) < room && !beside) continue;
     throw NumericalError(fmt::format(
-        "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface that "
+        "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface "
+        "that "
         "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
-        "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation depth",
+        "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
+        "depth",
         1e3 * ahead, 1e3 * point.position.y, 1e3 * reach(), 1e-3 * norm(totals_.force_on_rail)));
   }
 }
