@@ -82,7 +82,7 @@ friction = {f}
       fmt::arg("width", width), fmt::arg("thickness", ring), fmt::arg("height", 12 * a),
       fmt::arg("aside", slice ? 0.0 : shift), fmt::arg("length", left + std::max(roll, zone.last) + end),
       fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction));
-  return resolve_scene(SceneSource{"verify", text + more, {}}).scene;
+  return resolve_scene(SceneSource{"verify", text + more, {}}, overrides).scene;
 }
 
 std::vector<VerifyInput> tyre_inputs(bool sphere) {

@@ -25,6 +25,7 @@ struct TyreOnBlock {
   Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
   double thickness = 0;       ///< of the ring; 0: 12 semi-axes, as the block [m]
   std::string more;           ///< further tables of the scene
+  std::vector<std::string> overrides;  ///< of keys, as on the command line
 
   /// Of a slice: semi_axis_y is 0, the load that of one element's width.
   HertzPatch hertz_patch() const;

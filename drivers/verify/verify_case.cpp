@@ -41,9 +41,12 @@ bool Finding::pass() const {
 }
 
 const std::vector<VerifyCase>& verify_cases() {
-  static const std::vector<VerifyCase> cases = {hertz_sphere_case(),   hertz_ellipse_case(),
-                                                contact_filter_case(), carter_case(),
-                                                steady_rolling_case(), sliding_case()};
+  static const std::vector<VerifyCase> cases = {hertz_sphere_case(),      hertz_ellipse_case(),
+                                                contact_filter_case(),    carter_case(),
+                                                steady_rolling_case(),    sliding_case(),
+                                                extremes_penalty_case(),  extremes_traction_case(),
+                                                extremes_speed_case(),    extremes_corrugation_case(),
+                                                extremes_endurance_case()};
   return cases;
 }
 
