@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -364,7 +365,11 @@ void Model::build_contact() {
   options.penalty = penalty_stiffness(spec);
   options.friction = spec.friction;
   options.wheel_radius = wheel_radius();
-  options.reach_gap = std::max(options.reach_gap, 3 * hertz_patch.approach);
+  // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
+  // 2R.
+  const double line_load = scene.plane_strain ? wheel_load() / scene.rail->width : 0;
+  const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
+  options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});
 }
 

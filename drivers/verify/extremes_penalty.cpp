@@ -68,7 +68,7 @@ CaseResult extremes_penalty(const VerifyInputs& inputs, const ProgressText& prog
           1e-6 * hertz.max_pressure, 0.12 * fineness},
          {at + "patch area at rest", "mm2", 1e6 * run.preload.contact.area,
           1e6 * hertz.semi_axis_x * hertz.semi_axis_y * M_PI,
-          sharp ? std::optional(0.025 * fineness) : std::nullopt},
+          sharp ? std::optional(0.03 * fineness) : std::nullopt},
          {at + "penetration / approach", "-", pushed / hertz.approach, 0, {}, true},
          {at + "energy error, eq. (14)", "-", run.energy_error, 0, 0.01, true},
          {at + "samples that are not finite", "-", double(count_not_finite(model, run)), 0, 0, true}});

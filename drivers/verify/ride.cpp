@@ -38,6 +38,22 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   return results;
 }
 
+double angular_momentum_error(const Model& model, const RunResults& results) {
+  const std::vector<Sample>& s = results.samples;
+  const double radius = model.wheel_radius();
+  double impulse = 0;
+  double size = 0;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double half = 0.5 * (s[i].time - s[i - 1].time);
+    impulse += half * (s[i].torque + s[i - 1].torque -
+                       radius * (s[i].longitudinal_force + s[i - 1].longitudinal_force));
+    size += half * (std::abs(s[i].torque + s[i - 1].torque) +
+                    radius * std::abs(s[i].longitudinal_force + s[i - 1].longitudinal_force));
+  }
+  const double change = model.wheelset->inertia() * (s.back().wheel_spin - s.front().wheel_spin);
+  return size > 0 ? std::abs(change - impulse) / size : 0.0;
+}
+
 int count_not_finite(const Model& model, const RunResults& results) {
   int count = 0;
   for (const Sample& sample : results.samples) {
