@@ -70,6 +70,7 @@ CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& pr
   CaseResult result;
   result.findings = {
       {"steps", "-", static_cast<double>(run.steps), steps, 1e-3},
+      {"way", "mm", 1e3 * run.samples.back().wheel_x, 1e3 * way, 0.02},
       {"F_N, mean", "kN", 1e-3 * normal.mean, 1e-3 * load, 1e-3},
       {"standard deviation of F_N / F_N", "-", normal.deviation / normal.mean, 0, {}, true},
       {"drift of F_N / F_N", "-", relative([](const Sample& s) { return s.vertical_force; }, load), 0, 1e-3,
