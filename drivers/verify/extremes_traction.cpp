@@ -39,7 +39,7 @@ struct Run {
     findings.push_back({at + "energy error, eq. (14)", "-", results.energy_error, 0, 0.01, true});
     findings.push_back({at + "momentum error", "-", results.momentum_error, 0, 1e-4, true});
     findings.push_back(
-        {at + "angular momentum error", "-", angular_momentum_error(model, results), 0, 0.02, true});
+        {at + "angular momentum error", "-", angular_momentum_error(model, results), 0, 0.002, true});
     findings.push_back({at + "frictional work", "J", energy.frictional_work, 0, {}, true});
     findings.push_back({at + "samples that are not finite", "-",
                         static_cast<double>(count_not_finite(model, results)), 0, 0, true});

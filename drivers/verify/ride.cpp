@@ -47,8 +47,7 @@ double angular_momentum_error(const Model& model, const RunResults& results) {
     const double half = 0.5 * (s[i].time - s[i - 1].time);
     impulse += half * (s[i].torque + s[i - 1].torque -
                        radius * (s[i].longitudinal_force + s[i - 1].longitudinal_force));
-    size += half * (std::abs(s[i].torque + s[i - 1].torque) +
-                    radius * std::abs(s[i].longitudinal_force + s[i - 1].longitudinal_force));
+    size += half * radius * (s[i].vertical_force + s[i - 1].vertical_force);
   }
   const double change = model.wheelset->inertia() * (s.back().wheel_spin - s.front().wheel_spin);
   return size > 0 ? std::abs(change - impulse) / size : 0.0;

@@ -24,8 +24,8 @@ Statistics since(const RunResults& results, double first, const Value& value) {
 /// Samples in which a value is not finite.
 int count_not_finite(const Model& model, const RunResults& results);
 
-/// I times the change of spin against the angular impulse of torque and F_L about the axle, over the sum
-/// of both impulses' sizes: from the samples, with the nominal radius as F_L's arm.
+/// I times the change of spin against the angular impulse of torque and F_L about the axle, over the impulse
+/// of F_N times the radius: from the samples, with the nominal radius as F_L's arm.
 double angular_momentum_error(const Model& model, const RunResults& results);
 
 /// A value of the samples over time, scaled for the figure.
