@@ -92,6 +92,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
     for (const auto& at : gauss_) across_.push_back(arc + at[0] * width);
     arc += width;
   }
+  width_ = arc;
 
   // Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
   double closest = 1e30;
@@ -346,7 +347,10 @@ double Contact::area_by_rows() const {
     return point.face[1] * per_line + static_cast<int>(point.history % per_line);
   };
   const auto s = [&](int n) {
-    return across_[static_cast<std::size_t>(std::clamp(n, 0, static_cast<int>(across_.size()) - 1))];
+    // Mirrored at the ends of the surface: the outermost points stand for what lies up to them.
+    if (n < 0) return -across_.front();
+    if (n >= static_cast<int>(across_.size())) return 2 * width_ - across_.back();
+    return across_[static_cast<std::size_t>(n)];
   };
   // Where the stretch that a point stands for ends, towards the place `step` away; null: no point there, or
   // none on the other side.
