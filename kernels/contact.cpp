@@ -361,7 +361,7 @@ double Contact::area_by_rows() const {
     if (there || !opposite || opposite->pressure <= point.pressure) return half_way;
     const double reached =
         s(n) + (s(n) - s(n - step)) * point.pressure / (opposite->pressure - point.pressure);
-    return step > 0 ? std::min(reached, s(n + step)) : std::max(reached, s(n + step));
+    return std::clamp(reached, std::max(0.0, s(n - 1)), std::min(width_, s(n + 1)));
   };
   double area = 0;
   std::size_t first = 0;
