@@ -148,7 +148,7 @@ TEST_F(Commands, VerifyRefusesWhatItDoesNotKnow) {
                             "verify hertz_sphere --set \"radius=9 m\"", "verify steady_rolling --set mu=0.6",
                             "verify hertz_sphere --set \"load=90 MN\"", "verify hertz_sphere --set radius"})
     EXPECT_EQ(call(wrong).code, 2) << wrong;
-  EXPECT_TRUE(has(call("verify --list").out, "steady_rolling: "));
+  EXPECT_TRUE(has(call("verify --list").out, "steady_rolling (standard): "));
 }
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
