@@ -13,7 +13,8 @@ Corrugation::Corrugation(Sine sine, double start, double length, double centre, 
       last_(start + std::floor(length / sine.wavelength + 1e-9) * sine.wavelength),
       centre_(centre),
       width_(width),
-      deepest_(sine.depth) {}
+      deepest_(sine.depth),
+      steepest_(std::numbers::pi * sine.depth / sine.wavelength) {}
 
 Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre,
                          double width)
@@ -33,6 +34,10 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
     const double right = (depth_[i + 1] - depth_[i]) / (x_[i + 1] - x_[i]);
     if (left * right > 0) slope_[i] = 2 * left * right / (left + right);
   }
+  // Harmonic means are at most twice the flatter neighbour; between its ends a piece is flatter than 1.5
+  // secants.
+  for (std::size_t i = 1; i < n; ++i)
+    steepest_ = std::max(steepest_, 2 * std::abs(depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]));
 }
 
 double Corrugation::profile(double x) const {

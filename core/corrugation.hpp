@@ -30,13 +30,14 @@ class Corrugation {
   double first() const { return first_; }  ///< [m]
   double last() const { return last_; }    ///< [m]
   double deepest() const { return deepest_; }
+  double steepest() const { return steepest_; }  ///< no slope along the rail exceeds it [-]
   double centre() const { return centre_; }
 
  private:
   double profile(double x) const;
 
   Sine sine_{1, 0};
-  double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0;
+  double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0, steepest_ = 0;
   std::vector<double> x_, depth_, slope_;
 };
 

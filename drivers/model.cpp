@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -355,14 +356,26 @@ double lateral_radius(const SurfaceProfile& rail, const SurfaceProfile& wheel, d
 }  // namespace
 
 double Model::penalty_stiffness(const ContactSpec& spec) const {
-  const auto of_ratio = [&](double ratio) {
-    return hertz_patch.max_pressure / (ratio * hertz_patch.approach);
-  };
-  if (spec.penetration_ratio) return of_ratio(*spec.penetration_ratio);
+  const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
   // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
   // [verification.md]
   constexpr double kPerElement = 10;
-  return std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, of_ratio(0.02));
+  const double preferred =
+      std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, unit_ratio / 0.02);
+  if (!spec.penetration_ratio) return preferred;
+  // [limits.md] Thirty times as stiff: a third of the area is missing, points carry twice the pressure.
+  constexpr double kStiffest = 10;
+  const double stated = unit_ratio / *spec.penetration_ratio;
+  if (stated > kStiffest * preferred * (1 + 1e-9))
+    throw InputError(
+        fmt::format("contact.penetration_ratio = {:.3g}: the penalty is {:.3g} times as stiff as suits "
+                    "elements of {:.3g} mm; the "
+                    "integration points of a face would share its load unevenly and the patch come out too "
+                    "small; state at "
+                    "least {:.2g}, or leave it out",
+                    *spec.penetration_ratio, stated / preferred, 1e3 * sizes.contact,
+                    unit_ratio / (kStiffest * preferred)));
+  return stated;
 }
 
 void Model::build_contact() {
@@ -383,6 +396,11 @@ void Model::build_contact() {
   options.penalty = penalty_stiffness(spec);
   options.friction = spec.friction;
   options.wheel_radius = wheel_radius();
+  // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
+  // 2R.
+  const double line_load = scene.plane_strain ? wheel_load() / scene.rail->width : 0;
+  const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
+  options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});
 }
 

@@ -127,6 +127,24 @@ double carrier_stiffness(const StaticSystem& system, std::int64_t unknown) {
   return force[static_cast<std::size_t>(unknown)];
 }
 
+/// Why Newton's method finds no balance of the external `load`, whose norm is `size`; `residual`: what is
+/// left of it [N].
+std::string why_unbalanced(const Model& model, double residual, double size) {
+  constexpr double kRounding = 1e-8;  // of forces that cancel inside the bodies
+  if (residual < kRounding * size)
+    return fmt::format(
+        "the wheel load of {:.3g} N is lost in the rounding of the bodies' own forces; raise it, lower "
+        "motion.speed or state motion.spin_in_preload = false",
+        model.wheel_load());
+  return fmt::format(
+      "under the wheel load of {:.4g} kN and the spin of this speed the bodies move too far for small "
+      "strain, or "
+      "points keep entering and leaving the patch; a lower load, speed or motion.creepage, a thicker wheel, "
+      "a finer "
+      "quality or a softer contact.penetration_ratio helps",
+      1e-3 * model.wheel_load());
+}
+
 std::vector<TiedSlot> tied_slots(const Model& model) {
   return model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{};
 }
@@ -190,13 +208,11 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   }
   AlignedVector<double> load = external_load(model, out.wheel, motion);
   const auto held = held_wheel(model, system.diagonal());
-  double scale = model.wheel_load();
-  if (scale <= 0) {
-    AlignedVector<double> reduced = load;
-    system.reduce(reduced.data());
-    scale = std::sqrt(dot(n, reduced.data(), reduced.data()));
-    if (scale == 0) return out;  // nothing loads the bodies: they rest as they are
-  }
+  AlignedVector<double> reduced = load;
+  system.reduce(reduced.data());
+  const double size = std::sqrt(dot(n, reduced.data(), reduced.data()));
+  if (size == 0) return out;  // nothing loads the bodies: they rest as they are
+  const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
   std::vector<Spring> fixed_springs;
   if (model.fastenings) fixed_springs = model.fastenings->springs();
@@ -228,9 +244,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       for (Spring& spring : model.contact->springs()) springs.push_back(std::move(spring));
       if (model.contact->points().empty())
         throw NumericalError(
-            fmt::format("preload: after {} iterations no point of the wheel touches the rail; check "
-                        "wheel.lateral_offset and the load",
-                        iteration));
+            iteration == 0
+                ? std::string("preload: no point of the wheel touches the rail; check wheel.lateral_offset")
+                : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}",
+                              iteration, why_unbalanced(model, out.residual * scale, size)));
     }
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
@@ -251,10 +268,9 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) break;
     if (iteration == kMaxNewton)
-      throw NumericalError(
-          fmt::format("preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}); "
-                      "a softer contact.penetration_ratio or a finer quality helps",
-                      out.residual, iteration, kTolerance));
+      throw NumericalError(fmt::format(
+          "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
+          iteration, kTolerance, why_unbalanced(model, out.residual * scale, size)));
     preconditioner.update(tangent, springs);
     std::fill(correction.begin(), correction.end(), 0.0);
     const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
@@ -266,7 +282,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     out.cg_iterations += solved.iterations;
     add_scaled(n, 1.0, correction.data(), u);
   }
-  if (model.contact) out.contact = model.contact->totals();
+  if (model.contact) {
+    model.contact->require_room(out.wheel);
+    out.contact = model.contact->totals();
+  }
   describe(model, out);
   return out;
 }

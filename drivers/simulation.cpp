@@ -476,7 +476,11 @@ double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
   const double speed = v_[static_cast<std::size_t>(dof(node.slot, 0))] - carried +
                        frame_.spin * (node.radius + u_[static_cast<std::size_t>(dof(node.slot, 2))]);
   const double v = frame_.velocity.x + mean.velocity.x;
-  return (speed - v) / (0.5 * (speed + v));
+  // Without a rolling speed there is no creepage: at rest, or when the tread runs backwards as fast as the
+  // wheel forwards.
+  constexpr double kLeastSpeed = 1e-3;  // [m/s]
+  const double rolling = 0.5 * (speed + v);
+  return std::abs(rolling) > kLeastSpeed ? (speed - v) / rolling : 0.0;
 }
 
 void Simulation::begin_sample() {

@@ -70,6 +70,8 @@ class Checker {
             "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
     require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
     require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
+    require(!s.contact || s.vehicle || s.load || s.gravity > 0, {"contact", "load"},
+            "nothing presses the wheel on the rail; add [load] or [vehicle], or state scene.gravity");
     require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
     require(!s.plane_strain || !s.rail || s.rail->profile == "box", {"scene.plane_strain", "rail.profile"},
             "plane strain needs a block under the tyre; state rail.profile = \"box\"");
@@ -185,6 +187,9 @@ class Checker {
             "only a free wheel on a rail on [fastenings] can have been rolling; state start = \"moving\"");
     require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
             "state the traction by mu or by torque, not both");
+    require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},
+            "a wheel that stands has no creepage; state motion.speed");
+    if (scene_.wheel && !scene_.steel.name.empty()) check_rim(motion, scene_.steel);
     if (!motion.traction_mu || !scene_.contact) return;
     require(
         std::abs(*motion.traction_mu) <= scene_.contact->friction, {"motion.traction.mu", "contact.friction"},
@@ -199,6 +204,19 @@ class Checker {
             {"hammer.position", "rail.length", "rail.origin"},
             fmt::format("the struck point, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m",
                         hammer.position, left, right));
+  }
+
+  /// A thin ring that spins strains by rho v^2 / E.
+  void check_rim(const MotionSpec& motion, const Material& steel) {
+    constexpr double kLargestStrain = 0.01;
+    const double fastest = std::sqrt(kLargestStrain * steel.youngs_modulus / steel.density);
+    const double rim = motion.speed * std::abs(motion.spin_ratio());
+    require(rim <= fastest,
+            {"motion.creepage", "motion.speed", "material.steel.youngs_modulus", "material.steel.density"},
+            fmt::format(
+                "the wheel's rim moves at {:.4g} m/s: spinning alone strains it by {:.2g}, which is not the "
+                "small strain of linear elasticity; it must stay below {:.4g} m/s",
+                rim, rim * rim * steel.density / steel.youngs_modulus, fastest));
   }
 
   void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {

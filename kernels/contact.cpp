@@ -92,6 +92,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
     for (const auto& at : gauss_) across_.push_back(arc + at[0] * width);
     arc += width;
   }
+  width_ = arc;
 
   // Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
   double closest = 1e30;
@@ -355,7 +356,10 @@ double Contact::area_by_rows() const {
     return point.face[1] * per_line + static_cast<int>(point.history % per_line);
   };
   const auto s = [&](int n) {
-    return across_[static_cast<std::size_t>(std::clamp(n, 0, static_cast<int>(across_.size()) - 1))];
+    // Mirrored at the ends of the surface: the outermost points stand for what lies up to them.
+    if (n < 0) return -across_.front();
+    if (n >= static_cast<int>(across_.size())) return 2 * width_ - across_.back();
+    return across_[static_cast<std::size_t>(n)];
   };
   // Where the stretch that a point stands for ends, towards the place `step` away; null: no point there, or
   // none on the other side.
@@ -366,7 +370,7 @@ double Contact::area_by_rows() const {
     if (there || !opposite || opposite->pressure <= point.pressure) return half_way;
     const double reached =
         s(n) + (s(n) - s(n - step)) * point.pressure / (opposite->pressure - point.pressure);
-    return step > 0 ? std::min(reached, s(n + step)) : std::max(reached, s(n + step));
+    return std::clamp(reached, std::max(0.0, s(n - 1)), std::min(width_, s(n + 1)));
   };
   double area = 0;
   std::size_t first = 0;
@@ -414,13 +418,31 @@ void Contact::begin() {
 void Contact::search(const ContactState& state, double time, double dt) {
   update_window(*state.wheel);
   const double half = reach();
-  closing_speed_ = 1.5 * norm(state.wheel->velocity) * half / options_.wheel_radius + 5;
+  const double slope = 1.5 * half / options_.wheel_radius + corrugation_.steepest();
+  closing_speed_ = norm(state.wheel->velocity) * slope + 5;
   margin_ = closing_speed_ * dt;
   parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
       visit_column(state, window_first_ + static_cast<int>(i), time);
   });
   gather_columns();
+}
+
+void Contact::require_room(const BodyFrame& wheel) const {
+  const double room = 0.95 * reach();
+  for (const ContactPoint& point : points_) {
+    const double ahead = point.position.x - wheel.origin.x;
+    const bool beside = (first_edge_ > 0 && point.face[1] == first_edge_) ||
+                        (last_edge_ < rail_profile_.edges() && point.face[1] == last_edge_ - 1);
+    if (std::abs(ahead) < room && !beside) continue;
+    throw NumericalError(fmt::format(
+        "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface "
+        "that "
+        "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
+        "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
+        "depth",
+        1e3 * ahead, 1e3 * point.position.y, 1e3 * reach(), 1e-3 * norm(totals_.force_on_rail)));
+  }
 }
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
@@ -441,6 +463,7 @@ void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double d
   nodes_.average(window_first_, window_last_, points_);
   std::erase_if(points_, [](const ContactPoint& point) { return point.pressure <= 0; });
   sum_up();
+  require_room(wheel);
 }
 
 double Contact::stored_energy(double pressure, const Traction& shear) const {

@@ -68,6 +68,10 @@ class Contact {
   /// the motion that the step has without contact.
   void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);
 
+  /// NumericalError where the patch found last comes to the end of the surface that is searched: beyond it
+  /// points would be missed.
+  void require_room(const BodyFrame& wheel) const;
+
   /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last
   /// [m/s].
   Vec3 mean_slip_velocity(const ContactState& state) const;
@@ -134,6 +138,7 @@ class Contact {
   std::vector<std::array<double, 2>> gauss_;       ///< points and weights on [0, 1]
   std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
   std::vector<double> across_;  ///< arc length across the rail up to each integration point of a row [m]
+  double width_ = 0;            ///< of the rail's surface along its arc [m]
   int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
 
   struct History {

@@ -25,4 +25,10 @@ VerifyCase extremes_damping_case();   // extremes_damping.cpp
 VerifyCase extremes_elements_case();  // extremes_elements.cpp
 VerifyCase extremes_step_case();      // extremes_step.cpp
 
+VerifyCase extremes_penalty_case();      // extremes_penalty.cpp
+VerifyCase extremes_traction_case();     // extremes_traction.cpp
+VerifyCase extremes_speed_case();        // extremes_speed.cpp
+VerifyCase extremes_corrugation_case();  // extremes_corrugation.cpp
+VerifyCase extremes_endurance_case();    // extremes_endurance.cpp
+
 }  // namespace tread

@@ -50,7 +50,8 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   rolled.normal_force = mean([](const Sample& a) { return a.vertical_force; });
   rolled.free_creepage = s.front().creepage_mean;
   rolled.creepage = mean([](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;
-  rolled.slip_fraction = mean([](const Sample& a) { return a.slip_area / a.patch_area; });
+  rolled.slip_fraction =
+      mean([](const Sample& a) { return a.patch_area > 0 ? a.slip_area / a.patch_area : 0.0; });
   const auto start = std::find_if(s.begin(), s.end(), [&](const Sample& a) { return a.wheel_x >= first; });
   rolled.work_creepage = (s.back().energy.frictional_work - start->energy.frictional_work) /
                          (rolled.force * (s.back().wheel_x - start->wheel_x));

@@ -89,7 +89,7 @@ surface = "{surface}"
       fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction), fmt::arg("points", points),
       fmt::arg("surface", facets ? "facets" : "exact"),
       fmt::arg("penetration", penetration > 0 ? fmt::format("penetration_ratio = {}", penetration) : ""));
-  return resolve_scene(SceneSource{"verify", text + more, {}}).scene;
+  return resolve_scene(SceneSource{"verify", text + more, {}}, overrides).scene;
 }
 
 std::vector<VerifyInput> tyre_inputs(bool sphere) {

@@ -27,10 +27,11 @@ struct TyreOnBlock {
   /// The bore is led forward, and only the part of the ring that rolls is there, with ten semi-axes of tread
   /// before and behind it.
   bool guided = false;
-  int points = 3;          ///< of contact per face and direction
-  bool facets = false;     ///< contact on facets instead of exact profiles
-  double penetration = 0;  ///< over Hertz's approach; 0: the program's own penalty [-]
-  std::string more;        ///< further tables of the scene
+  int points = 3;                      ///< of contact per face and direction
+  bool facets = false;                 ///< contact on facets instead of exact profiles
+  double penetration = 0;              ///< over Hertz's approach; 0: the program's own penalty [-]
+  std::string more;                    ///< further tables of the scene
+  std::vector<std::string> overrides;  ///< of keys, as on the command line
 
   /// Of a slice: semi_axis_y is 0, the load that of one element's width.
   HertzPatch hertz_patch() const;

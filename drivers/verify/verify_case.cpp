@@ -48,7 +48,10 @@ const std::vector<VerifyCase>& verify_cases() {
                                                 fastening_passing_case(),  wheelset_settling_case(),
                                                 moving_frames_case(),      wheelset_modes_case(),
                                                 ring_modes_case(),         extremes_step_case(),
-                                                extremes_damping_case(),   extremes_elements_case()};
+                                                extremes_damping_case(),   extremes_elements_case(),
+                                                extremes_penalty_case(),   extremes_traction_case(),
+                                                extremes_speed_case(),     extremes_corrugation_case(),
+                                                extremes_endurance_case()};
   return cases;
 }
 

@@ -21,6 +21,15 @@ TEST(Corrugation, CrestStandsAtTheStartAndTroughHalfAWaveLater) {
   EXPECT_LT(kSine.depth(2.4 + 1e-5, 1e-3), 1e-10);
 }
 
+TEST(Corrugation, NoSlopeExceedsTheSteepest) {
+  EXPECT_DOUBLE_EQ(kSine.steepest(), std::acos(-1.0) * 0.14e-3 / 0.08);
+  const Corrugation table({0, 0.02, 0.03, 0.05, 0.08}, {0, 1e-4, 1e-4, 2e-4, 0}, 0, 0, 0.03);
+  for (const Corrugation* shape : {&kSine, &table})
+    for (double x = shape->first(); x < shape->last() - 1e-5; x += 1e-5)
+      EXPECT_LE(std::abs(shape->depth(x + 1e-5, shape->centre()) - shape->depth(x, shape->centre())),
+                1e-5 * shape->steepest());
+}
+
 TEST(Corrugation, WholeWavesAreCut) {
   EXPECT_DOUBLE_EQ(kSine.first(), 2.4);
   EXPECT_NEAR(kSine.last(), 2.4 + 7 * 0.08, 1e-15);

@@ -1,0 +1,65 @@
+#include "drivers/verify/ride.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread {
+
+RunResults ride(Model& model, int samples, const ProgressText& progress) {
+  const Scene& scene = model.scene;
+  RunResults results;
+  results.preload = solve_preload(model, steady_motion(model), progress);
+  results.static_pressure = model.contact->nodes().max_pressure();
+  if (scene.corrugation)
+    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
+  results.limit = step_limit(model);
+  results.dt = scene.motion->step_safety * results.limit.stable_step;
+  const std::int64_t steps = step_count(scene, results.dt);
+  progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), steps, results.dt));
+  Simulation simulation(model, results.preload, results.dt);
+  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / samples));
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (!simulation.sampled()) continue;
+    simulation.require_finite();
+    const Sample& sample = simulation.sample();
+    results.samples.push_back(sample);
+    if (results.samples.size() % 100 == 0)
+      progress(fmt::format("t {:.3f} ms, x {:.1f} mm, F_N {:.2f} kN, F_L {:.2f} kN", 1e3 * sample.time,
+                           1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
+                           1e-3 * sample.longitudinal_force));
+  }
+  results.steps = simulation.steps();
+  results.momentum = simulation.momentum_check();
+  results.surface_fields = simulation.surface();
+  evaluate(model, results);
+  return results;
+}
+
+double angular_momentum_error(const Model& model, const RunResults& results) {
+  const std::vector<Sample>& s = results.samples;
+  const double radius = model.wheel_radius();
+  double impulse = 0;
+  double size = 0;
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const double half = 0.5 * (s[i].time - s[i - 1].time);
+    impulse += half * (s[i].torque + s[i - 1].torque -
+                       radius * (s[i].longitudinal_force + s[i - 1].longitudinal_force));
+    size += half * radius * (s[i].vertical_force + s[i - 1].vertical_force);
+  }
+  const double change = model.wheelset->inertia() * (s.back().wheel_spin - s.front().wheel_spin);
+  return size > 0 ? std::abs(change - impulse) / size : 0.0;
+}
+
+int count_not_finite(const Model& model, const RunResults& results) {
+  int count = 0;
+  for (const Sample& sample : results.samples) {
+    const std::vector<double> row = history_row(model, sample);
+    if (!std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); })) ++count;
+  }
+  return count;
+}
+
+}  // namespace tread

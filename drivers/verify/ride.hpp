@@ -1,0 +1,42 @@
+#pragma once
+// A scene run as a user would, kept in memory.
+
+#include <string>
+#include <utility>
+
+#include "drivers/model.hpp"
+#include "drivers/run_results.hpp"
+#include "io/report.hpp"
+
+namespace tread {
+
+/// Preload and rolling of the model's scene to the end of its duration with about `samples` samples; figures
+/// as in summary.json. Stops with NumericalError as a run would.
+RunResults ride(Model& model, int samples, const ProgressText& progress);
+
+/// Mean over the samples from `first` on [s].
+template <class Value>
+Statistics since(const RunResults& results, double first, const Value& value) {
+  return statistics(
+      results.samples, [first](const Sample& s) { return s.time >= first; }, value);
+}
+
+/// Samples in which a value is not finite.
+int count_not_finite(const Model& model, const RunResults& results);
+
+/// I times the change of spin against the angular impulse of torque and F_L about the axle, over the impulse
+/// of F_N times the radius: from the samples, with the nominal radius as F_L's arm.
+double angular_momentum_error(const Model& model, const RunResults& results);
+
+/// A value of the samples over time, scaled for the figure.
+template <class Value>
+Series history(std::string name, const RunResults& results, const Value& value) {
+  Series series{std::move(name), {}, {}, Stroke::solid};
+  for (const Sample& sample : results.samples) {
+    series.x.push_back(1e3 * sample.time);
+    series.y.push_back(value(sample));
+  }
+  return series;
+}
+
+}  // namespace tread

@@ -1,0 +1,87 @@
+// Contact at the ends of its range is refused with the reason.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/preload.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+Preload preload_of(Model& model) {
+  return solve_preload(model, steady_motion(model), [](const std::string&) {});
+}
+
+/// The message of building and preloading the tyre, or "done".
+std::string outcome(const std::vector<std::string>& overrides) {
+  try {
+    Model model(samples::tyre_scene(overrides));
+    preload_of(model);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "done";
+}
+
+void expect_part(const std::string& whole, const std::string& part) {
+  EXPECT_NE(whole.find(part), std::string::npos) << "missing: " << part << "\nin: " << whole;
+}
+
+TEST(ContactLimits, TooStiffAPenaltyIsRefusedWithTheLeastRatio) {
+  const Model model(samples::tyre_scene());
+  const HertzPatch& patch = model.hertz_patch;
+  const double ratio = patch.max_pressure / (patch.approach * model.contact->options().penalty);
+  const auto key = [&](double times) { return "contact.penetration_ratio=" + std::to_string(ratio / times); };
+  EXPECT_NO_THROW(Model(samples::tyre_scene({key(9)})));
+  expect_part(outcome({key(12)}), "the penalty is 12 times as stiff as suits elements of 5 mm");
+}
+
+TEST(ContactLimits, AnythingThatPressesMustBeThere) {
+  expect_part(outcome({"load.present=false", "scene.gravity=0 m/s2"}),
+              "nothing presses the wheel on the rail");
+  EXPECT_EQ(outcome({"load.wheel_load=10 kN"}), "done");
+}
+
+TEST(ContactLimits, CreepageNeedsASpeedAndARimThatHolds) {
+  expect_part(outcome({"motion.speed=0 m/s", "motion.creepage=0.1"}), "a wheel that stands has no creepage");
+  expect_part(outcome({"motion.creepage=1.9"}), "the wheel's rim moves at 3250 m/s");
+}
+
+TEST(ContactLimits, LoadsThatBendTheRingTooFarAreNamed) {
+  expect_part(outcome({"load.wheel_load=4 MN"}), "under the wheel load of 4001 kN");
+}
+
+TEST(ContactLimits, LoadLostInRoundingIsNamed) {
+  const std::string message = outcome({"load.wheel_load=0.01 N", "scene.gravity=0 m/s2"});
+  expect_part(message, "the wheel load of 0.01 N is lost in the rounding");
+}
+
+TEST(ContactLimits, HeavyLoadsAreSearchedForFarEnough) {
+  // Hertz: semi-axes grow with the cube root of the load, here to 17 mm along the rail, where the undeformed
+  // surfaces are 0.35 mm apart.
+  Model model(samples::tyre_scene({"load.wheel_load=1.5 MN", "motion.speed=0 m/s", "wheel.thickness=200 mm",
+                                   "rail.width=120 mm", "wheel.width=120 mm"}));
+  const Preload preload = preload_of(model);
+  EXPECT_NEAR(-preload.contact.force_on_rail.z, model.wheel_load(), 1e-6 * model.wheel_load());
+  const HertzPatch& patch = model.hertz_patch;
+  EXPECT_NEAR(preload.contact.area, M_PI * patch.semi_axis_x * patch.semi_axis_y, 0.1 * preload.contact.area);
+}
+
+TEST(ContactLimits, PatchAtTheEndOfTheSearchedSurfaceStops) {
+  Model model(samples::tyre_scene());
+  const Preload preload = preload_of(model);
+  ContactOptions narrow = model.contact->options();
+  narrow.reach_gap = 2e-5;  // the patch's own border is 5e-5 m from closing
+  Contact contact(model.mesh, narrow, Corrugation{});
+  contact.find_static({preload.displacement.data(), nullptr, &preload.wheel});
+  EXPECT_THROW(contact.require_room(preload.wheel), NumericalError);
+  model.contact->require_room(preload.wheel);
+}
+
+}  // namespace
+}  // namespace tread
