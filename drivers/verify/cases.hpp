@@ -13,4 +13,6 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 
+VerifyCase cattaneo_mindlin_case();  // cattaneo_mindlin.cpp
+
 }  // namespace tread

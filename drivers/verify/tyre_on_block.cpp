@@ -61,6 +61,7 @@ diameter = "{diameter} m"
 width = "{width} m"
 thickness = "{thickness} m"
 lateral_offset = "{aside} m"
+{bore}
 [rail]
 profile = "box"
 support = "rigid"
@@ -79,6 +80,7 @@ friction = {f}
       fmt::arg("diameter", 2 * radius), fmt::arg("slice", slice),
       fmt::arg("profile", slice ? std::string("profile = \"cylinder\"")
                                 : fmt::format("profile = \"arc\"\ncrown_radius = \"{} m\"", crown_radius)),
+      fmt::arg("bore", guided ? fmt::format("bore = \"guided\"\noverhang = \"{} m\"", 10 * a) : ""),
       fmt::arg("width", width), fmt::arg("thickness", ring), fmt::arg("height", 12 * a),
       fmt::arg("aside", slice ? 0.0 : shift), fmt::arg("length", left + std::max(roll, zone.last) + end),
       fmt::arg("origin", left), fmt::arg("load", load), fmt::arg("f", friction));

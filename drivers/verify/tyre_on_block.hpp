@@ -24,7 +24,10 @@ struct TyreOnBlock {
   double roll = 0;            ///< way that the wheel rolls [m]
   Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
   double thickness = 0;       ///< of the ring; 0: 12 semi-axes, as the block [m]
-  std::string more;           ///< further tables of the scene
+  /// The bore is led forward, and only the part of the ring that rolls is there, with ten semi-axes of tread
+  /// before and behind it.
+  bool guided = false;
+  std::string more;  ///< further tables of the scene
 
   /// Of a slice: semi_axis_y is 0, the load that of one element's width.
   HertzPatch hertz_patch() const;
