@@ -13,6 +13,8 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 
-VerifyCase cattaneo_mindlin_case();  // cattaneo_mindlin.cpp
+VerifyCase cattaneo_mindlin_case();   // cattaneo_mindlin.cpp
+VerifyCase transient_rolling_case();  // transient_rolling.cpp
+VerifyCase von_mises_case();          // von_mises.cpp
 
 }  // namespace tread

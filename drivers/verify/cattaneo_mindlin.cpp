@@ -66,9 +66,9 @@ struct Moment {
   double residual = 0;      ///< of the energy [J]
 };
 
-/// Two points on the axis, each three semi-axes deep, and what a half-space still moves there.
-double distant_shift(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation) {
-  const double depth = 3 * bodies.hertz_patch().semi_axis_x;
+/// Shift of the bodies as two points on the axis see it, one in each, at the same depth: theirs and what a
+/// half-space still moves there.
+double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation, double depth) {
   const double* u = simulation.displacement().data();
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).x;
   const double turned = model.guide->motion().rotation;
@@ -76,6 +76,13 @@ double distant_shift(const TyreOnBlock& bodies, const Model& model, const Simula
                        turned * (bodies.radius - depth);
   const double carrier = (simulation.wheel().angle + turned) * bodies.radius;
   return carrier + wheel + rail + 2 * deep_displacement(bodies, model.contact->points(), depth);
+}
+
+/// Finite bodies under tangential forces turn a little as a whole where half-spaces do not: the shift seen
+/// from two and four semi-axes deep, continued to the surface.
+double distant_shift(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation) {
+  const double a = bodies.hertz_patch().semi_axis_x;
+  return 2 * shift_seen(bodies, model, simulation, 2 * a) - shift_seen(bodies, model, simulation, 4 * a);
 }
 
 std::vector<Moment> push_and_pull(const TyreOnBlock& bodies, const ProgressText& progress) {

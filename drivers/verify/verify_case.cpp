@@ -42,8 +42,9 @@ bool Finding::pass() const {
 
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = {
-      hertz_sphere_case(),   hertz_ellipse_case(), contact_filter_case(),  carter_case(),
-      steady_rolling_case(), sliding_case(),       cattaneo_mindlin_case()};
+      hertz_sphere_case(),     hertz_ellipse_case(),     contact_filter_case(),
+      carter_case(),           steady_rolling_case(),    sliding_case(),
+      cattaneo_mindlin_case(), transient_rolling_case(), von_mises_case()};
   return cases;
 }
 
