@@ -100,8 +100,9 @@ double rolling_reference(const TyreOnBlock& bodies, const Rolled& rolled) {
   // Elements stand beside the axis when nodes stand on it.
   const double h = bodies.element_size;
   const double aside = (0.5 - std::abs(bodies.grid_offset)) * h;
-  return largest_box_stress({grid, half_space.contact.pressure, state.tractions, bodies.poissons_ratio},
-                            {grid.x(strongest), aside, 0, h, h, h}, 0.5 * bodies.hertz_patch().semi_axis_x);
+  return half_space::largest_box_stress(
+      {grid, half_space.contact.pressure, state.tractions, bodies.poissons_ratio},
+      {grid.x(strongest), aside, 0, h, h, h}, 0.5 * bodies.hertz_patch().semi_axis_x);
 }
 
 CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText& progress) {
