@@ -25,6 +25,8 @@ struct Place {
   double force = 0;   ///< F_L / F_N [-]
 };
 
+constexpr double kPeriods = 2.5;  ///< of the wheel's turning on its patch while the torque grows
+
 struct Curve {
   std::vector<double> way;       ///< [m]
   std::vector<double> creepage;  ///< [-]
@@ -147,9 +149,9 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const double a = bodies.hertz_patch().semi_axis_x;
   const double way = inputs["way"] * a;
   const double grown = inputs["growth"] * a;
-  // Half a cosine of one and a half periods leaves the wheel at rest on its patch.
+  // Half a cosine of 2.5 periods leaves the wheel nearly at rest on its patch.
   const auto set_speed = [&](double period) {
-    const double ramp = 1.5 * period;
+    const double ramp = kPeriods * period;
     bodies.roll_on(grown / ramp, way, way,
                    fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
   };
@@ -157,7 +159,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   set_speed(turning_period(bodies));
   const Transient transient = roll(bodies, progress);
 
-  const double window = grown / 1.5;
+  const double window = grown / kPeriods;
   const Curve ours = creepage_curve(transient, window);
   Reference reference = reference_of(bodies, mu * bodies.load, way);
   for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift, in the middle of the growth
@@ -217,7 +219,8 @@ VerifyCase transient_rolling_case() {
   std::vector<VerifyInput> inputs = tyre_inputs(false);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
-  inputs.push_back({"growth", nullptr, "", 0.1, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
+  inputs.push_back(
+      {"growth", nullptr, "", 0.15, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
   inputs.push_back({"way", nullptr, "", 3, {1, 10}, "the way in semi-axes of the patch"});
   for (VerifyInput& input : inputs)
     if (input.name == "element_size") input.value = 2.2e-3;

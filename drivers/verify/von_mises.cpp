@@ -27,7 +27,7 @@ struct HalfSpace {
   static half_space::Grid grid_of(const TyreOnBlock& bodies) {
     const HertzPatch patch = bodies.hertz_patch();
     const double semi = std::min(patch.semi_axis_x, patch.semi_axis_y);
-    const int per_box = std::clamp(2 * static_cast<int>(std::ceil(2 * bodies.element_size / semi)) + 1, 3, 9);
+    const int per_box = std::clamp(2 * static_cast<int>(std::ceil(3 * bodies.element_size / semi)) + 1, 3, 9);
     return half_space::centred_grid(1.3 * patch.semi_axis_x, 1.3 * patch.semi_axis_y,
                                     bodies.element_size / per_box);
   }

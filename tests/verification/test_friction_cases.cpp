@@ -55,7 +55,7 @@ TEST_F(FrictionCases, ShiftThenRolling) {
 }
 
 TEST_F(FrictionCases, StressOfSurfaceElements) {
-  run("von_mises", {{"element_size", "3.6 mm"}, {"speed", "10 m/s"}, {"ramp", "0.7 ms"}});
+  run("von_mises", {{"element_size", "3.4 mm"}, {"speed", "15 m/s"}, {"ramp", "0.6 ms"}});
   EXPECT_LT(std::abs(error("Von Mises stress at rest, no friction")), 0.06);
   EXPECT_LT(std::abs(error("Von Mises stress, rolling")), 0.1);
 }
