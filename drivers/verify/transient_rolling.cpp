@@ -223,7 +223,7 @@ VerifyCase transient_rolling_case() {
       {"growth", nullptr, "", 0.15, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
   inputs.push_back({"way", nullptr, "", 3, {1, 10}, "the way in semi-axes of the patch"});
   for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 2.2e-3;
+    if (input.name == "element_size") input.value = 1.6e-3;
   return {"transient", "from a shift to steady rolling, against the half-space", std::move(inputs),
           transient_rolling};
 }
