@@ -77,6 +77,13 @@ std::vector<Segment> graded(double length, double pitch, double far) {
   return segments;
 }
 
+/// What is left of the run beside the zone is an element or nothing: a shorter one would take the time step.
+void absorb_slivers(Span& zone, const Span& run, double shortest) {
+  if (zone.empty()) return;
+  if (zone.first - run.first < shortest) zone.first = run.first;
+  if (run.last - zone.last < shortest) zone.last = run.last;
+}
+
 }  // namespace
 
 NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes) {
@@ -86,6 +93,7 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   zone.last = std::min(zone.last, run.last);
   if (zone.empty()) zone = {run.last, run.last};
   const double coarse = sizes.contact * sizes.coarse_ratio;
+  absorb_slivers(zone, run, 0.5 * coarse);
   const int approach = approach_parts(sizes);
   Span step{zone.first - 2 * kStepLength, zone.last + 2 * kStepLength};
   step = {std::max(step.first, run.first), std::min(step.last, run.last)};
@@ -177,6 +185,7 @@ WheelPlan plan_tyre_part(double radius, Span run, Span zone, double overhang, co
   zone = {std::max(zone.first, run.first), std::min(zone.last, run.last)};
   if (zone.empty()) zone = {run.last, run.last};
   const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
+  absorb_slivers(zone, run, 0.5 * pitch);
   // From the end backwards.
   NestedSegments lengths;
   std::vector<Segment>& segments = lengths.fine;

@@ -31,4 +31,8 @@ VerifyCase extremes_speed_case();        // extremes_speed.cpp
 VerifyCase extremes_corrugation_case();  // extremes_corrugation.cpp
 VerifyCase extremes_endurance_case();    // extremes_endurance.cpp
 
+VerifyCase cattaneo_mindlin_case();   // cattaneo_mindlin.cpp
+VerifyCase transient_rolling_case();  // transient_rolling.cpp
+VerifyCase von_mises_case();          // von_mises.cpp
+
 }  // namespace tread

@@ -143,4 +143,15 @@ Stress mean_rail_stress(const SurfaceLoad& load, const Box& box) {
   return mean;
 }
 
+double largest_box_stress(const SurfaceLoad& load, const Box& box, double reach) {
+  constexpr int kSide = 4;
+  double largest = 0;
+  for (int i = -kSide; i <= kSide; ++i) {
+    Box moved = box;
+    moved.x += reach * i / kSide;
+    largest = std::max(largest, von_mises(mean_rail_stress(load, moved)));
+  }
+  return largest;
+}
+
 }  // namespace tread::half_space

@@ -33,4 +33,7 @@ struct Box {
 /// Mean over a box, by Gauss points: what a one-point element of that size can show.
 Stress mean_rail_stress(const SurfaceLoad& load, const Box& box);
 
+/// Largest Von Mises stress of those means over boxes within `reach` [m] of the given one along x. [Pa]
+double largest_box_stress(const SurfaceLoad& load, const Box& box, double reach);
+
 }  // namespace tread::half_space

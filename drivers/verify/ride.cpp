@@ -23,7 +23,6 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   while (simulation.steps() < steps) {
     simulation.step();
     if (!simulation.sampled()) continue;
-    simulation.require_finite();
     const Sample& sample = simulation.sample();
     results.samples.push_back(sample);
     if (results.samples.size() % 100 == 0)

@@ -67,10 +67,7 @@ Reference reference_of(const TyreOnBlock& bodies, double force) {
   // Elements stand beside the axis when nodes stand on it; the largest stress is near the largest shear.
   const SurfaceLoad load{grid, contact.pressure, state.tractions, bodies.poissons_ratio};
   const double h = bodies.element_size;
-  for (int i = -4; i <= 4; ++i) {
-    const Box box{at + 0.125 * i * patch.semi_axis_x, 0.5 * h, 0, h, h, h};
-    reference.von_mises = std::max(reference.von_mises, von_mises(mean_rail_stress(load, box)));
-  }
+  reference.von_mises = largest_box_stress(load, {at, 0.5 * h, 0, h, h, h}, 0.5 * patch.semi_axis_x);
   return reference;
 }
 

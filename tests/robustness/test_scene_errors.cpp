@@ -87,7 +87,8 @@ TEST(SceneErrors, Types) {
       {"[slab]\npresent = \"no\"",
        "x.toml:4:1: slab.present: expected true or false without quotes, got the string \"no\""},
       {"[motion]\ntraction = 0.3",
-       "x.toml:4:1: motion.traction: expected a table with keys among mu, torque, ramp; got the number 0.3"},
+       "x.toml:4:1: motion.traction: expected a table with keys among mu, torque, ramp, shape, reversals; "
+       "got the number 0.3"},
       {"[rail.length]\nvalue = 3",
        "x.toml:3:7: rail.length: got a table; expected a length, such as \"1 m\" (units: m, cm, mm, um, km)"},
       {"[wheel]\nprofile = \"LMAA\"",

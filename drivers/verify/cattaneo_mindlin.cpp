@@ -1,0 +1,210 @@
+// A sphere pressed on a block and pushed tangentially, forwards and back, by a torque so slow that inertia
+// does not count. [Mindlin and Deresiewicz, J. Appl. Mech. 20 (1953) 327; Johnson, Contact Mechanics,
+// sect. 7.2 and 7.4]
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "drivers/verify/cases.hpp"
+#include "drivers/verify/tyre_on_block.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Mindlin's sphere; q: tangential force over f F_N.
+struct Mindlin {
+  double radius = 0;  ///< of the patch [m]
+  double limit = 0;   ///< shift at which all slips [m]
+  double force = 0;   ///< f F_N [N]
+
+  Mindlin(const TyreOnBlock& bodies) {
+    const double shear_modulus = bodies.youngs_modulus / (2 * (1 + bodies.poissons_ratio));
+    radius = bodies.hertz_patch().semi_axis_x;
+    force = bodies.friction * bodies.load;
+    limit = 3 * force * (2 - bodies.poissons_ratio) / (8 * radius * shear_modulus);
+  }
+  double stick_radius(double q) const { return radius * std::cbrt(1 - q); }
+  double first_shift(double q) const { return limit * (1 - std::pow(1 - q, 2.0 / 3)); }
+  /// On the way back from `turn`.
+  double shift_back(double turn, double q) const {
+    return limit * (2 * std::pow(1 - 0.5 * (turn - q), 2.0 / 3) - std::pow(1 - turn, 2.0 / 3) - 1);
+  }
+  /// Area of the loop between -q and q [J].
+  double loop_work(double q) const {
+    return 2 * force * limit *
+           (2.4 * (1 - std::pow(1 - q, 5.0 / 3)) - 2 * q * (1 + std::pow(1 - q, 2.0 / 3)));
+  }
+};
+
+/// Forward displacement on the axis at depth z of the wheel, a half-space, under the patch's tractions; that
+/// of the rail is the opposite. [Cerruti; Johnson, sect. 3.6] [m]
+double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoint>& points, double z) {
+  const double nu = bodies.poissons_ratio;
+  double sum = 0;
+  for (const ContactPoint& point : points) {
+    const double x = point.position.x;
+    const double r = std::hypot(x, point.position.y, z);
+    const double kernel =
+        1 / r + x * x / (r * r * r) + (1 - 2 * nu) * (1 / (r + z) - x * x / (r * (r + z) * (r + z)));
+    sum -= point.area * point.shear.along * kernel;
+  }
+  return (1 + nu) / (2 * std::numbers::pi * bodies.youngs_modulus) * sum;
+}
+
+struct Moment {
+  double push = 0;          ///< tangential force on the wheel over f F_N
+  double shift = 0;         ///< of distant points of the wheel against those of the block, backwards [m]
+  double stick_radius = 0;  ///< [m]
+  double work = 0;          ///< rubbed away since the start [J]
+  double residual = 0;      ///< of the energy [J]
+};
+
+/// Shift of the bodies as two points on the axis see it, one in each, at the same depth: theirs and what a
+/// half-space still moves there.
+double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation, double depth) {
+  const double* u = simulation.displacement().data();
+  const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).x;
+  const double turned = model.guide->motion().rotation;
+  const double wheel = -displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).x -
+                       turned * (bodies.radius - depth);
+  const double carrier = (simulation.wheel().angle + turned) * bodies.radius;
+  return carrier + wheel + rail + 2 * deep_displacement(bodies, model.contact->points(), depth);
+}
+
+/// Finite bodies under tangential forces turn a little as a whole where half-spaces do not: the shift seen
+/// from two and four semi-axes deep, continued to the surface.
+double distant_shift(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation) {
+  const double a = bodies.hertz_patch().semi_axis_x;
+  return 2 * shift_seen(bodies, model, simulation, 2 * a) - shift_seen(bodies, model, simulation, 4 * a);
+}
+
+std::vector<Moment> push_and_pull(const TyreOnBlock& bodies, const ProgressText& progress) {
+  Model model(bodies.scene());
+  progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
+  const Preload preload = solve_preload(model, {}, progress);
+  const MotionSpec& motion = *model.scene.motion;
+  const double stable = motion.step_safety * step_limit(model).stable_step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
+  Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
+  constexpr int kSamples = 1500;
+  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
+  progress(fmt::format("{} steps of {:.3e} s", steps, simulation.dt()));
+  const double limit = bodies.friction * bodies.load;
+  const double start = distant_shift(bodies, model, simulation);
+  std::vector<Moment> moments;
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (!simulation.sampled()) continue;
+    simulation.require_finite();
+    const Sample& sample = simulation.sample();
+    const double stick = std::max(sample.patch_area - sample.slip_area, 0.0);
+    moments.push_back({sample.longitudinal_force / limit, distant_shift(bodies, model, simulation) - start,
+                       std::sqrt(stick / std::numbers::pi), sample.energy.frictional_work,
+                       sample.energy.residual});
+    if (moments.size() % 150 == 0)
+      progress(fmt::format("t {:.2f} ms, F_L / f F_N {:.4f}, shift {:.3f} um", 1e3 * sample.time,
+                           moments.back().push, 1e6 * moments.back().shift));
+  }
+  return moments;
+}
+
+Figure loop_figure(const Mindlin& theory, const std::vector<Moment>& moments, double turn) {
+  Series ours{"finite elements", {}, {}, Stroke::solid};
+  Series mindlin{"Mindlin", {}, {}, Stroke::dashed};
+  for (const Moment& moment : moments) {
+    ours.x.push_back(1e6 * moment.shift);
+    ours.y.push_back(moment.push);
+  }
+  const auto add = [&](double shift, double push) {
+    mindlin.x.push_back(1e6 * shift);
+    mindlin.y.push_back(push);
+  };
+  constexpr int kPoints = 60;
+  for (int i = 0; i <= kPoints; ++i) add(theory.first_shift(turn * i / kPoints), turn * i / kPoints);
+  for (int i = kPoints; i >= -kPoints; --i)
+    add(theory.shift_back(turn, turn * i / kPoints), turn * i / kPoints);
+  for (int i = kPoints; i >= -kPoints; --i)
+    add(-theory.shift_back(turn, turn * i / kPoints), -turn * i / kPoints);
+  Figure figure;
+  figure.title = "Tangential force against shift";
+  figure.x_label = "Shift of distant points [um]";
+  figure.panels = {{"F_L / (f F_N) [-]", {ours, mindlin}, {}, 320, std::nullopt}};
+  return figure;
+}
+
+CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& progress) {
+  TyreOnBlock bodies = tyre_of(inputs, true);
+  bodies.friction = inputs["friction"];
+  bodies.guided = true;
+  const double ramp = inputs["ramp"];
+  const double wanted = inputs["push"];
+  bodies.more = fmt::format(
+      "[motion]\nspeed = \"0 m/s\"\nduration = \"{} s\"\n"
+      "traction = {{ mu = {}, ramp = \"{} s\", reversals = 2, shape = \"smooth\" }}\n",
+      5.3 * ramp, wanted * bodies.friction, ramp);
+  const std::vector<Moment> moments = push_and_pull(bodies, progress);
+  const Mindlin theory(bodies);
+
+  // The turning points: the largest forces of the first push, the pull and the second push.
+  const auto at = [&](double time) {
+    return moments.begin() + static_cast<std::ptrdiff_t>(time / 5.3 * static_cast<double>(moments.size()));
+  };
+  const auto by_push = [](const Moment& a, const Moment& b) { return a.push < b.push; };
+  const auto first = std::max_element(moments.begin(), at(2), by_push);
+  const auto pull = std::min_element(at(2), at(4), by_push);
+  const auto second = std::max_element(at(4), moments.end(), by_push);
+  const double turn = 0.25 * (first->push + second->push - 2 * pull->push);
+  if (!(first->push < 1 && turn < 1))
+    throw NumericalError("verify: the wheel slides as a whole; lower push, or raise ramp");
+  const auto rises_to = [&](double push) {
+    return std::find_if(moments.begin(), first, [&](const Moment& m) { return m.push >= push; });
+  };
+  const auto half = rises_to(0.5 * wanted);
+  const auto back = std::find_if(first, pull, [](const Moment& m) { return m.push <= 0; });
+  // In the last sample before the largest force the stick area still shrinks.
+  const auto before = first - 1;
+
+  const double um = 1e6;
+  const double mm = 1e3;
+  CaseResult result;
+  result.findings = {
+      {"largest F_L / (f F_N)", "-", turn, wanted, 0.02},
+      {"stick radius", "mm", mm * before->stick_radius, mm * theory.stick_radius(before->push),
+       mm * 0.5 * bodies.element_size, true},
+      {"stick radius at half of the force", "mm", mm * half->stick_radius,
+       mm * theory.stick_radius(half->push), mm * 0.5 * bodies.element_size, true},
+      {"shift", "um", um * first->shift, um * theory.first_shift(first->push), 0.03},
+      {"shift at half of the force", "um", um * half->shift, um * theory.first_shift(half->push), 0.03},
+      {"shift left when the force is gone",
+       "um",
+       um * back->shift,
+       um * theory.shift_back(first->push, back->push),
+       {}},
+      {"work of the loop", "J", second->work - first->work, theory.loop_work(turn), 0.03},
+      {"energy residual / frictional work", "-", std::abs(moments.back().residual) / moments.back().work, 0,
+       0.01, true}};
+  result.figures.push_back(loop_figure(theory, moments, turn));
+  return result;
+}
+
+}  // namespace
+
+VerifyCase cattaneo_mindlin_case() {
+  std::vector<VerifyInput> inputs = tyre_inputs(true);
+  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
+  inputs.push_back({"push", nullptr, "", 0.875, {0.05, 0.95}, "the largest tangential force over f F_N"});
+  inputs.push_back({"ramp", &kTime, "ms", 2e-3, {1e-5, 0.1}, "the time of the first push"});
+  for (VerifyInput& input : inputs)
+    if (input.name == "element_size") input.value = 2.2e-3;
+  return {"cattaneo_mindlin", "a sphere pushed and pulled tangentially, against Cattaneo and Mindlin",
+          std::move(inputs), cattaneo_mindlin};
+}
+
+}  // namespace tread

@@ -1,0 +1,231 @@
+// From a shift to steady rolling: a torque grows while the wheel hardly rolls, then the wheel rolls on under
+// it. [Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, ch. 5]
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "drivers/verify/cases.hpp"
+#include "drivers/verify/half_space_rolling.hpp"
+#include "drivers/verify/tyre_on_block.hpp"
+
+namespace tread {
+
+namespace {
+
+/// What the wheel has rolled and turned.
+struct Place {
+  double way = 0;     ///< of the wheel [m]
+  double turned = 0;  ///< angle times radius less the way [m]
+  double force = 0;   ///< F_L / F_N [-]
+};
+
+constexpr double kPeriods = 2.5;  ///< of the wheel's turning on its patch while the torque grows
+
+struct Curve {
+  std::vector<double> way;       ///< [m]
+  std::vector<double> creepage;  ///< [-]
+};
+
+/// The half-space: a shift, then rolling under a constant force; the way counts from the shift.
+struct Reference {
+  Curve curve;
+  double steady = 0;  ///< creepage [-]
+};
+
+Reference reference_of(const TyreOnBlock& bodies, double force, double way) {
+  using namespace half_space;
+  const HertzPatch patch = bodies.hertz_patch();
+  const double semi = std::min(patch.semi_axis_x, patch.semi_axis_y);
+  const half_space::Material material{bodies.youngs_modulus, bodies.poissons_ratio};
+  constexpr double kCells = 11;  // in the smaller semi-axis
+  const double cell = semi / kCells;
+  const Influence influence(centred_grid(patch.semi_axis_x + 3 * cell, patch.semi_axis_y + 3 * cell, cell),
+                            material);
+  const NormalContact contact =
+      press(influence, quadratic_gap(bodies.radius, bodies.crown_radius), bodies.load);
+  const RollingContact rolling(influence, contact, bodies.friction);
+  Reference reference;
+  reference.steady = rolling.steady(force).creepage;
+  FrictionState state = rolling.shift(rolling.free_state(), force);
+  for (int step = 0; step * cell < way; ++step) {
+    state = rolling.roll(state, force);
+    reference.curve.way.push_back((step + 0.5) * cell);
+    reference.curve.creepage.push_back(state.creepage);
+  }
+  return reference;
+}
+
+double interpolate(const Curve& curve, double way) {
+  const auto above = std::lower_bound(curve.way.begin(), curve.way.end(), way);
+  if (above == curve.way.begin()) return curve.creepage.front();
+  if (above == curve.way.end()) return curve.creepage.back();
+  const auto i = static_cast<std::size_t>(above - curve.way.begin());
+  const double t = (way - curve.way[i - 1]) / (curve.way[i] - curve.way[i - 1]);
+  return curve.creepage[i - 1] + t * (curve.creepage[i] - curve.creepage[i - 1]);
+}
+
+struct Transient {
+  std::vector<Place> places;
+  double free_creepage = 0;  ///< [-]
+  double residual = 0;       ///< of the energy, over the frictional work [-]
+};
+
+Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
+  Model model(bodies.scene());
+  progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
+  const Preload preload = solve_preload(model, steady_motion(model), progress);
+  const MotionSpec& motion = *model.scene.motion;
+  const double stable = motion.step_safety * step_limit(model).stable_step;
+  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
+  Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
+  constexpr int kSamples = 2000;
+  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
+  progress(fmt::format("{} steps of {:.3e} s", steps, simulation.dt()));
+  Transient transient;
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (!simulation.sampled()) continue;
+    simulation.require_finite();
+    const Sample& sample = simulation.sample();
+    if (transient.places.empty()) transient.free_creepage = sample.creepage_mean;
+    const double way = simulation.wheel().origin.x;
+    const double angle = simulation.wheel().angle + model.guide->motion().rotation;
+    transient.places.push_back(
+        {way, angle * bodies.radius - way, sample.longitudinal_force / sample.vertical_force});
+    transient.residual = std::abs(sample.energy.residual) / sample.energy.frictional_work;
+    if (transient.places.size() % 200 == 0)
+      progress(fmt::format("x {:.2f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}", 1e3 * way,
+                           1e-3 * sample.vertical_force, transient.places.back().force));
+  }
+  return transient;
+}
+
+/// Creepage less free rolling: mean slope of the turned over the rolled way, weighted by a triangle of half
+/// the base `period` [m], which hides the wheel's oscillation of that period.
+Curve creepage_curve(const Transient& transient, double period) {
+  const std::vector<Place>& places = transient.places;
+  std::vector<double> sum{0};
+  for (const Place& place : places) sum.push_back(sum.back() + place.turned);
+  const double spacing = (places.back().way - places.front().way) / static_cast<double>(places.size() - 1);
+  const auto box = static_cast<std::size_t>(std::lround(period / spacing));
+  Curve curve;
+  for (std::size_t i = box; i + box < sum.size(); ++i) {
+    const double ahead = sum[i + box] - sum[i];
+    const double behind = sum[i] - sum[i - box];
+    const double n = static_cast<double>(box);
+    const double ratio = (ahead - behind) / (n * n * spacing);  // (w R - v) / v
+    curve.way.push_back(0.5 * (places[i - 1].way + places[i].way));
+    curve.creepage.push_back(ratio / (1 + 0.5 * ratio) - transient.free_creepage);
+  }
+  return curve;
+}
+
+/// Period with which the wheel turns to and fro on the stick of its patch, the bodies' own compliance guessed
+/// [s].
+double turning_period(const TyreOnBlock& bodies) {
+  const HertzPatch patch = bodies.hertz_patch();
+  const double shear_modulus = bodies.youngs_modulus / (2 * (1 + bodies.poissons_ratio));
+  const double radius = std::sqrt(patch.semi_axis_x * patch.semi_axis_y);
+  const double compliance = 1.15 * (2 - bodies.poissons_ratio) / (4 * radius * shear_modulus);
+  const Model model(bodies.scene());
+  const double mass = model.wheelset->inertia() / (bodies.radius * bodies.radius);
+  return 2 * std::numbers::pi * std::sqrt(mass * compliance);
+}
+
+CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& progress) {
+  TyreOnBlock bodies = tyre_of(inputs, false);
+  bodies.friction = inputs["friction"];
+  bodies.guided = true;
+  const double mu = inputs["mu"];
+  if (std::abs(mu) > 0.95 * bodies.friction || mu == 0)
+    throw InputError(
+        fmt::format("verify: mu = {:g} is zero or not below 0.95 of friction = {:g}", mu, bodies.friction));
+  const double a = bodies.hertz_patch().semi_axis_x;
+  const double way = inputs["way"] * a;
+  const double grown = inputs["growth"] * a;
+  // Half a cosine of 2.5 periods leaves the wheel nearly at rest on its patch.
+  const auto set_speed = [&](double period) {
+    const double ramp = kPeriods * period;
+    bodies.roll_on(grown / ramp, way, way,
+                   fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
+  };
+  set_speed(1e-3);
+  set_speed(turning_period(bodies));
+  const Transient transient = roll(bodies, progress);
+
+  const double window = grown / kPeriods;
+  const Curve ours = creepage_curve(transient, window);
+  Reference reference = reference_of(bodies, mu * bodies.load, way);
+  for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift, in the middle of the growth
+  Series fe{"finite elements", {}, {}, Stroke::solid};
+  Series theory{"half-space", {}, {}, Stroke::dashed};
+  Series force{"F_L / F_N", {}, {}, Stroke::solid};
+  double difference = 0;
+  double high = 0, high_at = 0;
+  double low_force = 1e30, high_force = -1e30;
+  const double from = grown + window;
+  const double sign = mu > 0 ? 1 : -1;
+  for (std::size_t i = 0; i < ours.way.size(); ++i) {
+    if (ours.way[i] < from) continue;
+    fe.x.push_back(1e3 * ours.way[i]);
+    fe.y.push_back(100 * ours.creepage[i]);
+    difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference.curve, ours.way[i])));
+    if (sign * ours.creepage[i] <= high) continue;
+    high = sign * ours.creepage[i];
+    high_at = ours.way[i];
+  }
+  for (const Place& place : transient.places) {
+    force.x.push_back(1e3 * place.way);
+    force.y.push_back(place.force);
+    if (place.way < grown) continue;
+    low_force = std::min(low_force, place.force);
+    high_force = std::max(high_force, place.force);
+  }
+  double top = 0, top_at = 0;
+  for (std::size_t i = 0; i < reference.curve.way.size(); ++i) {
+    theory.x.push_back(1e3 * reference.curve.way[i]);
+    theory.y.push_back(100 * reference.curve.creepage[i]);
+    if (sign * reference.curve.creepage[i] <= top) continue;
+    top = sign * reference.curve.creepage[i];
+    top_at = reference.curve.way[i];
+  }
+  CaseResult result;
+  result.findings = {{"largest difference of the creepages / steady value", "-",
+                      difference / std::abs(reference.steady), 0, 0.1, true},
+                     {"largest creepage", "%", 100 * sign * high, 100 * sign * top, 0.1},
+                     {"where", "mm", 1e3 * high_at, 1e3 * top_at, {}},
+                     {"creepage at the end", "%", 100 * ours.creepage.back(), 100 * reference.steady, 0.1},
+                     {"smallest F_L / F_N under the full torque", "-", low_force, mu, 0.05},
+                     {"largest F_L / F_N under the full torque", "-", high_force, mu, 0.05},
+                     {"energy residual / frictional work", "-", transient.residual, 0, 0.01, true}};
+  Figure figure;
+  figure.title = "From a shift to steady rolling";
+  figure.x_label = "Position of the wheel [mm]";
+  figure.panels = {{"Creepage [%]", {fe, theory}, {{100 * reference.steady, "steady"}}, 260, std::nullopt},
+                   {"Traction coefficient [-]", {force}, {}, 160, std::nullopt}};
+  result.figures.push_back(std::move(figure));
+  return result;
+}
+
+}  // namespace
+
+VerifyCase transient_rolling_case() {
+  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
+  inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
+  inputs.push_back(
+      {"growth", nullptr, "", 0.15, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
+  inputs.push_back({"way", nullptr, "", 3, {1, 10}, "the way in semi-axes of the patch"});
+  for (VerifyInput& input : inputs)
+    if (input.name == "element_size") input.value = 1.6e-3;
+  return {"transient", "from a shift to steady rolling, against the half-space", std::move(inputs),
+          transient_rolling};
+}
+
+}  // namespace tread
