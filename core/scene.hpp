@@ -102,9 +102,11 @@ struct MotionSpec {
   std::string ramp_shape = "linear";      ///< or "smooth": half a cosine
   int reversals = 0;  ///< times that the full torque then turns into its opposite, each in 2 T1
   bool spin_in_preload = true;
-  double creepage = 0;           ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
-  std::string start = "moving";  ///< motion at t = 0: "rigid", "moving" static deflection, "rolling" before
-  double step_safety = 0.95;     ///< fraction of the computed stable step
+  double creepage = 0;  ///< of the wheel at t = 0, relative to free rolling; -2: locked [-]
+  /// Motion at t = 0: of "rigid" bodies, with the static deflection "moving" along, or of a wheel that has
+  /// been "rolling" over the fastenings; "auto": rolling on fastenings, else moving.
+  std::string start = "auto";
+  double step_safety = 0.95;  ///< fraction of the computed stable step
 
   /// Spin over that of free rolling. [theory.md, eq. 13]
   double spin_ratio() const { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
@@ -187,6 +189,13 @@ struct Scene {
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
   OutputSpec output;
+
+  /// MotionSpec::start, "auto" resolved; without [motion]: "rigid".
+  std::string start() const {
+    if (!motion) return "rigid";
+    if (motion->start != "auto") return motion->start;
+    return fastenings && wheel && wheel->bore == "free" && motion->speed > 0 ? "rolling" : "moving";
+  }
 };
 
 }  // namespace tread

@@ -16,7 +16,7 @@ class EnergyWatch {
   /// `elastic_kinetic`: kinetic energy of bodies that do not travel. [J]
   void start(const EnergyLedger& energy, double excess, double elastic_kinetic);
 
-  /// A later sample; false where share() exceeds 1 or a value is not finite.
+  /// A later sample; false where share() exceeds 1 for the second time in a row or a value is not finite.
   bool sound(const EnergyLedger& energy, double excess);
 
   double missed() const { return missed_; }      ///< appeared (> 0) or vanished (< 0) since the start [J]
@@ -33,6 +33,7 @@ class EnergyWatch {
   double fallen_ = 0;   ///< largest loss of potential energy so far [J]
   double driven_ = 0;   ///< largest work of torque, guide and hammer so far [J]
   double missed_ = 0, supplied_ = 0, share_ = 0;
+  int breaches_ = 0;  ///< in a row
 };
 
 }  // namespace tread

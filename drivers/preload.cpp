@@ -17,10 +17,7 @@ namespace tread {
 namespace {
 
 /// Gravity, centrifugal force and vehicle weight as an external force field.
-AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, const SteadyMotion& motion) {
-  const double spin = motion.spin;
-  // Run in, the wheel is accelerated by what the contact force exceeds the static one.
-  const double inertia = motion.run_in ? motion.run_in->force - model.wheel_load() : 0;
+AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, double spin) {
   AlignedVector<double> load(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   for (const SweptBlock& block : model.mesh.blocks)
     for (int station = 0; station < block.station_count(); ++station) {
@@ -34,7 +31,7 @@ AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, 
               m * spin * spin * block.section.q[static_cast<std::size_t>(node)];
       }
     }
-  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load() - inertia});
+  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
   if (model.guide) {
     model.guide->reduce(load.data());
     load[static_cast<std::size_t>(model.guide->unknown())] +=
@@ -70,6 +67,23 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
         }
       }
     });
+  }
+}
+
+/// Adds what presses on the wheelset when it has been rolling.
+void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {
+  model.journal.add(load, frame, {0, 0, -run_in.journal_force});
+  const double per_mass = run_in.inertia_force / model.wheelset->mass();
+  for (const int b : model.wheelset->blocks()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station) {
+      const Vec3 down = to_local(block, station, frame.angle, {0, 0, -per_mass});
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const double m = model.mass[static_cast<std::size_t>(slot)];
+        for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * down[c];
+      }
+    }
   }
 }
 
@@ -185,8 +199,8 @@ SteadyMotion steady_motion(const Model& model) {
   if (!model.scene.motion || !model.scene.wheel) return out;
   const MotionSpec& motion = *model.scene.motion;
   if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
-  if (motion.start == "moving") out.speed = motion.speed;
-  if (motion.start == "rolling" && motion.speed > 0) out.run_in = run_in(model);
+  if (model.scene.start() == "moving") out.speed = motion.speed;
+  out.rolling = model.scene.start() == "rolling" && motion.speed > 0;
   return out;
 }
 
@@ -197,7 +211,6 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const auto n = static_cast<std::int64_t>(system.diagonal().size());
 
   Preload out;
-  out.motion = motion;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
   if (model.contact) {
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
@@ -206,7 +219,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }
-  AlignedVector<double> load = external_load(model, out.wheel, motion);
+  AlignedVector<double> load = external_load(model, out.wheel, motion.spin);
   const auto held = held_wheel(model, system.diagonal());
   AlignedVector<double> reduced = load;
   system.reduce(reduced.data());
@@ -245,7 +258,11 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       if (model.contact->points().empty())
         throw NumericalError(
             iteration == 0
-                ? std::string("preload: no point of the wheel touches the rail; check wheel.lateral_offset")
+                ? fmt::format(
+                      "preload: no integration point of the rail touches the wheel; check "
+                      "wheel.lateral_offset, and raise the wheel load of {:.3g} N if its patch is smaller "
+                      "than an element",
+                      model.wheel_load())
                 : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}",
                               iteration, why_unbalanced(model, out.residual * scale, size)));
     }
@@ -266,7 +283,12 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
                          iteration, out.residual, model.contact ? model.contact->points().size() : 0,
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
-    if (out.residual < kTolerance) break;
+    if (out.residual < kTolerance) {
+      if (!motion.rolling || out.run_in) break;
+      out.run_in = run_in(model, axle_bending(model, u, out.wheel));
+      add_run_in(model, *out.run_in, out.wheel, load.data());
+      continue;
+    }
     if (iteration == kMaxNewton)
       throw NumericalError(fmt::format(
           "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,

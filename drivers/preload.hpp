@@ -15,14 +15,14 @@ namespace tread {
 /// Motion whose steady inertia the static state carries: material passes through a deflection that stays
 /// under the wheel. [theory.md, Preload]
 struct SteadyMotion {
-  double spin = 0;              ///< of the wheel: centrifugal force about the bent axle [rad/s]
-  double speed = 0;             ///< of the deflection along the track [m/s]
-  std::optional<RunIn> run_in;  ///< its contact force replaces the static one
+  double spin = 0;       ///< of the wheel: centrifugal force about the bent axle [rad/s]
+  double speed = 0;      ///< of the deflection along the track [m/s]
+  bool rolling = false;  ///< run in over the fastenings: the static state then has that contact force
 };
 
 struct Preload {
   AlignedVector<double> displacement;  ///< secondary nodes filled [m]
-  SteadyMotion motion;                 ///< that it carries
+  std::optional<RunIn> run_in;         ///< where SteadyMotion::rolling wants it
   BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   int newton_iterations = 0;

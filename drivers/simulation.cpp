@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/energy_stop.hpp"
+#include "drivers/static_system.hpp"
 #include "kernels/solver/chunks.hpp"
 #include "kernels/time_update.hpp"
 
@@ -32,7 +33,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       frame_(preload.wheel) {
   const Scene& scene = model.scene;
   if (model.guide) model.guide->settle(u_.data());
-  const std::optional<RunIn>& run_in = preload.motion.run_in;
+  const std::optional<RunIn>& run_in = preload.run_in;
   if (run_in) place(*run_in);
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
@@ -160,7 +161,8 @@ void Simulation::start_velocities(const std::optional<RunIn>& run_in) {
   const double speed = motion ? motion->speed : 0.0;
   frame_.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
   frame_.spin = speed / model_->wheel_radius();
-  if (motion && motion->start != "rigid") start_deflected(speed);
+  const bool deflected = model_->scene.start() != "rigid";
+  if (deflected) start_deflected(speed);
   if (run_in)
     add_to_rail(
         [&](double x) {
@@ -168,7 +170,8 @@ void Simulation::start_velocities(const std::optional<RunIn>& run_in) {
           return std::pair(section.deflection_rate, section.rotation_rate);
         },
         v_);
-  if (motion && motion->start != "rigid") roll_freely();
+  if (run_in) start_bending(run_in->bending_speed);
+  if (deflected) roll_freely();
   if (!motion || motion->creepage == 0) return;
   frame_.spin *= motion->spin_ratio();
   for (const int b : model_->index.wheel()) {
@@ -176,6 +179,24 @@ void Simulation::start_velocities(const std::optional<RunIn>& run_in) {
     for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
       v_[static_cast<std::size_t>(i)] *= motion->spin_ratio();
   }
+}
+
+/// The wheelset bends on in the shape that it has, beyond its rim's displacement; `rate` [1/s].
+void Simulation::start_bending(double rate) {
+  const Vec3 rim = rim_displacement(*model_, u_.data(), frame_);
+  for (const int b : model_->index.wheel()) {
+    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station) {
+      const Vec3 carried = to_local(block, station, frame_.angle, rim);
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 3; ++c) {
+          const auto i = static_cast<std::size_t>(dof(block.base + block.slot(node, station), c));
+          v_[i] += rate * (u_[i] - carried[c]);
+        }
+    }
+  }
+  for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
+  follow_ties();
 }
 
 void Simulation::start_deflected(double speed) {
@@ -255,6 +276,10 @@ void Simulation::search() {
 void Simulation::roll() {
   if (!model_->contact) return;
   model_->contact->resolve({u_.data(), v_.data(), model_->inverse_mass.data()}, frame_, dt_);
+  if (model_->contact->point_at_the_end(frame_)) {
+    if (dt_ > stable_step_of(*model_)) stop();
+    model_->contact->require_room(frame_);
+  }
   if (measured_) model_->contact->add_forces(force_.data());
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
   impulse_ += dt_ * on_wheel;

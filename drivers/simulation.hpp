@@ -110,6 +110,7 @@ class Simulation {
   void place(const RunIn& run_in);
   void start_velocities(const std::optional<RunIn>& run_in);
   void start_deflected(double speed);
+  void start_bending(double rate);
   void roll_freely();
   BodyFrame half_step_frame() const;
   double kinetic_energy() const;

@@ -310,9 +310,9 @@ void add_motion(Keys& keys) {
       rolling(number("motion.creepage", at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
                      "Creepage at the start, relative to free rolling; -2: a locked wheel")));
   keys.push_back(rolling(
-      choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"rigid", "moving", "rolling"},
+      choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"auto", "rigid", "moving", "rolling"},
              "Motion at t = 0: of rigid bodies, with the static deflection moving along, or that of a "
-             "wheel that has been rolling over the fastenings")));
+             "wheel that has been rolling over the fastenings; auto: rolling on [fastenings], else moving")));
   keys.push_back(number("motion.step_safety", at(&Scene::motion, &MotionSpec::step_safety), above(0, 1),
                         "Time step divided by the stable step"));
 }

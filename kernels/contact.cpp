@@ -428,21 +428,27 @@ void Contact::search(const ContactState& state, double time, double dt) {
   gather_columns();
 }
 
-void Contact::require_room(const BodyFrame& wheel) const {
+const ContactPoint* Contact::point_at_the_end(const BodyFrame& wheel) const {
   const double room = 0.95 * reach();
   for (const ContactPoint& point : points_) {
-    const double ahead = point.position.x - wheel.origin.x;
     const bool beside = (first_edge_ > 0 && point.face[1] == first_edge_) ||
                         (last_edge_ < rail_profile_.edges() && point.face[1] == last_edge_ - 1);
-    if (std::abs(ahead) < room && !beside) continue;
-    throw NumericalError(fmt::format(
-        "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface "
-        "that "
-        "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
-        "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
-        "depth",
-        1e3 * ahead, 1e3 * point.position.y, 1e3 * reach(), 1e-3 * norm(totals_.force_on_rail)));
+    if (beside || std::abs(point.position.x - wheel.origin.x) >= room) return &point;
   }
+  return nullptr;
+}
+
+void Contact::require_room(const BodyFrame& wheel) const {
+  const ContactPoint* point = point_at_the_end(wheel);
+  if (!point) return;
+  throw NumericalError(fmt::format(
+      "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface "
+      "that "
+      "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
+      "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
+      "depth",
+      1e3 * (point->position.x - wheel.origin.x), 1e3 * point->position.y, 1e3 * reach(),
+      1e-3 * norm(totals_.force_on_rail)));
 }
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
@@ -463,7 +469,6 @@ void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double d
   nodes_.average(window_first_, window_last_, points_);
   std::erase_if(points_, [](const ContactPoint& point) { return point.pressure <= 0; });
   sum_up();
-  require_room(wheel);
 }
 
 double Contact::stored_energy(double pressure, const Traction& shear) const {

@@ -68,8 +68,10 @@ class Contact {
   /// the motion that the step has without contact.
   void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);
 
-  /// NumericalError where the patch found last comes to the end of the surface that is searched: beyond it
-  /// points would be missed.
+  /// A point of the patch found last that lies at the end of the surface that is searched, beyond which
+  /// points would be missed; or null.
+  const ContactPoint* point_at_the_end(const BodyFrame& wheel) const;
+  /// NumericalError where there is one.
   void require_room(const BodyFrame& wheel) const;
 
   /// Pressure-weighted mean velocity of the wheel's surface against the rail's over the points found last

@@ -5,7 +5,57 @@
 
 namespace tread {
 
-BeamVehicle beam_vehicle(const Model& model) {
+namespace {
+
+/// Visits slot and Cartesian displacement of every node of a revolved block.
+template <class Visit>
+void visit_nodes(const SweptBlock& block, const double* u, const BodyFrame& wheel, const Visit& visit) {
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      visit(slot,
+            to_cartesian(block, station, wheel.angle, {u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]}));
+    }
+}
+
+}  // namespace
+
+Vec3 rim_displacement(const Model& model, const double* displacement, const BodyFrame& wheel) {
+  Vec3 sum;
+  double mass = 0;
+  visit_nodes(model.mesh.blocks[static_cast<std::size_t>(model.index.tread)], displacement, wheel,
+              [&](std::int64_t slot, const Vec3& u) {
+                const double m = model.mass[static_cast<std::size_t>(slot)];
+                sum += m * u;
+                mass += m;
+              });
+  return (1 / mass) * sum;
+}
+
+AxleBending axle_bending(const Model& model, const double* displacement, const BodyFrame& wheel) {
+  constexpr double kHardly = 0.1;  // of the Hertz approach
+  AxleBending axle;
+  const Vec3 rim = rim_displacement(model, displacement, wheel);
+  const double journal = rim.z - model.journal.displacement(displacement, wheel).z;
+  if (journal < kHardly * model.hertz_patch.approach) return axle;
+  double mass = 0;
+  for (const int b : model.index.wheel())
+    visit_nodes(model.mesh.blocks[static_cast<std::size_t>(b)], displacement, wheel,
+                [&](std::int64_t slot, const Vec3& u) {
+                  const double m = model.mass[static_cast<std::size_t>(slot)];
+                  const Vec3 shape = (1 / journal) * (rim - u);
+                  axle.wheelset_share += m * shape.z;
+                  mass += m * dot(shape, shape);
+                });
+  const double added = model.scene.vehicle ? model.scene.vehicle->unsprung_mass : 0;
+  axle.journal = journal;
+  axle.bending.coupling = axle.wheelset_share + added;
+  axle.bending.mass = mass + added;
+  axle.bending.stiffness = (model.journal_load() + axle.wheelset_share * model.scene.gravity) / journal;
+  return axle;
+}
+
+BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle) {
   BeamVehicle vehicle;
   vehicle.gravity = model.scene.gravity;
   vehicle.unsprung_mass = model.wheelset->mass();
@@ -17,6 +67,7 @@ BeamVehicle beam_vehicle(const Model& model) {
     vehicle.damping = spec.suspension_damping;
   }
   if (model.scene.load) vehicle.pressed = model.scene.load->wheel_load;
+  if (!axle.rigid()) vehicle.bending = axle.bending;
   vehicle.contact = model.wheel_load() / std::pow(model.hertz_patch.approach, 1.5);
   return vehicle;
 }
@@ -32,7 +83,7 @@ RunIn::Section RunIn::at(double x) const {
           between(&Section::rotation_rate)};
 }
 
-RunIn run_in(const Model& model) {
+RunIn run_in(const Model& model, const AxleBending& axle) {
   constexpr double kTime = 0.08;  // ten times what the overdamped wheel on the paper's track takes [s]
   constexpr int kLeastSpans = 4;
   constexpr int kStepsOfSpan = 400;
@@ -41,16 +92,27 @@ RunIn run_in(const Model& model) {
   const double spacing = scene.fastenings->spacing;
   const int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));
   const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel), spans);
-  const BeamVehicle vehicle = beam_vehicle(model);
+  const BeamVehicle vehicle = beam_vehicle(model, axle);
   const double step = spacing / kStepsOfSpan;
   BeamPassage passage(beam, vehicle, -spans * spacing, step / speed);
+  const double at_rest = passage.bending();
   for (int i = spans * kStepsOfSpan - 1; i >= 0; --i) passage.step(-i * step);
 
   RunIn out;
   out.force = passage.force();
   out.wheel_speed = passage.wheel_speed();
-  out.stretch = passage.sprung() - passage.wheel() - vehicle.static_stretch();
+  out.stretch = passage.sprung() - passage.wheel() - passage.bending() - vehicle.static_stretch();
   out.sprung_speed = passage.sprung_speed();
+  // A force at the journal and one on the mass that together give the contact force and the bending.
+  const double more = out.force - vehicle.load();
+  if (axle.rigid()) {
+    out.inertia_force = more;
+  } else {
+    out.bending_speed = passage.bending_speed() / axle.journal;
+    const double share = axle.wheelset_share / model.wheelset->mass();
+    out.journal_force = (axle.bending.stiffness * (passage.bending() - at_rest) - share * more) / (1 - share);
+    out.inertia_force = more - out.journal_force;
+  }
   out.left = beam.left();
   out.pitch = beam.pitch();
   const std::vector<double> rest = beam.static_state(0, out.force);

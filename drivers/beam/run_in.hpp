@@ -9,16 +9,35 @@
 
 namespace tread {
 
-/// The model's wheelset with M_a as one mass, its vehicle or load, the Hertz spring of its undeformed
-/// surfaces.
-BeamVehicle beam_vehicle(const Model& model);
+/// How the wheelset bends under the load on its journal.
+struct AxleBending {
+  double journal = 0;  ///< deflection of the journal beyond the rim's, downwards [m]
+  double wheelset_share =
+      0;  ///< wheelset's mass times its deflection beyond the rim's over the journal's [kg]
+  BeamVehicle::Bending bending;
+
+  bool rigid() const { return bending.stiffness == 0; }
+};
+
+/// From the static displacement; of a wheel that hardly bends: rigid.
+AxleBending axle_bending(const Model& model, const double* displacement, const BodyFrame& wheel);
+
+/// Mean displacement of the rim, Cartesian [m].
+Vec3 rim_displacement(const Model& model, const double* displacement, const BodyFrame& wheel);
+
+/// The model's wheelset with M_a, its vehicle or load, the Hertz spring of its undeformed surfaces.
+BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);
 
 /// The state at x = 0 less the static one under the same contact force; deflections and speeds downwards.
 struct RunIn {
-  double force = 0;         ///< F_N [N]
-  double wheel_speed = 0;   ///< [m/s]
-  double stretch = 0;       ///< of the sprung mass towards the wheel, more than under its weight [m]
-  double sprung_speed = 0;  ///< [m/s]
+  double force = 0;          ///< F_N [N]
+  double wheel_speed = 0;    ///< of the rim [m/s]
+  double bending_speed = 0;  ///< of the journal beyond the rim's over its static deflection [1/s]
+  /// Forces on the wheelset besides those of statics, downwards: at the journal, and on its mass.
+  double journal_force = 0;  ///< [N]
+  double inertia_force = 0;  ///< [N]
+  double stretch = 0;        ///< of the sprung mass towards the journal, more than under its weight [m]
+  double sprung_speed = 0;   ///< [m/s]
 
   /// What a section of the beam does more than in the static state; rates as seen from the wheel.
   struct Section {
@@ -32,6 +51,6 @@ struct RunIn {
 };
 
 /// The wheel has rolled over the fastenings for a time in which its start is forgotten.
-RunIn run_in(const Model& model);
+RunIn run_in(const Model& model, const AxleBending& axle);
 
 }  // namespace tread

@@ -180,23 +180,77 @@ BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, doub
   rail_ = beam.deflection(u_, x);
   approach_ = std::pow(force_ / vehicle.contact, 2.0 / 3);
   wheel_[0] = rail_ + approach_;
-  wheel_[1] = wheel_[0] + vehicle.static_stretch();
+  if (vehicle.bending)
+    wheel_[1] = (vehicle.sprung_mass * vehicle.gravity + vehicle.pressed +
+                 vehicle.bending->coupling * vehicle.gravity) /
+                vehicle.bending->stiffness;
+  wheel_[2] = wheel_[0] + wheel_[1] + vehicle.static_stretch();
+  assemble_vehicle();
 }
 
 void BeamPassage::add_sprung_mass(double mass) {
+  const double before = vehicle_.static_stretch();
   vehicle_.sprung_mass += mass;
-  if (vehicle_.stiffness > 0) wheel_[1] += mass * vehicle_.gravity / vehicle_.stiffness;
+  wheel_[2] += vehicle_.static_stretch() - before;
+  assemble_vehicle();
 }
 
-/// Deflections of wheel and sprung mass at the end of a step under the effective loads of Newmark's method.
-BeamPassage::Pair BeamPassage::solve_vehicle(const Pair& load) const {
-  const double c = vehicle_.stiffness + 2 / dt_ * vehicle_.damping;
-  const double a = c + 4 / (dt_ * dt_) * vehicle_.unsprung_mass;
-  const double b = c + 4 / (dt_ * dt_) * vehicle_.sprung_mass;
-  if (vehicle_.sprung_mass == 0) return {load[0] / a, 0};
-  const double det = a * b - c * c;
-  return {(b * load[0] + c * load[1]) / det, (a * load[1] + c * load[0]) / det};
+void BeamPassage::assemble_vehicle() {
+  const BeamVehicle::Bending bending = vehicle_.bending.value_or(BeamVehicle::Bending{});
+  vehicle_mass_ = {{{vehicle_.unsprung_mass, bending.coupling, 0},
+                    {bending.coupling, bending.mass, 0},
+                    {0, 0, vehicle_.sprung_mass}}};
+  const Three stretch = {1, vehicle_.bending ? 1.0 : 0.0, -1};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double both = stretch[i] * stretch[j];
+      vehicle_damping_[i][j] = vehicle_.damping * both;
+      vehicle_system_[i][j] = vehicle_.stiffness * both + 2 / dt_ * vehicle_damping_[i][j] +
+                              4 / (dt_ * dt_) * vehicle_mass_[i][j];
+    }
+  vehicle_system_[1][1] += bending.stiffness;
+  // What is not there does not move.
+  for (std::size_t i = 0; i < 3; ++i)
+    if (vehicle_mass_[i][i] == 0) {
+      for (std::size_t j = 0; j < 3; ++j) vehicle_system_[i][j] = vehicle_system_[j][i] = 0;
+      vehicle_system_[i][i] = 1;
+    }
 }
+
+BeamPassage::Three BeamPassage::static_load() const {
+  const double g = vehicle_.gravity;
+  if (!vehicle_.bending) return {vehicle_.unsprung_mass * g + vehicle_.pressed, 0, vehicle_.sprung_mass * g};
+  return {vehicle_.unsprung_mass * g + vehicle_.pressed, vehicle_.bending->coupling * g + vehicle_.pressed,
+          vehicle_.sprung_mass * g};
+}
+
+namespace {
+
+using Three = std::array<double, 3>;
+
+Three times(const std::array<Three, 3>& matrix, const Three& x) {
+  Three y{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) y[i] += matrix[i][j] * x[j];
+  return y;
+}
+
+/// Of a symmetric positive definite system.
+Three solve(std::array<Three, 3> a, Three b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = k + 1; i < 3; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < 3; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for (std::size_t k = 3; k-- > 0;) {
+    for (std::size_t j = k + 1; j < 3; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+}  // namespace
 
 void BeamPassage::step(double x, double roughness) {
   const double h1 = 2 / dt_;
@@ -217,16 +271,17 @@ void BeamPassage::step(double x, double roughness) {
   const std::vector<double> response = factor_.solve(std::move(unit));
 
   // Vehicle without contact, and under a unit force on the wheel.
-  const Pair mass = {vehicle_.unsprung_mass, vehicle_.sprung_mass};
-  Pair push{};
-  const double stretch_drag =
-      vehicle_.damping * (h1 * (wheel_[0] - wheel_[1]) + wheel_speed_[0] - wheel_speed_[1]);
-  for (std::size_t i = 0; i < 2; ++i)
-    push[i] =
-        mass[i] * (h2 * wheel_[i] + 2 * h1 * wheel_speed_[i] + wheel_acceleration_[i] + vehicle_.gravity) +
-        (i == 0 ? vehicle_.pressed + stretch_drag : -stretch_drag);
-  const Pair free = solve_vehicle(push);
-  const Pair pushed = solve_vehicle({-1, 0});
+  Three inertia_of{}, drag_of{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    inertia_of[i] = h2 * wheel_[i] + 2 * h1 * wheel_speed_[i] + wheel_acceleration_[i];
+    drag_of[i] = h1 * wheel_[i] + wheel_speed_[i];
+  }
+  Three push = static_load();
+  const Three accelerated = times(vehicle_mass_, inertia_of);
+  const Three dragged = times(vehicle_damping_, drag_of);
+  for (std::size_t i = 0; i < 3; ++i) push[i] += accelerated[i] + dragged[i];
+  const Three free = solve(vehicle_system_, push);
+  const Three pushed = solve(vehicle_system_, {-1, 0, 0});
 
   // approach = wheel - rail - roughness, both linear in the force.
   const double gap = free[0] - beam_->deflection(next, x) - roughness;
@@ -249,7 +304,7 @@ void BeamPassage::step(double x, double roughness) {
     a_[i] = acceleration;
     u_[i] = next[i];
   }
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const double moved = free[i] + force_ * pushed[i];
     const double acceleration = h2 * (moved - wheel_[i]) - 2 * h1 * wheel_speed_[i] - wheel_acceleration_[i];
     wheel_speed_[i] += 0.5 * dt_ * (wheel_acceleration_[i] + acceleration);

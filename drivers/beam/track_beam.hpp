@@ -73,15 +73,24 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
 /// What a wheel is in the beam's world.
 struct BeamVehicle {
   double unsprung_mass = 0;  ///< wheelset and what is fixed to it [kg]
-  double sprung_mass = 0;    ///< [kg]
-  double stiffness = 0;      ///< of the suspension [N/m]
-  double damping = 0;        ///< [N s/m]
-  double pressed = 0;        ///< further force on the wheel, downwards [N]
-  double contact = 0;        ///< C of F = C approach^(3/2) [N/m^1.5]
-  double gravity = 9.81;     ///< [m/s2]
+  /// Of the wheelset by the journal's deflection b beyond the rim's, in the shape of statics; a rigid
+  /// wheelset has none. With the rim's deflection w: kinetic energy m w'^2 / 2 + coupling w' b' + mass b'^2
+  /// / 2.
+  struct Bending {
+    double coupling = 0;   ///< [kg]
+    double mass = 0;       ///< [kg]
+    double stiffness = 0;  ///< [N/m]
+  };
+  std::optional<Bending> bending;
+  double sprung_mass = 0;  ///< [kg]
+  double stiffness = 0;    ///< of the suspension [N/m]
+  double damping = 0;      ///< [N s/m]
+  double pressed = 0;      ///< further force on the journal, downwards [N]
+  double contact = 0;      ///< C of F = C approach^(3/2) [N/m^1.5]
+  double gravity = 9.81;   ///< [m/s2]
 
   double load() const { return (unsprung_mass + sprung_mass) * gravity + pressed; }
-  /// Of the sprung mass below its place over the wheel without load [m].
+  /// Of the sprung mass below its place over the journal without load [m].
   double static_stretch() const { return stiffness > 0 ? sprung_mass * gravity / stiffness : 0; }
 };
 
@@ -100,24 +109,30 @@ class BeamPassage {
 
   double time() const { return time_; }
   double force() const { return force_; }                       ///< F_N [N]
-  double wheel() const { return wheel_[0]; }                    ///< deflection of the wheel [m]
-  double rail() const { return rail_; }                         ///< of the rail under it [m]
-  double sprung() const { return wheel_[1]; }                   ///< of the sprung mass [m]
+  double wheel() const { return wheel_[0]; }                    ///< deflection of the rim [m]
+  double bending() const { return wheel_[1]; }                  ///< of the journal beyond the rim's [m]
+  double rail() const { return rail_; }                         ///< of the rail under the wheel [m]
+  double sprung() const { return wheel_[2]; }                   ///< of the sprung mass [m]
   double wheel_speed() const { return wheel_speed_[0]; }        ///< downwards [m/s]
-  double sprung_speed() const { return wheel_speed_[1]; }       ///< downwards [m/s]
+  double bending_speed() const { return wheel_speed_[1]; }      ///< [m/s]
+  double sprung_speed() const { return wheel_speed_[2]; }       ///< downwards [m/s]
   const std::vector<double>& beam_state() const { return u_; }  ///< w [m] and rotation [rad] of each node
   const std::vector<double>& beam_rate() const { return v_; }   ///< their rates [m/s], [rad/s]
 
  private:
-  using Pair = std::array<double, 2>;  ///< of wheel and sprung mass
-  Pair solve_vehicle(const Pair& load) const;
+  using Three = std::array<double, 3>;  ///< of rim, bending, sprung mass
+  using Matrix = std::array<Three, 3>;
+  void assemble_vehicle();
+  Three static_load() const;
 
   const TrackBeam* beam_;
   BeamVehicle vehicle_;
   double dt_;
-  BandMatrix<double> factor_;  ///< of K + 2 C / dt + 4 M / dt^2
+  BandMatrix<double> factor_;                  ///< of K + 2 C / dt + 4 M / dt^2
+  Matrix vehicle_mass_{}, vehicle_damping_{};  ///< of the vehicle
+  Matrix vehicle_system_{};                    ///< its K + 2 C / dt + 4 M / dt^2
   std::vector<double> u_, v_, a_;
-  Pair wheel_{}, wheel_speed_{}, wheel_acceleration_{};
+  Three wheel_{}, wheel_speed_{}, wheel_acceleration_{};
   double time_ = 0, force_ = 0, rail_ = 0, approach_ = 0;
 };
 

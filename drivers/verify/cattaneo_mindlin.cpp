@@ -102,7 +102,6 @@ std::vector<Moment> push_and_pull(const TyreOnBlock& bodies, const ProgressText&
   while (simulation.steps() < steps) {
     simulation.step();
     if (!simulation.sampled()) continue;
-    simulation.require_finite();
     const Sample& sample = simulation.sample();
     const double stick = std::max(sample.patch_area - sample.slip_area, 0.0);
     moments.push_back({sample.longitudinal_force / limit, distant_shift(bodies, model, simulation) - start,

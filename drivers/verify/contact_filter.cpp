@@ -75,7 +75,7 @@ CaseResult contact_filter(const VerifyInputs& inputs, const ProgressText& progre
                                (half_crest.height - half_trough.height) / waves.depth, 0.02, true});
     result.findings.push_back({"largest pressure, crest / trough" + at, "-",
                                crest.max_pressure / trough.max_pressure,
-                               half_crest.max_pressure / half_trough.max_pressure, 0.03});
+                               half_crest.max_pressure / half_trough.max_pressure, 0.03 * bodies.fineness()});
   };
   const double wanted = inputs["wavelength"];
   if (wanted > 0) {

@@ -33,8 +33,11 @@ std::vector<Candidate> candidates(const VerifyInputs& inputs) {
       fmt::format("{{ kind = \"rayleigh_beta\", value = \"{} s\" }}", 0.5 * step_limit(undamped).stable_step);
   list.push_back({"bar, damped", bar.scene()});
   TyreScene stiff = tyre;
-  stiff.contact = "penetration_ratio = 2e-4";
-  list.push_back({"in contact, penalty times 100", stiff.scene()});
+  const Model usual(tyre.scene());
+  const HertzPatch& patch = usual.hertz_patch;
+  stiff.contact = fmt::format("penetration_ratio = {}",
+                              patch.max_pressure / (9 * patch.approach * usual.contact->options().penalty));
+  list.push_back({"in contact, penalty times 9", stiff.scene()});
   TyreScene damped = tyre;
   damped.damping = "{ kind = \"high_frequency_fraction\", value = 0.2 }";
   list.push_back({"in contact, damped", damped.scene()});

@@ -1,5 +1,5 @@
-// The standing half wheelset after a step of load, against a rigid mass on a Hertz spring over the beam on
-// the same fastenings: an overdamped motion without overshoot.
+// The standing half wheelset after a step of load, against a wheelset that bends in its static shape, on a
+// Hertz spring over the beam on the same fastenings: an overdamped motion without overshoot.
 
 #include <fmt/core.h>
 
@@ -39,10 +39,8 @@ duration = "{} s"
 }
 
 /// The static state of the lighter vehicle, gone on with the heavier one.
-Settling settle(const VerifyInputs& inputs, const ProgressText& progress) {
-  Model model(standing_scene(inputs, inputs["sprung_mass"]));
-  progress(fmt::format("{} elements", model.elements()));
-  const Preload preload = solve_preload(model, {}, progress);
+Settling settle(Model& model, const Preload& preload, const VerifyInputs& inputs,
+                const ProgressText& progress) {
   model.scene.vehicle->sprung_mass += inputs["added_mass"];
   const double stable = model.scene.motion->step_safety * step_limit(model).stable_step;
   const auto every = static_cast<std::int64_t>(std::ceil(kInterval / stable));
@@ -55,16 +53,14 @@ Settling settle(const VerifyInputs& inputs, const ProgressText& progress) {
     if (i % every == 0) {
       const BodyFrame& frame = simulation.wheel();
       const double height =
-          frame.origin.z +
-          model.wheelset->mean_motion(simulation.displacement().data(), simulation.velocity().data(), frame)
-              .displacement.z;
+          frame.origin.z + rim_displacement(model, simulation.displacement().data(), frame).z;
       if (settling.empty()) start = height;
       settling.push_back(start - height);
     }
     simulation.step();
     if (!simulation.sampled()) continue;
     if (i % (100 * every) == 0)
-      progress(fmt::format("t {:.2f} ms, wheelset {:.2f} um lower, F_N {:.3f} kN", 1e3 * simulation.time(),
+      progress(fmt::format("t {:.2f} ms, rim {:.2f} um lower, F_N {:.3f} kN", 1e3 * simulation.time(),
                            1e6 * settling.back(), 1e-3 * simulation.sample().vertical_force));
   }
   return settling;
@@ -145,31 +141,34 @@ double rise(const Settling& settling, double share) {
 }
 
 CaseResult wheelset_settling(const VerifyInputs& inputs, const ProgressText& progress) {
-  const Settling ours = settle(inputs, progress);
-  const Model model(standing_scene(inputs, inputs["sprung_mass"]));
-  const Scene& scene = model.scene;
+  const Scene scene = standing_scene(inputs, inputs["sprung_mass"]);
+  Model model(scene);
+  progress(fmt::format("{} elements", model.elements()));
+  const Preload preload = solve_preload(model, {}, progress);
+  const BeamVehicle vehicle =
+      beam_vehicle(model, axle_bending(model, preload.displacement.data(), preload.wheel));
+  const Settling ours = settle(model, preload, inputs, progress);
   const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel));
-  const Settling theory = settle_on_beam(beam, beam_vehicle(model), inputs["added_mass"], ours.size());
+  const Settling theory = settle_on_beam(beam, vehicle, inputs["added_mass"], ours.size());
 
   const double last = theory.back();
   double worst = 0;
-  double highest = 0;
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    worst = std::max(worst, std::abs(ours[i] - theory[i]));
-    highest = std::max(highest, ours[i]);
-  }
+  for (std::size_t i = 0; i < ours.size(); ++i) worst = std::max(worst, std::abs(ours[i] - theory[i]));
+  const auto overshoot = [](const Settling& s) {
+    return *std::max_element(s.begin(), s.end()) / s.back() - 1;
+  };
   const Oscillator a = fitted(ours);
   const Oscillator b = fitted(theory);
   CaseResult result;
   result.findings = {
       {"largest difference of both settling curves / last value", "-", worst / last, 0, 0.05, true},
-      {"damping ratio of the oscillator that fits best", "-", a.damping, b.damping, 0.1},
+      {"damping ratio of the oscillator that fits best", "-", a.damping, b.damping, {}},
       {"its undamped frequency", "Hz", a.frequency, b.frequency, 0.1},
       {"time to half of the last value", "ms", 1e3 * rise(ours, 0.5), 1e3 * rise(theory, 0.5), 0.05},
       {"time to nine tenths of it", "ms", 1e3 * rise(ours, 0.9), 1e3 * rise(theory, 0.9), 0.1},
-      {"overshoot / last value", "-", highest / ours.back() - 1, 0, 0.02, true}};
+      {"overshoot / last value", "-", overshoot(ours), overshoot(theory), 0.05, true}};
   Series curve{"tread", {}, {}, Stroke::solid};
-  Series reference{"rigid mass over the beam", {}, {}, Stroke::dashed};
+  Series reference{"beam model", {}, {}, Stroke::dashed};
   for (std::size_t i = 0; i < ours.size(); ++i) {
     for (Series* s : {&curve, &reference}) s->x.push_back(1e3 * static_cast<double>(i) * kInterval);
     curve.y.push_back(1e6 * ours[i]);
@@ -191,7 +190,7 @@ VerifyCase wheelset_settling_case() {
       {"sprung_mass", &kMass, "kg", 7000, {100, 1e5}, "the sprung mass before the step of load"});
   inputs.push_back({"added_mass", &kMass, "kg", 1000, {1, 1e4}, "the sprung mass that the step adds"});
   inputs.push_back({"duration", &kTime, "ms", 20e-3, {10e-3, 1}, "the observed time"});
-  return {"wheelset_settling", "the standing wheelset after a step of load, against a mass over a beam",
+  return {"wheelset_settling", "the standing wheelset after a step of load, against a beam model",
           std::move(inputs), wheelset_settling};
 }
 

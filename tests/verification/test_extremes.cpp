@@ -49,6 +49,7 @@ TEST(EnergyWatch, StopsWhereMoreAppearsOrVanishesThanWasSupplied) {
   for (const double change : {-15.0, 15.0}) {
     EnergyWatch watch;
     watch.start(stored(100, 10), 0, 0);
+    EXPECT_TRUE(watch.sound(stored(100, 10 + change), 0));
     EXPECT_FALSE(watch.sound(stored(100, 10 + change), 0));
     EXPECT_NEAR(watch.missed(), change, 1e-12);
     EXPECT_GT(watch.share(), 1);
@@ -59,6 +60,7 @@ TEST(EnergyWatch, SeesOscillationsBeyondTheStepWhoseBalanceCloses) {
   EnergyWatch watch;
   watch.start(stored(0, 10), 0, 0);
   EXPECT_TRUE(watch.sound(stored(-100, 110), 220));
+  EXPECT_TRUE(watch.sound(stored(-1000, 1010), 2020));
   EXPECT_FALSE(watch.sound(stored(-1000, 1010), 2020));
 }
 

@@ -52,7 +52,7 @@ duration = "2 ms"
   Model model(scene);
   const double speed = scene.motion->speed;
   const Preload preload =
-      solve_preload(model, {speed / model.wheel_radius(), speed}, [](const std::string&) {});
+      solve_preload(model, {speed / model.wheel_radius(), speed, false}, [](const std::string&) {});
   measured("static tilt at 500 km/h", preload.tilt, "rad");
   if (!finite_rotation)
     for (const int block : model.index.wheel()) model.internal->set_finite_rotation(block, false);
