@@ -430,9 +430,13 @@ void Contact::search(const ContactState& state, double time, double dt) {
 
 const ContactPoint* Contact::point_at_the_end(const BodyFrame& wheel) const {
   const double room = 0.95 * reach();
+  const double outermost = gauss_.front()[0];  // of a face, from its side
   for (const ContactPoint& point : points_) {
-    const bool beside = (first_edge_ > 0 && point.face[1] == first_edge_) ||
-                        (last_edge_ < rail_profile_.edges() && point.face[1] == last_edge_ - 1);
+    const int edge = point.face[1];
+    const double across = quadrature_[static_cast<std::size_t>(point.history % points_per_face_)][1];
+    const bool beside =
+        (first_edge_ > 0 && edge == first_edge_ && across <= outermost) ||
+        (last_edge_ < rail_profile_.edges() && edge == last_edge_ - 1 && across >= 1 - outermost);
     if (beside || std::abs(point.position.x - wheel.origin.x) >= room) return &point;
   }
   return nullptr;
