@@ -10,6 +10,30 @@
 
 namespace tread {
 
+namespace {
+
+std::vector<PatchPoint> axis_nodes(const PatchNodes& patch, double axle) {
+  const SurfaceGrid& grid = patch.grid();
+  int axis = 0;
+  double largest = 0;
+  for (int station = patch.first(); station <= patch.last(); ++station)
+    for (int row = 0; row < grid.rows(); ++row)
+      if (patch.at(station, row).pressure > largest) {
+        largest = patch.at(station, row).pressure;
+        axis = row;
+      }
+  std::vector<PatchPoint> nodes;
+  for (int station = patch.first(); station <= patch.last(); ++station) {
+    const NodalContact& node = patch.at(station, axis);
+    if (node.touching <= 0) continue;
+    nodes.push_back({grid.x[static_cast<std::size_t>(station)] - axle, grid.y[static_cast<std::size_t>(axis)],
+                     node.pressure, -node.shear.along});
+  }
+  return nodes;
+}
+
+}  // namespace
+
 Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress) {
   Model model(bodies.scene());
   const MotionSpec& motion = *model.scene.motion;
@@ -62,6 +86,8 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
   const double axle = simulation.wheel().origin.x;
   for (const ContactPoint& point : model.contact->points())
     rolled.patch.push_back({point.position.x - axle, point.position.y, point.pressure, -point.shear.along});
+
+  rolled.nodes = axis_nodes(model.contact->nodes(), axle);
 
   // Nodes that the whole patch has passed.
   const double half = 1.3 * bodies.hertz_patch().semi_axis_x;

@@ -30,6 +30,7 @@ struct Rolled {
   double work = 0;   ///< on the axis [J/m2]
   std::vector<Sample> samples;
   std::vector<PatchPoint> patch;
+  std::vector<PatchPoint> nodes;  ///< that touch, averages of the row of the largest pressure
 };
 
 /// Runs the scene of the bodies; `observed`: the last part of the way [m].
