@@ -1,5 +1,5 @@
 // The half wheelset rolls over the smooth rail: the part of F_N that repeats with the fastenings, against a
-// rigid mass on a Hertz spring over the beam on the same fastenings.
+// wheelset that bends in its static shape, on a Hertz spring over the beam on the same fastenings.
 
 #include <fmt/core.h>
 
@@ -134,7 +134,7 @@ VerifyCase fastening_passing_case() {
   inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {15, 150}, "the speed"});
   inputs.push_back({"spans", nullptr, "", 3, {2, 8}, "the spans of the way, the last is evaluated"});
   return {"fastening_passing",
-          "the half wheelset rolls over fastenings: the periodic part of F_N against a mass over a beam",
+          "the half wheelset rolls over fastenings: the periodic part of F_N against a beam model",
           std::move(inputs), fastening_passing};
 }
 
