@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/energy_stop.hpp"
+#include "drivers/start.hpp"
 #include "drivers/static_system.hpp"
 #include "kernels/solver/chunks.hpp"
 #include "kernels/time_update.hpp"
@@ -34,7 +35,8 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
   const Scene& scene = model.scene;
   if (model.guide) model.guide->settle(u_.data());
   const std::optional<RunIn>& run_in = preload.run_in;
-  if (run_in) place(*run_in);
+  const StartFields start{u_, v_, frame_};
+  if (run_in) place_run_in(model, *run_in, start);
   if (model.wheelset) {
     anchor();  // at rest: the wheel then spins about its own displaced axis
     if (model.contact) {
@@ -42,7 +44,7 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       model.contact->begin();
       surface_.emplace(model.contact->nodes().grid());
     }
-    start_velocities(run_in);
+    start_velocities(model, run_in, start);
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
@@ -90,135 +92,6 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
   }
   if (model.hammer) struck_at_ = -model.hammer->value(u_.data(), 2);
   start_momentum_ = vehicle_momentum();
-}
-
-namespace {
-
-/// Derivative of a nodal value along the sweep, by the parabola through three stations.
-double along_sweep(const SweptBlock& block, int node, int station, int component,
-                   const AlignedVector<double>& field) {
-  const auto value = [&](int s) {
-    return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
-  };
-  const int last = block.station_count() - 1;
-  if (!block.closed && (station == 0 || station == last)) {
-    const int s = station == 0 ? 0 : last - 1;
-    return (value(s + 1) - value(s)) / block.pitch(s);
-  }
-  const LineCell cell = station_cell(block, station);
-  const double h0 = cell.length_before;
-  const double h1 = cell.length;
-  const double ahead = (value(cell.second) - value(station)) / h1;
-  const double behind = (value(station) - value(cell.before)) / h0;
-  return (ahead * h0 + behind * h1) / (h0 + h1);
-}
-
-}  // namespace
-
-/// Adds motions of the rail's sections, deflection downwards and rotation, to a field: [m] or [m/s].
-template <class Motion>
-void Simulation::add_to_rail(const Motion& motion, AlignedVector<double>& field) const {
-  // Rotation is about the rail's centroid.
-  double mass = 0;
-  double moment = 0;
-  for (const int b : model_->index.rail()) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    for (int node = 0; node < block.section.nodes(); ++node) {
-      const double m =
-          model_->mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1);
-      mass += m;
-      moment += m * block.section.q[static_cast<std::size_t>(node)];
-    }
-  }
-  for (const int b : model_->index.rail()) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    for (int station = 0; station < block.station_count(); ++station) {
-      const auto [deflection, rotation] = motion(block.stations[static_cast<std::size_t>(station)]);
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const double above = block.section.q[static_cast<std::size_t>(node)] - moment / mass;
-        field[static_cast<std::size_t>(dof(slot, 0))] += above * rotation;
-        field[static_cast<std::size_t>(dof(slot, 2))] -= deflection;
-      }
-    }
-  }
-  for (const std::int64_t unknown : model_->restrained) field[static_cast<std::size_t>(unknown)] = 0;
-  if (model_->ties) model_->ties->follow({field.data()});
-}
-
-void Simulation::place(const RunIn& run_in) {
-  add_to_rail(
-      [&](double x) {
-        const RunIn::Section section = run_in.at(x);
-        return std::pair(section.deflection, section.rotation);
-      },
-      u_);
-  frame_.origin.z -= run_in.at(0).deflection;
-}
-
-void Simulation::start_velocities(const std::optional<RunIn>& run_in) {
-  const MotionSpec* motion = model_->scene.motion ? &*model_->scene.motion : nullptr;
-  const double speed = motion ? motion->speed : 0.0;
-  frame_.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
-  frame_.spin = speed / model_->wheel_radius();
-  const bool deflected = model_->scene.start() != "rigid";
-  if (deflected) start_deflected(speed);
-  if (run_in)
-    add_to_rail(
-        [&](double x) {
-          const RunIn::Section section = run_in->at(x);
-          return std::pair(section.deflection_rate, section.rotation_rate);
-        },
-        v_);
-  if (run_in) start_bending(run_in->bending_speed);
-  if (deflected) roll_freely();
-  if (!motion || motion->creepage == 0) return;
-  frame_.spin *= motion->spin_ratio();
-  for (const int b : model_->index.wheel()) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
-      v_[static_cast<std::size_t>(i)] *= motion->spin_ratio();
-  }
-}
-
-/// The wheelset bends on in the shape that it has, beyond its rim's displacement; `rate` [1/s].
-void Simulation::start_bending(double rate) {
-  const Vec3 rim = rim_displacement(*model_, u_.data(), frame_);
-  for (const int b : model_->index.wheel()) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    for (int station = 0; station < block.station_count(); ++station) {
-      const Vec3 carried = to_local(block, station, frame_.angle, rim);
-      for (int node = 0; node < block.section.nodes(); ++node)
-        for (int c = 0; c < 3; ++c) {
-          const auto i = static_cast<std::size_t>(dof(block.base + block.slot(node, station), c));
-          v_[i] += rate * (u_[i] - carried[c]);
-        }
-    }
-  }
-  for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
-  follow_ties();
-}
-
-void Simulation::start_deflected(double speed) {
-  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
-  // du/dx in the track.
-  for (const SweptBlock& block : model_->mesh.blocks) {
-    const double rate = block.sweep == Sweep::revolved ? frame_.spin : -speed;
-    for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node)
-        for (int c = 0; c < 3; ++c)
-          v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), c))] =
-              rate * along_sweep(block, node, station, c, u_);
-  }
-  for (const std::int64_t unknown : model_->restrained) v_[static_cast<std::size_t>(unknown)] = 0;
-  if (model_->ties) model_->ties->follow({v_.data()});
-}
-
-void Simulation::roll_freely() {
-  if (!model_->contact) return;
-  // Free rolling: the spin at which the patch as a whole does not slip.
-  const ContactState state{u_.data(), v_.data(), &frame_};
-  frame_.spin += model_->contact->mean_slip_velocity(state).x / model_->wheel_radius();
 }
 
 double Simulation::torque_at(double time) const {

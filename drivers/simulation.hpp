@@ -105,13 +105,6 @@ class Simulation {
   void end_sample();
   void watch(double excess);
   [[noreturn]] void stop() const;
-  template <class Motion>
-  void add_to_rail(const Motion& motion, AlignedVector<double>& field) const;
-  void place(const RunIn& run_in);
-  void start_velocities(const std::optional<RunIn>& run_in);
-  void start_deflected(double speed);
-  void start_bending(double rate);
-  void roll_freely();
   BodyFrame half_step_frame() const;
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;
