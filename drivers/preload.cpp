@@ -163,7 +163,13 @@ std::vector<TiedSlot> tied_slots(const Model& model) {
   return model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{};
 }
 
+/// What the static state shows.
 void describe(const Model& model, Preload& out) {
+  if (model.contact) {
+    model.contact->require_room(out.wheel);
+    out.contact = model.contact->totals();
+    out.max_pressure = model.contact->nodes().max_pressure();
+  }
   const double* u = out.displacement.data();
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const int base = model.index.rail_foot();
@@ -284,6 +290,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) {
+      if (!out.run_in) describe(model, out);
       if (!motion.rolling || out.run_in) break;
       out.run_in = run_in(model, axle_bending(model, u, out.wheel));
       add_run_in(model, *out.run_in, out.wheel, load.data());
@@ -304,11 +311,6 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     out.cg_iterations += solved.iterations;
     add_scaled(n, 1.0, correction.data(), u);
   }
-  if (model.contact) {
-    model.contact->require_room(out.wheel);
-    out.contact = model.contact->totals();
-  }
-  describe(model, out);
   return out;
 }
 

@@ -27,12 +27,14 @@ struct Preload {
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   int newton_iterations = 0;
   int cg_iterations = 0;
-  double held_force_x = 0;     ///< reaction of the held longitudinal motion of the wheel [N]
-  double held_moment = 0;      ///< reaction of its held rotation about the axle [N m]
+  double held_force_x = 0;  ///< reaction of the held longitudinal motion of the wheel [N]
+  double held_moment = 0;   ///< reaction of its held rotation about the axle [N m]
+  // At rest, before any run-in:
   double tilt = 0;             ///< of the wheel about x, from the tread's mean [rad]
   double rail_deflection = 0;  ///< downwards, of the rail's foot under the wheel [m]
   double slab_deflection = 0;  ///< [m]
   ContactTotals contact;
+  double max_pressure = 0;  ///< nodal average [Pa]
 };
 
 using ProgressText = std::function<void(const std::string&)>;

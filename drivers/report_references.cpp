@@ -109,7 +109,7 @@ std::vector<Comparison> theory_comparisons(const Model& model, const RunResults&
       sphere ? shape : shape + "; the profiles' curvature varies over the patch: not Hertzian";
   rows.push_back({"Patch area, static", "mm²", 1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y,
                   1e6 * r.preload.contact.area, remark});
-  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * hertz.max_pressure, 1e-6 * r.static_pressure,
+  rows.push_back({"Largest pressure, static", "MPa", 1e-6 * hertz.max_pressure, 1e-6 * r.preload.max_pressure,
                   "nodal average; " + remark});
   const bool contact_case = rolls_at_300(scene) && is(scene.steel.youngs_modulus, 205.9e9) &&
                             std::abs(model.wheel_load() - 87564) < 500 && is(model.wheel_radius(), 0.43);

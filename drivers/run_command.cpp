@@ -135,7 +135,6 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   results.preload = solve_preload(model, steady_motion(model),
                                   [&](const std::string& text) { progress.say("[" + text + "]"); });
   results.seconds_preload = progress.seconds() - results.seconds_mesh;
-  if (model.contact) results.static_pressure = model.contact->nodes().max_pressure();
   if (scene.corrugation)
     model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
 

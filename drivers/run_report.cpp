@@ -78,7 +78,7 @@ KeyFigures rolling_figures(const Run& run) {
 KeyFigures static_figures(const Run& run) {
   const ContactTotals& contact = run.results.preload.contact;
   return {{"Contact force", readable(-1e-3 * contact.force_on_rail.z), "kN"},
-          {"Largest pressure", readable(1e-6 * run.results.static_pressure), "MPa"},
+          {"Largest pressure", readable(1e-6 * run.results.preload.max_pressure), "MPa"},
           {"Patch area", readable(1e6 * contact.area), "mm²"},
           {"Largest penetration", readable(1e6 * contact.max_penetration, 3), "µm"},
           {"Residual / load", readable(run.results.preload.residual, 2), ""}};
@@ -174,7 +174,7 @@ Chapter preload_chapter(const Run& run) {
     q.add("Lateral contact force on the wheel", -1e-3 * contact.force_on_rail.y, "kN",
           "positive to the field side");
     q.add("Patch area", 1e6 * contact.area, "mm²");
-    q.add("Largest pressure", 1e-6 * run.results.static_pressure, "MPa",
+    q.add("Largest pressure", 1e-6 * run.results.preload.max_pressure, "MPa",
           fmt::format("average at a rail node; {:.1f} MPa at an integration point",
                       1e-6 * contact.max_pressure));
     q.add("Largest penetration", 1e6 * contact.max_penetration, "µm",

@@ -239,7 +239,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json.member("preload_residual", r.preload.residual);
   if (model.contact) {
     json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);
-    json.member("static_max_pressure_Pa", r.static_pressure);
+    json.member("static_max_pressure_Pa", r.preload.max_pressure);
     json.member("static_max_point_pressure_Pa", r.preload.contact.max_pressure);
     json.member("static_patch_area_m2", r.preload.contact.area);
     json.member("static_penetration_m", r.preload.contact.max_penetration);

@@ -29,7 +29,6 @@ std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps betwe
 /// Everything that summary.json and the report state, in SI.
 struct RunResults {
   Preload preload;
-  double static_pressure = 0;  ///< largest nodal average of the preload [Pa]
   StepLimit limit;
   std::vector<Sample> samples;
   std::int64_t steps = 0;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # scripts/verification_page.sh [CASE...]: runs `tread verify` as listed below for the named cases (default: all, some
-# hours) and puts the pages of docs/verification/ between the marks of docs/verification.md. With --collect nothing is run.
+# while) and puts the pages of docs/verification/ between the marks of docs/verification.md. With --collect nothing is run.
 set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 pages="$root/docs/verification"

@@ -64,7 +64,7 @@ CaseResult extremes_penalty(const VerifyInputs& inputs, const ProgressText& prog
         result.findings.end(),
         {{at + "F_N", "kN", 1e-3 * normal.mean, 1e-3 * model.wheel_load(), 0.01},
          {at + "standard deviation of F_N / F_N", "-", normal.deviation / normal.mean, 0, 0.02, true},
-         {at + "largest pressure at rest, nodal average", "MPa", 1e-6 * run.static_pressure,
+         {at + "largest pressure at rest, nodal average", "MPa", 1e-6 * run.preload.max_pressure,
           1e-6 * hertz.max_pressure, 0.12 * fineness},
          {at + "patch area at rest", "mm2", 1e6 * run.preload.contact.area,
           1e6 * hertz.semi_axis_x * hertz.semi_axis_y * M_PI,

@@ -11,7 +11,6 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   const Scene& scene = model.scene;
   RunResults results;
   results.preload = solve_preload(model, steady_motion(model), progress);
-  results.static_pressure = model.contact->nodes().max_pressure();
   if (scene.corrugation)
     model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
   results.limit = step_limit(model);
