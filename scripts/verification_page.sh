@@ -21,6 +21,7 @@ runs=(
   'steady_rolling --set "element_size=2.2 mm"'
   'transient'
   'von_mises'
+  'von_mises --set "element_size=1.6 mm"'
   'sliding'
   'rail_on_fastenings'
   'rail_waves'
