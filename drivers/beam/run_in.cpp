@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace tread {
 
@@ -83,20 +86,67 @@ RunIn::Section RunIn::at(double x) const {
           between(&Section::rotation_rate)};
 }
 
-RunIn run_in(const Model& model, const AxleBending& axle) {
+namespace {
+
+constexpr int kStepsOfSpan = 400;
+
+/// Rolls over `spans` spans up to x = 0. The sprung mass would need seconds to follow the mean height at
+/// which the track carries a moving wheel: after each span but the last it is put where the suspension bears
+/// its weight in that span's mean, and its mean speed is taken from it. Returns the forces of the last two
+/// spans' steps [N].
+std::vector<double> roll_in(BeamPassage& passage, const BeamVehicle& vehicle, double spacing, int spans) {
+  const double step = spacing / kStepsOfSpan;
+  std::vector<double> forces;
+  for (int span = spans - 1; span >= 0; --span) {
+    double carried = 0;
+    const double height = passage.sprung();
+    const double time = passage.time();
+    for (int i = kStepsOfSpan - 1; i >= 0; --i) {
+      passage.step(-span * spacing - i * step);
+      carried += passage.suspension() / kStepsOfSpan;
+      if (span < 2) forces.push_back(passage.force());
+    }
+    if (span > 0 && vehicle.stiffness > 0)
+      passage.move_sprung_mass((vehicle.sprung_mass * vehicle.gravity - carried) / vehicle.stiffness,
+                               -(passage.sprung() - height) / (passage.time() - time));
+  }
+  return forces;
+}
+
+/// Largest change from one span to the next [N].
+double change_between_spans(const std::vector<double>& forces) {
+  double change = 0;
+  for (std::size_t i = 0; i < kStepsOfSpan; ++i)
+    change = std::max(change, std::abs(forces[kStepsOfSpan + i] - forces[i]));
+  return change;
+}
+
+}  // namespace
+
+RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
   constexpr double kTime = 0.08;  // ten times what the overdamped wheel on the paper's track takes [s]
   constexpr int kLeastSpans = 4;
-  constexpr int kStepsOfSpan = 400;
-  const Scene& scene = model.scene;
+  constexpr int kMostSpans = 80;
+  constexpr double kSettled = 1e-3;  // of the load
   const double speed = scene.motion->speed;
   const double spacing = scene.fastenings->spacing;
-  const int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));
-  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel), spans);
+  const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.steel);
+  for (int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));; spans *= 2) {
+    auto beam = std::make_unique<TrackBeam>(rail_beam(scene, properties, spans));
+    BeamPassage passage(*beam, vehicle, -spans * spacing, spacing / kStepsOfSpan / speed);
+    const double bending_at_rest = passage.bending();
+    const std::vector<double> forces = roll_in(passage, vehicle, spacing, spans);
+    if (2 * spans > kMostSpans || change_between_spans(forces) < kSettled * vehicle.load())
+      return {std::move(beam), std::move(passage), bending_at_rest};
+  }
+}
+
+RunIn run_in(const Model& model, const AxleBending& axle) {
+  const double speed = model.scene.motion->speed;
   const BeamVehicle vehicle = beam_vehicle(model, axle);
-  const double step = spacing / kStepsOfSpan;
-  BeamPassage passage(beam, vehicle, -spans * spacing, step / speed);
-  const double at_rest = passage.bending();
-  for (int i = spans * kStepsOfSpan - 1; i >= 0; --i) passage.step(-i * step);
+  const RunningWheel running = running_wheel(model.scene, vehicle);
+  const TrackBeam& beam = *running.beam;
+  const BeamPassage& passage = running.passage;
 
   RunIn out;
   out.force = passage.force();
@@ -110,7 +160,8 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   } else {
     out.bending_speed = passage.bending_speed() / axle.journal;
     const double share = axle.wheelset_share / model.wheelset->mass();
-    out.journal_force = (axle.bending.stiffness * (passage.bending() - at_rest) - share * more) / (1 - share);
+    out.journal_force =
+        (axle.bending.stiffness * (passage.bending() - running.bending_at_rest) - share * more) / (1 - share);
     out.inertia_force = more - out.journal_force;
   }
   out.left = beam.left();

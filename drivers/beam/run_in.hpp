@@ -2,6 +2,7 @@
 // How the start of rolling looks to a wheel that has been rolling: rail and vehicle as a beam on the scene's
 // fastenings leaves them that a rigid wheel has run over. [theory.md, Start]
 
+#include <memory>
 #include <vector>
 
 #include "drivers/beam/track_beam.hpp"
@@ -28,6 +29,15 @@ Vec3 rim_displacement(const Model& model, const double* displacement, const Body
 /// The model's wheelset with M_a, its vehicle or load, the Hertz spring of its undeformed surfaces.
 BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);
 
+/// A wheel at x = 0 of a scene's rail that has rolled over its fastenings, continued to the left, until the
+/// force hardly changes from span to span; its sprung mass where the suspension bears it in the mean.
+struct RunningWheel {
+  std::unique_ptr<TrackBeam> beam;  ///< that the passage refers to
+  BeamPassage passage;
+  double bending_at_rest = 0;  ///< [m]
+};
+RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle);
+
 /// The state at x = 0 less the static one under the same contact force; deflections and speeds downwards.
 struct RunIn {
   double force = 0;          ///< F_N [N]
@@ -50,7 +60,7 @@ struct RunIn {
   std::vector<Section> sections;  ///< at least two
 };
 
-/// The wheel has rolled over the fastenings for a time in which its start is forgotten.
+/// From the running wheel.
 RunIn run_in(const Model& model, const AxleBending& axle);
 
 }  // namespace tread

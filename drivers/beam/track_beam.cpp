@@ -195,6 +195,16 @@ void BeamPassage::add_sprung_mass(double mass) {
   assemble_vehicle();
 }
 
+void BeamPassage::move_sprung_mass(double lower, double faster) {
+  wheel_[2] += lower;
+  wheel_speed_[2] += faster;
+}
+
+double BeamPassage::suspension() const {
+  return vehicle_.stiffness * (wheel_[2] - wheel_[0] - wheel_[1]) +
+         vehicle_.damping * (wheel_speed_[2] - wheel_speed_[0] - wheel_speed_[1]);
+}
+
 void BeamPassage::assemble_vehicle() {
   const BeamVehicle::Bending bending = vehicle_.bending.value_or(BeamVehicle::Bending{});
   vehicle_mass_ = {{{vehicle_.unsprung_mass, bending.coupling, 0},

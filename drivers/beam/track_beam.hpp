@@ -107,6 +107,9 @@ class BeamPassage {
   /// Mass that joins the sprung mass, the suspension already compressed for it: a step of force on the wheel.
   void add_sprung_mass(double mass);
 
+  /// Places the sprung mass `lower` [m] and makes it move `faster` downwards [m/s].
+  void move_sprung_mass(double lower, double faster);
+
   double time() const { return time_; }
   double force() const { return force_; }                       ///< F_N [N]
   double wheel() const { return wheel_[0]; }                    ///< deflection of the rim [m]
@@ -116,6 +119,7 @@ class BeamPassage {
   double wheel_speed() const { return wheel_speed_[0]; }        ///< downwards [m/s]
   double bending_speed() const { return wheel_speed_[1]; }      ///< [m/s]
   double sprung_speed() const { return wheel_speed_[2]; }       ///< downwards [m/s]
+  double suspension() const;                                    ///< its force on the journal, downwards [N]
   const std::vector<double>& beam_state() const { return u_; }  ///< w [m] and rotation [rad] of each node
   const std::vector<double>& beam_rate() const { return v_; }   ///< their rates [m/s], [rad/s]
 

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "drivers/beam/beam_section.hpp"
+#include "drivers/beam/run_in.hpp"
 #include "drivers/beam/track_beam.hpp"
 #include "io/scene_reader.hpp"
 #include "tests/measured.hpp"
@@ -156,6 +158,36 @@ TEST(BeamPassage, WheelOnAStiffBeamOscillatesOnItsContact) {
   }
   EXPECT_GT(before, still);
   EXPECT_NEAR(turned, 0.5 * period, 0.01 * period);
+}
+
+/// A wheel that has been run in goes on as it was: the suspension bears the sprung mass in the mean of a
+/// span, F_N repeats.
+TEST(RunningWheel, IsPeriodic) {
+  const BeamVehicle vehicle = {926, {}, 8000, 880e3, 4e3, 0, 9e10, 9.81};
+  for (const char* keys : {"[motion]\nspeed = \"300 km/h\"", "[motion]\nspeed = \"500 km/h\"",
+                           "[motion]\nspeed = \"300 km/h\"\n[fastenings]\nstiffness = \"5 MN/m\""}) {
+    SCOPED_TRACE(keys);
+    const Scene scene =
+        resolve_scene(
+            SceneSource{"x.toml", std::string("[scene]\nbased_on = \"highspeed-slab-2014\"\n") + keys, {}},
+            {})
+            .scene;
+    RunningWheel running = running_wheel(scene, vehicle);
+    BeamPassage& passage = running.passage;
+    constexpr int kSteps = 400;
+    const double spacing = scene.fastenings->spacing;
+    const double start = passage.force();
+    double carried = 0;
+    for (int i = 1; i <= 2 * kSteps; ++i) {
+      passage.step(i * spacing / kSteps);
+      carried += passage.suspension() / (2 * kSteps);
+      if (i % kSteps == 0) {
+        EXPECT_NEAR(passage.force(), start, 1e-3 * vehicle.load());
+      }
+    }
+    measured("suspension / weight - 1", carried / (vehicle.sprung_mass * vehicle.gravity) - 1);
+    EXPECT_NEAR(carried, vehicle.sprung_mass * vehicle.gravity, 5e-4 * vehicle.load());
+  }
 }
 
 }  // namespace
