@@ -1,12 +1,8 @@
 #include "drivers/station_plan.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "core/error.hpp"
 
 namespace tread {
 
@@ -17,7 +13,7 @@ MeshSizes mesh_sizes(const Scene& scene) {
   } else if (scene.quality == "standard") {
     sizes = {1.6e-3, 35e-3, 8e-3, 50e-3, 2, 4, 4, 16e-3};
   } else {
-    throw InputError(fmt::format("scene.quality = \"{}\": draft and standard are available", scene.quality));
+    sizes = {1.1e-3, 25e-3, 8e-3, 40e-3, 3, 6, 4, 16e-3};
   }
   if (scene.element_size) {
     const double scale = *scene.element_size / sizes.contact;

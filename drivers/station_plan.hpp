@@ -21,7 +21,7 @@ struct MeshSizes {
   double band_half_width = 0;  ///< of the fine running band [m]
 };
 
-/// Throws InputError for an unknown quality.
+/// Of the scene's quality, or scaled to its element size.
 MeshSizes mesh_sizes(const Scene& scene);
 
 /// An interval of x.

@@ -202,5 +202,16 @@ TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   EXPECT_FALSE(model.contact);
 }
 
+TEST(Quality, PaperHasThePapersElements) {
+  const Scene scene =
+      resolve_scene(
+          SceneSource{"paper.toml", "[scene]\nbased_on = \"highspeed-slab-2014\"\nquality = \"paper\"\n", {}},
+          {})
+          .scene;
+  const Model model(scene);
+  EXPECT_NEAR(static_cast<double>(model.elements()), 1.46e6, 0.05 * 1.46e6);  // [paper, section 2]
+  EXPECT_EQ(model.sizes.contact, 1.1e-3);
+}
+
 }  // namespace
 }  // namespace tread
