@@ -1,5 +1,5 @@
 #pragma once
-// Mean, extremes and scatter of values.
+// Mean, extremes, scatter and trend of values.
 
 #include <algorithm>
 #include <cmath>
@@ -33,5 +33,24 @@ Statistics statistics(const Items& items, const Counts& counts, const Value& val
   s.deviation = std::sqrt(std::max(0.0, squares / count - s.mean * s.mean));
   return s;
 }
+
+/// Least-squares line through the points that are added.
+class LineFit {
+ public:
+  void add(double x, double y) {
+    n_ += 1;
+    x_ += x;
+    y_ += y;
+    xx_ += x * x;
+    xy_ += x * y;
+  }
+  /// Of the line over a stretch `run` of the abscissa, in the ordinate's unit; NaN with fewer than two
+  /// places.
+  double rise(double run) const { return run * (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
+  double slope() const { return rise(1); }
+
+ private:
+  double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  ///< count and sums
+};
 
 }  // namespace tread

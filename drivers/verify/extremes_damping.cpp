@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "drivers/static_system.hpp"
+#include "drivers/statistics.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/small_models.hpp"
 
@@ -59,7 +60,8 @@ double measured_decay(Model& model, double element_size, double dt, std::int64_t
   Simulation simulation(model, preload, dt);
   const FirstMode mode(model, element_size);
   const double omega = mode.frequency();
-  double first = 0, n = 0, t = 0, y = 0, tt = 0, ty = 0;
+  double first = 0;
+  LineFit logarithms;
   while (simulation.steps() < steps) {
     const double velocity = mode.amplitude(simulation.velocity());
     const double displacement = mode.amplitude(simulation.displacement());
@@ -72,15 +74,11 @@ double measured_decay(Model& model, double element_size, double dt, std::int64_t
     if (first == 0) first = energy;
     if (energy <= 1e-12 * first) break;  // nothing is left to measure
     const double logarithm = 0.5 * std::log(energy / first);
-    n += 1;
-    t += time;
-    y += logarithm;
-    tt += time * time;
-    ty += time * logarithm;
+    logarithms.add(time, logarithm);
     curve.x.push_back(1e3 * time);
     curve.y.push_back(std::exp(logarithm));
   }
-  return -(n * ty - t * y) / (n * tt - t * t);
+  return -logarithms.slope();
 }
 
 struct Damping {

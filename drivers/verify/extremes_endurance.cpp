@@ -16,20 +16,14 @@ namespace tread {
 
 namespace {
 
-/// Slope of a value over the samples after the first tenth, times the run's length: what it drifts by.
+/// By the least-squares line through the samples after the first tenth, over the whole run.
 template <class Value>
 double drift(const RunResults& run, const Value& value) {
-  double count = 0, t = 0, y = 0, tt = 0, ty = 0;
-  const double first = 0.1 * run.samples.back().time;
-  for (const Sample& sample : run.samples) {
-    if (sample.time < first) continue;
-    count += 1;
-    t += sample.time;
-    y += value(sample);
-    tt += sample.time * sample.time;
-    ty += sample.time * value(sample);
-  }
-  return run.samples.back().time * (count * ty - t * y) / (count * tt - t * t);
+  LineFit line;
+  const double length = run.samples.back().time;
+  for (const Sample& sample : run.samples)
+    if (sample.time >= 0.1 * length) line.add(sample.time, value(sample));
+  return line.rise(length);
 }
 
 CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& progress) {

@@ -99,18 +99,11 @@ struct Run {
   /// Change over the run by the least-squares line through the values after the first tenth.
   template <class Value>
   double trend(const Value& value) const {
-    double n = 0, st = 0, sv = 0, stt = 0, stv = 0;
-    for (const Moment& m : moments) {
-      if (m.time < 0.1 * moments.back().time) continue;
-      const double t = m.time / moments.back().time;
-      const double v = value(m) - value(moments.front());
-      n += 1;
-      st += t;
-      sv += v;
-      stt += t * t;
-      stv += t * v;
-    }
-    return (n * stv - st * sv) / (n * stt - st * st);
+    LineFit line;
+    const double length = moments.back().time;
+    for (const Moment& m : moments)
+      if (m.time >= 0.1 * length) line.add(m.time / length, value(m) - value(moments.front()));
+    return line.slope();
   }
 };
 
