@@ -33,6 +33,14 @@ double curvature_ratio(double ratio) {
 
 }  // namespace
 
+double contact_modulus(double youngs_modulus, double poissons_ratio) {
+  return youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio));
+}
+
+double line_load(double radius, double contact_modulus, double semi_axis) {
+  return std::numbers::pi * contact_modulus * semi_axis * semi_axis / (4 * radius);
+}
+
 HertzPatch hertz(double radius_x, double radius_y, double contact_modulus, double load) {
   const double wide = std::max(radius_x, radius_y);
   const double narrow = std::min(radius_x, radius_y);

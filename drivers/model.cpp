@@ -383,8 +383,7 @@ void Model::build_contact() {
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
   hertz_radius_y = lateral_radius(rail, wheel, 5e-3);
-  const double modulus =
-      scene.steel.youngs_modulus / (2 * (1 - scene.steel.poissons_ratio * scene.steel.poissons_ratio));
+  const double modulus = contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio);
   // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
   hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
 

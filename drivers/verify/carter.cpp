@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
@@ -28,24 +27,9 @@ struct Carter {
 };
 
 CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
-  TyreOnBlock bodies;
-  bodies.radius = inputs["radius"];
-  bodies.crown_radius = 0;
-  bodies.youngs_modulus = inputs["youngs_modulus"];
-  bodies.poissons_ratio = inputs["poissons_ratio"];
-  bodies.element_size = inputs["element_size"];
+  TyreOnBlock bodies = slice_of(inputs, {0.05, 0.5});
   bodies.grid_offset = inputs["grid_offset"];
-  bodies.friction = inputs["friction"];
   const double a = inputs["semi_axis"];
-  const double modulus = bodies.youngs_modulus / (2 * (1 - bodies.poissons_ratio * bodies.poissons_ratio));
-  bodies.load = std::numbers::pi * modulus * a * a / (4 * bodies.radius) * bodies.element_size;
-  if (a > 0.05 * bodies.radius || bodies.element_size > 0.5 * a)
-    throw InputError(
-        fmt::format("verify: semi_axis = {:.3g} mm must be small against the radius of {:.3g} mm and at "
-                    "least two elements of "
-                    "{:.3g} mm",
-                    1e3 * a, 1e3 * bodies.radius, 1e3 * bodies.element_size));
-
   const double exploitation = inputs["exploitation"];
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];

@@ -5,9 +5,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
@@ -27,22 +25,7 @@ double drift(const RunResults& run, const Value& value) {
 }
 
 CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& progress) {
-  TyreOnBlock bodies;
-  bodies.radius = inputs["radius"];
-  bodies.crown_radius = 0;
-  bodies.youngs_modulus = inputs["youngs_modulus"];
-  bodies.poissons_ratio = inputs["poissons_ratio"];
-  bodies.element_size = inputs["element_size"];
-  bodies.friction = inputs["friction"];
-  const double a = inputs["semi_axis"];
-  const double modulus = bodies.youngs_modulus / (2 * (1 - bodies.poissons_ratio * bodies.poissons_ratio));
-  bodies.load = std::numbers::pi * modulus * a * a / (4 * bodies.radius) * bodies.element_size;
-  if (a > 0.12 * bodies.radius || bodies.element_size > 0.7 * a)
-    throw InputError(
-        fmt::format("verify: semi_axis = {:.3g} mm must be at most 0.12 of the radius of {:.3g} mm and at "
-                    "least 1.4 elements of "
-                    "{:.3g} mm",
-                    1e3 * a, 1e3 * bodies.radius, 1e3 * bodies.element_size));
+  TyreOnBlock bodies = slice_of(inputs, {0.12, 0.7});
   bodies.thickness = 0.4 * bodies.radius;
   const double way = inputs["way"];
   const double steps = std::round(inputs["steps"]);

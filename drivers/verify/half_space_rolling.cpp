@@ -416,7 +416,7 @@ double centre_element_work(const Grid& grid, const FrictionState& state, double 
 
 SteadySummary steady_summary(const SteadyCase& steady, double cell) {
   const Material& m = steady.material;
-  const double modulus = m.youngs_modulus / (2 * (1 - m.poissons_ratio * m.poissons_ratio));
+  const double modulus = contact_modulus(m.youngs_modulus, m.poissons_ratio);
   const HertzPatch patch = hertz(steady.radius_x, steady.radius_y, modulus, steady.load);
   const double margin = 2 * cell;
   const Influence influence(centred_grid(patch.semi_axis_x + margin, patch.semi_axis_y + margin, cell), m);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/hertz.hpp"
 #include "core/mesh/structured.hpp"
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
@@ -280,8 +281,8 @@ void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progr
         "verify: semi_axis = {:.3g} mm lies between {:.3g} mm, three elements of {:.3g} mm, and {:.3g} mm, "
         "small against the radius",
         1e3 * a, 3e3 * ring.element_size, 1e3 * ring.element_size, 60 * ring.radius));
-  const double modulus = kYoungsModulus / (2 * (1 - kPoissonsRatio * kPoissonsRatio));
-  const double load = std::numbers::pi * modulus * a * a / (4 * ring.radius) * ring.element_size;
+  const double load =
+      line_load(ring.radius, contact_modulus(kYoungsModulus, kPoissonsRatio), a) * ring.element_size;
   ring.more = ground(ring, load);
   ring.way = ring.speed * stable_step_of(ring) * static_cast<double>(steps);
   ring.more = ground(ring, load);

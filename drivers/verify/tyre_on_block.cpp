@@ -13,11 +13,11 @@
 namespace tread {
 
 HertzPatch TyreOnBlock::hertz_patch() const {
-  const double modulus = youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio));
+  const double modulus = contact_modulus(youngs_modulus, poissons_ratio);
   if (crown_radius > 0) return hertz(radius, crown_radius, modulus, load);
-  const double line_load = load / element_size;
-  const double a = std::sqrt(4 * line_load * radius / (std::numbers::pi * modulus));
-  return {a, 0, 2 * line_load / (std::numbers::pi * a), 0};
+  const double per_width = load / element_size;
+  const double a = std::sqrt(4 * per_width * radius / (std::numbers::pi * modulus));
+  return {a, 0, 2 * per_width / (std::numbers::pi * a), 0};
 }
 
 double TyreOnBlock::fineness() const {
@@ -134,6 +134,25 @@ TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
         "verify: element_size = {:.3g} mm does not suit the patch's semi-axis of {:.3g} mm; state "
         "{:.3g} to {:.3g} mm",
         1e3 * bodies.element_size, 1e3 * smallest, 1e3 * smallest / 40, 0.7e3 * smallest));
+  return bodies;
+}
+
+TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits) {
+  TyreOnBlock bodies;
+  bodies.radius = inputs["radius"];
+  bodies.crown_radius = 0;
+  bodies.youngs_modulus = inputs["youngs_modulus"];
+  bodies.poissons_ratio = inputs["poissons_ratio"];
+  bodies.element_size = inputs["element_size"];
+  bodies.friction = inputs["friction"];
+  const double a = inputs["semi_axis"];
+  const double modulus = contact_modulus(bodies.youngs_modulus, bodies.poissons_ratio);
+  bodies.load = line_load(bodies.radius, modulus, a) * bodies.element_size;
+  if (a > limits.semi_axis * bodies.radius || bodies.element_size > limits.element_size * a)
+    throw InputError(fmt::format(
+        "verify: semi_axis = {:.3g} mm must be at most {:g} of the radius of {:.3g} mm, and element_size = "
+        "{:.3g} mm at most {:g} of semi_axis",
+        1e3 * a, limits.semi_axis, 1e3 * bodies.radius, 1e3 * bodies.element_size, limits.element_size));
   return bodies;
 }
 

@@ -51,6 +51,16 @@ struct TyreOnBlock {
 std::vector<VerifyInput> tyre_inputs(bool sphere);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
 
+/// Largest sizes that a case of plane strain allows.
+struct SliceLimits {
+  double semi_axis;     ///< of the patch over the radius [-]
+  double element_size;  ///< over the patch's semi-axis [-]
+};
+
+/// A slice under the load that gives the patch its semi-axis. Inputs: radius, semi_axis, youngs_modulus,
+/// poissons_ratio, element_size, friction. InputError beyond the limits.
+TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits);
+
 /// Displacement at the point (p, q) of an extruded or revolved block's section and the station coordinate s,
 /// Cartesian. [m]
 Vec3 displacement_at(const Model& model, int block, double p, double q, double s, const double* u);

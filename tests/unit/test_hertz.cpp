@@ -8,8 +8,12 @@
 namespace tread {
 namespace {
 
-constexpr double kModulus = 205.9e9 / (2 * 0.91);  ///< two steel bodies
+const double kModulus = contact_modulus(205.9e9, 0.3);
 constexpr double kLoad = 87564.06;
+
+TEST(Hertz, ModulusOfTwoSteelBodies) {
+  EXPECT_NEAR(kModulus, 205.9e9 / (2 * 0.91), 1);
+}
 
 TEST(Hertz, CircularPatchIsThatOfTheClosedForm) {
   constexpr double radius = 0.43;
@@ -61,7 +65,7 @@ TEST(Hertz, SlenderPatchNearsALine) {
   EXPECT_GT(patch.semi_axis_x, 100 * patch.semi_axis_y);
   // Load per length at the middle, 3/4 of the total over the semi-axis: line contact of that load.
   const double line = 0.75 * kLoad / patch.semi_axis_x;
-  EXPECT_NEAR(patch.semi_axis_y / std::sqrt(4 * line * 0.3 / (std::numbers::pi * kModulus)), 1, 1e-3);
+  EXPECT_NEAR(line_load(0.3, kModulus, patch.semi_axis_y) / line, 1, 2e-3);
 }
 
 }  // namespace
