@@ -77,15 +77,13 @@ CaseResult extremes_corrugation(const VerifyInputs& inputs, const ProgressText& 
 }  // namespace
 
 VerifyCase extremes_corrugation_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 3.5e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"speed", &kSpeed, "km/h", 300 / 3.6, {1, 300}, "the rolling speed"});
   inputs.push_back({"depth", &kLength, "mm", 0.5e-3, {1e-6, 0.01}, "the corrugation's depth"});
   inputs.push_back({"shortest", &kLength, "mm", 0.02, {5e-3, 1}, "the shortest wavelength"});
   inputs.push_back({"wavelength", &kLength, "mm", 0.08, {5e-3, 1}, "a wavelength between"});
   inputs.push_back({"longest", &kLength, "mm", 0.3, {5e-3, 1}, "the longest wavelength"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 3.5e-3;
   return {"extremes_corrugation", "corrugations that throw the wheel off the rail", std::move(inputs),
           extremes_corrugation, kExtremes};
 }

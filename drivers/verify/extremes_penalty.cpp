@@ -87,11 +87,9 @@ CaseResult extremes_penalty(const VerifyInputs& inputs, const ProgressText& prog
 }  // namespace
 
 VerifyCase extremes_penalty_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 3.5e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"speed", &kSpeed, "m/s", 20, {5, 150}, "the rolling speed"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 3.5e-3;
   return {"extremes_penalty", "contact penalties from a tenth to a hundred times the default",
           std::move(inputs), extremes_penalty, kExtremes};
 }

@@ -62,13 +62,11 @@ CaseResult extremes_speed(const VerifyInputs& inputs, const ProgressText& progre
 }  // namespace
 
 VerifyCase extremes_speed_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 3.5e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"slowest", &kSpeed, "km/h", 5 / 3.6, {0.1, 300}, "the lower speed"});
   inputs.push_back({"fastest", &kSpeed, "km/h", 600 / 3.6, {0.1, 300}, "the higher speed"});
   inputs.push_back({"duration", &kTime, "ms", 2e-3, {1e-4, 0.1}, "the time of each run"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 3.5e-3;
   return {"extremes_speed", "walking pace and the highest speed", std::move(inputs), extremes_speed,
           kExtremes};
 }

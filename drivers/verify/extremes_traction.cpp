@@ -159,15 +159,13 @@ CaseResult extremes_traction(const VerifyInputs& inputs, const ProgressText& pro
 }  // namespace
 
 VerifyCase extremes_traction_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 3.5e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"speed", &kSpeed, "m/s", 15, {1, 150}, "the rolling speed below the limit"});
   inputs.push_back(
       {"spinning_speed", &kSpeed, "m/s", 5, {1, 150}, "the speed at which the torque exceeds adhesion"});
   inputs.push_back(
       {"torque", nullptr, "", 4, {1.5, 20}, "the torque over the largest that adhesion carries"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 3.5e-3;
   return {"extremes_traction", "traction up to adhesion and beyond, driving and braking", std::move(inputs),
           extremes_traction, kExtremes};
 }

@@ -39,13 +39,11 @@ CaseResult sliding(const VerifyInputs& inputs, const ProgressText& progress) {
 }  // namespace
 
 VerifyCase sliding_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 2.2e-3);
   inputs.push_back({"friction", nullptr, "", 0.3, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"creepage", nullptr, "", -2, {-2, 1.9}, "the creepage at the start; -2: a locked wheel"});
   inputs.push_back({"speed", &kSpeed, "m/s", 10, {1, 150}, "the speed at the start"});
   inputs.push_back({"way", &kLength, "mm", 8e-3, {1e-3, 1}, "the way of the wheel"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 2.2e-3;
   return {"sliding", "a wheel slides on a block: force and energy", std::move(inputs), sliding};
 }
 

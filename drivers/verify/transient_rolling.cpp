@@ -215,14 +215,12 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
 }  // namespace
 
 VerifyCase transient_rolling_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 1.6e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient F_L / F_N"});
   inputs.push_back(
       {"growth", nullptr, "", 0.15, {0.02, 0.5}, "the way while the torque grows, in semi-axes"});
   inputs.push_back({"way", nullptr, "", 3, {1, 10}, "the way in semi-axes of the patch"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 1.6e-3;
   return {"transient", "from a shift to steady rolling, against the half-space", std::move(inputs),
           transient_rolling};
 }

@@ -92,13 +92,13 @@ surface = "{surface}"
   return resolve_scene(SceneSource{"verify", text + more, {}}, overrides).scene;
 }
 
-std::vector<VerifyInput> tyre_inputs(bool sphere) {
+std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size) {
   std::vector<VerifyInput> inputs = {
       {"radius", &kLength, "m", 0.43, {0.05, 5}, "the radius of the rolling circle"},
       {"load", &kForce, "kN", 8926 * 9.81, {10, 1e6}, "the contact force F_N"},
       {"youngs_modulus", &kStress, "GPa", 205.9e9, {1e6, 1e13}, "Young's modulus of both bodies"},
       {"poissons_ratio", nullptr, "", 0.3, {0, 0.49}, "Poisson's ratio of both bodies"},
-      {"element_size", &kLength, "mm", 1.1e-3, {1e-5, 0.02}, "the elements' size in the contact"},
+      {"element_size", &kLength, "mm", element_size, {1e-5, 0.02}, "the elements' size in the contact"},
       {"grid_offset", nullptr, "", 0, {-0.5, 0.5}, "the meshes' shift in elements, along and across"},
       {"points", nullptr, "", 3, {1, 4}, "contact's integration points per face and direction"},
       {"facets", nullptr, "", 0, {0, 1}, "1: contact on facets, 0: on exact profiles"},

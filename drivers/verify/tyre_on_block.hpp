@@ -47,8 +47,8 @@ struct TyreOnBlock {
 };
 
 /// Inputs: radius, crown_radius (where `sphere` is false), load, youngs_modulus, poissons_ratio,
-/// element_size, grid_offset, points, facets, penetration.
-std::vector<VerifyInput> tyre_inputs(bool sphere);
+/// element_size (its default is given, [m]), grid_offset, points, facets, penetration.
+std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size = 1.1e-3);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
 
 /// Largest sizes that a case of plane strain allows.

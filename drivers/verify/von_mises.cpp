@@ -166,13 +166,11 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
 }  // namespace
 
 VerifyCase von_mises_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 2.2e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient of the rolling wheel"});
   inputs.push_back({"speed", &kSpeed, "m/s", 5, {0.5, 20}, "the rolling speed"});
   inputs.push_back({"ramp", &kTime, "ms", 1.5e-3, {1e-5, 0.1}, "the time in which the torque grows"});
-  for (VerifyInput& input : inputs)
-    if (input.name == "element_size") input.value = 2.2e-3;
   return {"von_mises", "stress of the surface elements, at rest and rolling, against the half-space",
           std::move(inputs), von_mises_of_elements};
 }
