@@ -229,15 +229,7 @@ double courant(const Shape& shape, double step) {
 
 Finding refusal(const std::string& what, const std::vector<std::string>& parts,
                 const std::function<void()>& act) {
-  bool right = false;
-  try {
-    act();
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    right = std::all_of(parts.begin(), parts.end(),
-                        [&](const std::string& part) { return text.find(part) != std::string::npos; });
-  }
-  return {what + ": refused with a list", "-", right ? 1.0 : 0.0, 1, 0.0, true};
+  return {what + ": refused with a list", "-", refused(act, parts) ? 1.0 : 0.0, 1, 0.0, true};
 }
 
 std::vector<Finding> refusals(double h) {

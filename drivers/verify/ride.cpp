@@ -60,4 +60,12 @@ int count_not_finite(const Model& model, const RunResults& results) {
   return count;
 }
 
+void judge_ride(const std::string& at, const Model& model, const RunResults& results,
+                std::vector<Finding>& findings) {
+  const double not_finite = count_not_finite(model, results);
+  findings.push_back({at + "energy error, eq. (14)", "-", results.energy_error, 0, 0.01, true});
+  findings.push_back({at + "momentum error", "-", results.momentum_error, 0, 1e-4, true});
+  findings.push_back({at + "samples that are not finite", "-", not_finite, 0, 0, true});
+}
+
 }  // namespace tread

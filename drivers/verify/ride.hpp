@@ -6,6 +6,7 @@
 
 #include "drivers/model.hpp"
 #include "drivers/run_results.hpp"
+#include "drivers/verify/verify_case.hpp"
 #include "io/report.hpp"
 
 namespace tread {
@@ -27,6 +28,10 @@ int count_not_finite(const Model& model, const RunResults& results);
 /// I times the change of spin against the angular impulse of torque and F_L about the axle, over the impulse
 /// of F_N times the radius: from the samples, with the nominal radius as F_L's arm.
 double angular_momentum_error(const Model& model, const RunResults& results);
+
+/// Adds what every ride is judged by: errors of energy and momentum, samples that are not finite.
+void judge_ride(const std::string& at, const Model& model, const RunResults& results,
+                std::vector<Finding>& findings);
 
 /// A value of the samples over time, scaled for the figure.
 template <class Value>

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -38,6 +39,17 @@ double Finding::error() const {
 
 bool Finding::pass() const {
   return !bound || std::abs(error()) <= *bound;
+}
+
+bool refused(const std::function<void()>& act, const std::vector<std::string>& parts) {
+  try {
+    act();
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const std::string& part) { return text.find(part) != std::string::npos; });
+  }
+  return false;
 }
 
 const std::vector<VerifyCase>& verify_cases() {

@@ -49,6 +49,9 @@ struct Finding {
   bool pass() const;
 };
 
+/// Whether `act` throws an InputError whose text holds all `parts`.
+bool refused(const std::function<void()>& act, const std::vector<std::string>& parts = {});
+
 struct CaseResult {
   std::vector<Finding> findings;
   std::vector<Figure> figures;
