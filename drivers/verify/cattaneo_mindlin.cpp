@@ -9,9 +9,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"
+#include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
 
 namespace tread {
@@ -89,19 +88,14 @@ std::vector<Moment> push_and_pull(const TyreOnBlock& bodies, const ProgressText&
   Model model(bodies.scene());
   progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
   const Preload preload = solve_preload(model, {}, progress);
-  const MotionSpec& motion = *model.scene.motion;
-  const double stable = motion.step_safety * step_limit(model).stable_step;
-  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
-  Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
   constexpr int kSamples = 1500;
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
-  progress(fmt::format("{} steps of {:.3e} s", steps, simulation.dt()));
+  WholeRun run = whole_run(model, preload, kSamples);
+  const Simulation& simulation = run.simulation;
+  progress(fmt::format("{} steps of {:.3e} s", run.steps, simulation.dt()));
   const double limit = bodies.friction * bodies.load;
   const double start = distant_shift(bodies, model, simulation);
   std::vector<Moment> moments;
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  run.roll([&] {
     const Sample& sample = simulation.sample();
     const double stick = std::max(sample.patch_area - sample.slip_area, 0.0);
     moments.push_back({sample.longitudinal_force / limit, distant_shift(bodies, model, simulation) - start,
@@ -110,7 +104,7 @@ std::vector<Moment> push_and_pull(const TyreOnBlock& bodies, const ProgressText&
     if (moments.size() % 150 == 0)
       progress(fmt::format("t {:.2f} ms, F_L / f F_N {:.4f}, shift {:.3f} um", 1e3 * sample.time,
                            moments.back().push, 1e6 * moments.back().shift));
-  }
+  });
   return moments;
 }
 

@@ -10,10 +10,9 @@
 #include "core/error.hpp"
 #include "core/hertz.hpp"
 #include "core/mesh/structured.hpp"
-#include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
-#include "drivers/statistics.hpp"
 #include "drivers/verify/cases.hpp"
+#include "drivers/verify/ride.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {
@@ -156,32 +155,27 @@ double stable_step_of(Ring ring) {
 
 Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress) {
   Model model(ring.scene());
-  const MotionSpec& motion = *model.scene.motion;
   const Preload preload = solve_preload(model, steady_motion(model), progress);
-  const double stable = motion.step_safety * step_limit(model).stable_step;
-  const std::int64_t steps = std::max(wanted, static_cast<std::int64_t>(std::ceil(motion.duration / stable)));
-  Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
-  progress(fmt::format("{} elements, {} steps of {:.3e} s, {:.3g} m", model.elements(), steps,
+  WholeRun whole = whole_run(model, preload, kSamples, wanted);
+  const Simulation& simulation = whole.simulation;
+  progress(fmt::format("{} elements, {} steps of {:.3e} s, {:.3g} m", model.elements(), whole.steps,
                        simulation.dt(), ring.way));
   Run run;
   run.mass = model.wheelset->mass();
   run.inertia = model.wheelset->inertia();
   const auto started = std::chrono::steady_clock::now();
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  whole.roll([&] {
     run.moments.push_back(moment_of(model, simulation));
     if (run.moments.size() == 1) {
       run.kinetic = simulation.sample().energy.kinetic;
       compare_hoop(model, simulation.displacement().data(), simulation.wheel().spin, run);
     }
-    if (run.moments.size() % 100 != 0) continue;
+    if (run.moments.size() % 100 != 0) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;
     const Moment& m = run.moments.back();
     progress(fmt::format("step {:.0f}, {:.1f} us a step, mean stress {:.6f} MPa, spin {:.9f} rad/s", m.step,
                          1e6 * passed.count() / m.step, 1e-6 * m.mean_stress, m.spin));
-  }
+  });
   return run;
 }
 

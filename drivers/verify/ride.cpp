@@ -36,6 +36,15 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   return results;
 }
 
+WholeRun whole_run(Model& model, const Preload& preload, int samples, std::int64_t least) {
+  const MotionSpec& motion = *model.scene.motion;
+  const double longest = motion.step_safety * step_limit(model).stable_step;
+  const std::int64_t steps = std::max(least, step_count(model.scene, longest));
+  WholeRun run{steps, Simulation(model, preload, motion.duration / static_cast<double>(steps))};
+  run.simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / samples));
+  return run;
+}
+
 double angular_momentum_error(const Model& model, const RunResults& results) {
   const std::vector<Sample>& s = results.samples;
   const double radius = model.wheel_radius();

@@ -15,6 +15,24 @@ namespace tread {
 /// as in summary.json. Stops with NumericalError as a run would.
 RunResults ride(Model& model, int samples, const ProgressText& progress);
 
+/// Rolling whose last step ends at the scene's duration.
+struct WholeRun {
+  std::int64_t steps;
+  Simulation simulation;
+
+  /// To the end; `see` looks at the simulation after every sampled step.
+  template <class See>
+  void roll(const See& see) {
+    while (simulation.steps() < steps) {
+      simulation.step();
+      if (simulation.sampled()) see();
+    }
+  }
+};
+
+/// The fewest steps of one size that the scene's step_safety allows, or `least`; about `samples` samples.
+WholeRun whole_run(Model& model, const Preload& preload, int samples, std::int64_t least = 1);
+
 /// Mean over the samples from `first` on [s].
 template <class Value>
 Statistics since(const RunResults& results, double first, const Value& value) {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/verify/ride.hpp"
 
 namespace tread {
 
@@ -36,27 +36,21 @@ std::vector<PatchPoint> axis_nodes(const PatchNodes& patch, double axle) {
 
 Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress) {
   Model model(bodies.scene());
-  const MotionSpec& motion = *model.scene.motion;
   progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
   const Preload preload = solve_preload(model, steady_motion(model), progress);
-  const double stable = motion.step_safety * step_limit(model).stable_step;
-  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
-  const double dt = motion.duration / static_cast<double>(steps);
-  Simulation simulation(model, preload, dt);
   constexpr int kSamples = 1000;
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
-  progress(fmt::format("{} steps of {:.3e} s", steps, dt));
+  WholeRun run = whole_run(model, preload, kSamples);
+  const Simulation& simulation = run.simulation;
+  progress(fmt::format("{} steps of {:.3e} s", run.steps, simulation.dt()));
   Rolled rolled;
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  run.roll([&] {
     const Sample& sample = simulation.sample();
     rolled.samples.push_back(sample);
     if (rolled.samples.size() % 100 == 0)
       progress(fmt::format("x {:.1f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}, creepage {:.4f} %",
                            1e3 * sample.wheel_x, 1e-3 * sample.vertical_force,
                            sample.longitudinal_force / sample.vertical_force, 100 * sample.creepage_mean));
-  }
+  });
 
   const double first = bodies.roll - observed;
   const std::vector<Sample>& s = rolled.samples;

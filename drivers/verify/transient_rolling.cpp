@@ -8,10 +8,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/half_space_rolling.hpp"
+#include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
 
 namespace tread {
@@ -80,17 +79,12 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
   Model model(bodies.scene());
   progress(fmt::format("{} elements of {:.3g} mm", model.elements(), 1e3 * bodies.element_size));
   const Preload preload = solve_preload(model, steady_motion(model), progress);
-  const MotionSpec& motion = *model.scene.motion;
-  const double stable = motion.step_safety * step_limit(model).stable_step;
-  const auto steps = static_cast<std::int64_t>(std::ceil(motion.duration / stable));
-  Simulation simulation(model, preload, motion.duration / static_cast<double>(steps));
   constexpr int kSamples = 2000;
-  simulation.set_sampling_interval(std::max<std::int64_t>(1, steps / kSamples));
-  progress(fmt::format("{} steps of {:.3e} s", steps, simulation.dt()));
+  WholeRun run = whole_run(model, preload, kSamples);
+  const Simulation& simulation = run.simulation;
+  progress(fmt::format("{} steps of {:.3e} s", run.steps, simulation.dt()));
   Transient transient;
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  run.roll([&] {
     const Sample& sample = simulation.sample();
     if (transient.places.empty()) transient.free_creepage = sample.creepage_mean;
     const double way = simulation.wheel().origin.x;
@@ -101,7 +95,7 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
     if (transient.places.size() % 200 == 0)
       progress(fmt::format("x {:.2f} mm, F_N {:.2f} kN, F_L / F_N {:.4f}", 1e3 * way,
                            1e-3 * sample.vertical_force, transient.places.back().force));
-  }
+  });
   return transient;
 }
 
