@@ -12,11 +12,10 @@ namespace tread {
 struct EnergyStop {
   double time = 0;  ///< [s]
   std::int64_t steps = 0;
-  double dt = 0;        ///< [s]
-  double missed = 0;    ///< energy that appeared (> 0) or vanished (< 0) [J]
-  double supplied = 0;  ///< [J]
-  const double* displacement = nullptr;
-  const double* velocity = nullptr;
+  double dt = 0;                     ///< [s]
+  double missed = 0;                 ///< energy that appeared (> 0) or vanished (< 0) [J]
+  double supplied = 0;               ///< [J]
+  const double* velocity = nullptr;  ///< of all nodes [m/s]
 };
 
 /// Names the instant, the energy, the fastest place, the cause (a step beyond the stable one, computed anew,

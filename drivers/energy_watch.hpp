@@ -19,11 +19,14 @@ class EnergyWatch {
   /// A later sample; false where share() exceeds 1 for the second time in a row or a value is not finite.
   bool sound(const EnergyLedger& energy, double excess);
 
-  double missed() const { return missed_; }      ///< appeared (> 0) or vanished (< 0) since the start [J]
-  double supplied() const { return supplied_; }  ///< since the start, what was there included [J]
-  double share() const { return share_; }        ///< of what ends a run [-]
+  bool started() const { return started_; }
+  double start_energy() const { return total_; }  ///< EnergyLedger::total() of the first sample [J]
+  double missed() const { return missed_; }       ///< appeared (> 0) or vanished (< 0) since the start [J]
+  double supplied() const { return supplied_; }   ///< since the start, what was there included [J]
+  double share() const { return share_; }         ///< of what ends a run [-]
 
  private:
+  bool started_ = false;
   double total_ = 0;    ///< of the start [J]
   double excess_ = 0;   ///< of the start [J]
   double kinetic_ = 0;  ///< mean of both half steps at the start [J]

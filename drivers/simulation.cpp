@@ -353,13 +353,13 @@ Vec3 Simulation::vehicle_momentum() const {
 }
 
 void Simulation::watch(double excess) {
-  if (!have_start_energy_) energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy());
+  if (!energy_watch_.started()) energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy());
   if (!energy_watch_.sound(sample_.energy, excess)) stop();
 }
 
 void Simulation::stop() const {
   throw NumericalError(energy_stop_text(
-      *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), u_.data(), v_.data()}));
+      *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_.data()}));
 }
 
 MomentumCheck Simulation::momentum_check() const {
@@ -449,13 +449,8 @@ void Simulation::end_sample() {
     }
     sample_.torque = torque_;
   }
-  const double closed = energy.total();
   watch(excess);
-  if (!have_start_energy_) {
-    start_energy_ = closed;
-    have_start_energy_ = true;
-  }
-  energy.residual = closed - start_energy_;
+  energy.residual = energy.total() - energy_watch_.start_energy();
 }
 
 std::uint64_t Simulation::state_hash() const {

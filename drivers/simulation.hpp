@@ -151,8 +151,6 @@ class Simulation {
 
   Sample sample_;
   double kinetic_before_ = 0;
-  double start_energy_ = 0;
-  bool have_start_energy_ = false;
   EnergyWatch energy_watch_;
 };
 

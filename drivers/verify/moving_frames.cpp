@@ -147,7 +147,7 @@ Moment moment_of(const Model& model, const Simulation& simulation) {
 }
 
 /// The largest step at which the ring's scene over a short way runs [s].
-double stable_step_of(Ring ring) {
+double step_on_short_way(Ring ring) {
   ring.way = std::min(ring.way, 4 * ring.element_size);
   const Model model(ring.scene());
   return model.scene.motion->step_safety * step_limit(model).stable_step;
@@ -256,7 +256,7 @@ void add_drifts(const std::string& name, const Run& run, const DriftBounds& boun
 void spin_freely(const VerifyInputs& inputs, const ProgressText& progress, CaseResult& result) {
   Ring ring{inputs["radius"], inputs["element_size"], inputs["speed"], false, 1, ""};
   const auto steps = std::llround(inputs["steps"]);
-  ring.way = ring.speed * stable_step_of(ring) * static_cast<double>(steps);
+  ring.way = ring.speed * step_on_short_way(ring) * static_cast<double>(steps);
   const Run run = run_ring(ring, steps, progress);
   result.findings.push_back({"free: mean hoop stress against half a ring's balance", "MPa",
                              1e-6 * run.hoop_stress, 1e-6 * run.wanted_hoop, 0.01});
@@ -278,7 +278,7 @@ void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progr
   const double load =
       line_load(ring.radius, contact_modulus(kYoungsModulus, kPoissonsRatio), a) * ring.element_size;
   ring.more = ground(ring, load);
-  ring.way = ring.speed * stable_step_of(ring) * static_cast<double>(steps);
+  ring.way = ring.speed * step_on_short_way(ring) * static_cast<double>(steps);
   ring.more = ground(ring, load);
   const Run run = run_ring(ring, steps, progress);
   // Both meshes pass one another like gears: that shakes the undamped bodies and slowly exchanges spin for
