@@ -23,6 +23,14 @@ constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the w
 constexpr std::int64_t kWatchInterval = 64;
 constexpr int kCreepageNodes = 28;  ///< [paper, section 4.2]
 
+/// Of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed there is
+/// none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper, eq. (3)]
+double creepage_of(double rim, double speed) {
+  constexpr double kLeastSpeed = 1e-3;  // [m/s]
+  const double rolling = 0.5 * (rim + speed);
+  return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
+}
+
 }  // namespace
 
 Simulation::Simulation(Model& model, const Preload& preload, double dt)
@@ -373,12 +381,7 @@ double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
   const double carried = cartesian_to_cylindrical(node.angle + frame_.angle, mean.velocity).x;
   const double speed = v_[static_cast<std::size_t>(dof(node.slot, 0))] - carried +
                        frame_.spin * (node.radius + u_[static_cast<std::size_t>(dof(node.slot, 2))]);
-  const double v = frame_.velocity.x + mean.velocity.x;
-  // Without a rolling speed there is no creepage: at rest, or when the tread runs backwards as fast as the
-  // wheel forwards.
-  constexpr double kLeastSpeed = 1e-3;  // [m/s]
-  const double rolling = 0.5 * (speed + v);
-  return std::abs(rolling) > kLeastSpeed ? (speed - v) / rolling : 0.0;
+  return creepage_of(speed, frame_.velocity.x + mean.velocity.x);
 }
 
 void Simulation::begin_sample() {
@@ -443,10 +446,9 @@ void Simulation::end_sample() {
     for (std::size_t k = 0; k < creepage_nodes_.size(); ++k) sum += creepage(k, mean);
     sample_.creepage_node = creepage(0, mean);
     sample_.creepage_mean = sum / static_cast<double>(creepage_nodes_.size());
-    if (model_->guide) {
-      const double rim = sample_.wheel_spin * creepage_nodes_.front().radius;
-      sample_.creepage_mean = (rim - sample_.wheel_speed) / (0.5 * (rim + sample_.wheel_speed));
-    }
+    if (model_->guide)
+      sample_.creepage_mean =
+          creepage_of(sample_.wheel_spin * creepage_nodes_.front().radius, sample_.wheel_speed);
     sample_.torque = torque_;
   }
   watch(excess);

@@ -107,6 +107,18 @@ TEST(GuidedBore, LoadAndTorqueReachTheRailAndTheEnergyCloses) {
   EXPECT_NEAR(momentum.impulse.z, momentum.change.z, 1e-6 * momentum.contact_impulse.z);
 }
 
+TEST(GuidedBore, HasNoCreepageAtRest) {
+  Model model(guided_scene({"wheel.overhang=60 mm", "motion.speed=0 m/s"}));
+  const Preload preload = solve_preload(model, steady_motion(model), [](const std::string&) {});
+  Simulation simulation(model, preload, 0.9 * step_limit(model).stable_step);
+  simulation.set_sampling_interval(1);
+  while (simulation.steps() < 3) {
+    simulation.step();
+    EXPECT_EQ(simulation.sample().creepage_mean, 0);
+    EXPECT_EQ(simulation.sample().creepage_node, 0);
+  }
+}
+
 TEST(GuidedBore, TorqueReverses) {
   MotionSpec motion;
   motion.ramp = 2;
