@@ -16,21 +16,36 @@ namespace tread {
 
 namespace {
 
+/// Adds the force that gives a block's nodes this acceleration; `angle`: of the wheel's frame [rad].
+void add_acceleration(const Model& model, const SweptBlock& block, double angle, const Vec3& acceleration,
+                      double* load) {
+  for (int station = 0; station < block.station_count(); ++station) {
+    const Vec3 local = to_local(block, station, angle, acceleration);
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      const double m = model.mass[static_cast<std::size_t>(slot)];
+      for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * local[c];
+    }
+  }
+}
+
+/// Adds the centrifugal force of a revolved block. `spin` [rad/s]
+void add_centrifugal(const Model& model, const SweptBlock& block, double spin, double* load) {
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      load[dof(slot, 2)] += model.mass[static_cast<std::size_t>(slot)] * spin * spin *
+                            block.section.q[static_cast<std::size_t>(node)];
+    }
+}
+
 /// Gravity, centrifugal force and vehicle weight as an external force field.
 AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, double spin) {
   AlignedVector<double> load(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
-  for (const SweptBlock& block : model.mesh.blocks)
-    for (int station = 0; station < block.station_count(); ++station) {
-      const Vec3 down = to_local(block, station, 0, {0, 0, -model.scene.gravity});
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const double m = model.mass[static_cast<std::size_t>(slot)];
-        for (int c = 0; c < 3; ++c) load[static_cast<std::size_t>(dof(slot, c))] = m * down[c];
-        if (block.sweep == Sweep::revolved)
-          load[static_cast<std::size_t>(dof(slot, 2))] +=
-              m * spin * spin * block.section.q[static_cast<std::size_t>(node)];
-      }
-    }
+  for (const SweptBlock& block : model.mesh.blocks) {
+    add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load.data());
+    if (block.sweep == Sweep::revolved) add_centrifugal(model, block, spin, load.data());
+  }
   if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
   if (model.guide) {
     model.guide->reduce(load.data());
@@ -74,17 +89,9 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
 void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {
   model.journal.add(load, frame, {0, 0, -run_in.journal_force});
   const double per_mass = run_in.inertia_force / model.wheelset->mass();
-  for (const int b : model.wheelset->blocks()) {
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
-    for (int station = 0; station < block.station_count(); ++station) {
-      const Vec3 down = to_local(block, station, frame.angle, {0, 0, -per_mass});
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const double m = model.mass[static_cast<std::size_t>(slot)];
-        for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * down[c];
-      }
-    }
-  }
+  for (const int b : model.wheelset->blocks())
+    add_acceleration(model, model.mesh.blocks[static_cast<std::size_t>(b)], frame.angle, {0, 0, -per_mass},
+                     load);
 }
 
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
