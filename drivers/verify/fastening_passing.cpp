@@ -12,7 +12,7 @@
 #include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
-#include "drivers/verify/wheel_on_beam.hpp"
+#include "drivers/verify/force_harmonics.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {

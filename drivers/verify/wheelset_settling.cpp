@@ -11,7 +11,6 @@
 #include "drivers/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
-#include "drivers/verify/wheel_on_beam.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {

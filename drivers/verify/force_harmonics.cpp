@@ -1,4 +1,4 @@
-#include "drivers/verify/wheel_on_beam.hpp"
+#include "drivers/verify/force_harmonics.hpp"
 
 #include <algorithm>
 #include <cmath>
