@@ -3,35 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "drivers/verify/ring_theory.hpp"
-#include "drivers/verify/verify_case.hpp"
-#include "tests/measured.hpp"
+#include "tests/verified_case.hpp"
 
 namespace tread {
 namespace {
-
-using Setting = std::pair<const char*, const char*>;
-
-void expect_bounds_hold(const std::string& name, const std::vector<Setting>& settings) {
-  for (const VerifyCase& c : verify_cases()) {
-    if (c.name != name) continue;
-    VerifyInputs inputs(c.inputs);
-    for (const auto& [input, value] : settings) ASSERT_TRUE(inputs.set(input, value)) << input;
-    const CaseResult result = c.run(inputs, [](const std::string&) {});
-    EXPECT_FALSE(result.findings.empty());
-    EXPECT_FALSE(result.figures.empty());
-    for (const Finding& f : result.findings) {
-      measured(f.quantity, f.value, f.unit);
-      EXPECT_TRUE(f.pass()) << f.quantity << ": " << f.value << " against " << f.reference;
-    }
-    return;
-  }
-  FAIL() << "no case " << name;
-}
 
 TEST(FreeWheel, DoesNotDriftInItsFrame) {
   expect_bounds_hold("moving_frames", {{"steps", "3000"},
