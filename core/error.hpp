@@ -28,6 +28,11 @@ struct NumericalError : Error {
   explicit NumericalError(const std::string& message) : Error(ExitCode::numerical, message) {}
 };
 
+/// The run was told to stop and can go on later.
+struct Interrupted : Error {
+  explicit Interrupted(const std::string& message) : Error(ExitCode::resumable, message) {}
+};
+
 /// The machine refuses (disk full, no permission, no memory).
 struct ResourceError : Error {
   explicit ResourceError(const std::string& message) : Error(ExitCode::resources, message) {}

@@ -158,8 +158,17 @@ struct HammerSpec {
 
 /// [output]
 struct OutputSpec {
-  double history_interval = 1e-5;  ///< [s]
-  double progress_interval = 2;    ///< wall clock [s]
+  double history_interval = 1e-5;    ///< [s]
+  double progress_interval = 2;      ///< wall clock [s]
+  double checkpoint_interval = 600;  ///< wall clock [s]
+  std::optional<double> disk_limit;  ///< of the run's folder [B]
+};
+
+/// [stop]: what ends a run before its duration, besides errors
+struct StopSpec {
+  int steps = 0;                      ///< that a run may take; 0: any number
+  std::optional<double> wall_time;    ///< of one process [s]
+  std::optional<double> penetration;  ///< [m]
 };
 
 struct Scene {
@@ -189,6 +198,7 @@ struct Scene {
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
   OutputSpec output;
+  StopSpec stop;
 
   /// MotionSpec::start, "auto" resolved; without [motion]: "rigid".
   std::string start() const {

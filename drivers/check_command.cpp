@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "drivers/disk_use.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/mesh_measures.hpp"
@@ -22,18 +23,14 @@ namespace {
 // Measured on runs of the scenes in scenes/: 1.3 ... 1.45 and 2900 (tyre) ... 5400 (wheelset).
 constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
 constexpr double kPreloadApplications =
-    5000;                             ///< time of a preload over that of one application of the stiffness
-constexpr double kCsvBytes = 13.5;    ///< of a value in histories.csv
-constexpr double kPatchShare = 0.15;  ///< of a sample in patch.h5 that compression leaves
-constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
+    5000;  ///< time of a preload over that of one application of the stiffness
 
 struct Estimate {
   StepLimit limit;
   double dt = 0;  ///< [s]
   std::int64_t steps = 0;
-  std::int64_t rows = 0;       ///< of the histories
-  std::int64_t memory = 0;     ///< [B]
-  std::int64_t disk = 0;       ///< [B]
+  std::int64_t memory = 0;  ///< [B]
+  DiskUse disk;
   double force_seconds = 0;    ///< of one internal force [s]
   double preload_seconds = 0;  ///< [s]
   double rolling_seconds = 0;  ///< [s]
@@ -55,18 +52,13 @@ Estimate estimate(const Model& model) {
   e.memory = peak_bytes(model);
   e.force_seconds = seconds_of_one_force(model);
   e.preload_seconds = kPreloadApplications * e.force_seconds;
-  e.disk = kReportBytes;
+  e.disk = disk_use(model, 0);
   if (!model.scene.motion) return e;
   e.limit = step_limit(model);
   e.dt = model.scene.motion->step_safety * e.limit.stable_step;
   e.steps = step_count(model.scene, e.dt);
-  e.rows = (e.steps + sampling_interval(model.scene, e.dt) - 1) / sampling_interval(model.scene, e.dt);
+  e.disk = disk_use(model, e.dt);
   e.rolling_seconds = kStepOverhead * e.force_seconds * static_cast<double>(e.steps);
-  const auto values = static_cast<double>(e.rows) * static_cast<double>(history_channels(model).size());
-  e.disk += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)));
-  if (model.contact)
-    e.disk += static_cast<std::int64_t>(kPatchShare * static_cast<double>(e.rows) *
-                                        static_cast<double>(PatchFile::sample_bytes(model.contact->nodes())));
   return e;
 }
 
@@ -82,10 +74,13 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
   }
   line("Memory", fmt::format("about {}", bytes_text(e.memory)));
-  line("Disk", e.rows > 0 ? fmt::format("about {}: {} rows of {} channels, {}report", bytes_text(e.disk),
-                                        grouped(e.rows), history_channels(model).size(),
-                                        model.contact ? "patch, " : "")
-                          : fmt::format("about {}", bytes_text(e.disk)));
+  line("Disk",
+       fmt::format("about {}", bytes_text(e.disk.results)) +
+           (e.disk.rows > 0 ? fmt::format(": {} rows of {} channels, {}report; {} more for checkpoints "
+                                          "while it runs",
+                                          grouped(e.disk.rows), history_channels(model).size(),
+                                          model.contact ? "patch, " : "", bytes_text(e.disk.checkpoints))
+                            : ""));
   line("Time", fmt::format("about {} with {} thread{}: preload {}{}",
                            duration_text(e.preload_seconds + e.rolling_seconds), threads(),
                            threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
@@ -111,7 +106,10 @@ std::string check_json(const Model& model, const Estimate& e) {
         .member("stable_step_s", e.limit.stable_step)
         .member("dt_reason", std::string_view(e.limit.reason))
         .member("steps", e.steps);
-  json.member("memory_bytes", e.memory).member("disk_bytes", e.disk).member("history_rows", e.rows);
+  json.member("memory_bytes", e.memory)
+      .member("disk_bytes", e.disk.results)
+      .member("checkpoint_bytes", e.disk.checkpoints)
+      .member("history_rows", e.disk.rows);
   json.member("threads", threads())
       .member("preload_s", e.preload_seconds)
       .member("rolling_s", e.rolling_seconds);

@@ -21,7 +21,7 @@ constexpr double kLargestExcess = 100;
 }  // namespace
 
 void EnergyWatch::start(const EnergyLedger& energy, double excess, double elastic_kinetic) {
-  started_ = true;
+  started_ = 1;
   total_ = energy.total();
   excess_ = excess;
   kinetic_ = energy.kinetic + excess;

@@ -2,6 +2,10 @@
 // Judges the energies of a run: what appears or vanishes cannot exceed what was supplied. [theory.md, Energy
 // stop]
 
+#include <cstdint>
+
+#include "core/state_list.hpp"
+
 namespace tread {
 
 struct EnergyLedger;
@@ -19,24 +23,40 @@ class EnergyWatch {
   /// A later sample; false where share() exceeds 1 for the second time in a row or a value is not finite.
   bool sound(const EnergyLedger& energy, double excess);
 
-  bool started() const { return started_; }
+  bool started() const { return started_ != 0; }
   double start_energy() const { return total_; }  ///< EnergyLedger::total() of the first sample [J]
   double missed() const { return missed_; }       ///< appeared (> 0) or vanished (< 0) since the start [J]
   double supplied() const { return supplied_; }   ///< since the start, what was there included [J]
   double share() const { return share_; }         ///< of what ends a run [-]
 
+  void list_state(StateList& list) {
+    list.add("started", started_);
+    list.add("total", total_);
+    list.add("excess", excess_);
+    list.add("kinetic", kinetic_);
+    list.add("gravity", gravity_);
+    list.add("stored", stored_);
+    list.add("slowed", slowed_);
+    list.add("fallen", fallen_);
+    list.add("driven", driven_);
+    list.add("missed", missed_);
+    list.add("supplied", supplied_);
+    list.add("share", share_);
+    list.add("breaches", breaches_);
+  }
+
  private:
-  bool started_ = false;
-  double total_ = 0;    ///< of the start [J]
-  double excess_ = 0;   ///< of the start [J]
-  double kinetic_ = 0;  ///< mean of both half steps at the start [J]
-  double gravity_ = 0;  ///< of the start [J]
-  double stored_ = 0;   ///< in springs and elastic motion at the start [J]
-  double slowed_ = 0;   ///< largest loss of kinetic energy so far [J]
-  double fallen_ = 0;   ///< largest loss of potential energy so far [J]
-  double driven_ = 0;   ///< largest work of torque, guide and hammer so far [J]
+  std::int64_t started_ = 0;  ///< 1 from the first sample on
+  double total_ = 0;          ///< of the start [J]
+  double excess_ = 0;         ///< of the start [J]
+  double kinetic_ = 0;        ///< mean of both half steps at the start [J]
+  double gravity_ = 0;        ///< of the start [J]
+  double stored_ = 0;         ///< in springs and elastic motion at the start [J]
+  double slowed_ = 0;         ///< largest loss of kinetic energy so far [J]
+  double fallen_ = 0;         ///< largest loss of potential energy so far [J]
+  double driven_ = 0;         ///< largest work of torque, guide and hammer so far [J]
   double missed_ = 0, supplied_ = 0, share_ = 0;
-  int breaches_ = 0;  ///< in a row
+  std::int64_t breaches_ = 0;  ///< in a row
 };
 
 }  // namespace tread

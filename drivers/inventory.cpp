@@ -158,6 +158,8 @@ std::vector<FieldInfo> fields(const Model& model) {
                motion ? sample_count(*model.scene.motion, model.scene.output) *
                             static_cast<std::int64_t>(sizeof(Sample))
                       : 0});
+  add(motion,
+      {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
   add(true, {"solver", "N, m", "node and aggregate, during the preload", kSolverVectors * vector});
   add(wheel, {"held motions", "-", "node, during the preload", kHeldVectors * vector});
   return list;
@@ -182,6 +184,12 @@ Table field_table(const Model& model) {
   return table;
 }
 
+std::int64_t checkpoint_bytes(const Model& model) {
+  const std::int64_t vector = 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double));
+  if (!model.contact) return 2 * vector;
+  return 2 * vector + model.contact->bytes() + SurfaceFields::bytes(model.contact->nodes().grid());
+}
+
 std::int64_t peak_bytes(const Model& model) {
   std::int64_t always = 0;
   std::int64_t preload = 0;
@@ -190,7 +198,7 @@ std::int64_t peak_bytes(const Model& model) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
     else if (field.name == "velocity" || field.name == "force" || field.name == "surface fields" ||
-             field.name == "samples")
+             field.name == "samples" || field.name == "checkpoint")
       rolling += field.bytes;
     else
       always += field.bytes;

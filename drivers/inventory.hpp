@@ -39,6 +39,9 @@ Table phase_table(const Model& model);
 /// Columns: field, unit, one value set per, size.
 Table field_table(const Model& model);
 
+/// Of the fields in a checkpoint, without samples and patch.h5 [B].
+std::int64_t checkpoint_bytes(const Model& model);
+
 /// Largest sum of fields that are alive at one time, solver and model included: an estimate. [B]
 std::int64_t peak_bytes(const Model& model);
 

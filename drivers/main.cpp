@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "drivers/check_command.hpp"
+#include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/run_command.hpp"
 #include "drivers/verify_command.hpp"
@@ -96,6 +97,34 @@ void add_run(CLI::App& app, const std::string& command_line) {
                                         tread::run_scene, state);
   command.add_option("-o,--output", state->options.output, "output directory")->required();
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
+  command.add_flag("--overwrite", state->options.overwrite,
+                   "throw away an unfinished run that the output directory holds");
+}
+
+void add_resume(CLI::App& app) {
+  auto options = std::make_shared<tread::RunOptions>();
+  CLI::App& command = *app.add_subcommand("resume", "go on with a run that was stopped or killed");
+  command.add_option("folder", options->output, "output directory of the run")->required();
+  command
+      .add_option("--set", options->overrides,
+                  "key=value for motion.duration, output.* and stop.*, e.g. --set \"stop.wall_time=2 h\"")
+      ->allow_extra_args(false);
+  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_flag("--json", options->json, "summary on stdout");
+  command.add_flag("--quiet", options->quiet, "no progress on stderr");
+  command.callback([options] { report_problems(options->json, [&] { tread::resume_run(*options); }); });
+}
+
+void add_ctl(CLI::App& app) {
+  auto options = std::make_shared<tread::CtlOptions>();
+  CLI::App& command = *app.add_subcommand("ctl", "look at a run, or ask it for a checkpoint or to stop");
+  command.add_option("folder", options->folder, "output directory of the run")->required();
+  command.add_option("action", options->action, "status, checkpoint or stop")
+      ->required()
+      ->check(CLI::IsMember({"status", "checkpoint", "stop"}));
+  command.add_option("--wait", options->patience, "longest time to wait for an answer [s]")
+      ->check(CLI::NonNegativeNumber);
+  command.callback([options] { tread::control_run(*options); });
 }
 
 void add_check(CLI::App& app) {
@@ -145,6 +174,8 @@ int run(int argc, char** argv) {
   std::string command_line = "tread";
   for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
   add_run(app, command_line);
+  add_resume(app);
+  add_ctl(app);
   add_check(app);
   add_mesh(app);
   add_verify(app);

@@ -1,9 +1,13 @@
 #include "drivers/patch_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+
+#include "core/error.hpp"
 
 namespace tread {
 
@@ -57,6 +61,14 @@ PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes)
   file_.make_extendible<std::uint8_t>("/state", kBlock, window, Hdf5File::Storage::compressed);
   describe(file_, "/state", "-", "0 out of contact, 1 sticks, 2 slips");
   file_.flush();
+}
+
+PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, std::size_t samples)
+    : file_(Hdf5File::open_to_extend(path)), fields_(patch_fields().size()) {
+  const std::vector<std::uint64_t> expected = {samples, static_cast<std::uint64_t>(nodes.capacity()),
+                                               nodes.grid().y.size()};
+  if (file_.shape("/state") != expected || file_.shape("/time") != std::vector<std::uint64_t>{samples})
+    throw InputError(fmt::format("{} does not hold {} samples of this scene", path.string(), samples));
 }
 
 PatchFile::~PatchFile() {

@@ -38,20 +38,22 @@ class PatchFile {
 
   /// Starts the file afresh.
   PatchFile(const std::filesystem::path& path, const PatchNodes& nodes);
+  /// Goes on with a file that holds `samples`. InputError where it does not fit.
+  PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, std::size_t samples);
   /// Closes without reporting errors.
   ~PatchFile();
   PatchFile(const PatchFile&) = delete;
   PatchFile& operator=(const PatchFile&) = delete;
 
   void append(double time, double wheel_x, const PatchNodes& nodes);
+  /// Hands the samples that wait in memory to the operating system.
+  void flush();
   void close();
 
   /// Of a sample before compression. [B]
   static std::int64_t sample_bytes(const PatchNodes& nodes);
 
  private:
-  void flush();
-
   Hdf5File file_;
   std::vector<double> time_, wheel_x_;
   std::vector<std::int32_t> first_;

@@ -292,8 +292,8 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       held->balance(residual.data());
     }
     out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
-    progress(fmt::format("preload: iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN",
-                         iteration, out.residual, model.contact ? model.contact->points().size() : 0,
+    progress(fmt::format("iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
+                         out.residual, model.contact ? model.contact->points().size() : 0,
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) {

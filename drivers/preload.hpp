@@ -7,6 +7,7 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "core/state_list.hpp"
 #include "drivers/beam/run_in.hpp"
 #include "drivers/model.hpp"
 
@@ -25,8 +26,8 @@ struct Preload {
   std::optional<RunIn> run_in;         ///< where SteadyMotion::rolling wants it
   BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
-  int newton_iterations = 0;
-  int cg_iterations = 0;
+  std::int64_t newton_iterations = 0;
+  std::int64_t cg_iterations = 0;
   double held_force_x = 0;  ///< reaction of the held longitudinal motion of the wheel [N]
   double held_moment = 0;   ///< reaction of its held rotation about the axle [N m]
   // At rest, before any run-in:
@@ -35,6 +36,21 @@ struct Preload {
   double slab_deflection = 0;  ///< [m]
   ContactTotals contact;
   double max_pressure = 0;  ///< nodal average [Pa]
+
+  /// What is of use once rolling has begun.
+  void list_state(StateList& list) {
+    list.add("wheel_frame", wheel);
+    list.add("residual", residual);
+    list.add("newton_iterations", newton_iterations);
+    list.add("cg_iterations", cg_iterations);
+    list.add("held_force_x", held_force_x);
+    list.add("held_moment", held_moment);
+    list.add("tilt", tilt);
+    list.add("rail_deflection", rail_deflection);
+    list.add("slab_deflection", slab_deflection);
+    list.add_records("contact", std::span(&contact, 1));
+    list.add("max_pressure", max_pressure);
+  }
 };
 
 using ProgressText = std::function<void(const std::string&)>;

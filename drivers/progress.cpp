@@ -12,7 +12,8 @@ Progress::Progress(bool quiet)
 
 void Progress::say(const std::string& text) const {
   if (quiet_) return;
-  fmt::print(stderr, "{}\n", text);
+  // Nobody may be listening any more: that is no reason to stop.
+  std::fputs((text + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -7,101 +7,20 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "drivers/disk_use.hpp"
 #include "drivers/machine.hpp"
-#include "drivers/progress.hpp"
+#include "drivers/plain_text.hpp"
+#include "drivers/rolling.hpp"
 #include "drivers/run_report.hpp"
 #include "drivers/run_results.hpp"
+#include "drivers/run_session.hpp"
 #include "io/output_file.hpp"
 
 namespace tread {
 
 namespace {
 
-constexpr const char* kPatchFile = "patch.h5";
 constexpr int kInstants = 10;  ///< [paper, Fig. 16]
-
-std::string progress_line(const Simulation& simulation, const Sample& sample, const Model& model, double end,
-                          double seconds) {
-  const double done = simulation.time() / end;
-  const double per_step = simulation.steps() > 0 ? seconds / static_cast<double>(simulation.steps()) : 0;
-  std::string line = fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation.time(),
-                                 1e3 * end, 100 * done, simulation.dt());
-  if (model.contact)
-    line +=
-        fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
-                    sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
-  line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
-                      1e9 * per_step / static_cast<double>(model.elements()),
-                      done > 0 ? duration_text(seconds / done * (1 - done)) : "?");
-  return line;
-}
-
-/// A value that is not finite ends a run before it reaches a file.
-const std::vector<double>& checked(const std::vector<double>& row, const std::vector<Channel>& channels) {
-  for (std::size_t i = 0; i < row.size(); ++i)
-    if (!std::isfinite(row[i]))
-      throw NumericalError(
-          fmt::format("'{}' is not a finite number at t = {:.6e} s", channels[i].name, row[0]));
-  return row;
-}
-
-/// The files that grow while a run lasts.
-struct GrowingFiles {
-  std::vector<Channel> channels;
-  HistoryFile histories;
-  std::optional<PatchFile> patch;
-
-  GrowingFiles(const Model& model, const std::filesystem::path& directory)
-      : channels(history_channels(model)), histories(directory, channels) {
-    if (model.contact) patch.emplace(directory / kPatchFile, model.contact->nodes());
-  }
-  void append(const Model& model, const Sample& sample) {
-    histories.append(checked(history_row(model, sample), channels));
-    if (patch) patch->append(sample.time, sample.wheel_x, model.contact->nodes());
-  }
-  void close() {
-    histories.close();
-    if (patch) patch->close();
-  }
-};
-
-void step_to_the_end(Simulation& simulation, GrowingFiles& files, const Model& model, RunResults& results,
-                     Progress& progress) {
-  const double started = progress.seconds();
-  const auto steps = step_count(model.scene, results.dt);
-  while (simulation.steps() < steps) {
-    simulation.step();
-    if (simulation.sampled()) {
-      results.samples.push_back(simulation.sample());
-      files.append(model, simulation.sample());
-    }
-    if (simulation.steps() % 16 == 0 && progress.due(model.scene.output.progress_interval))
-      progress.say(progress_line(simulation, simulation.sample(), model, model.scene.motion->duration,
-                                 progress.seconds() - started));
-  }
-}
-
-void roll(Model& model, RunResults& results, const std::filesystem::path& directory, Progress& progress) {
-  GrowingFiles files(model, directory);
-  Simulation simulation(model, results.preload, results.dt);
-  simulation.set_sampling_interval(sampling_interval(model.scene, results.dt));
-  const double started = progress.seconds();
-  try {
-    step_to_the_end(simulation, files, model, results, progress);
-  } catch (const NumericalError& error) {
-    files.close();
-    throw NumericalError(fmt::format("{}; {} samples before it are kept in {}", error.what(),
-                                     results.samples.size(), directory.string()));
-  }
-  files.close();
-  results.seconds_rolling = progress.seconds() - started;
-  results.steps = simulation.steps();
-  results.state_hash = simulation.state_hash();
-  results.momentum = simulation.momentum_check();
-  results.surface_fields = simulation.surface();
-  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
-    results.block_energy.push_back(model.internal->energy(b, simulation.displacement().data()));
-}
 
 /// The fields of the rail's surface, and the instants of the patch that the report shows: of the last wave of
 /// a corrugation, of the last patch lengths on a smooth rail.
@@ -117,41 +36,171 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
       read_patch(directory / kPatchFile, std::max(last - stretch, results.evaluated_first), last, kInstants);
 }
 
+/// Changes of the run, as later values of the keys that a run may change.
+void adopt_later_values(Model& model, const Scene& later) {
+  model.scene.output = later.output;
+  model.scene.stop = later.stop;
+  if (!model.scene.motion) return;
+  const double planned = model.scene.motion->duration;
+  if (model.scene.wheel && later.motion->duration > planned)
+    throw InputError(
+        fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
+                    "began with; state a longer duration when a run begins and end it early",
+                    1e3 * later.motion->duration, 1e3 * planned));
+  model.scene.motion->duration = later.motion->duration;
+}
+
+void solve_statics(const RunSession& session, Model& model, RunResults& results) {
+  const double started = session.progress.seconds();
+  results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
+    session.enter("preload", text);
+    if (session.folder.take_request() == RunRequest::stop)
+      throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
+  });
+  results.seconds_preload = session.progress.seconds() - started;
+}
+
+void choose_step(const RunSession& session, const Model& model, RunResults& results) {
+  results.limit = step_limit(model);
+  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
+  session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
+                                    step_count(model.scene, results.dt), results.limit.reason));
+  const std::optional<double>& limit = model.scene.output.disk_limit;
+  const std::int64_t needed = disk_use(model, results.dt).total();
+  if (limit && static_cast<double>(needed) > *limit)
+    throw InputError(
+        fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
+                    "output.history_interval",
+                    bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
+}
+
+void leave_results(RunSession& session, const Model& model, RunResults& results) {
+  evaluate(model, results);
+  leave_surface(model, results, session.folder.path());
+  const std::string summary = summary_json(model, session.resolved, results);
+  write_text_file(session.folder / "summary.json", summary);
+  write_run_report(session.folder / "report.html", model, session.resolved, results, session.order.command);
+  if (session.options.json) fmt::print("{}", summary);
+}
+
+/// From the mesh to the report; from `checkpoint` on where there is one.
+void carry_out(RunSession& session, const SealedContent* checkpoint) {
+  write_text_file(session.folder / "scene.resolved.toml", resolved_toml(session.resolved));
+  session.enter("mesh", "begins");
+  Model model(resolve_scene(session.order.scene, session.order.overrides).scene);
+  adopt_later_values(model, session.resolved.scene);
+  RunResults results;
+  results.seconds_mesh = session.progress.seconds();
+  session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
+                                    model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
+  const Scene& scene = model.scene;
+  if (checkpoint)
+    unpack_results(*checkpoint, results);
+  else
+    solve_statics(session, model, results);
+  if (scene.corrugation)
+    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
+  if (scene.motion) {
+    if (!checkpoint) choose_step(session, model, results);
+    Rolling rolling(session, model, results);
+    if (checkpoint)
+      rolling.go_on(*checkpoint);
+    else
+      rolling.begin();
+    rolling.to_the_end();
+  }
+  leave_results(session, model, results);
+  session.checkpoints.clear();
+  session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
+                                    duration_text(session.progress.seconds())));
+}
+
+/// A run that could go on is not thrown away by mistake.
+void refuse_unfinished(const RunSession& session) {
+  if (session.options.overwrite || session.checkpoints.states().empty()) return;
+  throw InputError(
+      fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
+                  "away, or choose another folder",
+                  session.folder.path().string(), session.way_on()));
+}
+
+/// Anything else would make it another run.
+void refuse_other_keys(const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    if (key != "motion.duration" && !key.starts_with("output.") && !key.starts_with("stop."))
+      throw InputError(
+          fmt::format("--set {}: a run that goes on may change motion.duration, output.* and "
+                      "stop.*; for other values start a run with them",
+                      text));
+  }
+}
+
+std::string listed(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+/// The newest sound checkpoint; nothing where the run has none yet. InputError where none is sound.
+std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session) {
+  std::vector<std::string> refused;
+  std::optional<CheckpointFolder::Found> found = session.checkpoints.newest(refused);
+  if (!found && !refused.empty())
+    throw InputError(
+        fmt::format("no checkpoint is of use: {}; start the run anew with `tread run ... "
+                    "--overwrite`",
+                    listed(refused)));
+  for (const std::string& reason : refused) session.progress.say("[resume] " + reason);
+  return found;
+}
+
+/// What the run was asked for, and what is asked now.
+void read_order(RunSession& session, const std::optional<CheckpointFolder::Found>& found) {
+  RunOrder& order = session.order;
+  order = unpack_order(found ? found->content : session.checkpoints.read_order());
+  const std::vector<std::string>& now = session.options.overrides;
+  refuse_other_keys(now);
+  if (resolved_toml(resolve_scene(order.scene, order.overrides)) != order.resolved)
+    throw InputError(
+        fmt::format("{}: this program reads other values from the scene than the one that began "
+                    "the run; go on with that one",
+                    session.folder.path().string()));
+  order.later.insert(order.later.end(), now.begin(), now.end());
+  std::vector<std::string> all = order.overrides;
+  all.insert(all.end(), order.later.begin(), order.later.end());
+  session.resolved = resolve_scene(order.scene, all);
+}
+
 }  // namespace
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   use_threads(options.threads);
-  make_directory(options.output);
-  write_text_file(options.output / "scene.resolved.toml", resolved_toml(resolved));
-  Progress progress(options.quiet);
-  RunResults results;
+  RunSession session(options);
+  refuse_unfinished(session);
+  session.resolved = resolved;
+  session.order = {resolved.source, resolved.overrides, {}, resolved_toml(resolved), options.command};
+  session.checkpoints.clear();
+  session.checkpoints.write_order(pack_order(session.order));
+  carry_out(session, nullptr);
+}
 
-  const Scene& scene = resolved.scene;
-  Model model(scene);
-  results.seconds_mesh = progress.seconds();
-  progress.say(fmt::format("[mesh] {} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
-                           model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
-
-  results.preload = solve_preload(model, steady_motion(model),
-                                  [&](const std::string& text) { progress.say("[" + text + "]"); });
-  results.seconds_preload = progress.seconds() - results.seconds_mesh;
-  if (scene.corrugation)
-    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
-
-  if (scene.motion) {
-    results.limit = step_limit(model);
-    results.dt = scene.motion->step_safety * results.limit.stable_step;
-    progress.say(fmt::format("[step] dt {:.3e} s, {} steps; {}", results.dt, step_count(scene, results.dt),
-                             results.limit.reason));
-    roll(model, results, options.output, progress);
+void resume_run(const RunOptions& options) {
+  use_threads(options.threads);
+  if (!std::filesystem::is_directory(options.output))
+    throw InputError(fmt::format("there is no folder {}", options.output.string()));
+  RunSession session(options);
+  if (!session.checkpoints.has_order() && session.checkpoints.states().empty()) {
+    if (!std::filesystem::exists(session.folder / "summary.json"))
+      throw InputError(fmt::format("{} holds no run", options.output.string()));
+    session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
+                                     (session.folder / "report.html").string()));
+    return;
   }
-  evaluate(model, results);
-  leave_surface(model, results, options.output);
-  const std::string summary = summary_json(model, resolved, results);
-  write_text_file(options.output / "summary.json", summary);
-  write_run_report(options.output / "report.html", model, resolved, results, options.command);
-  if (options.json) fmt::print("{}", summary);
-  progress.say(fmt::format("[done] {} in {}", options.output.string(), duration_text(progress.seconds())));
+  const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
+  read_order(session, found);
+  if (found) session.progress.say(fmt::format("[resume] from {}", found->path.string()));
+  carry_out(session, found ? &found->content : nullptr);
 }
 
 }  // namespace tread

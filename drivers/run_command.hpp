@@ -1,9 +1,11 @@
 #pragma once
-// `tread run`: a scene from mesh to report.
+// `tread run` and `tread resume`: a scene from mesh to report.
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "io/checkpoint_folder.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {
@@ -13,11 +15,20 @@ struct RunOptions {
   int threads = 0;               ///< 0: as many as the machine has
   bool json = false;             ///< summary on stdout
   bool quiet = false;            ///< no progress on stderr
+  bool overwrite = false;        ///< an unfinished run in the directory may be thrown away
   std::string command;           ///< as typed, for the report
+  /// Of `tread resume`: other values of motion.duration, output and stop.
+  std::vector<std::string> overrides;
+  CheckpointObserver observer;  ///< told of each stage of each checkpoint, by the thread that writes it
 };
 
 /// Runs the scene and leaves scene.resolved.toml, run.h5, histories.csv, summary.json and report.html in the
-/// output directory. Errors leave as Error.
+/// output directory. While it lasts, and where it ends before its time, status.json and checkpoint/ are
+/// there. Errors leave as Error; Interrupted where it can be resumed.
 void run_scene(const ResolvedScene& resolved, const RunOptions& options);
+
+/// Goes on with the run in options.output from its last sound checkpoint; the files become those of a run
+/// that was never stopped. Says so where the run is finished. InputError where there is none.
+void resume_run(const RunOptions& options);
 
 }  // namespace tread

@@ -41,6 +41,16 @@ struct RunResults {
   SurfaceResults surface;                       ///< from surface_fields
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
 
+  /// What a run that goes on cannot find again, the samples apart.
+  void list_state(StateList& list) {
+    list.add_part("preload", preload);
+    list.add("stable_step", limit.stable_step);
+    list.add("dt", dt);
+    list.add("seconds_mesh", seconds_mesh);
+    list.add("seconds_preload", seconds_preload);
+    list.add("seconds_rolling", seconds_rolling);
+  }
+
   Statistics vertical_force;      ///< over evaluated() [N]
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =

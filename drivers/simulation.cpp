@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/error.hpp"
+#include "core/hash.hpp"
 #include "drivers/energy_stop.hpp"
 #include "drivers/start.hpp"
 #include "drivers/static_system.hpp"
@@ -33,26 +33,15 @@ double creepage_of(double rim, double speed) {
 
 }  // namespace
 
-Simulation::Simulation(Model& model, const Preload& preload, double dt)
+Simulation::Simulation(Model& model, double patch_y, double dt)
     : model_(&model),
       dt_(dt),
-      u_(preload.displacement),
+      u_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0),
       v_(u_.size(), 0.0),
-      force_(u_.size(), 0.0),
-      frame_(preload.wheel) {
+      force_(u_.size(), 0.0) {
   const Scene& scene = model.scene;
-  if (model.guide) model.guide->settle(u_.data());
-  const std::optional<RunIn>& run_in = preload.run_in;
-  const StartFields start{u_, v_, frame_};
-  if (run_in) place_run_in(model, *run_in, start);
   if (model.wheelset) {
-    anchor();  // at rest: the wheel then spins about its own displaced axis
-    if (model.contact) {
-      model.contact->find_static({u_.data(), nullptr, &frame_});
-      model.contact->begin();
-      surface_.emplace(model.contact->nodes().grid());
-    }
-    start_velocities(model, run_in, start);
+    if (model.contact) surface_.emplace(model.contact->nodes().grid());
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
@@ -60,31 +49,59 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
       max_torque_ = *scene.motion->traction_mu * model.wheel_load() * radius;
       if (!model.guide) max_torque_ *= 1 + model.wheelset->inertia() / (mass * radius * radius);
     }
-    // Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
-    const double y = preload.contact.centre.y;
-    int nearest = block.section.surface.front().node[0];
-    for (const SurfaceEdge& edge : block.section.surface)
-      for (const int node : edge.node)
-        if (std::abs(block.section.p[static_cast<std::size_t>(node)] - y) <
-            std::abs(block.section.p[static_cast<std::size_t>(nearest)] - y))
-          nearest = node;
-    const StationFinder finder(block);
-    for (int k = 0; k < (model.guide ? 1 : kCreepageNodes); ++k) {
-      const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
-      creepage_nodes_.push_back({block.base + block.slot(nearest, station),
-                                 block.stations[static_cast<std::size_t>(station)],
-                                 block.section.q[static_cast<std::size_t>(nearest)]});
-    }
+    choose_creepage_nodes(patch_y);
   }
   if (scene.vehicle) {
     const VehicleSpec& vehicle = *scene.vehicle;
     sprung_.mass = vehicle.sprung_mass;
     sprung_.stiffness = vehicle.suspension_stiffness;
     sprung_.damping = vehicle.suspension_damping;
-    const Vec3 journal = frame_.origin + model.journal.displacement(u_.data(), frame_);
     sprung_.free_length_height = sprung_.mass * scene.gravity / sprung_.stiffness;
-    sprung_.height = journal.z;
+  }
+}
+
+Simulation::Simulation(Model& model, const Preload& preload, double dt)
+    : Simulation(model, preload.contact.centre.y, dt) {
+  start(preload);
+}
+
+/// Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
+void Simulation::choose_creepage_nodes(double patch_y) {
+  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(model_->index.tread)];
+  int nearest = block.section.surface.front().node[0];
+  for (const SurfaceEdge& edge : block.section.surface)
+    for (const int node : edge.node)
+      if (std::abs(block.section.p[static_cast<std::size_t>(node)] - patch_y) <
+          std::abs(block.section.p[static_cast<std::size_t>(nearest)] - patch_y))
+        nearest = node;
+  const StationFinder finder(block);
+  for (int k = 0; k < (model_->guide ? 1 : kCreepageNodes); ++k) {
+    const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
+    creepage_nodes_.push_back({block.base + block.slot(nearest, station),
+                               block.stations[static_cast<std::size_t>(station)],
+                               block.section.q[static_cast<std::size_t>(nearest)]});
+  }
+}
+
+void Simulation::start(const Preload& preload) {
+  Model& model = *model_;
+  const Scene& scene = model.scene;
+  u_ = preload.displacement;
+  frame_ = preload.wheel;
+  if (model.guide) model.guide->settle(u_.data());
+  const std::optional<RunIn>& run_in = preload.run_in;
+  const StartFields fields{u_, v_, frame_};
+  if (run_in) place_run_in(model, *run_in, fields);
+  if (model.wheelset) {
+    anchor();  // at rest: the wheel then spins about its own displaced axis
+    if (model.contact) {
+      model.contact->find_static({u_.data(), nullptr, &frame_});
+      model.contact->begin();
+    }
+    start_velocities(model, run_in, fields);
+  }
+  if (scene.vehicle) {
+    sprung_.height = (frame_.origin + model.journal.displacement(u_.data(), frame_)).z;
     if (run_in) {
       sprung_.height -= run_in->stretch;
       sprung_.speed = -run_in->sprung_speed;
@@ -100,6 +117,35 @@ Simulation::Simulation(Model& model, const Preload& preload, double dt)
   }
   if (model.hammer) struck_at_ = -model.hammer->value(u_.data(), 2);
   start_momentum_ = vehicle_momentum();
+}
+
+StateList Simulation::state() {
+  StateList list;
+  list.add("time", time_);
+  list.add("steps", steps_);
+  list.add("displacement", u_);
+  list.add("velocity", v_);
+  list.add("wheel_frame", frame_);
+  list.add_part("sprung_mass", sprung_);
+  list.add("torque", torque_);
+  list.add("torque_before", torque_before_);
+  list.add("torque_work", torque_work_);
+  list.add("guide_work", guide_work_);
+  list.add("guide_before", guide_before_);
+  list.add("impulse", impulse_);
+  list.add("contact_impulse", contact_impulse_);
+  list.add("start_momentum", start_momentum_);
+  list.add("hammer/struck_at", struck_at_);
+  list.add("hammer/force", hammer_force_);
+  list.add("hammer/displacement", hammer_displacement_);
+  list.add("hammer/work", hammer_work_);
+  list.add_part("energy_watch", energy_watch_);
+  list.add_records("sample", std::span(&sample_, 1));
+  if (surface_) list.add_part("surface", *surface_);
+  if (model_->contact) list.add_part("contact", *model_->contact);
+  if (model_->guide) list.add_part("guided_bore", *model_->guide);
+  if (model_->fastenings) list.add_part("fastenings", *model_->fastenings);
+  return list;
 }
 
 double Simulation::torque_at(double time) const {
@@ -456,19 +502,13 @@ void Simulation::end_sample() {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto mix = [&](double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    hash = (hash ^ bits) * 1099511628211ULL;
-    hash ^= hash >> 29;
-  };
-  for (const double value : u_) mix(value);
-  for (const double value : v_) mix(value);
+  Hash hash;
+  for (const double value : u_) hash.add(value);
+  for (const double value : v_) hash.add(value);
   for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,
                              frame_.velocity.x, sprung_.height, sprung_.speed})
-    mix(value);
-  return hash;
+    hash.add(value);
+  return hash.value();
 }
 
 }  // namespace tread

@@ -6,6 +6,7 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "core/state_list.hpp"
 #include "drivers/energy_watch.hpp"
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
@@ -66,6 +67,9 @@ class Simulation {
  public:
   /// Starts from a preload at the scene's speed. `dt`: the step [s].
   Simulation(Model& model, const Preload& preload, double dt);
+  /// Bodies at rest, undeformed, for the fields of state() to be restored; `patch_y`: centre of the preload's
+  /// patch [m].
+  Simulation(Model& model, double patch_y, double dt);
 
   double time() const { return time_; }
   double dt() const { return dt_; }
@@ -81,6 +85,9 @@ class Simulation {
   /// Of the last sample.
   const EnergyWatch& energy_watch() const { return energy_watch_; }
 
+  /// Every field that outlives a step, those of the model's parts too.
+  StateList state();
+
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
   const AlignedVector<double>& displacement() const { return u_; }
@@ -91,6 +98,8 @@ class Simulation {
   double torque_at(double time) const;
 
  private:
+  void start(const Preload& preload);
+  void choose_creepage_nodes(double patch_y);
   void connect();
   void roll();
   void record();

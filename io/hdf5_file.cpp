@@ -126,9 +126,11 @@ Shape extent(hid_t space) {
 
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path, std::uint64_t user_block) {
   const Id list = access();
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, list);
+  const Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, user_block);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, list);
   if (id < 0) fail<ResourceError>("create", path, "");
   return {id, path};
 }
@@ -268,6 +270,42 @@ bool Hdf5File::contains(const std::string& name) const {
   return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+std::vector<std::string> Hdf5File::datasets() const {
+  std::vector<std::string> names;
+  const std::string all;
+  const Check check{path_, all};
+  check.read(H5Ovisit2(
+      id_, H5_INDEX_NAME, H5_ITER_INC,
+      [](hid_t /*root*/, const char* name, const H5O_info_t* info, void* out) -> herr_t {
+        if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+      },
+      &names, H5O_INFO_BASIC));
+  return names;
+}
+
+template <class T>
+bool Hdf5File::holds(const std::string& name) const {
+  const Check check{path_, name};
+  const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  return H5Tequal(Id(H5Dget_type(data), H5Tclose), type_of<T>()) > 0;
+}
+
+bool Hdf5File::is_plain(const std::string& name) const {
+  const Check check{path_, name};
+  const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Id layout(H5Dget_create_plist(data), H5Pclose);
+  const Id type(H5Dget_type(data), H5Tclose);
+  const std::uint64_t bytes = count(extent(Id(H5Dget_space(data), H5Sclose))) * H5Tget_size(type);
+  return H5Pget_layout(layout) == H5D_CONTIGUOUS && H5Pget_external_count(layout) == 0 &&
+         H5Dget_storage_size(data) == bytes;
+}
+
+bool Hdf5File::thread_safe() {
+  hbool_t safe = 0;
+  return H5is_library_threadsafe(&safe) >= 0 && safe;
+}
+
 Shape Hdf5File::shape(const std::string& name) const {
   const Check check{path_, name};
   const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
@@ -337,6 +375,7 @@ void Hdf5File::close() {
   template void Hdf5File::make_extendible<T>(const std::string&, std::uint64_t, const Shape&, Storage); \
   template void Hdf5File::append(const std::string&, std::span<const T>);                               \
   template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>);  \
+  template bool Hdf5File::holds<T>(const std::string&) const;                                           \
   template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
   template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;               \
   template std::vector<T> Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;

@@ -17,8 +17,9 @@ class Hdf5File {
   /// Compressed data are exact; rows should be appended in whole chunks.
   enum class Storage { plain, compressed };
 
-  /// Starts an empty file in place of whatever stood there.
-  static Hdf5File create(const std::filesystem::path& path);
+  /// Starts an empty file in place of whatever stood there. The first `user_block` bytes, 0 or a power of two
+  /// from 512 on, are left to the caller.
+  static Hdf5File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
   static Hdf5File open_to_read(const std::filesystem::path& path);
   static Hdf5File open_to_extend(const std::filesystem::path& path);
 
@@ -52,6 +53,13 @@ class Hdf5File {
   void link_external(const std::string& name, const std::filesystem::path& file, const std::string& object);
 
   bool contains(const std::string& name) const;
+  /// Names of all datasets, "group/name", in alphabetic order; links to other files are left out.
+  std::vector<std::string> datasets() const;
+  /// Whether the dataset is stored as T.
+  template <class T>
+  bool holds(const std::string& name) const;
+  /// Whether its values stand in one piece, uncompressed, in this file.
+  bool is_plain(const std::string& name) const;
   std::vector<std::uint64_t> shape(const std::string& name) const;
   template <class T>
   std::vector<T> read(const std::string& name) const;
@@ -61,6 +69,9 @@ class Hdf5File {
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
+
+  /// Whether several threads may use files at the same time, each its own.
+  static bool thread_safe();
 
   /// Hands everything written so far to the operating system; the file can be read from here on.
   void flush();

@@ -35,7 +35,7 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// What fsync says of the file: 0 or an errno.
+/// What fsync says of the file or folder: 0 or an errno.
 int sync(const std::filesystem::path& path) {
   const int descriptor = open_or_fail(path, O_RDONLY);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -43,15 +43,13 @@ int sync(const std::filesystem::path& path) {
   return error;
 }
 
-}  // namespace
-
-void replace_file(const std::filesystem::path& path,
-                  const std::function<void(const std::filesystem::path& part)>& write) {
+/// Calls `write` with the path of a neighbour and gives that the name `path`; removes it where that fails.
+void rename_finished(const std::filesystem::path& path,
+                     const std::function<void(const std::filesystem::path& part)>& write) {
   std::filesystem::path part = path;
   part += ".part";
   try {
     write(part);
-    if (const int error = sync(part)) fail(part, error);
     if (::rename(part.c_str(), path.c_str()) != 0) fail(path, errno);
   } catch (...) {
     ::unlink(part.c_str());
@@ -59,12 +57,31 @@ void replace_file(const std::filesystem::path& path,
   }
 }
 
+void write_text(const std::filesystem::path& path, std::string_view text) {
+  GrowingFile file(path);
+  file.append(text);
+  file.close();
+}
+
+}  // namespace
+
+void replace_file(const std::filesystem::path& path,
+                  const std::function<void(const std::filesystem::path& part)>& write) {
+  const auto forced = [&](const std::filesystem::path& part) {
+    write(part);
+    if (const int error = sync(part)) fail(part, error);
+  };
+  rename_finished(path, forced);
+  const std::filesystem::path folder = path.parent_path();
+  if (const int error = sync(folder.empty() ? "." : folder)) fail(path, error);
+}
+
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
-  replace_file(path, [&](const std::filesystem::path& part) {
-    GrowingFile file(part);
-    file.append(text);
-    file.close();
-  });
+  replace_file(path, [&](const std::filesystem::path& part) { write_text(part, text); });
+}
+
+void show_text_file(const std::filesystem::path& path, std::string_view text) {
+  rename_finished(path, [&](const std::filesystem::path& part) { write_text(part, text); });
 }
 
 GrowingFile::GrowingFile(std::filesystem::path path)

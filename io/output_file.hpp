@@ -9,13 +9,16 @@
 namespace tread {
 
 /// Calls `write` with the path of a fresh neighbour (`path` + ".part"), forces what it wrote to the disk and
-/// renames it to `path`. If anything fails the neighbour is removed, `path` stays as it was, and the error
-/// leaves: that of `write`, or ResourceError.
+/// renames it to `path`, on the disk too. If anything fails the neighbour is removed, `path` stays as it was,
+/// and the error leaves: that of `write`, or ResourceError.
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& part)>& write);
 
 /// Replaces the file by `text`. Throws ResourceError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// The same without waiting for the disk: a status that the next one soon replaces.
+void show_text_file(const std::filesystem::path& path, std::string_view text);
 
 /// A text file that grows by whole pieces: one that does not fit is taken back before the ResourceError
 /// leaves.

@@ -64,7 +64,9 @@ class SceneBuilder {
     check_required();
     add_check_results();
     if (!problems_.empty()) throw ProblemsError(std::move(problems_));
-    return {scene_, source_.name, entries()};
+    ResolvedScene resolved{scene_, source_.name, source_, overrides, entries()};
+    resolved.source.files = std::move(files_);
+    return resolved;
   }
 
  private:
@@ -289,7 +291,9 @@ class SceneBuilder {
     if (name.empty() || is_name || bad_.count(path)) return {};
     try {
       const std::size_t known_problems = problems_.size();
-      TwoColumns columns = read_two_columns(name, rules, problems_);
+      const auto given = source_.files.find(name);
+      std::string& text = files_[name] = given != source_.files.end() ? given->second : read_table_text(name);
+      TwoColumns columns = parse_two_columns(text, name, rules, problems_);
       if (problems_.size() > known_problems) bad_.insert(path);
       return columns;
     } catch (const InputError& error) {
@@ -386,6 +390,7 @@ class SceneBuilder {
   std::set<std::string> bad_;                ///< keys with a problem already
   bool tables_unclear_ = false;              ///< a table's name is wrong: what is missing cannot be told
   std::vector<Problem> problems_;
+  std::map<std::string, std::string> files_;  ///< texts of those that the scene names
 };
 
 std::string toml_string(const std::string& text) {

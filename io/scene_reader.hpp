@@ -2,6 +2,7 @@
 // From a scene file to a Scene, and back to a file that states every value.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct SceneSource {
   std::string name;              ///< as messages call it: the path that the user gave
   std::string text;              ///< TOML
   std::filesystem::path folder;  ///< files that the scene names are relative to it
+  /// Texts of files that the scene names, by absolute path; they hold in place of what stands on the disk.
+  std::map<std::string, std::string> files = {};
 };
 
 /// Reads the file's text. Throws InputError when it is missing, unreadable, not text, or larger than 1 MB.
@@ -31,7 +34,9 @@ struct Entry {
 
 struct ResolvedScene {
   Scene scene;
-  std::string name;            ///< of the source
+  std::string name;    ///< of the source
+  SceneSource source;  ///< with all files that the scene names
+  std::vector<std::string> overrides;
   std::vector<Entry> entries;  ///< every value that has an effect, in the order of the schema
 };
 

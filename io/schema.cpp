@@ -35,7 +35,9 @@ std::function<Field(Scene&)> at(std::optional<Spec> Scene::*spec, Member Spec::*
   };
 }
 
-std::function<Field(Scene&)> at(OutputSpec Scene::*spec, double OutputSpec::*member) {
+/// A member of a part that is always there.
+template <class Spec, class Member>
+std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {
   return [spec, member](Scene& scene) -> Field { return &(scene.*spec.*member); };
 }
 
@@ -366,6 +368,17 @@ void add_impacts_and_output(Keys& keys) {
                           "s", above(0, 100), "Simulated time between samples of the histories"));
   keys.push_back(quantity("output.progress_interval", at(&Scene::output, &OutputSpec::progress_interval),
                           kTime, "s", above(0, 1e5), "Wall-clock time between progress lines"));
+  keys.push_back(quantity("output.checkpoint_interval", at(&Scene::output, &OutputSpec::checkpoint_interval),
+                          kTime, "min", above(0, 1e7), "Wall-clock time between checkpoints"));
+  keys.push_back(quantity("output.disk_limit", at(&Scene::output, &OutputSpec::disk_limit), kData, "GB",
+                          above(0, 1e15), "What the run's folder may take; more than that ends the run"));
+  keys.push_back(number("stop.steps", at(&Scene::stop, &StopSpec::steps), {0, 2e9},
+                        "Steps after which the run ends; 0: any number", Kind::integer));
+  keys.push_back(quantity("stop.wall_time", at(&Scene::stop, &StopSpec::wall_time), kTime, "h", above(0, 1e8),
+                          "Time of the process after which it leaves a checkpoint and ends"));
+  keys.push_back(only_with("contact", "",
+                           quantity("stop.penetration", at(&Scene::stop, &StopSpec::penetration), kLength,
+                                    "um", above(0, 1), "Penetration that ends the run")));
 }
 
 Keys make_keys() {
@@ -454,7 +467,8 @@ std::vector<SceneTable> make_tables() {
       component("hammer", &Scene::hammer,
                 "A blow on the rail head; the histories hold its force and the struck point's "
                 "displacement."),
-      always("output", "How often results are sampled."),
+      always("output", "How often results are sampled, progress shown and checkpoints written."),
+      always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
   };
 }
 

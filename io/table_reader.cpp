@@ -89,9 +89,13 @@ class TableParser {
 
 }  // namespace
 
-TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules,
-                            std::vector<Problem>& problems) {
-  std::istringstream text(read_text_file(path, kLargestTable));
+std::string read_table_text(const std::filesystem::path& path) {
+  return read_text_file(path, kLargestTable);
+}
+
+TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
+                             const TableRules& rules, std::vector<Problem>& problems) {
+  std::istringstream text(content);
   TableParser parser(rules);
   const std::size_t known_problems = problems.size();
   int number = 0;
@@ -111,7 +115,7 @@ TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules&
 
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules) {
   std::vector<Problem> problems;
-  TwoColumns table = read_two_columns(path, rules, problems);
+  TwoColumns table = parse_two_columns(read_table_text(path), path, rules, problems);
   if (!problems.empty()) throw ProblemsError(std::move(problems));
   return table;
 }

@@ -20,14 +20,16 @@ struct TwoColumns {
   std::vector<double> second;  ///< [m]
 };
 
+/// The text of such a file. Throws InputError.
+std::string read_table_text(const std::filesystem::path& path);
+
 /// Reads two numbers a line, separated by blanks, commas or semicolons; '#' starts a comment. A line before
 /// the numbers that holds two bracketed units declares them; without it, where the rules allow, both are
-/// millimetres. Every bad line is added to `problems` with its number; a file that cannot be read throws
-/// InputError.
-TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules,
-                            std::vector<Problem>& problems);
+/// millimetres. Every bad line is added to `problems` with its number; `path` is the file's name in them.
+TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
+                             const TableRules& rules, std::vector<Problem>& problems);
 
-/// The same, throwing ProblemsError where there are any.
+/// Those of a file. Throws InputError, ProblemsError where lines are bad.
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules);
 
 }  // namespace tread

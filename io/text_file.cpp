@@ -21,7 +21,7 @@ namespace {
 
 }  // namespace
 
-std::string read_text_file(const fs::path& path, std::size_t limit) {
+std::string read_bytes(const fs::path& path, std::size_t limit) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse(path, error ? error.message() : "no such file");
@@ -37,6 +37,11 @@ std::string read_text_file(const fs::path& path, std::size_t limit) {
   std::string text(size, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(size));
   if (stream.bad() || static_cast<std::uintmax_t>(stream.gcount()) != size) refuse(path, "it ended early");
+  return text;
+}
+
+std::string read_text_file(const fs::path& path, std::size_t limit) {
+  std::string text = read_bytes(path, limit);
   if (text.find('\0') != std::string::npos) refuse(path, "it is a binary file, not text");
   return text;
 }

@@ -23,7 +23,7 @@ struct Symbol {
   bool prefixed;
 };
 
-constexpr std::array<Symbol, 9> kSymbols{{
+constexpr std::array<Symbol, 10> kSymbols{{
     {"m", {0, 1, 1, {1, 0, 0}}, true},
     {"g", {-3, 1, 1, {0, 1, 0}}, true},
     {"t", {3, 1, 1, {0, 1, 0}}, false},
@@ -33,14 +33,15 @@ constexpr std::array<Symbol, 9> kSymbols{{
     {"N", {0, 1, 1, {1, 1, -2}}, true},
     {"Pa", {0, 1, 1, {-1, 1, -2}}, true},
     {"Hz", {0, 1, 1, {0, 0, -1}}, true},
+    {"B", {0, 1, 1, {0, 0, 0, 1}}, true},
 }};
 
 constexpr std::array<std::pair<char, int>, 8> kPrefixes{
     {{'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'d', -1}, {'k', 3}, {'M', 6}, {'G', 9}}};
 
-constexpr std::array<const Quantity*, 12> kQuantities{&kLength,         &kTime,    &kSpeed,  &kAcceleration,
-                                                      &kMass,           &kDensity, &kForce,  &kStiffness,
-                                                      &kViscousDamping, &kTorque,  &kStress, &kFrequency};
+constexpr std::array<const Quantity*, 13> kQuantities{
+    &kLength,    &kTime,           &kSpeed,  &kAcceleration, &kMass,      &kDensity, &kForce,
+    &kStiffness, &kViscousDamping, &kTorque, &kStress,       &kFrequency, &kData};
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
@@ -87,6 +88,7 @@ void multiply(Unit& unit, const Unit& factor, int power) {
   unit.dimension.length += power * factor.dimension.length;
   unit.dimension.mass += power * factor.dimension.mass;
   unit.dimension.time += power * factor.dimension.time;
+  unit.dimension.data += power * factor.dimension.data;
 }
 
 /// Takes the letters that the text starts with.

@@ -6,11 +6,12 @@
 
 namespace tread {
 
-/// Exponents of metre, kilogram and second.
+/// Exponents of metre, kilogram, second and byte.
 struct Dimension {
   int length = 0;
   int mass = 0;
   int time = 0;
+  int data = 0;
   bool operator==(const Dimension&) const = default;
 };
 
@@ -43,8 +44,9 @@ inline constexpr Quantity kViscousDamping{"viscous damping", {0, 1, -1}, "N s/m"
 inline constexpr Quantity kTorque{"torque", {2, 1, -2}, "N m", "N m, kN m"};
 inline constexpr Quantity kStress{"stress", {-1, 1, -2}, "Pa", "Pa, kPa, MPa, GPa, N/mm2"};
 inline constexpr Quantity kFrequency{"frequency", {0, 0, -1}, "Hz", "Hz, kHz"};
+inline constexpr Quantity kData{"amount of data", {0, 0, 0, 1}, "B", "B, kB, MB, GB"};
 
-/// Parses products, quotients and powers of m, g, t, s, min, h, N, Pa, Hz with SI prefixes from n to G:
+/// Parses products, quotients and powers of m, g, t, s, min, h, N, Pa, Hz, B with SI prefixes from n to G:
 /// "km/h", "kN s/m", "kg/m3", "mm^2". A blank, '*' or '·' multiplies; '/' divides by the next factor alone.
 /// Throws InputError.
 Unit parse_unit(std::string_view text);

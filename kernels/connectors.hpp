@@ -9,6 +9,7 @@
 
 #include "core/body_frame.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/state_list.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
 namespace tread {
@@ -49,6 +50,8 @@ class SpringDampers {
   std::vector<Spring> springs() const;
   double energy(const double* u) const;              ///< [J]
   double dissipated() const { return dissipated_; }  ///< [J]
+
+  void list_state(StateList& list) { list.add("dissipated", dissipated_); }
 
  private:
   std::vector<Element> elements_;
@@ -100,6 +103,12 @@ struct SprungMass {
   void advance(double upward_force, double gravity, double dt) {
     speed += dt * (upward_force / mass - gravity);
     height += dt * speed;
+  }
+
+  void list_state(StateList& list) {
+    list.add("height", height);
+    list.add("speed", speed);
+    list.add("dissipated", dissipated);
   }
 };
 

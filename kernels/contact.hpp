@@ -10,6 +10,7 @@
 #include "core/body_frame.hpp"
 #include "core/corrugation.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/state_list.hpp"
 #include "kernels/contact_point.hpp"
 #include "kernels/contact_surface.hpp"
 #include "kernels/friction.hpp"
@@ -106,6 +107,14 @@ class Contact {
   /// At the rail's surface nodes about the patch. Of a step: its tractions, slip and frictional work, that of
   /// points that left contact in it included.
   const PatchNodes& nodes() const { return nodes_; }
+
+  /// What search() and resolve() do not find anew.
+  void list_state(StateList& list) {
+    list.add_records("history", std::span(history_));
+    list.add("wake_time", wake_time_);
+    list.add("frictional_work", frictional_work_);
+    list.add("damping_work", damping_work_);
+  }
 
  private:
   struct Candidate {

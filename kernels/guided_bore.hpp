@@ -7,6 +7,7 @@
 
 #include "core/body_frame.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/state_list.hpp"
 #include "kernels/body_motion.hpp"
 
 namespace tread {
@@ -58,6 +59,13 @@ class GuidedBore {
   MeanMotion motion() const;
   /// Impulse with which the guide held the forward speed in the last step [N s].
   double guide_impulse() const { return guide_impulse_; }
+
+  void list_state(StateList& list) {
+    list.add("rise", rise_);
+    list.add("rotation", rotation_);
+    list.add("rise_speed", rise_speed_);
+    list.add("spin", spin_);
+  }
 
  private:
   struct Node {

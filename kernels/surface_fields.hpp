@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/state_list.hpp"
 #include "kernels/internal_force.hpp"
 #include "kernels/patch_nodes.hpp"
 
@@ -36,6 +37,14 @@ class SurfaceFields {
   double sum(const std::vector<double>& per_area) const;
 
   static std::int64_t bytes(const SurfaceGrid& grid);
+
+  void list_state(StateList& list) {
+    list.add("max_pressure", max_pressure_);
+    list.add("max_shear", max_shear_);
+    list.add("max_von_mises", max_von_mises_);
+    list.add("frictional_work", frictional_work_);
+    list.add("sampled_frictional_work", sampled_work_);
+  }
 
  private:
   SurfaceGrid grid_;

@@ -1,0 +1,19 @@
+#pragma once
+// `tread ctl`: looks at a run from outside, and asks it for something.
+
+#include <filesystem>
+#include <string>
+
+namespace tread {
+
+struct CtlOptions {
+  std::filesystem::path folder;
+  std::string action;    ///< "status", "checkpoint" or "stop"
+  double patience = 60;  ///< for an answer [s]
+};
+
+/// Prints status.json, or leaves the request and waits until the run has taken it; after "stop" until the run
+/// has ended. InputError where no process works on the folder; ResourceError where none answers.
+void control_run(const CtlOptions& options);
+
+}  // namespace tread

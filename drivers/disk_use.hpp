@@ -1,0 +1,21 @@
+#pragma once
+// What a run will take on the disk.
+
+#include <cstdint>
+
+#include "drivers/model.hpp"
+
+namespace tread {
+
+struct DiskUse {
+  std::int64_t rows = 0;         ///< of the histories
+  std::int64_t results = 0;      ///< files that stay [B]
+  std::int64_t checkpoints = 0;  ///< while it lasts: two, and the one that is being written [B]
+
+  std::int64_t total() const { return results + checkpoints; }
+};
+
+/// Of a run with step `dt` [s], 0: of its statics alone.
+DiskUse disk_use(const Model& model, double dt);
+
+}  // namespace tread

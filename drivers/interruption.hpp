@@ -1,0 +1,34 @@
+#pragma once
+// Signals that ask a run to stop or to leave a checkpoint.
+
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tread {
+
+/// Watches SIGINT, SIGTERM, SIGHUP and SIGUSR1 while it lives; one at a time. Until defer() the first three
+/// end the process at once, with ExitCode::resumable and a sentence; after it the first of them only asks,
+/// and the second ends the process. SIGPIPE is ignored: a run outlives whoever reads its progress; so is
+/// SIGXFSZ, for then the write that went too far says so.
+class Interruption {
+ public:
+  /// `early` and `late`: the sentences, before defer() and after it.
+  Interruption(const std::string& early, const std::string& late);
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  void defer();
+
+  /// Name of the signal that asked to stop, or null.
+  static const char* stop_wanted();
+  /// True once for each SIGUSR1.
+  static bool take_checkpoint_wanted();
+
+ private:
+  std::vector<std::pair<int, struct sigaction>> before_;
+};
+
+}  // namespace tread

@@ -1,0 +1,248 @@
+#include "drivers/rolling.hpp"
+
+#include <fmt/core.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/plain_text.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kLookInterval = 16;         ///< steps between looks at the clock
+constexpr double kRequestInterval = 0.5;  ///< between looks into the folder [s]
+
+std::string instant(double time, std::int64_t steps) {
+  return fmt::format("t = {:.6e} s (step {})", time, steps);
+}
+
+}  // namespace
+
+Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
+    : session_(&session), model_(&model), results_(&results) {
+  end_ = step_count(model.scene, results.dt);
+}
+
+void Rolling::begin() {
+  simulation_.emplace(*model_, results_->preload, results_->dt);
+  files_.emplace(*model_, session_->folder.path());
+}
+
+void Rolling::go_on(const SealedContent& checkpoint) {
+  simulation_.emplace(*model_, results_->preload.contact.centre.y, results_->dt);
+  unpack_state(checkpoint, *model_, *simulation_);
+  const auto patch = checkpoint.find("patch.h5");
+  files_.emplace(*model_, session_->folder.path(), results_->samples,
+                 patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
+  written_ = Mark{simulation_->steps(), simulation_->time()};
+  seconds_before_ = results_->seconds_rolling;
+  if (simulation_->steps() > end_)
+    throw InputError(fmt::format("motion.duration = {:g} ms: the run has already come to {}",
+                                 1e3 * model_->scene.motion->duration,
+                                 instant(written_->time, written_->steps)));
+}
+
+void Rolling::to_the_end() {
+  simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
+  started_ = checkpoint_at_ = session_->progress.seconds();
+  started_steps_ = simulation_->steps();
+  session_->interruption.defer();
+  try {
+    if (!written_) write_checkpoint();  // the preload is dear
+    step_to_the_end();
+    wait_for_checkpoint();
+    files_->close();
+  } catch (const NumericalError& error) {
+    end_with_what_is_left<NumericalError>(error.what());
+  } catch (const ResourceError& error) {
+    end_with_what_is_left<ResourceError>(error.what());
+  }
+  fill_results();
+}
+
+void Rolling::step_to_the_end() {
+  const int most = model_->scene.stop.steps;
+  while (simulation_->steps() < end_) {
+    if (most > 0 && simulation_->steps() >= most) end<ResourceError>(fmt::format("stop.steps = {}", most));
+    simulation_->step();
+    if (simulation_->sampled()) {
+      results_->samples.push_back(simulation_->sample());
+      files_->append(simulation_->sample());
+    }
+    look();
+  }
+}
+
+/// Between two steps.
+void Rolling::look() {
+  if (const char* signal = Interruption::stop_wanted()) leave(signal);
+  if (Interruption::take_checkpoint_wanted()) write_checkpoint();
+  if (simulation_->sampled()) check_penetration();
+  if (simulation_->steps() % kLookInterval != 0) return;
+  const double now = session_->progress.seconds();
+  if (being_written_ && !writer_.running()) wait_for_checkpoint();
+  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running())
+    write_checkpoint();
+  if (session_->progress.due(model_->scene.output.progress_interval)) {
+    session_->progress.say(progress_line());
+    session_->folder.show_status(status());
+  }
+  if (now - looked_at_ < kRequestInterval) return;
+  looked_at_ = now;
+  const std::optional<RunRequest> request = session_->folder.take_request();
+  if (request == RunRequest::checkpoint) write_checkpoint();
+  if (request == RunRequest::stop) leave("tread ctl");
+  if (const auto limit = model_->scene.stop.wall_time; limit && now > *limit)
+    leave(fmt::format("stop.wall_time = {}", duration_text(*limit)));
+  check_disk();
+}
+
+void Rolling::check_disk() {
+  const std::optional<double>& disk = model_->scene.output.disk_limit;
+  if (!disk) return;
+  if (const std::int64_t bytes = session_->folder.bytes(); static_cast<double>(bytes) > *disk)
+    end<ResourceError>(fmt::format("{} has {}, more than output.disk_limit = {}",
+                                   session_->folder.path().string(), bytes_text(bytes),
+                                   bytes_text(static_cast<std::int64_t>(*disk))));
+}
+
+void Rolling::check_penetration() {
+  const StopSpec& stop = model_->scene.stop;
+  const double penetration = simulation_->sample().max_penetration;
+  if (stop.penetration && penetration > *stop.penetration)
+    end<NumericalError>(
+        fmt::format("the wheel has penetrated the rail by {:.4g} um, more than stop.penetration "
+                    "= {:.4g} um",
+                    1e6 * penetration, 1e6 * *stop.penetration));
+}
+
+void Rolling::write_checkpoint() {
+  wait_for_checkpoint();
+  const Mark mark{simulation_->steps(), simulation_->time()};
+  results_->seconds_rolling = seconds();
+  writer_.start(
+      [this, mark,
+       content = pack_run(session_->order, *results_, *model_, *simulation_, files_->patch_bytes())] {
+        session_->checkpoints.write(mark.steps, content, session_->options.observer);
+      });
+  being_written_ = mark;
+  checkpoint_at_ = session_->progress.seconds();
+  if (!Hdf5File::thread_safe()) wait_for_checkpoint();
+}
+
+void Rolling::wait_for_checkpoint() {
+  if (!being_written_) return;
+  const Mark mark = *std::exchange(being_written_, std::nullopt);
+  writer_.wait();
+  written_ = mark;
+  session_->progress.say(fmt::format("[checkpoint] {}", instant(mark.time, mark.steps)));
+}
+
+/// Leaves a checkpoint and the process.
+void Rolling::leave(const std::string& why) {
+  write_checkpoint();
+  wait_for_checkpoint();
+  files_->close();
+  const std::string text =
+      fmt::format("stopped at {} by {}; nothing is lost: {} goes on",
+                  instant(simulation_->time(), simulation_->steps()), why, session_->way_on());
+  session_->enter("stopped", text);
+  throw Interrupted(text);
+}
+
+/// Of a run in a sound state.
+template <class E>
+void Rolling::end(const std::string& why) {
+  write_checkpoint();
+  throw E(fmt::format("stopped at {}: {}", instant(simulation_->time(), simulation_->steps()), why));
+}
+
+template <class E>
+void Rolling::end_with_what_is_left(const std::string& why) {
+  std::string text = why;
+  try {
+    wait_for_checkpoint();
+  } catch (const ResourceError& error) {
+    text += fmt::format("; {}", error.what());
+  }
+  close_quietly();
+  text +=
+      fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
+  constexpr bool kComesBack = std::is_same_v<E, NumericalError>;
+  if (written_)
+    text += fmt::format(
+        "; the last checkpoint is that of {}: {} goes on from there{}",
+        instant(written_->time, written_->steps), session_->way_on(),
+        kComesBack ? ", to the same end; --set \"output.history_interval=1 us\" shows more of it" : "");
+  session_->folder.show_status(
+      session_->status("failed").member("text", std::string_view(text)).end_object().text());
+  throw E(text);
+}
+
+/// The error that is on its way matters more.
+void Rolling::close_quietly() {
+  try {
+    files_->close();
+  } catch (const Error&) {
+  }
+}
+
+double Rolling::seconds() const {
+  return seconds_before_ + session_->progress.seconds() - started_;
+}
+
+std::string Rolling::progress_line() const {
+  const Sample& sample = simulation_->sample();
+  const double end = model_->scene.motion->duration;
+  const double per_step =
+      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
+  std::string line =
+      fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation_->time(), 1e3 * end,
+                  100 * simulation_->time() / end, simulation_->dt());
+  if (model_->contact)
+    line +=
+        fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
+                    sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
+  line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
+                      1e9 * per_step / static_cast<double>(model_->elements()),
+                      duration_text(per_step * static_cast<double>(end_ - simulation_->steps())));
+  return line;
+}
+
+std::string Rolling::status() const {
+  const Sample& sample = simulation_->sample();
+  const double per_step =
+      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
+  JsonWriter json = session_->status("rolling");
+  json.member("time_s", simulation_->time()).member("duration_s", model_->scene.motion->duration);
+  json.member("step", simulation_->steps()).member("steps", end_).member("dt_s", simulation_->dt());
+  if (model_->contact)
+    json.member("wheel_x_m", sample.wheel_x)
+        .member("vertical_force_N", sample.vertical_force)
+        .member("longitudinal_force_N", sample.longitudinal_force);
+  json.member("energy_residual_J", sample.energy.residual);
+  json.member("rolling_s", seconds());
+  json.member("left_s", per_step * static_cast<double>(end_ - simulation_->steps()));
+  json.member("folder_bytes", session_->folder.bytes());
+  json.key("checkpoint_time_s");
+  if (written_)
+    json.value(written_->time);
+  else
+    json.null();
+  return json.end_object().text();
+}
+
+void Rolling::fill_results() {
+  results_->seconds_rolling = seconds();
+  results_->steps = simulation_->steps();
+  results_->state_hash = simulation_->state_hash();
+  results_->momentum = simulation_->momentum_check();
+  results_->surface_fields = simulation_->surface();
+  for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
+    results_->block_energy.push_back(model_->internal->energy(b, simulation_->displacement().data()));
+}
+
+}  // namespace tread

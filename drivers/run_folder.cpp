@@ -1,0 +1,102 @@
+#include "drivers/run_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/output_file.hpp"
+#include "io/text_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRequest = "request";
+constexpr const char* kStatus = "status.json";
+
+/// The lock is on the folder itself, and the system lets it go with the process. -1 and errno: taken.
+int take(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0) throw ResourceError(fmt::format("cannot open {}: {}", folder.string(), std::strerror(errno)));
+  if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+  const int error = errno;
+  ::close(lock);
+  errno = error;
+  return -1;
+}
+
+}  // namespace
+
+bool is_taken(const fs::path& folder) {
+  const int lock = take(folder);
+  if (lock >= 0) ::close(lock);
+  return lock < 0;
+}
+
+void leave_request(const fs::path& folder, RunRequest request) {
+  write_text_file(folder / kRequest, request == RunRequest::stop ? "stop\n" : "checkpoint\n");
+}
+
+bool is_pending(const fs::path& folder) {
+  return fs::exists(folder / kRequest);
+}
+
+RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_)) {
+  if (lock_ < 0)
+    throw ResourceError(
+        errno == EWOULDBLOCK
+            ? fmt::format(
+                  "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends "
+                  "it; or choose another folder",
+                  path_.string(), path_.string(), path_.string())
+            : fmt::format("cannot lock {}: {}; choose a folder on another file system", path_.string(),
+                          std::strerror(errno)));
+  std::error_code ignored;
+  fs::remove(path_ / kRequest, ignored);
+}
+
+RunFolder::~RunFolder() {
+  ::close(lock_);
+}
+
+std::optional<RunRequest> RunFolder::take_request() const {
+  const fs::path path = path_ / kRequest;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  std::string text;
+  try {
+    constexpr std::size_t kLongest = 100;
+    text = read_text_file(path, kLongest);
+  } catch (const InputError&) {  // not what leave_request() left
+  }
+  fs::remove(path, ignored);
+  if (text == "stop\n") return RunRequest::stop;
+  if (text == "checkpoint\n") return RunRequest::checkpoint;
+  return std::nullopt;
+}
+
+void RunFolder::show_status(const std::string& json) const {
+  try {
+    show_text_file(path_ / kStatus, json);
+  } catch (const ResourceError&) {  // what matters will say so itself
+  }
+}
+
+std::int64_t RunFolder::bytes() const {
+  std::int64_t sum = 0;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_, ignored))
+    if (entry.is_regular_file(ignored)) sum += static_cast<std::int64_t>(entry.file_size(ignored));
+  return sum;
+}
+
+}  // namespace tread

@@ -1,0 +1,56 @@
+#pragma once
+// The checkpoints of a run: the last two, each whole or not there at all.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/sealed_file.hpp"
+
+namespace tread {
+
+/// What has been done to a checkpoint that is being written.
+enum class CheckpointStage { begun, sealed, verified, in_place, old_removed };
+inline constexpr int kCheckpointStages = 5;
+
+/// Told of each stage as it is reached.
+using CheckpointObserver = std::function<void(CheckpointStage)>;
+
+/// FOLDER/order.h5, what was asked for, and FOLDER/step-<number>.h5, states.
+class CheckpointFolder {
+ public:
+  explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// What a run needs before it has a state. Throws ResourceError.
+  void write_order(const SealedContent& order) const;
+  SealedContent read_order() const;
+
+  /// Writes the state after so many steps beside the others, forces it to the disk, reads it back, gives it
+  /// its name and removes all others but the newest. Throws ResourceError; the others then stay as they were.
+  void write(std::int64_t steps, const SealedContent& content, const CheckpointObserver& observer = {}) const;
+
+  struct Found {
+    std::filesystem::path path;
+    std::int64_t steps;
+    SealedContent content;
+  };
+  /// The newest that is sound; why newer ones are not goes to `refused`, a sentence each.
+  std::optional<Found> newest(std::vector<std::string>& refused) const;
+
+  /// Of states, the newest first.
+  std::vector<std::filesystem::path> states() const;
+  bool has_order() const;
+
+  /// Removes everything that write() and write_order() left.
+  void clear() const;
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace tread

@@ -1,0 +1,32 @@
+#pragma once
+// Named arrays and texts in one file that shows any damage.
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tread {
+
+using SealedValues = std::variant<std::vector<double>, std::vector<std::int64_t>, std::string>;
+
+/// By name, "state/displacement". A text may hold any bytes.
+using SealedContent = std::map<std::string, SealedValues>;
+
+/// Writes an HDF5 file: a dataset per entry, texts as bytes. The 512 bytes before its HDF5 part are a text
+/// that states `kind`, `version`, the length of the file and a checksum of the rest, so that damage is seen
+/// before HDF5 reads anything. Forces the file to the disk. Throws ResourceError.
+void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
+                  const SealedContent& content);
+
+/// Reads such a file back. InputError with the reason where it is absent, no regular file (a symbolic link is
+/// none), truncated, damaged, or of another kind or version.
+SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version);
+
+/// The entry of this name and type. InputError where there is none.
+template <class T>
+const T& sealed_entry(const SealedContent& content, const std::string& name);
+
+}  // namespace tread

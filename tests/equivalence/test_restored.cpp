@@ -1,0 +1,140 @@
+// A state that is copied into a fresh simulation goes on as if nothing had happened: the same bits.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "drivers/preload.hpp"
+#include "drivers/run_results.hpp"
+#include "drivers/simulation.hpp"
+#include "drivers/static_system.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+/// The bytes of a field.
+std::string bytes(const StateList::Field& field) {
+  return std::visit(
+      [](auto values) {
+        return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+      },
+      field.values);
+}
+
+void copy(const StateList& from, const StateList& to) {
+  ASSERT_EQ(from.fields().size(), to.fields().size());
+  for (std::size_t i = 0; i < from.fields().size(); ++i) {
+    const StateList::Field& source = from.fields()[i];
+    const StateList::Field& target = to.fields()[i];
+    ASSERT_EQ(source.name, target.name);
+    ASSERT_EQ(source.values.index(), target.values.index()) << source.name;
+    std::visit(
+        [&](auto values) {
+          const auto given = std::get<decltype(values)>(source.values);
+          ASSERT_EQ(given.size(), values.size()) << source.name;
+          std::copy(given.begin(), given.end(), values.begin());
+        },
+        target.values);
+  }
+}
+
+/// Names of the fields that differ in a bit.
+std::string differences(const StateList& a, const StateList& b) {
+  std::string names;
+  for (std::size_t i = 0; i < a.fields().size(); ++i)
+    if (bytes(a.fields()[i]) != bytes(b.fields()[i])) names += a.fields()[i].name + " ";
+  return names;
+}
+
+struct Run {
+  Model model;
+  std::unique_ptr<Simulation> simulation;
+
+  explicit Run(const Scene& scene) : model(scene) {}
+  void roll(std::int64_t steps) {
+    while (simulation->steps() < steps) simulation->step();
+  }
+};
+
+/// Rolls through, and beside it up to a step that is not sampled, then on in a fresh model with other
+/// threads.
+void expect_same_bits(const Scene& scene, std::int64_t steps) {
+  Run whole(scene);
+  const Preload preload =
+      solve_preload(whole.model, steady_motion(whole.model), [](const std::string& /*text*/) {});
+  const auto corrugate = [&](Model& model) {
+    if (scene.corrugation) model.apply_corrugation(preload.contact.pressure_peak.y);
+  };
+  corrugate(whole.model);
+  const double dt = scene.motion->step_safety * step_limit(whole.model).stable_step;
+  whole.simulation = std::make_unique<Simulation>(whole.model, preload, dt);
+  whole.simulation->set_sampling_interval(50);
+  const std::int64_t half = steps / 2;
+  whole.roll(half);
+
+  Run resumed(scene);
+  corrugate(resumed.model);
+  resumed.simulation = std::make_unique<Simulation>(resumed.model, preload.contact.centre.y, dt);
+  resumed.simulation->set_sampling_interval(50);
+  copy(whole.simulation->state(), resumed.simulation->state());
+  if (testing::Test::HasFatalFailure()) return;
+
+  whole.roll(steps);
+  set_threads(2);
+  resumed.roll(steps);
+  set_threads(1);
+  EXPECT_EQ(differences(whole.simulation->state(), resumed.simulation->state()), "");
+  EXPECT_EQ(whole.simulation->state_hash(), resumed.simulation->state_hash());
+  const std::vector<double> row = history_row(whole.model, whole.simulation->sample());
+  EXPECT_EQ(row, history_row(resumed.model, resumed.simulation->sample()));
+  for (const double value : row) EXPECT_TRUE(std::isfinite(value));
+  EXPECT_EQ(whole.simulation->momentum_check().change.z, resumed.simulation->momentum_check().change.z);
+}
+
+TEST(Restored, TyreUnderTractionOverCorrugation) {
+  expect_same_bits(
+      samples::tyre_scene(
+          {"scene.element_size=8 mm", "motion.duration=0.5 ms", "motion.traction.torque=13.8 kN m",
+           "motion.traction.ramp=0.05 ms", "solution_zone.start=5 mm", "corrugation.kind=sine",
+           "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm", "corrugation.width=30 mm",
+           "corrugation.start=5 mm", "corrugation.length=40 mm", "corrugation.apply=gap"}),
+      700);
+}
+
+TEST(Restored, MovedNodesAndFacets) {
+  expect_same_bits(
+      samples::tyre_scene({"scene.element_size=8 mm", "motion.duration=0.5 ms", "solution_zone.start=5 mm",
+                           "contact.surface=facets", "corrugation.kind=sine", "corrugation.wavelength=20 mm",
+                           "corrugation.depth=0.04 mm", "corrugation.width=30 mm", "corrugation.start=5 mm",
+                           "corrugation.length=40 mm", "corrugation.apply=nodes"}),
+      300);
+}
+
+TEST(Restored, GuidedBore) {
+  expect_same_bits(
+      samples::tyre_scene({"scene.element_size=8 mm", "motion.duration=0.5 ms", "wheel.bore=guided",
+                           "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms"}),
+      600);
+}
+
+TEST(Restored, HammerOnARailOnFastenings) {
+  expect_same_bits(read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml"), 400);
+}
+
+TEST(Restored, WheelsetOnASlabTrack) {
+  expect_same_bits(read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/smooth.toml",
+                              {"scene.element_size=8 mm", "motion.duration=0.1 ms",
+                               "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
+                   300);
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,195 @@
+// Checkpoint files: whole or refused with the reason, whatever happens to them.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/sealed_file.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void overwrite(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// Why the file is refused; empty: it is not.
+std::string refusal(const fs::path& path) {
+  try {
+    read_sealed(path, "checkpoint", 1);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+SealedContent sample(double value) {
+  return {{"state/u", std::vector{value, -0.0, -std::numeric_limits<double>::infinity()}},
+          {"state/steps", std::vector<std::int64_t>{-3, std::numeric_limits<std::int64_t>::max()}},
+          {"order/text", std::string("a\0b\nµ", 6)},
+          {"order/nothing", std::string()},
+          {"samples", std::vector<double>{}}};
+}
+
+class SealedFiles : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_sealed_{}", ::getpid());
+  fs::path path_ = folder_ / "a.h5";
+};
+
+TEST_F(SealedFiles, EveryBitComesBack) {
+  write_sealed(path_, "checkpoint", 1, sample(0.1));
+  const SealedContent back = read_sealed(path_, "checkpoint", 1);
+  EXPECT_EQ(back, sample(0.1));
+  EXPECT_TRUE(std::signbit(sealed_entry<std::vector<double>>(back, "state/u")[1]));
+  EXPECT_THROW(sealed_entry<std::string>(back, "state/u"), InputError);
+  EXPECT_THROW(sealed_entry<std::string>(back, "absent"), InputError);
+  // What HDF5 tools see.
+  EXPECT_EQ(Hdf5File::open_to_read(path_).read<double>("/state/u")[0], 0.1);
+}
+
+TEST_F(SealedFiles, EveryFlippedBitIsSeen) {
+  write_sealed(path_, "checkpoint", 1, sample(0.1));
+  const std::string bytes = content_of(path_);
+  for (std::size_t at = 0; at < bytes.size(); at += 41) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+    overwrite(path_, damaged);
+    EXPECT_NE(refusal(path_), "") << "byte " << at;
+  }
+}
+
+TEST_F(SealedFiles, EveryLostEndIsSeen) {
+  write_sealed(path_, "checkpoint", 1, sample(0.1));
+  const std::string bytes = content_of(path_);
+  for (std::size_t size = 0; size < bytes.size(); size += 37) {
+    overwrite(path_, bytes.substr(0, size));
+    const std::string reason = refusal(path_);
+    EXPECT_NE(reason.find(size < 512 ? "cut short" : fmt::format("{} of {} bytes", size, bytes.size())),
+              std::string::npos)
+        << reason;
+  }
+  overwrite(path_, bytes + "more");
+  EXPECT_NE(refusal(path_).find("bytes"), std::string::npos);
+}
+
+TEST_F(SealedFiles, OtherFilesAreRefusedWithTheReason) {
+  const auto expect = [&](const std::string& part) {
+    const std::string reason = refusal(path_);
+    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+    EXPECT_NE(reason.find("a.h5"), std::string::npos) << reason;
+    fs::remove_all(path_);
+  };
+  expect("No such file");
+  overwrite(path_, std::string(2000, 'x'));
+  expect("not a checkpoint of tread");
+  Hdf5File::create(path_).write<double>("/x", std::vector<double>(100, 1.0));
+  expect("not a checkpoint of tread");
+  write_sealed(path_, "mesh", 1, sample(1));
+  expect("not a checkpoint of tread");
+  write_sealed(path_, "checkpoint", 0, sample(1));
+  expect("version 0, this program reads version 1");
+  write_sealed(folder_ / "b.h5", "checkpoint", 1, sample(1));
+  fs::create_symlink(folder_ / "b.h5", path_);
+  expect("symbolic link");
+  fs::create_directory(path_);
+  expect("not a regular file");
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  expect("not a regular file");
+}
+
+TEST_F(SealedFiles, EnormousSizesAreRefused) {
+  // 8 TB, all but a few of them holes.
+  write_sealed(path_, "checkpoint", 1, {{"a", std::vector{1.0}}});
+  fs::resize_file(path_, std::uintmax_t{1} << 43);
+  EXPECT_NE(refusal(path_).find(" bytes"), std::string::npos);
+}
+
+class Checkpoints : public SealedFiles {
+ protected:
+  CheckpointFolder checkpoints_{folder_};
+  std::vector<std::string> refused_;
+};
+
+TEST_F(Checkpoints, TheLastTwoAreKept) {
+  for (const int steps : {5, 20, 100, 3000}) checkpoints_.write(steps, sample(steps));
+  ASSERT_EQ(checkpoints_.states().size(), 2U);
+  const auto found = checkpoints_.newest(refused_);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->steps, 3000);
+  EXPECT_EQ(found->content, sample(3000));
+  EXPECT_TRUE(refused_.empty());
+  overwrite(folder_ / "step-x.h5", "not counted");
+  EXPECT_EQ(checkpoints_.states().size(), 2U);
+  checkpoints_.clear();
+  EXPECT_TRUE(checkpoints_.states().empty());
+}
+
+TEST_F(Checkpoints, ThePreviousOneStandsInForADamagedOne) {
+  checkpoints_.write(10, sample(10));
+  checkpoints_.write(20, sample(20));
+  const fs::path newest = checkpoints_.states().front();
+  fs::resize_file(newest, fs::file_size(newest) - 1);
+  const auto found = checkpoints_.newest(refused_);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->steps, 10);
+  ASSERT_EQ(refused_.size(), 1U);
+  EXPECT_NE(refused_[0].find(newest.string()), std::string::npos) << refused_[0];
+  // The run goes on from step 10 and leaves the next one at 15: the damaged one does not stay.
+  checkpoints_.write(15, sample(15));
+  ASSERT_EQ(checkpoints_.states().size(), 2U);
+  EXPECT_EQ(checkpoints_.newest(refused_)->steps, 15);
+}
+
+TEST_F(Checkpoints, AKillAtAnyStageLeavesASoundOne) {
+  for (int stage = 0; stage < kCheckpointStages; ++stage) {
+    checkpoints_.clear();
+    fs::create_directories(folder_);
+    checkpoints_.write(1, sample(1));
+    const pid_t child = ::fork();
+    if (child == 0) {
+      checkpoints_.write(2, sample(2), [&](CheckpointStage reached) {
+        if (static_cast<int>(reached) == stage) ::kill(::getpid(), SIGKILL);
+      });
+      ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "stage " << stage;
+    const auto found = checkpoints_.newest(refused_);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->content, sample(static_cast<double>(found->steps)));
+    EXPECT_EQ(found->steps, stage < static_cast<int>(CheckpointStage::in_place) ? 1 : 2) << "stage " << stage;
+    checkpoints_.write(3, sample(3));
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+  EXPECT_TRUE(refused_.empty());
+}
+
+}  // namespace
+}  // namespace tread
