@@ -160,6 +160,16 @@ void Rolling::end(const std::string& why) {
   throw E(fmt::format("stopped at {}: {}", instant(simulation_->time(), simulation_->steps()), why));
 }
 
+/// How the run can go on after an error of type E.
+template <class E>
+std::string Rolling::way_on() const {
+  if (!written_) return fmt::format("there is no checkpoint yet: {} starts again", session_->way_on());
+  const std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
+                                       instant(written_->time, written_->steps), session_->way_on());
+  if (!std::is_same_v<E, NumericalError>) return last;
+  return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
+}
+
 template <class E>
 void Rolling::end_with_what_is_left(const std::string& why) {
   std::string text = why;
@@ -171,12 +181,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   close_quietly();
   text +=
       fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
-  constexpr bool kComesBack = std::is_same_v<E, NumericalError>;
-  if (written_)
-    text += fmt::format(
-        "; the last checkpoint is that of {}: {} goes on from there{}",
-        instant(written_->time, written_->steps), session_->way_on(),
-        kComesBack ? ", to the same end; --set \"output.history_interval=1 us\" shows more of it" : "");
+  text += "; " + way_on<E>();
   session_->folder.show_status(
       session_->status("failed").member("text", std::string_view(text)).end_object().text());
   throw E(text);

@@ -43,6 +43,8 @@ class Rolling {
   [[noreturn]] void end(const std::string& why);
   template <class E>
   [[noreturn]] void end_with_what_is_left(const std::string& why);
+  template <class E>
+  std::string way_on() const;
   void close_quietly();
   std::string progress_line() const;
   std::string status() const;

@@ -110,8 +110,11 @@ Id make_groups() {
 }
 
 /// File access without locks: a run's file can be read while it grows, and network file systems need no lock
-/// service. Silences the library's own error printing.
+/// service. Silences the library's own error printing, and its clean-up at exit, which crashes on a file that a
+/// full disk kept from being closed.
 Id access() {
+  static const herr_t no_clean_up = H5dont_atexit();
+  static_cast<void>(no_clean_up);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Id list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(list, 0, 1);
@@ -126,13 +129,20 @@ Shape extent(hid_t space) {
 
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path, std::uint64_t user_block) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Id list = access();
-  const Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_userblock(creation, user_block);
-  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, list);
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, list);
   if (id < 0) fail<ResourceError>("create", path, "");
   return {id, path};
+}
+
+Hdf5File Hdf5File::create_in_memory(std::size_t bytes) {
+  const Id list = access();
+  H5Pset_fapl_core(list, bytes, 0);
+  const std::filesystem::path name = "memory";
+  const hid_t id = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, list);
+  if (id < 0) fail<ResourceError>("create", name, "");
+  return {id, name};
 }
 
 Hdf5File Hdf5File::open_to_read(const std::filesystem::path& path) {
@@ -299,6 +309,15 @@ bool Hdf5File::is_plain(const std::string& name) const {
   const std::uint64_t bytes = count(extent(Id(H5Dget_space(data), H5Sclose))) * H5Tget_size(type);
   return H5Pget_layout(layout) == H5D_CONTIGUOUS && H5Pget_external_count(layout) == 0 &&
          H5Dget_storage_size(data) == bytes;
+}
+
+std::string Hdf5File::image() const {
+  const std::string all;
+  const Check check{path_, all};
+  check.written(H5Fflush(id_, H5F_SCOPE_GLOBAL));
+  std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(0, H5Fget_file_image(id_, nullptr, 0))), '\0');
+  check.written(H5Fget_file_image(id_, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  return bytes;
 }
 
 bool Hdf5File::thread_safe() {

@@ -17,9 +17,10 @@ class Hdf5File {
   /// Compressed data are exact; rows should be appended in whole chunks.
   enum class Storage { plain, compressed };
 
-  /// Starts an empty file in place of whatever stood there. The first `user_block` bytes, 0 or a power of two
-  /// from 512 on, are left to the caller.
-  static Hdf5File create(const std::filesystem::path& path, std::uint64_t user_block = 0);
+  /// Starts an empty file in place of whatever stood there.
+  static Hdf5File create(const std::filesystem::path& path);
+  /// Starts an empty file that lives in memory only; `bytes`: what it will about hold.
+  static Hdf5File create_in_memory(std::size_t bytes);
   static Hdf5File open_to_read(const std::filesystem::path& path);
   static Hdf5File open_to_extend(const std::filesystem::path& path);
 
@@ -72,6 +73,9 @@ class Hdf5File {
 
   /// Whether several threads may use files at the same time, each its own.
   static bool thread_safe();
+
+  /// What the file would be on the disk.
+  std::string image() const;
 
   /// Hands everything written so far to the operating system; the file can be read from here on.
   void flush();

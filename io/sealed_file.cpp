@@ -15,12 +15,13 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/output_file.hpp"
 
 namespace tread {
 
 namespace {
 
-constexpr std::uint64_t kHeader = 512;   ///< smallest user block of HDF5 [B]
+constexpr std::uint64_t kHeader = 512;   ///< where HDF5 looks next for its part [B]
 constexpr std::size_t kBlock = 1 << 20;  ///< read at once, whole words [B]
 
 /// A file descriptor that closes itself.
@@ -40,10 +41,6 @@ class Descriptor {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
   throw InputError(fmt::format("cannot use {}: {}", path.string(), reason));
-}
-
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw ResourceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(error)));
 }
 
 /// Bytes read, less than `size` at the end of the file; -1: error.
@@ -77,21 +74,19 @@ std::string header(const std::string& kind, int version, std::uint64_t size, std
   return text;
 }
 
-std::uint64_t size_of(int file) {
-  struct stat status {};
-  return ::fstat(file, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+/// About, of the file.
+std::size_t size_of(const SealedContent& content) {
+  std::size_t bytes = 1 << 20;
+  for (const auto& [name, values] : content)
+    bytes += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, values);
+  return bytes;
 }
 
-/// Puts the header in front and forces all to the disk; what is read next comes from there.
-void seal(const std::filesystem::path& path, const std::string& kind, int version) {
-  const Descriptor file(path, O_RDWR);
-  if (file < 0) fail(path, errno);
-  const std::uint64_t size = size_of(file);
-  Hash hash;
-  if (!checksum(file, size, hash)) fail(path, errno);
-  const std::string text = header(kind, version, size, hash.value());
-  if (::pwrite(file, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) fail(path, errno);
-  if (::fsync(file) != 0) fail(path, errno);
+/// Forces the file to the disk; what is read of it next comes from there.
+void drop_from_memory(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (file < 0 || ::fsync(file) != 0)
+    throw ResourceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
   ::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED);
 }
 
@@ -153,10 +148,17 @@ SealedValues read_entry(const Hdf5File& file, const std::string& name) {
 
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
                   const SealedContent& content) {
-  Hdf5File file = Hdf5File::create(path, kHeader);
+  // HDF5 never sees the disk: of what that refuses it recovers badly.
+  Hdf5File file = Hdf5File::create_in_memory(size_of(content));
   for (const auto& [name, values] : content) std::visit(WriteEntry{file, name}, values);
-  file.close();
-  seal(path, kind, version);
+  const std::string image = file.image();
+  Hash hash;
+  hash.add(std::as_bytes(std::span(image)));
+  GrowingFile out(path);
+  out.append(header(kind, version, kHeader + image.size(), hash.value()));
+  out.append(image);
+  out.close();
+  drop_from_memory(path);
 }
 
 SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version) {

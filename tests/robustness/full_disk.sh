@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# full_disk.sh TREAD SCENE [--set key=value ...]: runs the scene on file systems that are too small for it, from 20 kB
+# on, and in a folder that becomes read-only meanwhile; gives them room, resumes, and compares the files. Every kind
+# of file is the one that finds the disk full at some size. Exit status 77: this user may not mount a tmpfs.
+set -euo pipefail
+tread=$1 scene=$2
+if [[ ${FULL_DISK_INSIDE:-} != yes ]]; then
+  if ! unshare --map-root-user --mount mount -t tmpfs tmpfs /mnt 2>/dev/null; then
+    echo "skipped: this user may not mount a tmpfs in a name space of its own"
+    exit 77
+  fi
+  FULL_DISK_INSIDE=yes exec unshare --map-root-user --mount "$0" "$@"
+fi
+shift 2
+export OMP_WAIT_POLICY=passive
+work=$(mktemp -d)
+trap 'umount "$work/disk" 2>/dev/null || true; rm -rf "$work"' EXIT
+mkdir "$work/disk"
+"$tread" run "$scene" -t 1 --quiet -o "$work/whole" "$@"
+largest=$(du -sk "$work/whole" | cut -f1)
+
+expect_same() {
+  for file in histories.csv surface_axis.csv; do cmp "$work/whole/$file" "$work/disk/run/$file"; done
+  if command -v h5diff >/dev/null; then
+    for file in run.h5 patch.h5 surface.h5; do h5diff "$work/whole/$file" "$work/disk/run/$file"; done
+  fi
+}
+
+for size in 20 100 400 1000 1400 1700 2000 2300 2600 3000 3400 4000; do
+  mount -t tmpfs -o size=${size}k tmpfs "$work/disk"
+  code=0
+  "$tread" run "$scene" -t 1 --quiet -o "$work/disk/run" "$@" --set "output.checkpoint_interval=300 ms" \
+    2>"$work/errors" || code=$?
+  echo "$size kB: exit $code $(cut -c1-160 "$work/errors")"
+  if ((code != 0)); then
+    ((code == 4))
+    grep -q "No space left on device" "$work/errors"
+    mount -o remount,size=$((10 * largest + 20000))k "$work/disk"
+    if [[ -e $work/disk/run/checkpoint/order.h5 ]]; then
+      "$tread" resume "$work/disk/run" -t 1 --quiet
+      expect_same
+    fi
+  else
+    expect_same
+  fi
+  umount "$work/disk"
+done

@@ -1,0 +1,274 @@
+// Runs that are stopped, killed, resumed: nothing is lost, and the files are those of an uninterrupted run.
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "drivers/run_command.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/hdf5_file.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+bool wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// The exit status; that of a signal is 1000 + its number.
+int wait_for(pid_t process) {
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+/// A child process that calls `action`.
+pid_t child(const std::function<void()>& action) {
+  const pid_t process = ::fork();
+  if (process != 0) return process;
+  action();
+  ::_exit(0);
+}
+
+/// What the summary states besides times.
+std::string figures(const fs::path& folder) {
+  std::istringstream lines(content_of(folder / "summary.json"));
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (!has(line, "_s\": ") || has(line, "dt_s"))
+      if (!has(line, "\"threads\"")) kept += line + "\n";
+  return kept;
+}
+
+void expect_same_file(const fs::path& a, const fs::path& b) {
+  const Hdf5File one = Hdf5File::open_to_read(a);
+  const Hdf5File other = Hdf5File::open_to_read(b);
+  ASSERT_EQ(one.datasets(), other.datasets());
+  for (const std::string& name : one.datasets()) {
+    ASSERT_EQ(one.shape(name), other.shape(name)) << name;
+    EXPECT_EQ(one.read<double>(name), other.read<double>(name)) << name;
+  }
+}
+
+void expect_same_run(const fs::path& a, const fs::path& b) {
+  for (const char* name : {"histories.csv", "surface_axis.csv"})
+    EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
+  for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
+  EXPECT_EQ(figures(a), figures(b));
+  EXPECT_FALSE(fs::exists(b / "checkpoint"));
+}
+
+class Resume : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    fs::create_directories(root_);
+    ASSERT_EQ(call(run(root_ / "whole")), 0) << errors();
+  }
+  static void TearDownTestSuite() { fs::remove_all(root_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Arguments of `tread run`.
+  static std::string run(const fs::path& folder, const std::string& more = "") {
+    return fmt::format("run {} -t 1 -o {} {} {}", scene(), folder.string(), kScene, more);
+  }
+  std::string resume(const std::string& more = "") const {
+    return fmt::format("resume {} -t 1 {}", folder_.string(), more);
+  }
+  static std::string scene() { return fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml"; }
+  static std::string errors() { return content_of(root_ / "errors"); }
+
+  /// Starts the program; what it prints goes to files.
+  static pid_t start(const std::string& arguments, const std::string& before = "") {
+    const std::string command = fmt::format("{} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
+                                            arguments, root_.string(), root_.string());
+    return child([&] { ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr); });
+  }
+  static int call(const std::string& arguments, const std::string& before = "") {
+    return wait_for(start(arguments, before));
+  }
+  /// Starts a run and waits until it rolls.
+  pid_t start_rolling() {
+    const pid_t process = start(run(folder_, "--set \"output.progress_interval=10 ms\""));
+    EXPECT_TRUE(wait_until([&] { return has(content_of(folder_ / "status.json"), "\"rolling\""); }));
+    return process;
+  }
+  void expect_finishes_as_if_never_stopped(const std::string& more = "") {
+    EXPECT_EQ(call(resume(more)), 0) << errors();
+    expect_same_run(root_ / "whole", folder_);
+  }
+
+  static constexpr const char* kScene = "--set \"scene.element_size=8 mm\"";
+  static inline fs::path root_ = fs::path(testing::TempDir()) / fmt::format("tread_resume_{}", ::getpid());
+  fs::path folder_ = root_ / "part";
+};
+
+TEST_F(Resume, StoppedTwiceAndOnOtherThreads) {
+  EXPECT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  EXPECT_TRUE(has(errors(), "stop.steps = 700; ") && has(errors(), "tread resume")) << errors();
+  EXPECT_EQ(
+      call(fmt::format("resume {} -t 2 --set stop.steps=1501", folder_.string()), "OMP_WAIT_POLICY=passive"),
+      4);
+  expect_finishes_as_if_never_stopped("--set stop.steps=0");
+  EXPECT_EQ(call(resume()), 0);
+  EXPECT_TRUE(has(errors(), "finished run")) << errors();
+}
+
+TEST_F(Resume, SigtermFinishesTheStepAndLeavesACheckpoint) {
+  const pid_t process = start_rolling();
+  ::kill(process, SIGTERM);
+  EXPECT_EQ(wait_for(process), 75);
+  EXPECT_TRUE(has(errors(), "by SIGTERM; nothing is lost: `tread resume")) << errors();
+  EXPECT_TRUE(has(content_of(folder_ / "status.json"), "\"stopped\""));
+  const std::string histories = content_of(folder_ / "histories.csv");
+  EXPECT_TRUE(content_of(root_ / "whole/histories.csv").starts_with(histories));
+  expect_finishes_as_if_never_stopped();
+}
+
+TEST_F(Resume, SigkillLosesWhatFollowedTheLastCheckpoint) {
+  const pid_t process = start_rolling();
+  ::kill(process, SIGUSR1);
+  ASSERT_TRUE(wait_until([&] { return CheckpointFolder(folder_ / "checkpoint").states().size() == 2; }));
+  ::kill(process, SIGKILL);
+  EXPECT_EQ(wait_for(process), 1000 + SIGKILL);
+  expect_finishes_as_if_never_stopped();
+}
+
+TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
+  const pid_t process = start(run(folder_));
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "checkpoint/order.h5"); }));
+  ::kill(process, SIGINT);
+  EXPECT_EQ(wait_for(process), 75);
+  EXPECT_TRUE(has(errors(), "tread resume")) << errors();
+  expect_finishes_as_if_never_stopped();
+}
+
+TEST_F(Resume, ControlledFromOutside) {
+  const pid_t process = start_rolling();
+  EXPECT_EQ(call(run(folder_)), 4);
+  EXPECT_TRUE(has(errors(), "another process works on")) << errors();
+  EXPECT_EQ(call("ctl " + folder_.string() + " status"), 0);
+  EXPECT_TRUE(has(content_of(root_ / "out"), fmt::format("\"process\": {}", process)));
+  EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 0) << errors();
+  EXPECT_EQ(wait_for(process), 75);
+  EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 2);
+  EXPECT_TRUE(has(errors(), "no process works on")) << errors();
+  EXPECT_EQ(call("ctl " + (root_ / "absent").string() + " status"), 2);
+  // What could be gone on with is not thrown away by mistake.
+  EXPECT_EQ(call(run(folder_)), 2);
+  EXPECT_TRUE(has(errors(), "--overwrite")) << errors();
+  expect_finishes_as_if_never_stopped();
+}
+
+TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  for (const char* wrong :
+       {"contact.friction=0.3", "motion.speed=\"100 km/h\"", "scene.element_size=\"9 mm\"",
+        "motion.duration=\"5 ms\"", "motion.duration=\"0.1 ms\"", "output.interval=1"}) {
+    EXPECT_EQ(call(resume(fmt::format("--set {}", wrong))), 2) << wrong;
+    const std::string key = wrong;
+    EXPECT_TRUE(has(errors(), key.substr(0, key.find('=')))) << errors();
+  }
+  EXPECT_EQ(call(resume("--set \"motion.duration=1 ms\" --set stop.steps=0")), 0) << errors();
+  const std::string histories = content_of(folder_ / "histories.csv");
+  EXPECT_TRUE(content_of(root_ / "whole/histories.csv").starts_with(histories));
+  EXPECT_TRUE(has(content_of(folder_ / "scene.resolved.toml"), "duration = \"0.001 s\""));
+}
+
+TEST_F(Resume, ADamagedCheckpointIsReplacedByThePreviousOne) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  const std::vector<fs::path> states = CheckpointFolder(folder_ / "checkpoint").states();
+  ASSERT_EQ(states.size(), 2U);
+  fs::resize_file(states[0], 5000);
+  EXPECT_EQ(call(resume("--set stop.steps=800")), 4);
+  EXPECT_TRUE(has(errors(), fmt::format("cannot use {}: it has 5000 of", states[0].string()))) << errors();
+  EXPECT_TRUE(has(errors(), "from " + states[1].string())) << errors();
+  const auto left = CheckpointFolder(folder_ / "checkpoint").states();
+  for (const fs::path& state : left) fs::resize_file(state, 100);
+  EXPECT_EQ(call(resume()), 2);
+  EXPECT_TRUE(has(errors(), "no checkpoint is of use")) << errors();
+}
+
+TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
+  for (int stage = 0; stage < kCheckpointStages; ++stage) {
+    int seen = 0;
+    const pid_t process = child([&] {
+      RunOptions options;
+      options.output = folder_;
+      options.threads = 1;
+      options.quiet = true;
+      options.observer = [&](CheckpointStage reached) {
+        if (static_cast<int>(reached) == stage && ++seen == 3) ::kill(::getpid(), SIGKILL);
+      };
+      run_scene(
+          resolve_scene(fs::path(scene()), {"scene.element_size=8 mm", "output.checkpoint_interval=1 ms"}),
+          options);
+    });
+    ASSERT_EQ(wait_for(process), 1000 + SIGKILL) << "stage " << stage;
+    EXPECT_EQ(call(resume()), 0) << errors();
+    EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"))
+        << "stage " << stage;
+    expect_same_file(folder_ / "patch.h5", root_ / "whole/patch.h5");
+    fs::remove_all(folder_);
+  }
+}
+
+TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
+  EXPECT_EQ(call(run(folder_, "--set \"stop.penetration=0.1 um\"")), 3);
+  EXPECT_TRUE(has(errors(), "stop.penetration = 0.1 um") && has(errors(), "the last checkpoint is that of"))
+      << errors();
+  EXPECT_EQ(call(resume("--set \"stop.penetration=1 mm\" --set \"stop.wall_time=10 us\"")), 75);
+  EXPECT_TRUE(has(errors(), "stop.wall_time")) << errors();
+  EXPECT_EQ(call(resume("--set \"stop.wall_time=1 h\" --set \"output.disk_limit=1 kB\" --set "
+                        "\"output.progress_interval=1 ms\"")),
+            4);
+  EXPECT_TRUE(has(errors(), "output.disk_limit = 1")) << errors();
+  EXPECT_EQ(call(resume("--set \"output.disk_limit=1 GB\"")), 0);
+  EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"));
+  EXPECT_EQ(call(run(folder_, "--set \"output.disk_limit=1 kB\"")), 2);
+  EXPECT_TRUE(has(errors(), "the run needs about")) << errors();
+}
+
+TEST_F(Resume, AFullDiskLosesNothingThatWasWritten) {
+  // Files cannot grow beyond the limit [512 B]. All kinds of writes: full_disk.sh.
+  for (const int limit : {1, 40, 1900}) {
+    const int code = call(run(folder_), fmt::format("ulimit -f {};", limit));
+    EXPECT_EQ(code, 4) << limit << ": " << errors();
+    EXPECT_TRUE(has(errors(), "File too large") && has(errors(), folder_.string()))
+        << limit << ": " << errors();
+    if (!fs::exists(folder_ / "checkpoint/order.h5")) continue;  // it had not begun
+    EXPECT_EQ(call(resume()), 0) << errors();
+    EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv")) << limit;
+    fs::remove_all(folder_);
+  }
+}
+
+}  // namespace
+}  // namespace tread
