@@ -84,7 +84,8 @@ void Rolling::look() {
   if (simulation_->steps() % kLookInterval != 0) return;
   const double now = session_->progress.seconds();
   if (being_written_ && !writer_.running()) wait_for_checkpoint();
-  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running())
+  const bool sound = simulation_->energy_watch().share() <= 1;
+  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && sound)
     write_checkpoint();
   if (session_->progress.due(model_->scene.output.progress_interval)) {
     session_->progress.say(progress_line());
@@ -119,8 +120,10 @@ void Rolling::check_penetration() {
                     1e6 * penetration, 1e6 * *stop.penetration));
 }
 
+/// A motion that is not finite is not kept; the energies' watch soon ends it.
 void Rolling::write_checkpoint() {
   wait_for_checkpoint();
+  if (!simulation_->finite()) return;
   const Mark mark{simulation_->steps(), simulation_->time()};
   results_->seconds_rolling = seconds();
   writer_.start(
@@ -141,8 +144,9 @@ void Rolling::wait_for_checkpoint() {
   session_->progress.say(fmt::format("[checkpoint] {}", instant(mark.time, mark.steps)));
 }
 
-/// Leaves a checkpoint and the process.
+/// Leaves a checkpoint and the process, but for a motion that is not finite: that has its own end.
 void Rolling::leave(const std::string& why) {
+  if (!simulation_->finite()) return;
   write_checkpoint();
   wait_for_checkpoint();
   files_->close();

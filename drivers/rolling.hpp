@@ -38,7 +38,7 @@ class Rolling {
   void check_disk();
   void write_checkpoint();
   void wait_for_checkpoint();
-  [[noreturn]] void leave(const std::string& why);
+  void leave(const std::string& why);
   template <class E>
   [[noreturn]] void end(const std::string& why);
   template <class E>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <system_error>
 
 #include "core/error.hpp"
 #include "drivers/disk_use.hpp"
@@ -115,6 +116,13 @@ void carry_out(RunSession& session, const SealedContent* checkpoint) {
                                     duration_text(session.progress.seconds())));
 }
 
+/// Of an earlier run: what only a finished run has must not stand beside one that is not.
+void remove_results(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv"})
+    std::filesystem::remove(directory / name, ignored);
+}
+
 /// A run that could go on is not thrown away by mistake.
 void refuse_unfinished(const RunSession& session) {
   if (session.options.overwrite || session.checkpoints.states().empty()) return;
@@ -181,6 +189,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   session.resolved = resolved;
   session.order = {resolved.source, resolved.overrides, {}, resolved_toml(resolved), options.command};
   session.checkpoints.clear();
+  remove_results(session.folder.path());
   session.checkpoints.write_order(pack_order(session.order));
   carry_out(session, nullptr);
 }

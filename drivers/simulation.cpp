@@ -416,6 +416,13 @@ void Simulation::stop() const {
       *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_.data()}));
 }
 
+bool Simulation::finite() const {
+  const auto all = [](const AlignedVector<double>& field) {
+    return std::all_of(field.begin(), field.end(), [](double value) { return std::isfinite(value); });
+  };
+  return all(u_) && all(v_);
+}
+
 MomentumCheck Simulation::momentum_check() const {
   const Vec3 weight = {0, 0, -model_->wheel_load()};
   return {impulse_ + time_ * weight, vehicle_momentum() - start_momentum_, contact_impulse_};

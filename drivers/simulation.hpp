@@ -82,6 +82,8 @@ class Simulation {
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
 
+  /// Whether all displacements and velocities are.
+  bool finite() const;
   /// Of the last sample.
   const EnergyWatch& energy_watch() const { return energy_watch_; }
 

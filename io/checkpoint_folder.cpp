@@ -121,9 +121,9 @@ std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std:
 
 void CheckpointFolder::clear() const {
   std::error_code ignored;
+  fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would begin anew
   remove_all(states());
   remove_parts(folder_);
-  fs::remove(folder_ / "order.h5", ignored);
   fs::remove(folder_, ignored);
 }
 

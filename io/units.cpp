@@ -153,7 +153,8 @@ std::string dimension_name(const Dimension& dimension) {
       return fmt::format("{} {}", quantity->name.front() == 'a' ? "an" : "a", quantity->name);
     }
   }
-  return fmt::format("m^{} kg^{} s^{}", dimension.length, dimension.mass, dimension.time);
+  return fmt::format("m^{} kg^{} s^{}{}", dimension.length, dimension.mass, dimension.time,
+                     dimension.data == 0 ? "" : fmt::format(" B^{}", dimension.data));
 }
 
 }  // namespace

@@ -129,11 +129,13 @@ TEST(Restored, HammerOnARailOnFastenings) {
   expect_same_bits(read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml"), 400);
 }
 
-TEST(Restored, WheelsetOnASlabTrack) {
-  expect_same_bits(read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/smooth.toml",
-                              {"scene.element_size=8 mm", "motion.duration=0.1 ms",
-                               "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
-                   300);
+TEST(Restored, WheelsetWithAVehicleOnFastenings) {
+  expect_same_bits(
+      read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/smooth.toml",
+                 {"scene.element_size=8 mm", "motion.duration=0.1 ms", "motion.start=moving",
+                  "slab.present=false", "rail.length=2.6 m", "rail.origin=1.3 m", "fastenings.count=4",
+                  "fastenings.first=0.325 m", "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
+      300);
 }
 
 }  // namespace

@@ -26,12 +26,15 @@ expect_same() {
   fi
 }
 
-for size in 20 100 400 1000 1400 1700 2000 2300 2600 3000 3400 4000; do
+# kB, and the time between checkpoints: often, and only one at the start.
+for case in 20:1h 100:1h 1000:1h 1150:1h 1300:1h 1500:1h 1700:1h 1900:1h 2100:1h 2300:1h 2600:1h 2900:1h \
+  1500:300ms 2200:300ms 3000:300ms; do
+  size=${case%:*}
   mount -t tmpfs -o size=${size}k tmpfs "$work/disk"
   code=0
-  "$tread" run "$scene" -t 1 --quiet -o "$work/disk/run" "$@" --set "output.checkpoint_interval=300 ms" \
+  "$tread" run "$scene" -t 1 --quiet -o "$work/disk/run" "$@" --set "output.checkpoint_interval=${case#*:}" \
     2>"$work/errors" || code=$?
-  echo "$size kB: exit $code $(cut -c1-160 "$work/errors")"
+  echo "$case: exit $code $(cut -c1-160 "$work/errors")"
   if ((code != 0)); then
     ((code == 4))
     grep -q "No space left on device" "$work/errors"

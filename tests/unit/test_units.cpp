@@ -49,6 +49,7 @@ TEST(Units, QuantitiesAreExactlyTheirLiteralsInSi) {
       {"205900 N/mm2", kStress, 205.9e9},
       {"1000 Hz", kFrequency, 1000},
       {"1.5 kHz", kFrequency, 1500},
+      {"2.5 GB", kData, 2.5e9},
   };
   for (const Reading& reading : readings) {
     EXPECT_EQ(parse_quantity(reading.text, reading.quantity), reading.si) << reading.text;
