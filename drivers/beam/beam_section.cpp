@@ -157,6 +157,13 @@ BeamSection beam_section(const std::vector<const Section*>& parts, double poisso
   s.height = first / s.area;
   s.vertical -= first * s.height;
   s.lateral -= lateral_first * lateral_first / s.area;
+  double top = -1e9, bottom = 1e9;
+  for (const Section* part : parts) {
+    const auto [low, high] = std::minmax_element(part->q.begin(), part->q.end());
+    bottom = std::min(bottom, *low);
+    top = std::max(top, *high);
+  }
+  s.depth = top - bottom;
   s.shear_coefficient = cowper(parts, s, poissons_ratio);
   return s;
 }
@@ -226,11 +233,19 @@ BeamSection rail_beam_section(const Scene& scene) {
 BeamProperties timoshenko(const BeamSection& section, const Material& material) {
   return {material.youngs_modulus * section.vertical,
           section.shear_coefficient * material.shear_modulus() * section.area,
-          material.density * section.area, material.density * section.vertical};
+          material.density * section.area, material.density * section.vertical, section.depth};
 }
 
 BeamProperties euler(const BeamSection& section, const Material& material) {
-  return {material.youngs_modulus * section.vertical, 0, material.density * section.area, 0};
+  return {material.youngs_modulus * section.vertical, 0, material.density * section.area, 0, 0};
+}
+
+double head_spread(double depth, double poissons_ratio, double wave_number) {
+  const double x = wave_number * depth;
+  const double sine = std::sinh(x);
+  const double strip = 2 * (sine + x * std::cosh(x)) / (sine * sine - x * x);
+  const double beam = 12 / (x * x * x) + (12 + 11 * poissons_ratio) / (5 * x);
+  return std::sqrt(2 * std::log(beam / strip)) / wave_number;
 }
 
 double wave_frequency(const BeamProperties& beam, double wave_number) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
 
@@ -40,6 +41,10 @@ void add_outer(BandMatrix<double>& matrix, int first, double factor, const std::
     for (int j = 0; j <= i; ++j)
       matrix.at(first + i, first + j) +=
           factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 constexpr int kBand = 3;
@@ -94,6 +99,28 @@ TrackBeam::Shape TrackBeam::shape(double x) const {
   return {2 * element, beam_shape(at - element, pitch_, phi_).deflection};
 }
 
+std::vector<double> TrackBeam::head_load(double x) const {
+  constexpr double kReach = 3;  // in standard deviations
+  constexpr int kParts = 60;    // of the reach to both sides
+  std::vector<double> load(static_cast<std::size_t>(stiffness_.size()));
+  const auto add = [&](double at, double share) {
+    const Shape s = shape(std::clamp(at, left_, left_ + length_));
+    for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] += share * s.value[i];
+  };
+  if (spread_ == 0) {
+    add(x, 1);
+    return load;
+  }
+  std::array<double, kParts> part{};
+  double sum = 0;
+  const auto offset = [](std::size_t i) {
+    return kReach * (2 * (static_cast<double>(i) + 0.5) / kParts - 1);
+  };
+  for (std::size_t i = 0; i < kParts; ++i) sum += part[i] = std::exp(-0.5 * offset(i) * offset(i));
+  for (std::size_t i = 0; i < kParts; ++i) add(x + offset(i) * spread_, part[i] / sum);
+  return load;
+}
+
 void TrackBeam::support(double x, double stiffness, double damping) {
   const Shape s = shape(x);
   add_outer(stiffness_, s.first, stiffness, s.value);
@@ -103,9 +130,8 @@ void TrackBeam::support(double x, double stiffness, double damping) {
 std::vector<double> TrackBeam::static_state(double x, double force) const {
   BandMatrix<double> factor = stiffness_;
   factor.factorise();
-  std::vector<double> load(static_cast<std::size_t>(factor.size()));
-  const Shape s = shape(x);
-  for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] = force * s.value[i];
+  std::vector<double> load = head_load(x);
+  for (double& value : load) value *= force;
   return factor.solve(std::move(load));
 }
 
@@ -161,6 +187,9 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
   TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
   if (!scene.fastenings) return beam;
   const FasteningSpec& f = *scene.fastenings;
+  if (properties.depth > 0)
+    beam.spread_head_load(
+        head_spread(properties.depth, scene.steel.poissons_ratio, 2 * std::numbers::pi / f.spacing));
   for (int i = -more_spans; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       beam.support(-rail.origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
@@ -177,7 +206,7 @@ BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, doub
   u_ = beam.static_state(x, force_);
   v_.resize(u_.size());
   a_.resize(u_.size());
-  rail_ = beam.deflection(u_, x);
+  rail_ = dot(beam.head_load(x), u_);
   approach_ = std::pow(force_ / vehicle.contact, 2.0 / 3);
   wheel_[0] = rail_ + approach_;
   if (vehicle.bending)
@@ -267,7 +296,7 @@ void BeamPassage::step(double x, double roughness) {
   const double h2 = 4 / (dt_ * dt_);
   // Beam without contact, and under a unit force at x.
   const std::size_t n = u_.size();
-  std::vector<double> inertia(n), drag(n), unit(n);
+  std::vector<double> inertia(n), drag(n);
   for (std::size_t i = 0; i < n; ++i) {
     inertia[i] = h2 * u_[i] + 2 * h1 * v_[i] + a_[i];
     drag[i] = h1 * u_[i] + v_[i];
@@ -275,10 +304,9 @@ void BeamPassage::step(double x, double roughness) {
   std::vector<double> load = beam_->mass().times(inertia);
   const std::vector<double> damped = beam_->damping().times(drag);
   for (std::size_t i = 0; i < n; ++i) load[i] += damped[i];
-  const TrackBeam::Shape shape = beam_->shape(x);
-  for (std::size_t i = 0; i < 4; ++i) unit[static_cast<std::size_t>(shape.first) + i] = shape.value[i];
+  const std::vector<double> head = beam_->head_load(x);
   std::vector<double> next = factor_.solve(std::move(load));
-  const std::vector<double> response = factor_.solve(std::move(unit));
+  const std::vector<double> response = factor_.solve(head);
 
   // Vehicle without contact, and under a unit force on the wheel.
   Three inertia_of{}, drag_of{};
@@ -294,8 +322,8 @@ void BeamPassage::step(double x, double roughness) {
   const Three pushed = solve(vehicle_system_, {-1, 0, 0});
 
   // approach = wheel - rail - roughness, both linear in the force.
-  const double gap = free[0] - beam_->deflection(next, x) - roughness;
-  const double flexibility = beam_->deflection(response, x) - pushed[0];
+  const double gap = free[0] - dot(head, next) - roughness;
+  const double flexibility = dot(head, response) - pushed[0];
   double d = std::max(approach_, 1e-9);
   for (int i = 0; i < 50; ++i) {
     const double root = std::sqrt(std::max(d, 0.0));
@@ -321,7 +349,7 @@ void BeamPassage::step(double x, double roughness) {
     wheel_acceleration_[i] = acceleration;
     wheel_[i] = moved;
   }
-  rail_ = beam_->deflection(u_, x);
+  rail_ = dot(head, u_);
   time_ += dt_;
 }
 

@@ -35,18 +35,19 @@ class TrackBeam {
   int nodes() const { return elements_ + 1; }
   double length() const { return length_; }
 
-  /// w and slope-free deflection under unit loads: shape functions at x.
-  struct Shape {
-    int first = 0;  ///< unknown of the first of four values
-    std::array<double, 4> value{};
-  };
-  Shape shape(double x) const;
+  /// A force on the rail's head then reaches the beam spread along it as a normal distribution of this
+  /// standard deviation [m]; without a call it acts at a point.
+  void spread_head_load(double deviation) { spread_ = deviation; }
 
-  /// Nodal values under a force at x, downwards, at rest.
+  /// Nodal loads of a unit force on the head at x; times the nodal values: the head's deflection there.
+  std::vector<double> head_load(double x) const;
+
+  /// Nodal values under a force on the head at x, downwards, at rest.
   std::vector<double> static_state(double x, double force) const;
+  /// w of the axis.
   double deflection(const std::vector<double>& state, double x) const;
 
-  /// w(x) over a harmonic force at x_force. [m/N]
+  /// w(x) of the axis over a harmonic force on it at x_force. [m/N]
   std::complex<double> receptance(double x_force, double x, double frequency) const;
 
   /// The n-th undamped eigenfrequency, n from 0, rigid motion included. [Hz]
@@ -57,17 +58,24 @@ class TrackBeam {
   const BandMatrix<double>& mass() const { return mass_; }
 
  private:
+  /// What the nodal values make of w at x, and a force at x of the nodal loads.
+  struct Shape {
+    int first = 0;  ///< unknown of the first of four values
+    std::array<double, 4> value{};
+  };
+  Shape shape(double x) const;
   void add_element(const BeamProperties& properties, int element);
   int modes_below(double omega) const;
 
   double left_, length_, pitch_;
   int elements_;
-  double phi_;  ///< 12 E I / (kappa G A l^2)
+  double phi_;         ///< 12 E I / (kappa G A l^2)
+  double spread_ = 0;  ///< of a force on the head [m]
   BandMatrix<double> stiffness_, damping_, mass_;
 };
 
-/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground; to its left it goes
-/// on for so many more spans. [InputError without rail]
+/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, forces on the head
+/// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
 /// What a wheel is in the beam's world.

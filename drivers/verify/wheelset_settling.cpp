@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "drivers/beam/run_in.hpp"
 #include "drivers/simulation.hpp"
@@ -78,7 +79,7 @@ Settling settle_on_beam(const TrackBeam& beam, const BeamVehicle& vehicle, doubl
   return settling;
 }
 
-/// The oscillator whose step response fits best: A (1 - ...), A free.
+/// The oscillator of one degree of freedom whose step response fits best.
 struct Oscillator {
   double frequency = 0;  ///< undamped [Hz]
   double damping = 0;    ///< zeta, of critical [-]
@@ -86,7 +87,7 @@ struct Oscillator {
 
 /// Step response of the oscillator of static deflection 1.
 double step_response(const Oscillator& o, double time) {
-  const double w = 2 * M_PI * o.frequency;
+  const double w = 2 * std::numbers::pi * o.frequency;
   const double z = o.damping;
   if (z < 1) {
     const double d = w * std::sqrt(1 - z * z);

@@ -125,6 +125,40 @@ BeamVehicle wheel() {
   return v;
 }
 
+/// Long waves: what Cowper's coefficient, of the sections' mean deflection, leaves of the strip's Poisson
+/// strains. [theory.md, eq. B5]
+TEST(HeadSpread, OfLongWaves) {
+  const double nu = 0.3;
+  const double limit = 0.2 * std::sqrt(11 * nu / 30);
+  EXPECT_NEAR(head_spread(0.2, nu, 0.5), limit, 1e-3 * limit);
+  measured("of CN60's depth, waves of 0.65 m", head_spread(0.176, nu, 2 * std::numbers::pi / 0.65), "m");
+  measured("waves of 0.325 m", head_spread(0.176, nu, 4 * std::numbers::pi / 0.65), "m");
+  // Without Poisson's ratio only the depth over the wavelength is left.
+  EXPECT_LT(head_spread(0.2, 0, 0.5), 0.05 * limit);
+}
+
+/// A wave of deflection is felt on the head as the spread load averages it: times exp(-(k s)^2 / 2).
+TEST(TrackBeam, SpreadsAForceOnTheHead) {
+  const double spread = 0.06;
+  TrackBeam beam(kEuler, -2, 4, BeamEnds::free, 0.01);
+  beam.spread_head_load(spread);
+  for (const double k : {0.0, 9.7, 19.3}) {
+    std::vector<double> wave;
+    for (int i = 0; i < beam.nodes(); ++i) {
+      const double x = beam.left() + i * beam.pitch();
+      wave.push_back(std::cos(k * x));
+      wave.push_back(-k * std::sin(k * x));
+    }
+    for (const double x : {0.0, 0.0137, 0.1}) {
+      const std::vector<double> load = beam.head_load(x);
+      double felt = 0;
+      for (std::size_t i = 0; i < load.size(); ++i) felt += load[i] * wave[i];
+      // What lies beyond three deviations.
+      EXPECT_NEAR(felt, std::exp(-0.5 * k * k * spread * spread) * std::cos(k * x), 0.01) << k << ' ' << x;
+    }
+  }
+}
+
 TEST(BeamPassage, StaysInEquilibrium) {
   TrackBeam beam(timoshenko_rail(0.4), -3, 6, BeamEnds::guided, 0.05);
   for (int i = 0; i < 9; ++i) beam.support(-2.6 + 0.65 * i, 22e6, 200e3);
