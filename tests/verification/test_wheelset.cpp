@@ -92,7 +92,7 @@ duration = "0.1 ms"
   const double beam = rail.deflection(rail.static_state(0, model.wheel_load()), 0) + weight;
   measured("rail's foot under the wheel", preload.rail_deflection, "m");
   measured("Timoshenko beam", beam, "m");
-  EXPECT_NEAR(preload.rail_deflection / beam, 1, 0.015);
+  EXPECT_NEAR(preload.rail_deflection / beam, 1, 0.005);
 }
 
 }  // namespace
