@@ -110,7 +110,12 @@ void carry_out(RunSession& session, const SealedContent* checkpoint) {
       rolling.begin();
     rolling.to_the_end();
   }
-  leave_results(session, model, results);
+  try {
+    leave_results(session, model, results);
+  } catch (const ResourceError& error) {
+    throw ResourceError(
+        fmt::format("{}; with more room {} leaves the results", error.what(), session.way_on()));
+  }
   session.checkpoints.clear();
   session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
                                     duration_text(session.progress.seconds())));

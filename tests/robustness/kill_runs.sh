@@ -28,7 +28,7 @@ while ((done_kills < kills)); do
   if ((done_kills % 3 == 2)); then signal=TERM; fi
   kill -s $signal $process 2>/dev/null || true
   code=0
-  wait $process || code=$?
+  wait $process 2>/dev/null || code=$?
   case $code in
     0) finished=yes ;;
     75 | 137) done_kills=$((done_kills + 1)) ;;
