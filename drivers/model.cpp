@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -419,6 +420,28 @@ void Model::apply_corrugation(double centre) {
   }
   const ContactOptions options = contact->options();
   contact = std::make_unique<Contact>(mesh, options, shape);
+}
+
+std::vector<std::int64_t> Model::loaded_slots() const {
+  std::vector<std::int64_t> slots;
+  const auto add = [&](const auto& more) { slots.insert(slots.end(), more.begin(), more.end()); };
+  const auto add_attached = [&](const Attachment& at) {
+    std::copy_if(at.slot.begin(), at.slot.end(), std::back_inserter(slots),
+                 [](std::int64_t slot) { return slot >= 0; });
+  };
+  if (ties) {
+    add(ties->secondary_slots());
+    add(ties->primary_slots());
+  }
+  if (fastenings)
+    for (const SpringDampers::Element& element : fastenings->elements()) {
+      add_attached(element.upper);
+      add_attached(element.lower);
+    }
+  if (hammer) add_attached(*hammer);
+  add(journal.slots());
+  add(torque.slots());
+  return slots;
 }
 
 std::int64_t Model::elements() const {

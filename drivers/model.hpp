@@ -73,6 +73,9 @@ struct Model {
   std::int64_t nodes() const;
   bool vertical_only(int block) const { return block == index.slab; }
 
+  /// Nodes to or from whose force a step adds more than their elements do.
+  std::vector<std::int64_t> loaded_slots() const;
+
   /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of
   /// its deepest line. Rebuilds the coefficients where nodes moved.
   void apply_corrugation(double centre);

@@ -31,10 +31,34 @@ double creepage_of(double rim, double speed) {
   return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
 }
 
+TimeUpdate time_update(const Model& model) {
+  TimeUpdate update(model.mesh, model.inverse_mass.data());
+  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
+    if (model.vertical_only(b)) update.set_vertical_only(b);
+  update.defer(model.loaded_slots());
+  return update;
+}
+
+/// Restrained unknowns less those that the update leaves alone.
+std::vector<std::int64_t> held_unknowns(const Model& model) {
+  std::vector<std::int64_t> held = model.restrained;
+  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
+    if (!model.vertical_only(b)) continue;
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    std::erase_if(held, [&](std::int64_t unknown) {
+      return unknown >= 3 * block.base && unknown < 3 * (block.base + block.slots()) &&
+             unknown / kLanes % 3 != 2;
+    });
+  }
+  return held;
+}
+
 }  // namespace
 
 Simulation::Simulation(Model& model, double patch_y, double dt)
     : model_(&model),
+      update_(time_update(model)),
+      held_(held_unknowns(model)),
       dt_(dt),
       u_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0),
       v_(u_.size(), 0.0),
@@ -156,20 +180,22 @@ double Simulation::torque_at(double time) const {
 void Simulation::step() {
   sampled_ = steps_ % sampling_ == 0;
   measured_ = sampled_ || steps_ % kWatchInterval == 0;
-  // 1  internal force K (u + beta v) of every block; secondary nodes hand theirs to the primaries
-  model_->internal->internal_force(u_.data(), v_.data(), force_.data());
+  // 1  contact: search and gap
+  search();
+  // 2  internal force K (u + beta v) of every block, with which nodes move that nothing else acts on;
+  // secondary nodes hand theirs to the primaries
+  deform();
   if (measured_) begin_sample();
   if (model_->ties) model_->ties->gather(force_.data());
-  // 2  fastenings, primary suspension
+  // 3  fastenings, primary suspension
   connect();
-  // 3  contact: search and gap
-  search();
   // 4  torque, hammer; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the
   // update)
   drive();
   strike();
   carry();
-  // 5  velocities, displacements, restraints; pressure and friction of the middle of the step; ties, frames
+  // 5  velocities, displacements of the rest, restraints; pressure and friction of the middle of the step;
+  // ties, frames
   move();
   roll();
   finish();
@@ -177,6 +203,14 @@ void Simulation::step() {
   record();
   if (measured_) end_sample();
   if (steps_ % kAnchorInterval == 0) anchor();
+}
+
+/// Energies want the forces of all nodes.
+void Simulation::deform() {
+  if (measured_)
+    model_->internal->internal_force(u_.data(), v_.data(), force_.data());
+  else
+    model_->internal->move(update_, loads(), u_.data(), v_.data(), force_.data());
 }
 
 void Simulation::connect() {
@@ -250,18 +284,14 @@ void Simulation::carry() {
 }
 
 void Simulation::move() {
-  const UpdateFields fields{u_.data(), v_.data(), force_.data(), model_->inverse_mass.data()};
-  const double gravity = model_->scene.gravity;
-  for (std::size_t b = 0; b < model_->mesh.blocks.size(); ++b) {
-    const SweptBlock& block = model_->mesh.blocks[b];
-    if (block.sweep == Sweep::revolved)
-      update_spinning_block(block, fields, frame_, gravity, dt_);
-    else
-      update_fixed_block(block, fields, gravity, dt_, model_->vertical_only(static_cast<int>(b)));
-  }
+  const UpdateFields fields{u_.data(), v_.data(), force_.data()};
+  if (measured_)
+    update_.move_all(loads(), fields);
+  else
+    update_.move_rest(loads(), fields, model_->internal->unmoved_tiles());
   if (model_->guide) guide();
   // Contact must not see restrained nodes move.
-  for (const std::int64_t unknown : model_->restrained)
+  for (const std::int64_t unknown : held_)
     u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
 }
 

@@ -11,6 +11,7 @@
 #include "drivers/model.hpp"
 #include "drivers/preload.hpp"
 #include "kernels/surface_fields.hpp"
+#include "kernels/time_update.hpp"
 
 namespace tread {
 
@@ -102,6 +103,7 @@ class Simulation {
  private:
   void start(const Preload& preload);
   void choose_creepage_nodes(double patch_y);
+  void deform();
   void connect();
   void roll();
   void record();
@@ -116,6 +118,7 @@ class Simulation {
   void end_sample();
   void watch(double excess);
   [[noreturn]] void stop() const;
+  StepLoads loads() const { return {dt_, model_->scene.gravity, frame_}; }
   BodyFrame half_step_frame() const;
   double kinetic_energy() const;
   double fixed_kinetic_energy() const;
@@ -131,6 +134,8 @@ class Simulation {
   void follow_ties();
 
   Model* model_;
+  TimeUpdate update_;
+  std::vector<std::int64_t> held_;  ///< restrained unknowns that would move
   double dt_;
   double time_ = 0;
   std::int64_t steps_ = 0;

@@ -166,4 +166,16 @@ double AxleTorque::apply(double torque, const double* u, const double* w, const 
   return spin;
 }
 
+std::vector<std::int64_t> Journal::slots() const {
+  std::vector<std::int64_t> slots;
+  for (const Node& node : nodes_) slots.push_back(node.slot);
+  return slots;
+}
+
+std::vector<std::int64_t> AxleTorque::slots() const {
+  std::vector<std::int64_t> slots;
+  for (const Node& node : nodes_) slots.push_back(node.slot);
+  return slots;
+}
+
 }  // namespace tread

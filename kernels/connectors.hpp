@@ -75,6 +75,7 @@ class Journal {
   void add(double* field, const BodyFrame& frame, const Vec3& load) const;
   double mass() const { return mass_; }
   bool empty() const { return nodes_.empty(); }
+  std::vector<std::int64_t> slots() const;
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 
  private:
@@ -124,6 +125,7 @@ class AxleTorque {
   /// their levers.
   double apply(double torque, const double* u, const double* w, const BodyFrame& frame, double* force) const;
   bool empty() const { return nodes_.empty(); }
+  std::vector<std::int64_t> slots() const;
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 
  private:

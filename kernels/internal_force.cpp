@@ -122,6 +122,7 @@ BasicInternalForce<Real>::BasicInternalForce(const Mesh& mesh)
     }
   }
   pending_.resize(items_.size(), 0);
+  unmoved_.resize(items_.size(), 0);
 }
 
 template <class Real>
@@ -243,16 +244,17 @@ void BasicInternalForce<Real>::evaluate(std::size_t first, std::size_t last, con
   parallel_ranges(*end - *begin, [&](std::int64_t from, std::int64_t to) {
     evaluate_items(item_at(from), item_at(to), fields);
   });
-  for (std::size_t i = first; i < last; ++i) {
-    if (!pending_[i]) continue;
-    const auto [block, tile] = items_[i];
-    const BlockData& data = blocks_[index(block)];
-    const SweptBlock& swept = mesh_.blocks[index(block)];
-    const Real* carry = this->carry({block, data.previous[index(tile)]});
-    Real* f = fields.f + dof(swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes, 0);
-    for (int value = 0; value < 3 * swept.section.nodes(); ++value)
-      f[std::ptrdiff_t{value} * kLanes] += carry[value];
-  }
+  for (std::size_t i = first; i < last; ++i)
+    if (pending_[i]) add_carry(items_[i], fields.f);
+}
+
+template <class Real>
+void BasicInternalForce<Real>::add_carry(const Item& item, Real* f) const {
+  const SweptBlock& swept = mesh_.blocks[index(item.block)];
+  const Real* carry = this->carry({item.block, blocks_[index(item.block)].previous[index(item.tile)]});
+  f += dof(swept.base + std::int64_t{item.tile} * swept.section.nodes() * kLanes, 0);
+  for (int value = 0; value < 3 * swept.section.nodes(); ++value)
+    f[std::ptrdiff_t{value} * kLanes] += carry[value];
 }
 
 template <class Real>
@@ -268,7 +270,11 @@ void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t las
     const bool at_hand =
         i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
     pending_[i] = previous >= 0 && !at_hand;
-    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, fields,
+    // The tile before reads what a pending one holds, maybe later.
+    unmoved_[i] = pending_[i] || mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
+    Fields here = fields;
+    if (unmoved_[i]) here.moved = {};
+    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, here,
                   front.data());
   }
 }
@@ -294,11 +300,16 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
   TileView<Real> view;
   view.u = fields.u + own;
   view.u_next = fields.u + next;
-  if (damped) {
+  if (fields.v != nullptr) {
     view.v = fields.v + own;
     view.v_next = fields.v + next;
   }
   view.f = fields.f + own;
+  TileMotion<Real> motion;
+  if (const Moved& moved = fields.moved; moved.update != nullptr) {
+    motion = moved.update->motion(item.block, item.tile, *moved.loads, moved.u, moved.v);
+    view.motion = &motion;
+  }
   view.carry_in = carry_in;
   view.carry_out = carry(item);
   view.elements = tile.elements;

@@ -10,6 +10,7 @@
 #include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tile_force.hpp"
+#include "kernels/time_update.hpp"
 
 namespace tread {
 
@@ -60,6 +61,13 @@ class BasicInternalForce {
   void internal_force(const Real* u, const Real* v, Real* f) const {
     evaluate(0, items_.size(), {u, v, f, false});
   }
+  /// internal_force(u, v, f), and nodes whose force is complete move by a step while they are at hand: those
+  /// that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force in f.
+  void move(const BasicTimeUpdate<Real>& update, const StepLoads& loads, Real* u, Real* v, Real* f) const {
+    evaluate(0, items_.size(), {u, v, f, false, {&update, &loads, u, v}});
+  }
+  /// Marks of the last move(), in the order of blocks and tiles.
+  const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
   /// internal_force for the slots of one block. Pointers are those of the whole fields.
   void internal_force(int block, const Real* u, const Real* v, Real* f) const;
 
@@ -132,11 +140,18 @@ class BasicInternalForce {
     int lane = 0;
     int lanes = -1;  ///< index into BlockData::lanes, or -1
   };
+  struct Moved {
+    const BasicTimeUpdate<Real>* update = nullptr;  ///< null: nothing moves
+    const StepLoads* loads = nullptr;
+    Real* u = nullptr;
+    Real* v = nullptr;
+  };
   struct Fields {
     const Real* u;
     const Real* v;
     Real* f;
     bool linear;  ///< in blocks of finite rotation too
+    Moved moved = {};
   };
 
   void build_swept(int block);
@@ -158,6 +173,7 @@ class BasicInternalForce {
   void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
   void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
   void evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields, Real* front) const;
+  void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;
   const TileForces* forces_;
@@ -167,6 +183,7 @@ class BasicInternalForce {
   AlignedVector<Real> no_carry_;                      ///< zeros
   mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
   mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part
+  mutable std::vector<unsigned char> unmoved_;        ///< those, and items without elements
 };
 
 using InternalForce = BasicInternalForce<double>;

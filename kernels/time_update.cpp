@@ -1,78 +1,112 @@
 #include "kernels/time_update.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "core/parallel.hpp"
 
 namespace tread {
 
-void update_fixed_block(const SweptBlock& block, const UpdateFields& fields, double gravity, double dt,
-                        bool vertical_only) {
-  const std::int64_t groups = block.slots() / kLanes;
-  const std::int64_t first_group = block.base / kLanes;
-  parallel_ranges(groups, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t g = first_group + first; g < first_group + last; ++g) {
-      const double* inverse = fields.inverse_mass + g * kLanes;
-      for (int c = vertical_only ? 2 : 0; c < 3; ++c) {
-        double* u = fields.displacement + (g * 3 + c) * kLanes;
-        double* v = fields.velocity + (g * 3 + c) * kLanes;
-        const double* f = fields.force + (g * 3 + c) * kLanes;
-        const double weight = c == 2 ? gravity : 0.0;
-        for (int l = 0; l < kLanes; ++l) {
-          const double moves = inverse[l] > 0 ? 1.0 : 0.0;
-          v[l] -= dt * (inverse[l] * f[l] + moves * weight);
-          u[l] += dt * v[l];
-        }
-      }
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real>
+BasicTimeUpdate<Real>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
+    : mesh_(mesh),
+      inverse_mass_(inverse_mass),
+      vertical_only_(mesh.blocks.size(), false),
+      deferred_(index(mesh.slots / kLanes), 0) {
+  for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
+    const SweptBlock& swept = mesh.blocks[index(block)];
+    radius_.emplace_back(swept.section.q.begin(), swept.section.q.end());
+    for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) items_.push_back({block, tile});
+    all_nodes_.resize(std::max(all_nodes_.size(), index(swept.section.nodes())));
+  }
+  std::iota(all_nodes_.begin(), all_nodes_.end(), 0);
+  defer({});
+}
+
+template <class Real>
+void BasicTimeUpdate<Real>::defer(const std::vector<std::int64_t>& slots) {
+  for (const std::int64_t slot : slots) deferred_[index(slot / kLanes)] = 1;
+  deferred_nodes_.clear();
+  first_deferred_.assign(1, 0);
+  for (const auto [block, tile] : items_) {
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
+    for (int node = 0; node < swept.section.nodes(); ++node) {
+      const Real* inverse = inverse_mass_ + (first + node) * kLanes;
+      const bool moves = std::any_of(inverse, inverse + kLanes, [](Real value) { return value > 0; });
+      if (deferred_[index(first + node)] != 0 && moves) deferred_nodes_.push_back(node);
+    }
+    first_deferred_.push_back(deferred_nodes_.size());
+  }
+}
+
+template <class Real>
+TileMotion<Real> BasicTimeUpdate<Real>::motion(int block, int tile, const StepLoads& loads, Real* u,
+                                               Real* v) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
+  TileMotion<Real> motion;
+  motion.step.dt = static_cast<Real>(loads.dt);
+  motion.u = u + dof(slot, 0);
+  motion.v = v + dof(slot, 0);
+  motion.inverse_mass = inverse_mass_ + slot;
+  motion.deferred = deferred_.data() + slot / kLanes;
+  if (swept.sweep == Sweep::extruded) {
+    motion.step.gravity = static_cast<Real>(loads.gravity);
+    motion.vertical_only = vertical_only(block);
+    return motion;
+  }
+  const double spin = loads.frame.spin;
+  motion.step.turn_c = static_cast<Real>(std::cos(2 * spin * loads.dt));
+  motion.step.turn_s = static_cast<Real>(std::sin(2 * spin * loads.dt));
+  motion.step.spin2 = static_cast<Real>(spin * spin);
+  motion.radius = radius_[index(block)].data();
+  const Tile& at = swept.tiles[index(tile)];
+  for (int l = 0; l < at.stations; ++l) {
+    const double phi = swept.stations[index(at.first_station + l)] + loads.frame.angle;
+    motion.weight[0][l] = static_cast<Real>(-loads.gravity * std::sin(phi));
+    motion.weight[1][l] = static_cast<Real>(loads.gravity * std::cos(phi));
+  }
+  return motion;
+}
+
+template <class Real>
+void BasicTimeUpdate<Real>::move(const StepLoads& loads, const BasicUpdateFields<Real>& fields,
+                                 const unsigned char* whole) const {
+  parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t i = from; i < to; ++i) {
+      const auto [block, tile] = items_[index(i)];
+      const SweptBlock& swept = mesh_.blocks[index(block)];
+      std::span<const int> nodes(all_nodes_.data(), index(swept.section.nodes()));
+      if (whole != nullptr && whole[i] == 0)
+        nodes = {deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i)]),
+                 deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
+      if (nodes.empty()) continue;
+      const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
+      tile_forces().front()->get(swept.sweep, Real{})(
+          motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
+          fields.force + dof(slot, 0));
     }
   });
 }
 
-void update_spinning_block(const SweptBlock& block, const UpdateFields& fields, const BodyFrame& frame,
-                           double gravity, double dt) {
-  const int section_nodes = block.section.nodes();
-  const double turn_c = std::cos(2 * frame.spin * dt);
-  const double turn_s = std::sin(2 * frame.spin * dt);
-  const double spin2 = frame.spin * frame.spin;
-  const double half = 0.5 * dt;
-  parallel_ranges(static_cast<std::int64_t>(block.tiles.size()), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t t = first; t < last; ++t) {
-      const Tile& tile = block.tiles[static_cast<std::size_t>(t)];
-      std::array<double, kLanes> weight_t{};
-      std::array<double, kLanes> weight_r{};
-      for (int l = 0; l < tile.stations; ++l) {
-        const double phi = block.stations[static_cast<std::size_t>(tile.first_station + l)] + frame.angle;
-        weight_t[static_cast<std::size_t>(l)] = -gravity * std::sin(phi);
-        weight_r[static_cast<std::size_t>(l)] = gravity * std::cos(phi);
-      }
-      for (int node = 0; node < section_nodes; ++node) {
-        const std::int64_t group = block.base / kLanes + t * section_nodes + node;
-        const double radius = block.section.q[static_cast<std::size_t>(node)];
-        const double* inverse = fields.inverse_mass + group * kLanes;
-        double* u = fields.displacement + group * 3 * kLanes;
-        double* w = fields.velocity + group * 3 * kLanes;
-        const double* f = fields.force + group * 3 * kLanes;
-        for (int l = 0; l < kLanes; ++l) {
-          const double moves = inverse[l] > 0 ? 1.0 : 0.0;
-          const int y = kLanes + l;
-          const int r = 2 * kLanes + l;
-          const double a_t =
-              moves * (weight_t[static_cast<std::size_t>(l)] + spin2 * u[l]) - inverse[l] * f[l];
-          const double a_r =
-              moves * (weight_r[static_cast<std::size_t>(l)] + spin2 * (radius + u[r])) - inverse[l] * f[r];
-          const double w_t = w[l] + half * a_t;
-          const double w_r = w[r] + half * a_r;
-          w[l] = turn_c * w_t - turn_s * w_r + half * a_t;
-          w[r] = turn_s * w_t + turn_c * w_r + half * a_r;
-          w[y] -= dt * inverse[l] * f[y];
-          u[l] += dt * w[l];
-          u[y] += dt * w[y];
-          u[r] += dt * w[r];
-        }
-      }
-    }
-  });
+template <class Real>
+std::int64_t BasicTimeUpdate<Real>::bytes() const {
+  return static_cast<std::int64_t>(items_.size() * (sizeof(Item) + sizeof(std::size_t)) + deferred_.size() +
+                                   (deferred_nodes_.size() + all_nodes_.size()) * sizeof(int));
 }
+
+template class BasicTimeUpdate<double>;
+template class BasicTimeUpdate<float>;
 
 }  // namespace tread

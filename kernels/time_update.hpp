@@ -1,25 +1,85 @@
 #pragma once
 // Central difference: velocities and displacements from forces. [theory.md, Time step]
 
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned.hpp"
 #include "core/body_frame.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
 
-struct UpdateFields {
-  double* displacement;        ///< [m]
-  double* velocity;            ///< at the half step [m/s]
-  const double* force;         ///< internal minus external [N]
-  const double* inverse_mass;  ///< 0 where nothing moves (unused lanes, secondary nodes) [1/kg]
+/// Vector fields of 3 * mesh.slots values.
+template <class Real>
+struct BasicUpdateFields {
+  Real* displacement;  ///< [m]
+  Real* velocity;      ///< at the half step [m/s]
+  const Real* force;   ///< internal minus external [N]
+};
+using UpdateFields = BasicUpdateFields<double>;
+
+/// What acts on all nodes besides their forces.
+struct StepLoads {
+  double dt = 0;       ///< length of the step [s]
+  double gravity = 0;  ///< downwards [m/s2]
+  BodyFrame frame;     ///< of revolved blocks
 };
 
-/// v -= dt (f / m + g e_z), u += dt v for an extruded block. `vertical_only`: components 0 and 1 stay zero.
-void update_fixed_block(const SweptBlock& block, const UpdateFields& fields, double gravity, double dt,
-                        bool vertical_only);
+/// Moves the nodes of all blocks: v -= dt (f / m + g e_z), u += dt v in extruded blocks, the same in the
+/// spinning frame in revolved ones. Nodes whose force nothing but elements make may move with the elements of
+/// their tile (BasicInternalForce::move); deferred ones move here, once their force is complete. Which way a
+/// node takes does not show in its bits.
+template <class Real>
+class BasicTimeUpdate {
+ public:
+  /// Keeps references; `inverse_mass`: mesh.slots values, 0 where nothing moves (unused lanes, secondary
+  /// nodes) [1/kg].
+  BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass);
 
-/// The same in a spinning frame: forces, gravity and centrifugal term half before and half after the turn of
-/// the relative velocity by the Coriolis term, which does no work.
-void update_spinning_block(const SweptBlock& block, const UpdateFields& fields, const BodyFrame& frame,
-                           double gravity, double dt);
+  /// Components 0 and 1 of a block's nodes stay zero.
+  void set_vertical_only(int block) { vertical_only_[static_cast<std::size_t>(block)] = true; }
+  bool vertical_only(int block) const { return vertical_only_[static_cast<std::size_t>(block)]; }
+
+  /// These nodes get forces besides those of the elements.
+  void defer(const std::vector<std::int64_t>& slots);
+
+  /// How the nodes of a tile move.
+  TileMotion<Real> motion(int block, int tile, const StepLoads& loads, Real* u, Real* v) const;
+
+  /// Moves all nodes.
+  void move_all(const StepLoads& loads, const BasicUpdateFields<Real>& fields) const {
+    move(loads, fields, nullptr);
+  }
+  /// Moves the deferred nodes, and all of the tiles marked in `whole` (in the order of blocks and tiles).
+  void move_rest(const StepLoads& loads, const BasicUpdateFields<Real>& fields,
+                 const std::vector<unsigned char>& whole) const {
+    move(loads, fields, whole.data());
+  }
+
+  std::int64_t bytes() const;
+
+ private:
+  struct Item {
+    int block = 0;
+    int tile = 0;
+  };
+  void move(const StepLoads& loads, const BasicUpdateFields<Real>& fields, const unsigned char* whole) const;
+
+  const Mesh& mesh_;
+  const Real* inverse_mass_;
+  std::vector<bool> vertical_only_;          ///< by block
+  std::vector<AlignedVector<Real>> radius_;  ///< by block and section node (revolved) [m]
+  std::vector<Item> items_;                  ///< all tiles
+  std::vector<unsigned char> deferred_;      ///< by tile and section node: by slot / kLanes
+  std::vector<int> deferred_nodes_;          ///< section nodes, tile by tile
+  std::vector<std::size_t> first_deferred_;  ///< by item, into deferred_nodes_
+  std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
+};
+
+using TimeUpdate = BasicTimeUpdate<double>;
+extern template class BasicTimeUpdate<double>;
+extern template class BasicTimeUpdate<float>;
 
 }  // namespace tread

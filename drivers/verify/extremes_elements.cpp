@@ -136,11 +136,11 @@ bool stays_bounded(const Mesh& mesh, const InternalForce& force, const AlignedVe
       v[static_cast<std::size_t>(dof(slot, i))] = std::sin(97.0 * node + 31.0 * station + 7.0 * i);
   });
   const double start = 3.0 * static_cast<double>(mesh.blocks[0].nodes());
-  const UpdateFields fields{u.data(), v.data(), f.data(), inverse_mass.data()};
+  const TimeUpdate update(mesh, inverse_mass.data());
   double square = 0;
   for (int step = 0; step < kSteps && square < 1e12 * start; ++step) {
     force.apply(u.data(), f.data());
-    update_fixed_block(mesh.blocks[0], fields, 0, dt, false);
+    update.move_all({dt, 0, {}}, {u.data(), v.data(), f.data()});
     square = 0;
     for (const double value : v) square += value * value;
   }

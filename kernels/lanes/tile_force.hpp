@@ -1,24 +1,41 @@
 #pragma once
-// The hot loop: internal force of all elements that start in one tile. Its source is compiled once per
-// instruction set; the widest one that the processor has is chosen at run time.
+// The hot loop: internal force of all elements that start in one tile, and the motion of its nodes. Its
+// source is compiled once per instruction set; the widest one that the processor has is chosen at run time.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "kernels/element.hpp"
 #include "kernels/front_plan.hpp"
+#include "kernels/node_motion_body.hpp"
 
 namespace tread {
+
+/// How the nodes of a tile move over a step; pointers are to the tile's section node 0.
+template <class Real>
+struct TileMotion {
+  StepConstants<Real> step;
+  Real* u = nullptr;                        ///< displacement [m]
+  Real* v = nullptr;                        ///< velocity [m/s]
+  const Real* inverse_mass = nullptr;       ///< 0 where nothing moves: unused lanes, secondary nodes [1/kg]
+  const unsigned char* deferred = nullptr;  ///< by section node: more is added to its force before it moves
+  bool vertical_only = false;               ///< components 0 and 1 stay zero
+  const Real* radius = nullptr;             ///< by section node (revolved) [m]
+  Real weight[2][kLanes] = {};              ///< gravity along t and r (revolved) [m/s2]
+};
 
 /// Values that a tile reads and writes; `u`, `v`, `f` point to the tile's section node 0. Vector fields: per
 /// section node three components of kLanes values.
 template <class Real>
 struct TileView {
   const Real* u = nullptr;       ///< displacement [m]
-  const Real* v = nullptr;       ///< velocity [m/s]; used when `damped`
+  const Real* v = nullptr;       ///< velocity [m/s]; used when `damped`, at hand for `motion`
   const Real* u_next = nullptr;  ///< the same of the tile that holds the last element's far station
   const Real* v_next = nullptr;
   Real* f = nullptr;  ///< force, overwritten [N]
+  /// Null, or: nodes move as soon as their force is complete, and only deferred ones store it in `f`.
+  const TileMotion<Real>* motion = nullptr;
   const Real* carry_in =
       nullptr;  ///< force of the preceding element on lane 0: [section node][3] behind kLanes of padding [N]
   Real* carry_out = nullptr;  ///< force of this tile's last element on the station behind it [N]
@@ -47,6 +64,10 @@ inline constexpr int kFrontValues = 12 * kLanes;
 template <class Real>
 using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real>& view, Real* front);
 
+/// Moves the section nodes `nodes` of a tile by the forces `f`.
+template <class Real>
+using TileMove = void (*)(const TileMotion<Real>& motion, std::span<const int> nodes, const Real* f);
+
 struct TileVariant {
   Sweep sweep = Sweep::extruded;
   bool damped = false;
@@ -58,9 +79,13 @@ struct TileForces {
   const char* name;
   TileForce<double> (*in_double)(TileVariant);
   TileForce<float> (*in_float)(TileVariant);
+  TileMove<double> (*move_in_double)(Sweep);
+  TileMove<float> (*move_in_float)(Sweep);
 
   TileForce<double> get(TileVariant variant, double /*precision*/) const { return in_double(variant); }
   TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }
+  TileMove<double> get(Sweep sweep, double /*precision*/) const { return move_in_double(sweep); }
+  TileMove<float> get(Sweep sweep, float /*precision*/) const { return move_in_float(sweep); }
 };
 
 /// The instruction sets that this program contains and this processor has: the one that the environment's

@@ -3,6 +3,7 @@
 namespace tread {
 
 extern const TileForces tile_forces_avx512;
-const TileForces tile_forces_avx512 = {"avx512", select_variant<double>, select_variant<float>};
+const TileForces tile_forces_avx512 = {"avx512", select_variant<double>, select_variant<float>,
+                                       select_move<double>, select_move<float>};
 
 }  // namespace tread

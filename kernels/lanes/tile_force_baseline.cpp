@@ -3,6 +3,7 @@
 namespace tread {
 
 extern const TileForces tile_forces_baseline;
-const TileForces tile_forces_baseline = {"baseline", select_variant<double>, select_variant<float>};
+const TileForces tile_forces_baseline = {"baseline", select_variant<double>, select_variant<float>,
+                                         select_move<double>, select_move<float>};
 
 }  // namespace tread

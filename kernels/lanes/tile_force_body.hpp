@@ -49,15 +49,46 @@ TREAD_INLINE V shift_up(const V& a, const V& b) {
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
 }
 
-template <class Real, Sweep sweep, bool damped, bool finite_rotation>
-class TileLoop {
- public:
-  /// The lanes of a tile in as many registers as they need.
+/// The lanes of a tile in as many registers as they need.
+template <class Real>
+struct Lanes {
   static constexpr int kWidth = kRegisterBytes / static_cast<int>(sizeof(Real)) < kLanes
                                     ? kRegisterBytes / static_cast<int>(sizeof(Real))
                                     : kLanes;
   static constexpr int kParts = kLanes / kWidth;
   using Register = typename Vector<Real, kWidth>::type;
+};
+
+/// Moves the lanes of a section node that begin at `lane` by their force.
+template <Sweep sweep, class Real, class V>
+TREAD_INLINE void move_node(const TileMotion<Real>& motion, int node, int lane, const V (&f)[3]) {
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(node) * kLanes + lane;
+  const std::ptrdiff_t vectors = static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
+  const V inverse_mass = load<V>(motion.inverse_mass + first);
+  V u[3];
+  V v[3];
+  for (int c = 0; c < 3; ++c) {
+    u[c] = load<V>(motion.u + vectors + c * kLanes);
+    v[c] = load<V>(motion.v + vectors + c * kLanes);
+  }
+  if constexpr (sweep == Sweep::revolved) {
+    const V weight[2] = {load<V>(motion.weight[0] + lane), load<V>(motion.weight[1] + lane)};
+    move_spinning(motion.step, weight, motion.radius[node], inverse_mass, f, u, v);
+  } else {
+    move_fixed(motion.step, motion.vertical_only, inverse_mass, f, u, v);
+  }
+  for (int c = 0; c < 3; ++c) {
+    store(motion.u + vectors + c * kLanes, u[c]);
+    store(motion.v + vectors + c * kLanes, v[c]);
+  }
+}
+
+template <class Real, Sweep sweep, bool damped, bool finite_rotation>
+class TileLoop {
+ public:
+  static constexpr int kWidth = Lanes<Real>::kWidth;
+  static constexpr int kParts = Lanes<Real>::kParts;
+  using Register = typename Lanes<Real>::Register;
 
   TileLoop(const TileElements<Real>& elements, const TileView<Real>& view, Real* front)
       : elements_(elements), view_(view), front_(front) {}
@@ -77,15 +108,17 @@ class TileLoop {
   }
 
  private:
-  /// A node's displacements and velocities in the next tile and its forces in this one: all that comes from
-  /// memory, in an order that the processor does not foresee.
+  /// A node's displacements and velocities in the next tile, its forces or masses in this one: all that comes
+  /// from memory, in an order that the processor does not foresee.
   TREAD_INLINE void prefetch(int node) const {
     constexpr int kLine = 64 / static_cast<int>(sizeof(Real));
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
+    const bool moves = view_.motion != nullptr;
+    if (moves) __builtin_prefetch(view_.motion->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
     for (int value = 0; value < 3 * kLanes; value += kLine) {
       __builtin_prefetch(view_.u_next + at + value);
-      if constexpr (damped) __builtin_prefetch(view_.v_next + at + value);
-      __builtin_prefetch(view_.f + at + value, 1);
+      if (damped || moves) __builtin_prefetch(view_.v_next + at + value);
+      if (!moves) __builtin_prefetch(view_.f + at + value, 1);
     }
   }
 
@@ -145,6 +178,7 @@ class TileLoop {
       if constexpr (sweep == Sweep::revolved)
         turn_to_nodes(elements_.cosine, elements_.sine, s[part], d[part]);
     }
+    Register force[kParts][3];
     for (int i = 0; i < 3; ++i) {
       const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
       Register far[kParts + 1];  // behind that of the preceding tile, whose last lane counts
@@ -160,9 +194,17 @@ class TileLoop {
         for (int part = 0; part < kParts; ++part) far[part + 1] = load<Register>(row + part * kWidth);
       }
       for (int part = 0; part < kParts; ++part)
-        store(view_.f + value * kLanes + part * kWidth,
-              (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]));
+        force[part][i] = (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]);
     }
+    if (view_.motion != nullptr && view_.motion->deferred[node.node] == 0) {
+      for (int part = 0; part < kParts; ++part)
+        move_node<sweep>(*view_.motion, node.node, part * kWidth, force[part]);
+      return;
+    }
+    for (int part = 0; part < kParts; ++part)
+      for (int i = 0; i < 3; ++i)
+        store(view_.f + (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes + part * kWidth,
+              force[part][i]);
   }
 
   TREAD_INLINE void add_quad(int index, const FrontPlan::Quad& quad) const {
@@ -223,6 +265,23 @@ class TileLoop {
 template <class Real, Sweep sweep, bool damped, bool finite_rotation>
 void tile_force(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
   TileLoop<Real, sweep, damped, finite_rotation>(elements, view, front).run();
+}
+
+template <class Real, Sweep sweep>
+void move_nodes(const TileMotion<Real>& motion, std::span<const int> nodes, const Real* f) {
+  using Register = typename Lanes<Real>::Register;
+  for (const int node : nodes)
+    for (int lane = 0; lane < kLanes; lane += Lanes<Real>::kWidth) {
+      const Real* at = f + static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
+      const Register force[3] = {load<Register>(at), load<Register>(at + kLanes),
+                                 load<Register>(at + 2 * kLanes)};
+      move_node<sweep>(motion, node, lane, force);
+    }
+}
+
+template <class Real>
+TileMove<Real> select_move(Sweep sweep) {
+  return sweep == Sweep::revolved ? move_nodes<Real, Sweep::revolved> : move_nodes<Real, Sweep::extruded>;
 }
 
 template <class Real, Sweep sweep>

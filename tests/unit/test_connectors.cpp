@@ -182,7 +182,7 @@ TEST_F(Spinning, TorqueTurnsTheBodyAsItsInertia) {
   const BodyFrame frame{{0, 0, 0}, {0, 0, 0}, 0.3, 0};
   EXPECT_EQ(torque.apply(500, u.data(), w.data(), frame, f.data()), 0);
   constexpr double dt = 1e-6;
-  update_spinning_block(block(), {u.data(), w.data(), f.data(), inverse_.data()}, frame, 0, dt);
+  TimeUpdate(mesh_, inverse_.data()).move_all({dt, 0, frame}, {u.data(), w.data(), f.data()});
   const MeanMotion mean = body_.mean_motion(u.data(), w.data(), frame);
   EXPECT_NEAR(mean.spin, dt * 500 / body_.inertia(), 1e-14 * mean.spin);
   EXPECT_LT(norm(mean.velocity), 1e-15);
@@ -214,11 +214,12 @@ TEST_F(Spinning, UnsprungMassIsCarriedAlong) {
   BodyFrame frame;
   const double dt = 1.5 / internal_->max_frequency().omega;
   constexpr int kSteps = 4000;
+  const TimeUpdate update(mesh_, inverse_.data());
   for (int step = 0; step < kSteps; ++step) {
     internal_->apply(u.data(), f.data());
     journal.add(f.data(), frame, -push);
     journal.add(f.data(), frame, (-added / (journal.mass() + added)) * journal.total(f.data(), frame));
-    update_spinning_block(block(), {u.data(), w.data(), f.data(), inverse_.data()}, frame, gravity, dt);
+    update.move_all({dt, gravity, frame}, {u.data(), w.data(), f.data()});
     frame.advance(dt);
   }
   const double time = kSteps * dt;

@@ -123,9 +123,10 @@ double pulse_error(double element_size) {
   auto v = samples::sample(mesh, [&](const Vec3& x) { return Vec3{bump(x.x + 0.5 * sound * dt), 0, 0}; });
   AlignedVector<double> f(u.size(), 0.0);
   const int steps = static_cast<int>(std::lround(0.2 / sound / dt));
+  const TimeUpdate update(mesh, inverse.data());
   for (int step = 0; step < steps; ++step) {
     internal.internal_force(u.data(), nullptr, f.data());
-    update_fixed_block(mesh.blocks[0], {u.data(), v.data(), f.data(), inverse.data()}, 0, dt, false);
+    update.move_all({dt, 0, {}}, {u.data(), v.data(), f.data()});
   }
   double worst = 0;
   const double passed = sound * (steps - 0.5) * dt;

@@ -54,8 +54,7 @@ class FreeRing {
 
   void step() {
     internal_->internal_force(u_.data(), nullptr, force_.data());
-    update_spinning_block(mesh_.blocks[0], {u_.data(), w_.data(), force_.data(), inverse_.data()}, frame, 0,
-                          dt_);
+    TimeUpdate(mesh_, inverse_.data()).move_all({dt_, 0, frame}, {u_.data(), w_.data(), force_.data()});
     frame.advance(dt_);
     if (++steps_ % kAnchorInterval == 0) anchor();
   }
