@@ -186,7 +186,7 @@ void Simulation::step() {
   // secondary nodes hand theirs to the primaries
   deform();
   if (measured_) begin_sample();
-  if (model_->ties) model_->ties->gather(force_.data());
+  if (model_->ties) model_->ties->hand_over(force_.data());
   // 3  fastenings, primary suspension
   connect();
   // 4  torque, hammer; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the

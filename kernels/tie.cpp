@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
 
@@ -135,145 +135,202 @@ void place_on_chords(Mesh& mesh, const TieSpec& spec) {
   });
 }
 
-Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
-  std::map<std::int64_t, std::vector<Link>> by_primary;
-  for (const TieSpec& spec : specs) {
-    const SweptBlock& fine = mesh.blocks[static_cast<std::size_t>(spec.secondary)];
-    const SweptBlock& coarse = mesh.blocks[static_cast<std::size_t>(spec.primary)];
-    for_each_secondary(mesh, spec, [&](int node, int station, const FacePoint& face) {
-      const std::int64_t slot = fine.base + fine.slot(node, station);
-      std::array<Link, 4> links{};
-      for (int corner = 0; corner < 4; ++corner) {
-        const int primary_station = face.station[static_cast<std::size_t>(corner / 2)];
-        const double turn = fine.sweep == Sweep::extruded
-                                ? 0.0
-                                : fine.stations[static_cast<std::size_t>(station)] -
-                                      coarse.stations[static_cast<std::size_t>(primary_station)];
-        const std::int64_t primary =
-            coarse.base +
-            coarse.slot(face.section_node[static_cast<std::size_t>(corner % 2)], primary_station);
-        const double weight = face_weight(face, corner);
-        links[static_cast<std::size_t>(corner)] = {primary, weight, std::cos(turn), std::sin(turn)};
-        if (weight > 0) by_primary[primary].push_back({slot, weight, std::cos(turn), std::sin(turn)});
-      }
-      secondary_.push_back(slot);
-      primaries_of_.push_back(links);
-    });
-  }
-  for (const auto& [slot, links] : by_primary) {
-    primary_.push_back(slot);
-    first_secondary_.push_back(static_cast<std::int64_t>(secondaries_of_.size()));
-    secondaries_of_.insert(secondaries_of_.end(), links.begin(), links.end());
-  }
-  first_secondary_.push_back(static_cast<std::int64_t>(secondaries_of_.size()));
-  for (const std::int64_t slot : secondary_)
-    if (by_primary.count(slot) > 0)
-      throw InputError("a node is both secondary and primary of a tie; tie its block on another line");
-}
-
-std::vector<TiedSlot> Ties::tied_slots() const {
-  std::vector<TiedSlot> slots;
-  for (std::size_t i = 0; i < secondary_.size(); ++i) {
-    TiedSlot tied{secondary_[i], {}};
-    for (const Link& link : primaries_of_[i])
-      if (link.weight > 0) tied.primaries.push_back(link.other);
-    slots.push_back(std::move(tied));
-  }
-  return slots;
-}
-
-std::int64_t Ties::bytes() const {
-  return static_cast<std::int64_t>(
-      (secondary_.size() + primary_.size() + first_secondary_.size()) * sizeof(std::int64_t) +
-      primaries_of_.size() * sizeof(primaries_of_[0]) + secondaries_of_.size() * sizeof(secondaries_of_[0]));
-}
-
 namespace {
 
-/// How many nodes ahead their data are fetched: neighbours in a tie lie far apart in memory.
-constexpr std::int64_t kAhead = 4;
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
 
-void prefetch(const double* field, std::int64_t slot) {
-  for (int c = 0; c < 3; ++c) __builtin_prefetch(field + dof(slot, c));
+/// A station of the other block that has a share in one of the own.
+struct StationShare {
+  int station;
+  double share;
+  double turn;  ///< from the other's basis to the own [rad]
+};
+
+/// Links of the own stations in lanes; by own tile.
+void add_items(TieSide& side, const SweptBlock& own, const SweptBlock& other,
+               const std::vector<std::vector<StationShare>>& shares) {
+  const auto first_node = [&](const SweptBlock& block, int station) {
+    return dof(block.base + block.slot(0, station), 0);
+  };
+  for (const Tile& tile : own.tiles) {
+    const auto begin = shares.begin() + tile.first_station;
+    std::size_t most = 0;
+    for (auto it = begin; it != begin + tile.stations; ++it) most = std::max(most, it->size());
+    if (most == 0) continue;
+    side.items.push_back({first_node(own, tile.first_station), side.stations.size(), static_cast<int>(most)});
+    for (std::size_t k = 0; k < most; ++k) {
+      StationLink<double>& link = side.stations.emplace_back();
+      std::fill_n(link.at, kLanes, first_node(other, 0));  // without a share any will do
+      for (int lane = 0; lane < tile.stations; ++lane) {
+        if (k >= begin[lane].size()) continue;
+        const StationShare& share = begin[lane][k];
+        link.at[lane] = first_node(other, share.station);
+        link.share[lane] = share.share;
+        link.cosine[lane] = std::cos(share.turn);
+        link.sine[lane] = std::sin(share.turn);
+      }
+    }
+  }
+}
+
+std::int64_t slot_of(std::int64_t unknown) {
+  return unknown / (3 * kLanes) * kLanes + unknown % kLanes;
+}
+
+/// visit(own slot, other slot, weight) for every link with a weight.
+template <class Visit>
+void for_each_link(const TieSide& side, const Visit& visit) {
+  for (const TieSide::Item& item : side.items)
+    for (const LinkedNode& node : side.nodes)
+      for (int lane = 0; lane < kLanes; ++lane)
+        for (int k = 0; k < item.station_count; ++k)
+          for (int i = node.first; i < node.last; ++i) {
+            const StationLink<double>& station = side.stations[item.first_station + index(k)];
+            const NodeLink<double>& link = side.links[index(i)];
+            const double weight = link.share * station.share[lane];
+            if (weight > 0)
+              visit(slot_of(item.own + lane) + std::int64_t{node.node} * kLanes,
+                    slot_of(station.at[lane]) + std::int64_t{link.node} * kLanes, weight);
+          }
+}
+
+/// Adds to the field's values, or replaces them.
+void sum_up(const std::vector<TieSide>& sides, bool add, std::initializer_list<double*> fields) {
+  for (const TieSide& side : sides)
+    parallel_ranges(static_cast<std::int64_t>(side.items.size()), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) {
+        const TieSide::Item& item = side.items[index(i)];
+        TieTile<double> tile;
+        tile.own = item.own;
+        tile.stations = side.stations.data() + item.first_station;
+        tile.station_count = item.station_count;
+        tile.nodes = side.nodes.data();
+        tile.node_count = static_cast<int>(side.nodes.size());
+        tile.links = side.links.data();
+        for (double* field : fields) tile_forces().front()->tie_in_double(tile, add, field);
+      }
+    });
 }
 
 }  // namespace
 
-void Ties::follow(std::initializer_list<double*> fields) const {
-  parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      const auto ahead = static_cast<std::size_t>(std::min(i + kAhead, last - 1));
-      for (const double* field : fields) {
-        for (const Link& link : primaries_of_[ahead]) prefetch(field, link.other);
-        prefetch(field, secondary_[ahead]);
-      }
-      const std::int64_t slot = secondary_[static_cast<std::size_t>(i)];
-      for (double* field : fields) {
-        double t = 0;
-        double y = 0;
-        double r = 0;
-        for (const Link& link : primaries_of_[static_cast<std::size_t>(i)]) {
-          const double a = field[dof(link.other, 0)];
-          const double b = field[dof(link.other, 2)];
-          t += link.weight * (link.cosine * a - link.sine * b);
-          y += link.weight * field[dof(link.other, 1)];
-          r += link.weight * (link.sine * a + link.cosine * b);
-        }
-        field[dof(slot, 0)] = t;
-        field[dof(slot, 1)] = y;
-        field[dof(slot, 2)] = r;
-      }
+Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
+  for (const TieSpec& spec : specs) join(mesh, spec);
+  for (const TieSide& side : to_secondary_)
+    for_each_link(side, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+      secondary_.push_back(secondary);
+      primary_.push_back(primary);
+    });
+  for (std::vector<std::int64_t>* slots : {&secondary_, &primary_}) {
+    std::sort(slots->begin(), slots->end());
+    slots->erase(std::unique(slots->begin(), slots->end()), slots->end());
+  }
+  for (const std::int64_t slot : secondary_)
+    if (std::binary_search(primary_.begin(), primary_.end(), slot))
+      throw InputError("a node is both secondary and primary of a tie; tie its block on another line");
+}
+
+void Ties::join(const Mesh& mesh, const TieSpec& spec) {
+  const SweptBlock& fine = mesh.blocks[index(spec.secondary)];
+  const SweptBlock& coarse = mesh.blocks[index(spec.primary)];
+  const auto& fine_path = path_of(fine, spec.secondary_path);
+  const auto& coarse_path = path_of(coarse, spec.primary_path);
+  const auto points = locate_in_section(fine, fine_path, coarse, coarse_path);
+
+  std::vector<std::vector<StationShare>> of_fine(fine.stations.size());
+  std::vector<std::vector<StationShare>> of_coarse(coarse.stations.size());
+  for (int station = 0; station < fine.station_count(); ++station) {
+    const StationPoint along = locate_along(fine, station, coarse);
+    const std::array<double, 2> share = {1 - along.fraction, along.fraction};
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (share[end] == 0) continue;
+      const int primary = along.station[end];
+      const double turn = fine.sweep == Sweep::extruded
+                              ? 0.0
+                              : fine.stations[index(station)] - coarse.stations[index(primary)];
+      of_fine[index(station)].push_back({primary, share[end], turn});
+      of_coarse[index(primary)].push_back({station, share[end], -turn});
     }
-  });
+  }
+
+  TieSide& follow = to_secondary_.emplace_back();
+  TieSide& gather = to_primary_.emplace_back();
+  add_items(follow, fine, coarse, of_fine);
+  add_items(gather, coarse, fine, of_coarse);
+  const auto across = [](const SectionPoint& point, std::size_t end) {
+    return end == 0 ? 1 - point.fraction : point.fraction;
+  };
+  const auto add_node = [](TieSide& side, int node, const std::vector<NodeLink<double>>& links) {
+    if (links.empty()) return;
+    const int first = static_cast<int>(side.links.size());
+    side.links.insert(side.links.end(), links.begin(), links.end());
+    side.nodes.push_back({node, first, static_cast<int>(side.links.size())});
+  };
+  for (std::size_t i = 0; i < fine_path.size(); ++i) {
+    std::vector<NodeLink<double>> links;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (across(points[i], end) > 0) links.push_back({points[i].node[end], across(points[i], end)});
+    add_node(follow, fine_path[i], links);
+  }
+  for (const int node : coarse_path) {
+    std::vector<NodeLink<double>> links;
+    for (std::size_t i = 0; i < fine_path.size(); ++i)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (points[i].node[end] == node && across(points[i], end) > 0)
+          links.push_back({fine_path[i], across(points[i], end)});
+    add_node(gather, node, links);
+  }
+}
+
+std::vector<TiedSlot> Ties::tied_slots() const {
+  std::vector<TiedSlot> slots;
+  for (const TieSide& side : to_secondary_)
+    for_each_link(side, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+      if (slots.empty() || slots.back().secondary != secondary) slots.push_back({secondary, {}});
+      slots.back().primaries.push_back(primary);
+    });
+  return slots;
+}
+
+std::int64_t Ties::bytes() const {
+  std::size_t sum = (secondary_.size() + primary_.size()) * sizeof(std::int64_t);
+  for (const auto* sides : {&to_secondary_, &to_primary_})
+    for (const TieSide& side : *sides)
+      sum += side.items.size() * sizeof(TieSide::Item) + side.stations.size() * sizeof(side.stations[0]) +
+             side.nodes.size() * sizeof(LinkedNode) + side.links.size() * sizeof(side.links[0]);
+  return static_cast<std::int64_t>(sum);
+}
+
+void Ties::follow(std::initializer_list<double*> fields) const {
+  sum_up(to_secondary_, false, fields);
+}
+
+void Ties::hand_over(double* force) const {
+  sum_up(to_primary_, true, {force});
 }
 
 void Ties::gather(double* force) const {
-  parallel_ranges(static_cast<std::int64_t>(primary_.size()), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      const auto ahead = static_cast<std::size_t>(std::min(i + kAhead, last - 1));
-      for (std::int64_t k = first_secondary_[ahead]; k < first_secondary_[ahead + 1]; ++k)
-        prefetch(force, secondaries_of_[static_cast<std::size_t>(k)].other);
-      double t = 0;
-      double y = 0;
-      double r = 0;
-      for (std::int64_t k = first_secondary_[static_cast<std::size_t>(i)];
-           k < first_secondary_[static_cast<std::size_t>(i) + 1]; ++k) {
-        const Link& link = secondaries_of_[static_cast<std::size_t>(k)];
-        const double a = force[dof(link.other, 0)];
-        const double b = force[dof(link.other, 2)];
-        t += link.weight * (link.cosine * a + link.sine * b);
-        y += link.weight * force[dof(link.other, 1)];
-        r += link.weight * (-link.sine * a + link.cosine * b);
-      }
-      const std::int64_t slot = primary_[static_cast<std::size_t>(i)];
-      force[dof(slot, 0)] += t;
-      force[dof(slot, 1)] += y;
-      force[dof(slot, 2)] += r;
-    }
-  });
-  parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i)
-      for (int c = 0; c < 3; ++c) force[dof(secondary_[static_cast<std::size_t>(i)], c)] = 0;
-  });
+  hand_over(force);
+  for (const std::int64_t slot : secondary_)
+    for (int c = 0; c < 3; ++c) force[dof(slot, c)] = 0;
 }
 
 void Ties::gather_diagonal(double* diagonal) const {
-  for (std::size_t i = 0; i < primary_.size(); ++i)
-    for (std::int64_t k = first_secondary_[i]; k < first_secondary_[i + 1]; ++k) {
-      const Link& link = secondaries_of_[static_cast<std::size_t>(k)];
-      for (int c = 0; c < 3; ++c)
-        diagonal[dof(primary_[i], c)] += link.weight * link.weight * diagonal[dof(link.other, c)];
-    }
+  for (const TieSide& side : to_primary_)
+    for_each_link(side, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+      for (int c = 0; c < 3; ++c) diagonal[dof(primary, c)] += weight * weight * diagonal[dof(secondary, c)];
+    });
   for (const std::int64_t slot : secondary_)
     for (int c = 0; c < 3; ++c) diagonal[dof(slot, c)] = 0;
 }
 
 void Ties::gather_mass(double* mass) const {
-  for (std::size_t i = 0; i < primary_.size(); ++i)
-    for (std::int64_t k = first_secondary_[i]; k < first_secondary_[i + 1]; ++k) {
-      const Link& link = secondaries_of_[static_cast<std::size_t>(k)];
-      mass[primary_[i]] += link.weight * mass[link.other];
-    }
+  for (const TieSide& side : to_primary_)
+    for_each_link(side, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+      mass[primary] += weight * mass[secondary];
+    });
   for (const std::int64_t slot : secondary_) mass[slot] = 0;
 }
 

@@ -3,13 +3,13 @@
 // and follow its faces by Cartesian bilinear interpolation; their forces and masses go to the primary nodes.
 // [theory.md, Ties]
 
-#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "core/mesh/swept_block.hpp"
+#include "kernels/lanes/tie_sum.hpp"
 #include "kernels/solver/coarse_solver.hpp"
 
 namespace tread {
@@ -26,6 +26,19 @@ struct TieSpec {
 /// made. Throws InputError where a secondary node lies off the primary line in the section or has no primary
 /// station.
 void place_on_chords(Mesh& mesh, const TieSpec& spec);
+
+/// One direction of a tie: what the stations and section nodes of the one block take from the other's.
+struct TieSide {
+  struct Item {
+    std::int64_t own = 0;           ///< as TieTile::own
+    std::size_t first_station = 0;  ///< into `stations`
+    int station_count = 0;
+  };
+  std::vector<Item> items;  ///< tiles with links
+  std::vector<StationLink<double>> stations;
+  std::vector<LinkedNode> nodes;
+  std::vector<NodeLink<double>> links;
+};
 
 class Ties {
  public:
@@ -45,7 +58,9 @@ class Ties {
   /// Secondary values from the primary ones; vector fields of 3 * slots values.
   void follow(std::initializer_list<double*> fields) const;
 
-  /// Adds the secondary values to the primary ones (transpose of follow) and sets the secondary ones to zero.
+  /// Adds the secondary values to the primary ones: transpose of follow.
+  void hand_over(double* force) const;
+  /// hand_over, and the secondary values become zero.
   void gather(double* force) const;
 
   /// Diagonal of T^T D T for a diagonal D given as a vector field (its turn between the bases left out).
@@ -55,16 +70,10 @@ class Ties {
   void gather_mass(double* mass) const;
 
  private:
-  struct Link {
-    std::int64_t other;  ///< slot
-    double weight;
-    double cosine, sine;  ///< of the angle from the primary's to the secondary's local basis
-  };
-  std::vector<std::int64_t> secondary_;
-  std::vector<std::array<Link, 4>> primaries_of_;  ///< by secondary
-  std::vector<std::int64_t> primary_;
-  std::vector<std::int64_t> first_secondary_;  ///< by primary, into secondaries_of_
-  std::vector<Link> secondaries_of_;
+  void join(const Mesh& mesh, const TieSpec& spec);
+
+  std::vector<std::int64_t> secondary_, primary_;  ///< ascending
+  std::vector<TieSide> to_secondary_, to_primary_;
 };
 
 }  // namespace tread

@@ -8,6 +8,7 @@
 
 #include "kernels/element.hpp"
 #include "kernels/front_plan.hpp"
+#include "kernels/lanes/tie_sum.hpp"
 #include "kernels/node_motion_body.hpp"
 
 namespace tread {
@@ -74,13 +75,15 @@ struct TileVariant {
   bool finite_rotation = false;
 };
 
-/// One instruction set's versions of the loop.
+/// One instruction set's versions of the loops.
 struct TileForces {
   const char* name;
   TileForce<double> (*in_double)(TileVariant);
   TileForce<float> (*in_float)(TileVariant);
   TileMove<double> (*move_in_double)(Sweep);
   TileMove<float> (*move_in_float)(Sweep);
+  TieSum<double> tie_in_double;
+  TieSum<float> tie_in_float;
 
   TileForce<double> get(TileVariant variant, double /*precision*/) const { return in_double(variant); }
   TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }

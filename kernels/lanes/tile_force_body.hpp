@@ -2,35 +2,12 @@
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
 #include "kernels/element_body.hpp"
+#include "kernels/lanes/registers.hpp"
+#include "kernels/lanes/tie_sum_body.hpp"
 #include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
 namespace {
-
-#if defined(__AVX512F__)
-constexpr int kRegisterBytes = 64;
-#elif defined(__AVX__)
-constexpr int kRegisterBytes = 32;
-#else
-constexpr int kRegisterBytes = 16;
-#endif
-
-template <class Real, int width>
-struct Vector {
-  typedef Real type __attribute__((vector_size(width * sizeof(Real))));
-};
-
-template <class V, class Real>
-TREAD_INLINE V load(const Real* at) {
-  V value;
-  __builtin_memcpy(&value, at, sizeof value);
-  return value;
-}
-
-template <class V, class Real>
-TREAD_INLINE void store(Real* at, const V& value) {
-  __builtin_memcpy(at, &value, sizeof value);
-}
 
 /// (a[1], ..., a[last], b[0])
 template <class V>
@@ -48,16 +25,6 @@ TREAD_INLINE V shift_up(const V& a, const V& b) {
   if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 3, 4, 5, 6);
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
 }
-
-/// The lanes of a tile in as many registers as they need.
-template <class Real>
-struct Lanes {
-  static constexpr int kWidth = kRegisterBytes / static_cast<int>(sizeof(Real)) < kLanes
-                                    ? kRegisterBytes / static_cast<int>(sizeof(Real))
-                                    : kLanes;
-  static constexpr int kParts = kLanes / kWidth;
-  using Register = typename Vector<Real, kWidth>::type;
-};
 
 /// Moves the lanes of a section node that begin at `lane` by their force.
 template <Sweep sweep, class Real, class V>

@@ -1,0 +1,47 @@
+#pragma once
+// Registers of the instruction set that the including source is compiled for; internal linkage keeps the
+// versions apart.
+
+#include "core/mesh/swept_block.hpp"
+#include "kernels/element_body.hpp"
+
+namespace tread {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kRegisterBytes = 64;
+#elif defined(__AVX__)
+constexpr int kRegisterBytes = 32;
+#else
+constexpr int kRegisterBytes = 16;
+#endif
+
+template <class Real, int width>
+struct Vector {
+  typedef Real type __attribute__((vector_size(width * sizeof(Real))));
+};
+
+template <class V, class Real>
+TREAD_INLINE V load(const Real* at) {
+  V value;
+  __builtin_memcpy(&value, at, sizeof value);
+  return value;
+}
+
+template <class V, class Real>
+TREAD_INLINE void store(Real* at, const V& value) {
+  __builtin_memcpy(at, &value, sizeof value);
+}
+
+/// The lanes of a tile in as many registers as they need.
+template <class Real>
+struct Lanes {
+  static constexpr int kWidth = kRegisterBytes / static_cast<int>(sizeof(Real)) < kLanes
+                                    ? kRegisterBytes / static_cast<int>(sizeof(Real))
+                                    : kLanes;
+  static constexpr int kParts = kLanes / kWidth;
+  using Register = typename Vector<Real, kWidth>::type;
+};
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,48 @@
+#pragma once
+// Values of nodes as weighted sums over nodes of another block, tile by tile: both directions of a tie.
+
+#include <cstdint>
+
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// For every lane of a tile a station of the other block.
+template <class Real>
+struct StationLink {
+  std::int64_t at[kLanes] = {};  ///< its section node 0, component 0, in a vector field
+  Real share[kLanes] = {};       ///< 0: none
+  Real cosine[kLanes] = {};      ///< of the turn from the other's basis to the lane's
+  Real sine[kLanes] = {};
+};
+
+/// A section node of the other block.
+template <class Real>
+struct NodeLink {
+  int node = 0;
+  Real share = 0;
+};
+
+/// Own section node and its links, [first, last).
+struct LinkedNode {
+  int node = 0;
+  int first = 0;
+  int last = 0;
+};
+
+template <class Real>
+struct TieTile {
+  std::int64_t own = 0;  ///< of the tile's section node 0, component 0, in a vector field
+  const StationLink<Real>* stations = nullptr;
+  int station_count = 0;
+  const LinkedNode* nodes = nullptr;
+  int node_count = 0;
+  const NodeLink<Real>* links = nullptr;
+};
+
+/// The sum replaces a node's values, or is added to them. In the order of the stations' links, then of the
+/// nodes': not contracted, the same bits for all instruction sets.
+template <class Real>
+using TieSum = void (*)(const TieTile<Real>& tile, bool add, Real* field);
+
+}  // namespace tread
