@@ -16,6 +16,7 @@
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
 #include "drivers/sections.hpp"
+#include "kernels/front_plan.hpp"
 
 namespace tread {
 
@@ -112,6 +113,11 @@ Span Model::zone_span() const {
   return zone;
 }
 
+int Model::add(SweptBlock block) {
+  number_by_front(block.section);
+  return mesh.add(std::move(block));
+}
+
 void Model::build_rail() {
   const RailSpec& rail = *scene.rail;
   const Span length{-rail.origin, rail.length - rail.origin};
@@ -120,17 +126,17 @@ void Model::build_rail() {
     const std::vector<Segment> segments = scene.wheel
                                               ? plan_rail(length, run_span(), zone_span(), sizes).fine
                                               : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
-    index.rail_cap = mesh.add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
-                                               {scene.steel}, length.first, segments));
+    index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
+                                          {scene.steel}, length.first, segments));
     return;
   }
   const NestedSegments plan =
       scene.wheel ? plan_rail(length, run_span(), zone_span(), sizes) : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
-  index.rail_cap = mesh.add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
-                                             {scene.steel}, length.first, plan.fine));
-  index.rail_base = mesh.add(make_swept_block("rail", Sweep::extruded, std::move(sections.base),
-                                              {scene.steel}, length.first, plan.coarse));
+  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
+                                        length.first, plan.fine));
+  index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {scene.steel},
+                                         length.first, plan.coarse));
   tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
 }
 
@@ -156,8 +162,8 @@ void Model::build_slab() {
   stretch(rail.length - at, 0);
   const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
   index.slab =
-      mesh.add(make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
-                                {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
+      add(make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
+                           {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
 }
 
 void Model::build_wheel() {
@@ -166,20 +172,20 @@ void Model::build_wheel() {
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
     const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(), *overhang, sizes)
                                     : plan_tyre(wheel_radius(), run_span(), zone_span(), sizes);
-    index.tread = mesh.add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes),
-                                            {scene.steel}, plan.start, plan.tread));
+    index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
+                                       plan.start, plan.tread));
     return;
   }
   const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   brake_ring_thickness = sized.brake_ring_thickness;
-  index.tread = mesh.add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel},
-                                          plan.start, plan.tread));
-  index.disc = mesh.add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc),
-                                         {scene.steel}, plan.start, plan.disc));
-  index.axle = mesh.add(make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel},
-                                         plan.start, plan.axle));
+  index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel},
+                                     plan.start, plan.tread));
+  index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {scene.steel},
+                                    plan.start, plan.disc));
+  index.axle = add(make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel},
+                                    plan.start, plan.axle));
   tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
   tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
 }

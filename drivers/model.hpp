@@ -81,6 +81,7 @@ struct Model {
   void apply_corrugation(double centre);
 
  private:
+  int add(SweptBlock block);
   void build_rail();
   void build_wheel();
   void build_slab();

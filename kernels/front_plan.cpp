@@ -123,4 +123,20 @@ FrontPlan make_front_plan(const Section& section) {
   return plan;
 }
 
+void number_by_front(Section& section) {
+  const FrontPlan plan = make_front_plan(section);
+  const Section before = section;
+  std::vector<int> number(section.p.size(), -1);
+  for (std::size_t i = 0; i < section.p.size(); ++i) {
+    const auto node = static_cast<std::size_t>(plan.open[i].node);
+    number[node] = static_cast<int>(i);
+    section.p[i] = before.p[node];
+    section.q[i] = before.q[node];
+  }
+  const auto renumber = [&](int& node) { node = number[static_cast<std::size_t>(node)]; };
+  for (auto& quad : section.quads) std::for_each(quad.begin(), quad.end(), renumber);
+  for (SurfaceEdge& edge : section.surface) std::for_each(edge.node.begin(), edge.node.end(), renumber);
+  for (auto& [name, path] : section.paths) std::for_each(path.begin(), path.end(), renumber);
+}
+
 }  // namespace tread

@@ -30,4 +30,7 @@ struct FrontPlan {
 
 FrontPlan make_front_plan(const Section& section);
 
+/// Numbers the nodes in the order in which the plan opens them: the loop then walks through memory forwards.
+void number_by_front(Section& section);
+
 }  // namespace tread
