@@ -16,25 +16,33 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
+template <class Padded>
+Padded padded(const Vec3& v) {
+  return Padded{v.x, v.y, v.z, 0};
+}
+
 }  // namespace
 
 void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
   node_of_.assign(static_cast<std::size_t>(slots), -1);
   links_.reserve(points);
   nodes_.reserve(nodes);
+  velocity_.reserve(nodes);
 }
 
 void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame& wheel,
                        const NodeMotion& motion, double dt) {
   nodes_.clear();
+  velocity_.clear();
   links_.resize(points.size());
   const auto number = [&](std::int64_t slot, bool of_wheel) {
     int& node = node_of_[static_cast<std::size_t>(slot)];
     if (node < 0) {
       node = static_cast<int>(nodes_.size());
       const double* v = motion.velocity;
-      const Vec3 velocity{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)]};
-      nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity, velocity});
+      const Padded velocity{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)], 0};
+      nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity});
+      velocity_.push_back(velocity);
     }
     return node;
   };
@@ -45,38 +53,43 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
     for (std::size_t k = 0; k < kSupport; ++k) {
       link.rail[k] = number(point.rail_slot[k], false);
       link.wheel[k] = number(point.wheel_slot[k], true);
+      link.rail_weight[k] = -point.rail_weight[k];
+      link.wheel_weight[k] = point.wheel_weight[k];
+      link.rail_push[k] = point.rail_weight[k] * nodes_[index(link.rail[k])].inverse_mass;
+      link.wheel_push[k] = -point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
       mobility += point.rail_weight[k] * point.rail_weight[k] * nodes_[index(link.rail[k])].inverse_mass +
                   point.wheel_weight[k] * point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
     }
     link.compliance = 0.5 * dt * dt * point.area * mobility;
-    link.frame_velocity =
-        wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin);
+    link.frame_velocity = padded<Padded>(
+        wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin));
   }
 }
 
 void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& impulse) {
+  const Padded on_rail = padded<Padded>(impulse);
   for (std::size_t station = 0; station < 4; ++station) {
-    const Vec3 local = localise(point.wheel_cosine[station], point.wheel_sine[station], impulse);
+    const Padded on_wheel =
+        padded<Padded>(localise(point.wheel_cosine[station], point.wheel_sine[station], impulse));
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      Node& rail = nodes_[index(link.rail[k])];
-      Node& wheel = nodes_[index(link.wheel[k])];
-      rail.velocity += point.rail_weight[k] * rail.inverse_mass * impulse;
-      wheel.velocity += -point.wheel_weight[k] * wheel.inverse_mass * local;
+      velocity_[index(link.rail[k])] += link.rail_push[k] * on_rail;
+      velocity_[index(link.wheel[k])] += link.wheel_push[k] * on_wheel;
     }
   }
 }
 
 Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link) const {
-  Vec3 relative = link.frame_velocity;
+  Padded relative = link.frame_velocity;
   for (std::size_t station = 0; station < 4; ++station) {
-    Vec3 local;
+    Padded local{};
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      local += point.wheel_weight[k] * nodes_[index(link.wheel[k])].velocity;
-      relative += -point.rail_weight[k] * nodes_[index(link.rail[k])].velocity;
+      local += link.wheel_weight[k] * velocity_[index(link.wheel[k])];
+      relative += link.rail_weight[k] * velocity_[index(link.rail[k])];
     }
-    relative += globalise(point.wheel_cosine[station], point.wheel_sine[station], local);
+    relative += padded<Padded>(
+        globalise(point.wheel_cosine[station], point.wheel_sine[station], {local[0], local[1], local[2]}));
   }
-  return relative;
+  return {relative[0], relative[1], relative[2]};
 }
 
 void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
@@ -117,21 +130,25 @@ void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const
 
 void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
   // In the spinning frame half of an impulse acts before the turn of the relative velocity, half after it.
-  const double c = 0.5 * (1 + std::cos(2 * spin * dt));
-  const double s = 0.5 * std::sin(2 * spin * dt);
-  for (const Node& node : nodes_) {
+  const double cosine = 0.5 * (1 + std::cos(2 * spin * dt));
+  const double sine = 0.5 * std::sin(2 * spin * dt);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
     node_of_[static_cast<std::size_t>(node.slot)] = -1;
-    Vec3 change = node.velocity - node.free;
-    if (node.of_wheel) change = {c * change.x - s * change.z, change.y, s * change.x + c * change.z};
-    for (int i = 0; i < 3; ++i) {
-      motion.velocity[dof(node.slot, i)] += change[i];
-      motion.displacement[dof(node.slot, i)] += dt * change[i];
+    const Padded difference = velocity_[i] - node.free;
+    Vec3 change{difference[0], difference[1], difference[2]};
+    if (node.of_wheel)
+      change = {cosine * change.x - sine * change.z, change.y, sine * change.x + cosine * change.z};
+    for (int c = 0; c < 3; ++c) {
+      motion.velocity[dof(node.slot, c)] += change[c];
+      motion.displacement[dof(node.slot, c)] += dt * change[c];
     }
   }
 }
 
 std::int64_t PatchSolver::bytes() const {
-  return static_cast<std::int64_t>(node_of_.size() * sizeof(int) + nodes_.capacity() * sizeof(Node) +
+  return static_cast<std::int64_t>(node_of_.size() * sizeof(int) +
+                                   nodes_.capacity() * (sizeof(Node) + sizeof(Padded)) +
                                    links_.capacity() * sizeof(Link));
 }
 

@@ -33,16 +33,20 @@ class PatchSolver {
   std::int64_t bytes() const;
 
  private:
+  /// A vector and a zero: both halves of it move at once.
+  typedef double Padded __attribute__((vector_size(4 * sizeof(double))));
   struct Node {
     std::int64_t slot;
     bool of_wheel;
     double inverse_mass;  ///< [1/kg]
-    Vec3 free, velocity;  ///< without and with contact, in the node's basis [m/s]
+    Padded free;          ///< velocity without contact, in the node's basis [m/s]
   };
   struct Link {
-    std::array<int, kSupport> rail, wheel;  ///< into nodes_
-    Vec3 frame_velocity;                    ///< of the wheel's frame at the point [m/s]
-    double compliance;                      ///< half of dt^2 A sum(w^2 / m) [m/Pa]
+    std::array<int, kSupport> rail, wheel;                   ///< into nodes_
+    std::array<double, kSupport> rail_weight, wheel_weight;  ///< of the nodes' velocities in the point's slip
+    std::array<double, kSupport> rail_push, wheel_push;      ///< their velocity by an impulse [1/kg]
+    Padded frame_velocity;                                   ///< of the wheel's frame at the point [m/s]
+    double compliance;                                       ///< half of dt^2 A sum(w^2 / m) [m/Pa]
   };
   void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion,
             double dt);
@@ -52,6 +56,7 @@ class PatchSolver {
 
   std::vector<int> node_of_;  ///< by slot, -1: none
   std::vector<Node> nodes_;
+  std::vector<Padded> velocity_;  ///< of the nodes with contact, in their bases [m/s]
   std::vector<Link> links_;
   int sweeps_ = 0;
 };
