@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -148,10 +149,46 @@ struct StationShare {
   double turn;  ///< from the other's basis to the own [rad]
 };
 
-/// Links of the own stations in lanes; by own tile.
-void add_items(TieSide& side, const SweptBlock& own, const SweptBlock& other,
+/// By station of either block.
+struct SharesAlong {
+  std::vector<std::vector<StationShare>> of_fine, of_coarse;
+};
+
+SharesAlong shares_along(const SweptBlock& fine, const SweptBlock& coarse) {
+  SharesAlong shares;
+  shares.of_fine.resize(fine.stations.size());
+  shares.of_coarse.resize(coarse.stations.size());
+  for (int station = 0; station < fine.station_count(); ++station) {
+    const StationPoint along = locate_along(fine, station, coarse);
+    const std::array<double, 2> share = {1 - along.fraction, along.fraction};
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (share[end] == 0) continue;
+      const int primary = along.station[end];
+      const double turn = fine.sweep == Sweep::extruded
+                              ? 0.0
+                              : fine.stations[index(station)] - coarse.stations[index(primary)];
+      shares.of_fine[index(station)].push_back({primary, share[end], turn});
+      shares.of_coarse[index(primary)].push_back({station, share[end], -turn});
+    }
+  }
+  return shares;
+}
+
+/// Two sums into one node would depend on which comes first.
+void require_one_sum_per_node(const TieSums& sums) {
+  std::vector<std::int64_t> nodes;
+  for (const TieSums::Item& item : sums.items)
+    for (int n = 0; n < item.node_count; ++n)
+      nodes.push_back(item.own + std::int64_t{3 * kLanes} * sums.nodes[item.first_node + index(n)].node);
+  std::sort(nodes.begin(), nodes.end());
+  if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end())
+    throw InputError("a node belongs to two ties; tie their blocks on lines without common nodes");
+}
+
+/// Adds the tiles of `own`, whose section nodes from `first_node` on are linked.
+void add_items(TieSums& sums, std::size_t first_node, const SweptBlock& own, const SweptBlock& other,
                const std::vector<std::vector<StationShare>>& shares) {
-  const auto first_node = [&](const SweptBlock& block, int station) {
+  const auto place = [&](const SweptBlock& block, int station) {
     return dof(block.base + block.slot(0, station), 0);
   };
   for (const Tile& tile : own.tiles) {
@@ -159,14 +196,15 @@ void add_items(TieSide& side, const SweptBlock& own, const SweptBlock& other,
     std::size_t most = 0;
     for (auto it = begin; it != begin + tile.stations; ++it) most = std::max(most, it->size());
     if (most == 0) continue;
-    side.items.push_back({first_node(own, tile.first_station), side.stations.size(), static_cast<int>(most)});
+    sums.items.push_back({place(own, tile.first_station), sums.stations.size(), static_cast<int>(most),
+                          first_node, static_cast<int>(sums.nodes.size() - first_node)});
     for (std::size_t k = 0; k < most; ++k) {
-      StationLink<double>& link = side.stations.emplace_back();
-      std::fill_n(link.at, kLanes, first_node(other, 0));  // without a share any will do
+      StationLink<double>& link = sums.stations.emplace_back();
+      std::fill_n(link.at, kLanes, place(other, 0));  // without a share any will do
       for (int lane = 0; lane < tile.stations; ++lane) {
         if (k >= begin[lane].size()) continue;
         const StationShare& share = begin[lane][k];
-        link.at[lane] = first_node(other, share.station);
+        link.at[lane] = place(other, share.station);
         link.share[lane] = share.share;
         link.cosine[lane] = std::cos(share.turn);
         link.sine[lane] = std::sin(share.turn);
@@ -181,48 +219,50 @@ std::int64_t slot_of(std::int64_t unknown) {
 
 /// visit(own slot, other slot, weight) for every link with a weight.
 template <class Visit>
-void for_each_link(const TieSide& side, const Visit& visit) {
-  for (const TieSide::Item& item : side.items)
-    for (const LinkedNode& node : side.nodes)
+void for_each_link(const TieSums& sums, const Visit& visit) {
+  for (const TieSums::Item& item : sums.items)
+    for (int n = 0; n < item.node_count; ++n)
       for (int lane = 0; lane < kLanes; ++lane)
-        for (int k = 0; k < item.station_count; ++k)
+        for (int k = 0; k < item.station_count; ++k) {
+          const LinkedNode& node = sums.nodes[item.first_node + index(n)];
+          const StationLink<double>& station = sums.stations[item.first_station + index(k)];
           for (int i = node.first; i < node.last; ++i) {
-            const StationLink<double>& station = side.stations[item.first_station + index(k)];
-            const NodeLink<double>& link = side.links[index(i)];
+            const NodeLink<double>& link = sums.links[index(i)];
             const double weight = link.share * station.share[lane];
             if (weight > 0)
               visit(slot_of(item.own + lane) + std::int64_t{node.node} * kLanes,
                     slot_of(station.at[lane]) + std::int64_t{link.node} * kLanes, weight);
           }
+        }
 }
 
-/// Adds to the field's values, or replaces them.
-void sum_up(const std::vector<TieSide>& sides, bool add, std::initializer_list<double*> fields) {
-  for (const TieSide& side : sides)
-    parallel_ranges(static_cast<std::int64_t>(side.items.size()), [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) {
-        const TieSide::Item& item = side.items[index(i)];
-        TieTile<double> tile;
-        tile.own = item.own;
-        tile.stations = side.stations.data() + item.first_station;
-        tile.station_count = item.station_count;
-        tile.nodes = side.nodes.data();
-        tile.node_count = static_cast<int>(side.nodes.size());
-        tile.links = side.links.data();
-        for (double* field : fields) tile_forces().front()->tie_in_double(tile, add, field);
-      }
-    });
+/// The sums replace the fields' values, or are added to them.
+void sum_up(const TieSums& sums, bool add, std::initializer_list<double*> fields) {
+  parallel_ranges(static_cast<std::int64_t>(sums.items.size()), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const TieSums::Item& item = sums.items[index(i)];
+      TieTile<double> tile;
+      tile.own = item.own;
+      tile.stations = sums.stations.data() + item.first_station;
+      tile.station_count = item.station_count;
+      tile.nodes = sums.nodes.data() + item.first_node;
+      tile.node_count = item.node_count;
+      tile.links = sums.links.data();
+      for (double* field : fields) tile_forces().front()->tie_in_double(tile, add, field);
+    }
+  });
 }
 
 }  // namespace
 
 Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
   for (const TieSpec& spec : specs) join(mesh, spec);
-  for (const TieSide& side : to_secondary_)
-    for_each_link(side, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-      secondary_.push_back(secondary);
-      primary_.push_back(primary);
-    });
+  require_one_sum_per_node(to_secondary_);
+  require_one_sum_per_node(to_primary_);
+  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+    secondary_.push_back(secondary);
+    primary_.push_back(primary);
+  });
   for (std::vector<std::int64_t>* slots : {&secondary_, &primary_}) {
     std::sort(slots->begin(), slots->end());
     slots->erase(std::unique(slots->begin(), slots->end()), slots->end());
@@ -239,40 +279,23 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
   const auto& coarse_path = path_of(coarse, spec.primary_path);
   const auto points = locate_in_section(fine, fine_path, coarse, coarse_path);
 
-  std::vector<std::vector<StationShare>> of_fine(fine.stations.size());
-  std::vector<std::vector<StationShare>> of_coarse(coarse.stations.size());
-  for (int station = 0; station < fine.station_count(); ++station) {
-    const StationPoint along = locate_along(fine, station, coarse);
-    const std::array<double, 2> share = {1 - along.fraction, along.fraction};
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (share[end] == 0) continue;
-      const int primary = along.station[end];
-      const double turn = fine.sweep == Sweep::extruded
-                              ? 0.0
-                              : fine.stations[index(station)] - coarse.stations[index(primary)];
-      of_fine[index(station)].push_back({primary, share[end], turn});
-      of_coarse[index(primary)].push_back({station, share[end], -turn});
-    }
-  }
-
-  TieSide& follow = to_secondary_.emplace_back();
-  TieSide& gather = to_primary_.emplace_back();
-  add_items(follow, fine, coarse, of_fine);
-  add_items(gather, coarse, fine, of_coarse);
+  const SharesAlong shares = shares_along(fine, coarse);
+  const std::size_t first_fine = to_secondary_.nodes.size();
+  const std::size_t first_coarse = to_primary_.nodes.size();
   const auto across = [](const SectionPoint& point, std::size_t end) {
     return end == 0 ? 1 - point.fraction : point.fraction;
   };
-  const auto add_node = [](TieSide& side, int node, const std::vector<NodeLink<double>>& links) {
+  const auto add_node = [](TieSums& sums, int node, const std::vector<NodeLink<double>>& links) {
     if (links.empty()) return;
-    const int first = static_cast<int>(side.links.size());
-    side.links.insert(side.links.end(), links.begin(), links.end());
-    side.nodes.push_back({node, first, static_cast<int>(side.links.size())});
+    const int first = static_cast<int>(sums.links.size());
+    sums.links.insert(sums.links.end(), links.begin(), links.end());
+    sums.nodes.push_back({node, first, static_cast<int>(sums.links.size())});
   };
   for (std::size_t i = 0; i < fine_path.size(); ++i) {
     std::vector<NodeLink<double>> links;
     for (std::size_t end = 0; end < 2; ++end)
       if (across(points[i], end) > 0) links.push_back({points[i].node[end], across(points[i], end)});
-    add_node(follow, fine_path[i], links);
+    add_node(to_secondary_, fine_path[i], links);
   }
   for (const int node : coarse_path) {
     std::vector<NodeLink<double>> links;
@@ -280,26 +303,26 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
       for (std::size_t end = 0; end < 2; ++end)
         if (points[i].node[end] == node && across(points[i], end) > 0)
           links.push_back({fine_path[i], across(points[i], end)});
-    add_node(gather, node, links);
+    add_node(to_primary_, node, links);
   }
+  add_items(to_secondary_, first_fine, fine, coarse, shares.of_fine);
+  add_items(to_primary_, first_coarse, coarse, fine, shares.of_coarse);
 }
 
 std::vector<TiedSlot> Ties::tied_slots() const {
   std::vector<TiedSlot> slots;
-  for (const TieSide& side : to_secondary_)
-    for_each_link(side, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-      if (slots.empty() || slots.back().secondary != secondary) slots.push_back({secondary, {}});
-      slots.back().primaries.push_back(primary);
-    });
+  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+    if (slots.empty() || slots.back().secondary != secondary) slots.push_back({secondary, {}});
+    slots.back().primaries.push_back(primary);
+  });
   return slots;
 }
 
 std::int64_t Ties::bytes() const {
   std::size_t sum = (secondary_.size() + primary_.size()) * sizeof(std::int64_t);
-  for (const auto* sides : {&to_secondary_, &to_primary_})
-    for (const TieSide& side : *sides)
-      sum += side.items.size() * sizeof(TieSide::Item) + side.stations.size() * sizeof(side.stations[0]) +
-             side.nodes.size() * sizeof(LinkedNode) + side.links.size() * sizeof(side.links[0]);
+  for (const TieSums* sums : {&to_secondary_, &to_primary_})
+    sum += sums->items.size() * sizeof(TieSums::Item) + sums->stations.size() * sizeof(sums->stations[0]) +
+           sums->nodes.size() * sizeof(LinkedNode) + sums->links.size() * sizeof(sums->links[0]);
   return static_cast<std::int64_t>(sum);
 }
 
@@ -318,19 +341,17 @@ void Ties::gather(double* force) const {
 }
 
 void Ties::gather_diagonal(double* diagonal) const {
-  for (const TieSide& side : to_primary_)
-    for_each_link(side, [&](std::int64_t primary, std::int64_t secondary, double weight) {
-      for (int c = 0; c < 3; ++c) diagonal[dof(primary, c)] += weight * weight * diagonal[dof(secondary, c)];
-    });
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    for (int c = 0; c < 3; ++c) diagonal[dof(primary, c)] += weight * weight * diagonal[dof(secondary, c)];
+  });
   for (const std::int64_t slot : secondary_)
     for (int c = 0; c < 3; ++c) diagonal[dof(slot, c)] = 0;
 }
 
 void Ties::gather_mass(double* mass) const {
-  for (const TieSide& side : to_primary_)
-    for_each_link(side, [&](std::int64_t primary, std::int64_t secondary, double weight) {
-      mass[primary] += weight * mass[secondary];
-    });
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    mass[primary] += weight * mass[secondary];
+  });
   for (const std::int64_t slot : secondary_) mass[slot] = 0;
 }
 

@@ -27,14 +27,17 @@ struct TieSpec {
 /// station.
 void place_on_chords(Mesh& mesh, const TieSpec& spec);
 
-/// One direction of a tie: what the stations and section nodes of the one block take from the other's.
-struct TieSide {
+/// One direction of all ties: what nodes take from those of the other block.
+struct TieSums {
+  /// A tile with links.
   struct Item {
     std::int64_t own = 0;           ///< as TieTile::own
     std::size_t first_station = 0;  ///< into `stations`
     int station_count = 0;
+    std::size_t first_node = 0;  ///< into `nodes`
+    int node_count = 0;
   };
-  std::vector<Item> items;  ///< tiles with links
+  std::vector<Item> items;
   std::vector<StationLink<double>> stations;
   std::vector<LinkedNode> nodes;
   std::vector<NodeLink<double>> links;
@@ -73,7 +76,7 @@ class Ties {
   void join(const Mesh& mesh, const TieSpec& spec);
 
   std::vector<std::int64_t> secondary_, primary_;  ///< ascending
-  std::vector<TieSide> to_secondary_, to_primary_;
+  TieSums to_secondary_, to_primary_;
 };
 
 }  // namespace tread
