@@ -101,6 +101,12 @@ struct SweptElement {
   }
 
   TREAD_INLINE void scale_by_volume(auto& /*f*/) const {}
+
+  /// Of the work in the swept volume.
+  template <class V>
+  TREAD_INLINE V energy_in_volume(const V& work) const {
+    return work;
+  }
 };
 
 /// a x b of two rows of vectors.
@@ -168,6 +174,8 @@ struct PerturbedElement {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) f.g[i][j] *= volume_ratio;
   }
+
+  TREAD_INLINE V energy_in_volume(const V& work) const { return work * volume_ratio; }
 
  private:
   /// Of xi, eta or zeta; the hourglass mode h_k has no gradient along xi_k.

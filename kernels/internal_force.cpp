@@ -95,6 +95,14 @@ void element_forces(const Element& element, const Strain<Real>& force, Real (&s)
   }
 }
 
+/// Scratch of a thread; grows in its first calls only.
+template <class Real>
+Real* front_of(const FrontPlan& plan) {
+  thread_local AlignedVector<Real> front;
+  front.resize(std::max(front.size(), index(plan.slots) * kFrontValues));
+  return front.data();
+}
+
 }  // namespace
 
 double von_mises(const std::array<double, 6>& s) {
@@ -260,12 +268,9 @@ void BasicInternalForce<Real>::add_carry(const Item& item, Real* f) const {
 template <class Real>
 void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t last,
                                               const Fields& fields) const {
-  // Grows in the first call of each thread only.
-  thread_local AlignedVector<Real> front;
   for (std::size_t i = first; i < last; ++i) {
     const Item item = items_[i];
     const BlockData& data = blocks_[index(item.block)];
-    front.resize(std::max(front.size(), index(data.plan.slots) * kFrontValues));
     const int previous = data.previous[index(item.tile)];
     const bool at_hand =
         i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
@@ -275,7 +280,7 @@ void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t las
     Fields here = fields;
     if (unmoved_[i]) here.moved = {};
     evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, here,
-                  front.data());
+                  front_of<Real>(data.plan));
   }
 }
 
@@ -294,7 +299,6 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
     return;
   }
   const std::int64_t next = dof(swept.base + tile.next * slots, 0);
-  const ClassData& elements = data.classes[index(tile.pitch_class)];
   const bool damped = fields.v != nullptr && data.beta != 0;
 
   TileView<Real> view;
@@ -314,6 +318,15 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
   view.carry_out = carry(item);
   view.elements = tile.elements;
 
+  forces_->get({swept.sweep, damped, data.finite_rotation && !fields.linear}, Real{})(tile_elements(item),
+                                                                                      view, front);
+}
+
+template <class Real>
+TileElements<Real> BasicInternalForce<Real>::tile_elements(const Item& item) const {
+  const BlockData& data = blocks_[index(item.block)];
+  const Tile& tile = mesh_.blocks[index(item.block)].tiles[index(item.tile)];
+  const ClassData& elements = data.classes[index(tile.pitch_class)];
   TileElements<Real> made_of;
   made_of.quads = data.plan.quads.data();
   made_of.open = data.plan.open.data();
@@ -326,7 +339,7 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
   made_of.beta = data.beta;
   made_of.cosine = elements.cosine;
   made_of.sine = elements.sine;
-  forces_->get({swept.sweep, damped, data.finite_rotation && !fields.linear}, Real{})(made_of, view, front);
+  return made_of;
 }
 
 template <class Real>
@@ -456,35 +469,20 @@ DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) con
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
   std::vector<DeformationEnergy> partial(swept.tiles.size());
-  const auto tile_energy = [&](int tile) {
-    DeformationEnergy sum;
-    for (const FrontPlan::Quad& entry : data.plan.quads)
-      for (int lane = 0; lane < swept.tiles[index(tile)].elements; ++lane) {
-        const Place at = locate(block, entry.quad, swept.tiles[index(tile)].first_station + lane);
-        Real values[8][3];
-        gather(block, at, u, values);
-        const Strain<Real> deformation = strain(block, at, values);
-        const SweptConstants<Real>& c = data.classes[index(at.pitch_class)].constants[index(at.place)];
-        Real e[6];
-        Real s[6];
-        law_strain(data.finite_rotation, deformation, e);
-        point_stress(c.lambda, c.mu, e, s);
-        double work = 0;
-        for (int i = 0; i < 6; ++i) work += 0.5 * e[i] * s[i];
-        if (at.lanes >= 0)
-          work *= PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, c).volume_ratio;
-        sum.strain += work;
-        Strain<Real> force;
-        hourglass_forces(c.hourglass, deformation, force);
-        for (int i = 0; i < 3; ++i)
-          for (int m = 0; m < kHourglassModes; ++m)
-            sum.hourglass += 0.5 * deformation.q[i][m] * force.q[i][m];
-      }
-    return sum;
-  };
+  const TileEnergy<Real> tile_energy = forces_->energy({swept.sweep, false, data.finite_rotation}, Real{});
   parallel_ranges(static_cast<std::int64_t>(partial.size()), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t tile = first; tile < last; ++tile)
-      partial[static_cast<std::size_t>(tile)] = tile_energy(static_cast<int>(tile));
+    Real* const front = front_of<Real>(data.plan);
+    for (std::int64_t i = first; i < last; ++i) {
+      const Tile& tile = swept.tiles[index(static_cast<int>(i))];
+      if (tile.elements == 0) continue;
+      const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
+      TileView<Real> view;
+      view.u = u + dof(swept.base + i * slots, 0);
+      view.u_next = u + dof(swept.base + tile.next * slots, 0);
+      view.elements = tile.elements;
+      partial[static_cast<std::size_t>(i)] =
+          tile_energy(tile_elements({block, static_cast<int>(i)}), view, front);
+    }
   });
   DeformationEnergy total;
   for (const DeformationEnergy& part : partial) {

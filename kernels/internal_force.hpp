@@ -21,12 +21,6 @@ struct Strain;
 /// local bases. [N/m]
 using ElementStiffness = std::array<std::array<double, 24>, 24>;
 
-/// Strain and hourglass energy. [J]
-struct DeformationEnergy {
-  double strain = 0;  ///< of the one-point stress
-  double hourglass = 0;
-};
-
 /// The element with the largest natural frequency.
 struct ElementFrequency {
   double omega = 0;  ///< [rad/s]
@@ -173,6 +167,7 @@ class BasicInternalForce {
   void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
   void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
   void evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields, Real* front) const;
+  TileElements<Real> tile_elements(const Item& item) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;

@@ -65,6 +65,17 @@ inline constexpr int kFrontValues = 12 * kLanes;
 template <class Real>
 using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real>& view, Real* front);
 
+/// Strain and hourglass energy. [J]
+struct DeformationEnergy {
+  double strain = 0;  ///< of the one-point stress
+  double hourglass = 0;
+};
+
+/// Energy of a tile's elements by the law that the variant has; reads `u` and `u_next` of the view.
+template <class Real>
+using TileEnergy = DeformationEnergy (*)(const TileElements<Real>& elements, const TileView<Real>& view,
+                                         Real* front);
+
 /// Moves the section nodes `nodes` of a tile by the forces `f`.
 template <class Real>
 using TileMove = void (*)(const TileMotion<Real>& motion, std::span<const int> nodes, const Real* f);
@@ -80,6 +91,8 @@ struct TileForces {
   const char* name;
   TileForce<double> (*in_double)(TileVariant);
   TileForce<float> (*in_float)(TileVariant);
+  TileEnergy<double> (*energy_in_double)(TileVariant);
+  TileEnergy<float> (*energy_in_float)(TileVariant);
   TileMove<double> (*move_in_double)(Sweep);
   TileMove<float> (*move_in_float)(Sweep);
   TieSum<double> tie_in_double;
@@ -87,6 +100,12 @@ struct TileForces {
 
   TileForce<double> get(TileVariant variant, double /*precision*/) const { return in_double(variant); }
   TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }
+  TileEnergy<double> energy(TileVariant variant, double /*precision*/) const {
+    return energy_in_double(variant);
+  }
+  TileEnergy<float> energy(TileVariant variant, float /*precision*/) const {
+    return energy_in_float(variant);
+  }
   TileMove<double> get(Sweep sweep, double /*precision*/) const { return move_in_double(sweep); }
   TileMove<float> get(Sweep sweep, float /*precision*/) const { return move_in_float(sweep); }
 };

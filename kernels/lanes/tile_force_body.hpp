@@ -56,9 +56,30 @@ class TileLoop {
   static constexpr int kWidth = Lanes<Real>::kWidth;
   static constexpr int kParts = Lanes<Real>::kParts;
   using Register = typename Lanes<Real>::Register;
+  using Sums = typename Vector<double, kWidth>::type;
 
   TileLoop(const TileElements<Real>& elements, const TileView<Real>& view, Real* front)
       : elements_(elements), view_(view), front_(front) {}
+
+  /// Of all elements.
+  DeformationEnergy energy() const {
+    const FrontPlan::Node* open = elements_.open;
+    Sums strain{};
+    Sums hourglass{};
+    for (int i = 0; i < elements_.quad_count; ++i) {
+      const FrontPlan::Quad& quad = elements_.quads[i];
+      for (; open != elements_.open + quad.opened; ++open) open_node(*open);
+      with_elements(i, [&](int lane, const auto& element) {
+        add_energy(deformation(quad, lane, element), elements_.swept[i], element, strain, hourglass);
+      });
+    }
+    DeformationEnergy sum;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      sum.strain += strain[lane];
+      sum.hourglass += hourglass[lane];
+    }
+    return sum;
+  }
 
   void run() const {
     const FrontPlan::Node* open = elements_.open;
@@ -69,7 +90,7 @@ class TileLoop {
         prefetch(open[kPrefetchAhead].node);
         open_node(*open);
       }
-      add_quad(i, quad);
+      with_elements(i, [&](int lane, const auto& element) { add_elements(i, quad, lane, element); });
       for (; close != elements_.close + quad.closed; ++close) close_node(*close);
     }
   }
@@ -174,36 +195,46 @@ class TileLoop {
               force[part][i]);
   }
 
-  TREAD_INLINE void add_quad(int index, const FrontPlan::Quad& quad) const {
+  /// visit(lane, element) for the elements of a quad from that lane on.
+  template <class Visit>
+  TREAD_INLINE void with_elements(int index, const Visit& visit) const {
     const SweptConstants<Real>& constants = elements_.swept[index];
     if (elements_.perturbed != nullptr && elements_.perturbed[index] >= 0) {
       const LanePositions<Real>& lanes = elements_.lanes[elements_.perturbed[index]];
       for (int lane = 0; lane < kLanes; lane += kWidth)
-        add_elements(index, quad, lane, PerturbedElement<Register, Real>(lanes, lane, constants));
+        visit(lane, PerturbedElement<Register, Real>(lanes, lane, constants));
     } else {
-      for (int lane = 0; lane < kLanes; lane += kWidth)
-        add_elements(index, quad, lane, SweptElement<sweep, Real>{constants});
+      for (int lane = 0; lane < kLanes; lane += kWidth) visit(lane, SweptElement<sweep, Real>{constants});
     }
   }
 
+  /// A corner's values in the front.
+  TREAD_INLINE Real* corner(const FrontPlan::Quad& quad, int j, int lane) const {
+    return front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kFrontValues + lane;
+  }
+
   template <class Element>
-  TREAD_INLINE void add_elements(int index, const FrontPlan::Quad& quad, int lane,
-                                 const Element& element) const {
-    Real* corner[4];
-    for (int j = 0; j < 4; ++j)
-      corner[j] = front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kFrontValues + lane;
+  TREAD_INLINE Strain<Register> deformation(const FrontPlan::Quad& quad, int lane,
+                                            const Element& element) const {
     Strain<Register> strain;
     for (int i = 0; i < 3; ++i) {
       Register s[4];
       Register d[4];
       Register a[kModes];
       for (int j = 0; j < 4; ++j) {
-        s[j] = load<Register>(corner[j] + i * kLanes);
-        d[j] = load<Register>(corner[j] + (3 + i) * kLanes);
+        s[j] = load<Register>(corner(quad, j, lane) + i * kLanes);
+        d[j] = load<Register>(corner(quad, j, lane) + (3 + i) * kLanes);
       }
       to_modes(s, d, a);
       element.strain(i, a, strain);
     }
+    return strain;
+  }
+
+  template <class Element>
+  TREAD_INLINE void add_elements(int index, const FrontPlan::Quad& quad, int lane,
+                                 const Element& element) const {
+    const Strain<Register> strain = deformation(quad, lane, element);
     const SweptConstants<Real>& constants = elements_.swept[index];
     Strain<Register> force;
     stress_forces<finite_rotation>(constants, strain, force);
@@ -216,12 +247,29 @@ class TileLoop {
       element.forces(i, force, a);
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
-        Real* const fs = corner[j] + (6 + i) * kLanes;
-        Real* const fd = corner[j] + (9 + i) * kLanes;
+        Real* const fs = corner(quad, j, lane) + (6 + i) * kLanes;
+        Real* const fd = corner(quad, j, lane) + (9 + i) * kLanes;
         store(fs, load<Register>(fs) + s[j]);
         store(fd, load<Register>(fd) + d[j]);
       }
     }
+  }
+
+  template <class Element>
+  TREAD_INLINE void add_energy(const Strain<Register>& deformation, const SweptConstants<Real>& constants,
+                               const Element& element, Sums& strain, Sums& hourglass) const {
+    Register e[6];
+    Register s[6];
+    point_strain<finite_rotation, Real>(deformation.g, e);
+    point_stress(constants.lambda, constants.mu, e, s);
+    Register work = e[0] * s[0];
+    for (int i = 1; i < 6; ++i) work += e[i] * s[i];
+    strain += 0.5 * __builtin_convertvector(element.energy_in_volume(work), Sums);
+    Strain<Register> force;
+    hourglass_forces(constants.hourglass, deformation, force);
+    for (int i = 0; i < 3; ++i)
+      for (int m = 0; m < kHourglassModes; ++m)
+        hourglass += 0.5 * __builtin_convertvector(deformation.q[i][m] * force.q[i][m], Sums);
   }
 
   const TileElements<Real>& elements_;
@@ -249,6 +297,20 @@ void move_nodes(const TileMotion<Real>& motion, std::span<const int> nodes, cons
 template <class Real>
 TileMove<Real> select_move(Sweep sweep) {
   return sweep == Sweep::revolved ? move_nodes<Real, Sweep::revolved> : move_nodes<Real, Sweep::extruded>;
+}
+
+template <class Real, Sweep sweep, bool finite_rotation>
+DeformationEnergy tile_energy(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
+  return TileLoop<Real, sweep, false, finite_rotation>(elements, view, front).energy();
+}
+
+template <class Real>
+TileEnergy<Real> select_energy(TileVariant v) {
+  if (v.sweep == Sweep::revolved)
+    return v.finite_rotation ? tile_energy<Real, Sweep::revolved, true>
+                             : tile_energy<Real, Sweep::revolved, false>;
+  return v.finite_rotation ? tile_energy<Real, Sweep::extruded, true>
+                           : tile_energy<Real, Sweep::extruded, false>;
 }
 
 template <class Real, Sweep sweep>
