@@ -100,12 +100,6 @@ void BasicTimeUpdate<Real>::move(const StepLoads& loads, const BasicUpdateFields
   });
 }
 
-template <class Real>
-std::int64_t BasicTimeUpdate<Real>::bytes() const {
-  return static_cast<std::int64_t>(items_.size() * (sizeof(Item) + sizeof(std::size_t)) + deferred_.size() +
-                                   (deferred_nodes_.size() + all_nodes_.size()) * sizeof(int));
-}
-
 template class BasicTimeUpdate<double>;
 template class BasicTimeUpdate<float>;
 

@@ -58,8 +58,6 @@ class BasicTimeUpdate {
     move(loads, fields, whole.data());
   }
 
-  std::int64_t bytes() const;
-
  private:
   struct Item {
     int block = 0;

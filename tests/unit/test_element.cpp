@@ -233,5 +233,24 @@ TEST(FrontPlan, OpensAndClosesEveryNodeOnceAroundItsQuads) {
   EXPECT_LE(plan.slots, 13);
 }
 
+TEST(FrontPlan, NumbersNodesInTheOrderOfTheirOpening) {
+  const Section before = samples::grid_section({17, 9, 0, 0, 1.7, 0.9, 0});
+  Section section = before;
+  section.paths["some"] = {3, 50, 7};
+  section.surface.push_back({0, {3, 50}, {}});
+  number_by_front(section);
+  const FrontPlan plan = make_front_plan(section);
+  for (int i = 0; i < section.nodes(); ++i) EXPECT_EQ(plan.open[index(i)].node, i);
+  const auto place = [](const Section& s, int node) { return std::pair(s.p[index(node)], s.q[index(node)]); };
+  for (std::size_t quad = 0; quad < section.quads.size(); ++quad)
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_EQ(place(section, section.quads[quad][j]), place(before, before.quads[quad][j]));
+  const std::vector<int>& path = section.paths.at("some");
+  EXPECT_EQ(place(section, path[0]), place(before, 3));
+  EXPECT_EQ(place(section, path[1]), place(before, 50));
+  EXPECT_EQ(place(section, path[2]), place(before, 7));
+  EXPECT_EQ(section.surface[0].node[1], path[1]);
+}
+
 }  // namespace
 }  // namespace tread
