@@ -9,18 +9,20 @@ Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker>
   return {std::move(y_label), std::move(series), std::move(levels), height, std::nullopt};
 }
 
-void mark_track(const Model& model, const Range& range, Figure& figure) {
-  if (!model.contact) return;
-  const Corrugation& corrugation = model.contact->corrugation();
+void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure) {
   if (!corrugation.smooth() && corrugation.first() < range[1])
     figure.bands.push_back({corrugation.first(), corrugation.last(), "corrugation"});
-  if (!model.fastenings) return;
-  const FasteningSpec& f = *model.scene.fastenings;
+  if (!scene.fastenings || !scene.rail) return;
+  const FasteningSpec& f = *scene.fastenings;
   for (int i = 0; i < f.count; ++i) {
-    const double x = -model.scene.rail->origin + f.first + i * f.spacing;
+    const double x = -scene.rail->origin + f.first + i * f.spacing;
     if (x > range[0] && x < range[1]) figure.positions.push_back({x, ""});
   }
   if (!figure.positions.empty()) figure.caption += "Vertical lines: fastenings. ";
+}
+
+void mark_track(const Model& model, const Range& range, Figure& figure) {
+  if (model.contact) mark_track(model.scene, model.contact->corrugation(), range, figure);
 }
 
 Series running_surface(const Corrugation& corrugation, const Range& range) {

@@ -12,6 +12,7 @@ namespace tread {
 Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker> levels, double height);
 
 /// Bands and fastenings that every chart over the way shows within `range`.
+void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure);
 void mark_track(const Model& model, const Range& range, Figure& figure);
 
 /// Height of the corrugated surface on its deepest line [mm].

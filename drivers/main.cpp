@@ -12,6 +12,7 @@
 #include "drivers/check_command.hpp"
 #include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
+#include "drivers/multibody_command.hpp"
 #include "drivers/run_command.hpp"
 #include "drivers/verify_command.hpp"
 #include "drivers/version_command.hpp"
@@ -140,6 +141,30 @@ void add_mesh(CLI::App& app) {
   command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
 }
 
+void add_multibody(CLI::App& app, const std::string& command_line) {
+  auto state = std::make_shared<SceneCommand<tread::MultibodyOptions>>();
+  tread::MultibodyOptions& options = state->options;
+  options.command = command_line;
+  CLI::App& command =
+      add_scene_command(app, "multibody", "the scene by the multi-body approach: a second instead of an hour",
+                        tread::run_multibody_command, state);
+  command.add_option("-o,--output", options.output, "directory for CSV, summary and report");
+  command.add_option("--beam", options.beam, "the rail: euler (default) or timoshenko")
+      ->check(CLI::IsMember({"euler", "timoshenko"}));
+  command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
+      ->check(CLI::Range(2, 3000));
+  command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");
+  command.add_flag("--filter", options.filter, "a sine as deep as the contact patch leaves it");
+  command.add_option("--calibrate", options.calibrate,
+                     "directory of a transient run whose F_N the contact spring is fitted to");
+  command
+      .add_option("--map", options.map,
+                  "response over speed and wavelength: speed=100:500:10km/h wavelength=40:150:2mm")
+      ->expected(2);
+  command.add_option("--dots", options.dots, "directories of transient runs to show on the map");
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
+}
+
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<tread::VerifyOptions>();
   CLI::App& command =
@@ -178,6 +203,7 @@ int run(int argc, char** argv) {
   add_ctl(app);
   add_check(app);
   add_mesh(app);
+  add_multibody(app, command_line);
   add_verify(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);
   add_plain(app, "scene-reference", "every key of a scene file, as Markdown", tread::print_scene_reference);

@@ -15,6 +15,7 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "drivers/lateral_gap.hpp"
 #include "drivers/sections.hpp"
 #include "kernels/front_plan.hpp"
 
@@ -324,44 +325,6 @@ double Model::journal_load() const {
   return scene.load ? scene.load->wheel_load : 0;
 }
 
-namespace {
-
-/// Lateral radius of the gap between two profiles about its lowest point: the parabola that fits it best
-/// within `half_width`.
-double lateral_radius(const SurfaceProfile& rail, const SurfaceProfile& wheel, double half_width) {
-  const auto height = [](const SurfaceProfile& profile, double p) {
-    const int edge = profile.edge_at(p);
-    double eta = (p - profile.edge_p(edge, 0)) / (profile.edge_p(edge, 1) - profile.edge_p(edge, 0));
-    for (int i = 0; i < 4; ++i) {
-      const auto at = profile.evaluate(edge, eta, SurfaceKind::exact);
-      eta -= (at.p - p) / at.dp;
-    }
-    return profile.evaluate(edge, eta, SurfaceKind::exact).q;
-  };
-  const double first = std::max(rail.first_p(), wheel.first_p());
-  const double last = std::min(rail.last_p(), wheel.last_p());
-  const auto gap = [&](double p) { return -height(rail, p) - height(wheel, p); };
-  double lowest = first;
-  constexpr int kSamples = 400;
-  for (int i = 0; i <= kSamples; ++i) {
-    const double p = first + (last - first) * i / kSamples;
-    if (gap(p) < gap(lowest)) lowest = p;
-  }
-  double numerator = 0;
-  double denominator = 0;
-  for (int i = -20; i <= 20; ++i) {
-    const double s = half_width * i / 20;
-    const double p = std::clamp(lowest + s, first, last);
-    const double rise = gap(p) - gap(lowest);
-    numerator += rise * s * s;
-    denominator += s * s * s * s;
-  }
-  const double curvature = 2 * numerator / denominator;
-  return 1 / std::max(curvature, 1e-2);
-}
-
-}  // namespace
-
 double Model::penalty_stiffness(const ContactSpec& spec) const {
   const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
   // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
@@ -389,7 +352,7 @@ void Model::build_contact() {
   const ContactSpec& spec = *scene.contact;
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
-  hertz_radius_y = lateral_radius(rail, wheel, 5e-3);
+  hertz_radius_y = lateral_gap(rail, wheel).radius;
   const double modulus = contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio);
   // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
   hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
@@ -413,10 +376,7 @@ void Model::build_contact() {
 void Model::apply_corrugation(double centre) {
   if (!scene.corrugation) return;
   const CorrugationSpec& spec = *scene.corrugation;
-  const Corrugation shape =
-      spec.kind == "table"
-          ? Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width)
-          : Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
+  const Corrugation shape = corrugation_of(spec, centre);
   if (spec.apply == "nodes") {
     SweptBlock& cap = mesh.blocks[static_cast<std::size_t>(index.rail_cap)];
     shift_top_layers(cap, shape, 3 * sizes.contact);

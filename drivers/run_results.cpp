@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "drivers/evaluated_stretch.hpp"
 #include "io/json_writer.hpp"
 
 namespace tread {
@@ -128,13 +129,9 @@ void evaluate(const Model& model, RunResults& r) {
 
   if (model.contact) {
     const Corrugation& corrugation = model.contact->corrugation();
-    // Less half a wave at each end, where more than one wave is left by that.
-    const double wave =
-        scene.corrugation && scene.corrugation->kind == "sine" ? scene.corrugation->wavelength : 0;
-    const double half_wave = corrugation.last() - corrugation.first() > 1.5 * wave ? 0.5 * wave : 0;
-    r.evaluated_first = corrugation.smooth() ? scene.zone_start : corrugation.first() + half_wave;
-    r.evaluated_last = std::min(reached, corrugation.smooth() ? scene.zone_start + scene.zone_length
-                                                              : corrugation.last() - half_wave);
+    const Span stretch = evaluated_stretch(scene, corrugation);
+    r.evaluated_first = stretch.first;
+    r.evaluated_last = std::min(reached, stretch.last);
     if (r.evaluated_first > reached) r.evaluated_first = 0;
     const auto between = [](double first, double last) {
       return [first, last](const Sample& s) { return s.wheel_x >= first && s.wheel_x <= last; };

@@ -119,6 +119,12 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   return {make_wheel_sections(profile, shape, size), thickness};
 }
 
+Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
+  if (spec.kind == "table")
+    return Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width);
+  return Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
+}
+
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade) {
   const Section& section = block.section;
   // Depth of every section node below the running surface, by the surface edge over it.

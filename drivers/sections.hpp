@@ -25,6 +25,9 @@ struct SizedWheel {
 /// rings do it.
 SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
 
+/// The corrugation whose deepest line lies at y = `centre` [m].
+Corrugation corrugation_of(const CorrugationSpec& spec, double centre);
+
 /// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that
 /// fades to nothing over `fade` [m] (node_shift).
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);

@@ -51,6 +51,10 @@ std::string html(const Figure& figure) {
   return figure_html(figure);
 }
 
+std::string html(const Heatmap& map) {
+  return heatmap_html(map);
+}
+
 std::string html(const Drawings& drawings) {
   std::string out = "<div class=\"drawings\">\n";
   for (const Drawing& drawing : drawings) out += drawing_html(drawing);

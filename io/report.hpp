@@ -9,6 +9,7 @@
 
 #include "io/report/chart.hpp"
 #include "io/report/drawing.hpp"
+#include "io/report/heatmap.hpp"
 
 namespace tread {
 
@@ -40,7 +41,7 @@ struct KeyFigure {
 using KeyFigures = std::vector<KeyFigure>;
 using Drawings = std::vector<Drawing>;  ///< side by side where the page is wide enough
 
-using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings>;
+using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap>;
 
 struct Chapter {
   std::string title;

@@ -180,20 +180,32 @@ double TrackBeam::eigenfrequency(int n) const {
   return 0.5 * (low + high) / (2 * std::numbers::pi);
 }
 
-TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans) {
+std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
   if (!scene.rail) throw InputError("a rail beam needs [rail]");
+  std::vector<BeamSupport> supports;
+  if (!scene.fastenings) return supports;
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = -more_spans; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      supports.push_back(
+          {-scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
+           f.stiffness / f.columns, f.damping / f.columns});
+  return supports;
+}
+
+double head_spread(const Scene& scene, const BeamProperties& properties) {
+  if (!scene.fastenings || properties.depth == 0) return 0;
+  return head_spread(properties.depth, scene.steel.poissons_ratio,
+                     2 * std::numbers::pi / scene.fastenings->spacing);
+}
+
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans) {
+  const std::vector<BeamSupport> supports = rail_supports(scene, more_spans);
   const RailSpec& rail = *scene.rail;
   const double more = scene.fastenings ? more_spans * scene.fastenings->spacing : 0;
   TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
-  if (!scene.fastenings) return beam;
-  const FasteningSpec& f = *scene.fastenings;
-  if (properties.depth > 0)
-    beam.spread_head_load(
-        head_spread(properties.depth, scene.steel.poissons_ratio, 2 * std::numbers::pi / f.spacing));
-  for (int i = -more_spans; i < f.count; ++i)
-    for (int column = 0; column < f.columns; ++column)
-      beam.support(-rail.origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
-                   f.stiffness / f.columns, f.damping / f.columns);
+  beam.spread_head_load(head_spread(scene, properties));
+  for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
   return beam;
 }
 

@@ -74,6 +74,21 @@ class TrackBeam {
   BandMatrix<double> stiffness_, damping_, mass_;
 };
 
+/// A spring-damper to ground.
+struct BeamSupport {
+  double x = 0;          ///< [m]
+  double stiffness = 0;  ///< [N/m]
+  double damping = 0;    ///< [N s/m]
+};
+
+/// The columns of a scene's fastenings, and of so many more fastenings to their left; none without
+/// [fastenings]. InputError without rail.
+std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans = 0);
+
+/// How far forces on the head spread before the fastenings see them: at the wave number of a span; 0 for a
+/// line or without [fastenings]. [m]
+double head_spread(const Scene& scene, const BeamProperties& properties);
+
 /// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, forces on the head
 /// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);

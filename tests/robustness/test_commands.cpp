@@ -151,6 +151,51 @@ TEST_F(Commands, VerifyRefusesWhatItDoesNotKnow) {
   EXPECT_TRUE(has(call("verify --list").out, "steady_rolling (standard): "));
 }
 
+TEST_F(Commands, MultibodyLeavesItsFiles) {
+  const Outcome outcome =
+      call(fmt::format("multibody {} -t 1 --quiet --json --modes 40 --step \"20 us\" --filter -o {} "
+                       "--map speed=250:300:50km/h wavelength=70:80:10mm",
+                       scene("corrugation-d.toml"), folder_.string()));
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* part : {"\"contact_filter_gain\": 0.94",
+                           "\"loss_of_contact_share\": ", "\"beam\": \"Euler\"", "\"points\": 4"})
+    EXPECT_TRUE(has(outcome.out, part)) << part << outcome.out;
+  EXPECT_EQ(outcome.out, content("summary.json"));
+  EXPECT_TRUE(content("multibody.csv").starts_with("time [s],wheel_x [m],vertical_force [N],"));
+  EXPECT_TRUE(content("map.csv").starts_with("speed [m/s],wavelength [m],"));
+  for (const char* part :
+       {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz"})
+    EXPECT_TRUE(has(content("report.html"), part)) << part;
+  EXPECT_TRUE(has(content("map.svg"), "xmlns"));
+  // Its own curve is a run's history: the fit finds the spring that it was made with.
+  std::ofstream(folder_ / "histories.csv") << content("multibody.csv");
+  const Outcome fitted =
+      call(fmt::format("multibody {0}/scene.resolved.toml -t 1 --quiet --modes 40 --step \"20 us\" --filter "
+                       "--calibrate {0} -o {0}/fit",
+                       folder_.string()));
+  EXPECT_EQ(fitted.code, 0);
+  EXPECT_TRUE(has(fitted.out, "C / Hertz")) << fitted.out;
+  EXPECT_TRUE(fs::exists(folder_ / "fit" / "calibration.csv"));
+}
+
+TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
+  const std::string good = "multibody --quiet " + scene("corrugation-d.toml");
+  for (const std::string& wrong :
+       {good + " --beam rayleigh", good + " --step 5", good + " --step \"0 s\"", good + " --modes 1",
+        good + " --map speed=100:500:10km/h", good + " --dots " + folder_.string(),
+        good + " --calibrate " + folder_.string(), good + " --set \"rail.length=8 m\"",
+        "multibody --quiet " + scene("tyre.toml"), "multibody --quiet " + scene("bar-wave.toml"),
+        "multibody --quiet --filter " + scene("smooth.toml")})
+    EXPECT_EQ(call(wrong).code, 2) << wrong;
+  EXPECT_EQ(call(good + " --step \"1 ms\"").code, 3);
+  // A history with a broken row names its line.
+  std::ofstream(folder_ / "scene.resolved.toml") << std::ifstream(scene("corrugation-d.toml")).rdbuf();
+  std::ofstream(folder_ / "histories.csv") << "wheel_x [m],vertical_force [N]\n0,1\n1\n";
+  const Outcome broken = call(good + " --json --calibrate " + folder_.string());
+  EXPECT_EQ(broken.code, 2);
+  EXPECT_TRUE(has(broken.out, "histories.csv:3: 1 values under 2 columns")) << broken.out;
+}
+
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));

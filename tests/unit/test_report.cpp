@@ -112,6 +112,23 @@ TEST(Drawing, SectionsStandInContactPosition) {
   EXPECT_EQ(count(html, "Z\""), 1U);  // the wheel is outside the window
 }
 
+TEST(Heatmap, CellsStandAtTheirPlaces) {
+  Heatmap map{"F_N", "Speed", "Wave", "max", {1, 2}, {10, 20}, {0, 1, 2, 4}, {}, "", {}, {}, ""};
+  map.marked = {false, false, false, true};
+  map.dots = {{1.5, 15, 4, "run"}};
+  map.lines = {{{1, 2}, {10, 20}, "1 Hz"}};
+  const std::string html = heatmap_html(map);
+  // The largest value in the upper right quarter of 700 x 420 px, in the darkest colour.
+  EXPECT_NE(html.find("x=\"422.0\" y=\"18.0\""), std::string::npos) << html;
+  EXPECT_NE(html.find("fill=\"#201942\"/>"), std::string::npos);
+  EXPECT_NE(html.find("<path class=\"outline\" d=\"M422.0 228.0"), std::string::npos) << html;
+  EXPECT_NE(html.find("cx=\"422.0\" cy=\"228.0\""), std::string::npos);
+  EXPECT_NE(html.find("1 Hz"), std::string::npos);
+  EXPECT_EQ(count(heatmap_svg(map), "xmlns"), 1U);
+  map.values.pop_back();
+  EXPECT_THROW(heatmap_html(map), std::logic_error);
+}
+
 TEST(Report, ComparesWithTheReference) {
   const Table table = comparison_table("Forces", "Paper",
                                        {{"Largest F_N", "kN", 193.19, 173.871, "coarse"},

@@ -1,0 +1,174 @@
+#include "drivers/multibody/calibration.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "drivers/each_item.hpp"
+#include "drivers/evaluated_stretch.hpp"
+#include "io/history_reader.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kSoftest = 0.05;  ///< of the scene's C
+constexpr double kStiffest = 3;
+constexpr int kScan = 24;    ///< values tried at first
+constexpr int kRefine = 24;  ///< more, about the best
+
+struct Curve {
+  std::vector<double> x, force;
+
+  double at(double where) const {
+    const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, where);
+    const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
+    const double share = (where - x[i]) / (x[i + 1] - x[i]);
+    return (1 - share) * force[i] + share * force[i + 1];
+  }
+};
+
+/// Model and run over the stretch that both cover.
+class Fit {
+ public:
+  Fit(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step)
+      : model_(model), step_(step), run_{run.x, run.force} {
+    const Span stretch = evaluated_stretch(model.scene, model.corrugation);
+    first = std::max(stretch.first, run.x.front());
+    last = std::min(stretch.last, run.x.back());
+    for (std::size_t i = 0; i < run.x.size(); ++i)
+      if (run.x[i] >= first && run.x[i] <= last) {
+        x.push_back(run.x[i]);
+        force_.push_back(run.force[i]);
+      }
+  }
+
+  CurveFit of_run() const { return fit(run_); }
+  CurveFit of_model(double contact) const { return fit(rolled(contact)); }
+  double misfit(double contact) const { return of_model(contact).misfit; }
+
+  double first = 0, last = 0;  ///< [m]
+  std::vector<double> x;       ///< of the run between them [m]
+
+ private:
+  Curve rolled(double contact) const {
+    MultibodyModel model = model_;
+    model.vehicle.contact = contact;
+    const MultibodyResult result = run_multibody(model, step_);
+    Curve curve;
+    for (const MultibodySample& s : result.samples) {
+      curve.x.push_back(s.x);
+      curve.force.push_back(s.force);
+    }
+    return curve;
+  }
+
+  CurveFit fit(const Curve& curve) const {
+    CurveFit fit;
+    double squares = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double value = curve.at(x[i]);
+      fit.values.push_back(value);
+      squares += (value - force_[i]) * (value - force_[i]);
+    }
+    fit.misfit = std::sqrt(squares / static_cast<double>(x.size()));
+    fit.force = statistics(
+        fit.values, [](double) { return true; }, [](double value) { return value; });
+    if (model_.scene.corrugation && model_.scene.corrugation->kind == "sine")
+      fit.shift = mean_shift(
+          crest_peaks(model_.corrugation, model_.scene.corrugation->wavelength, curve.x, curve.force));
+    return fit;
+  }
+
+  const MultibodyModel& model_;
+  MultibodyStep step_;
+  Curve run_;
+  std::vector<double> force_;  ///< of the run at x [N]
+};
+
+void require_same_passage(const Scene& scene, const TransientRun& run) {
+  const auto differs = [&](const char* key, double ours, double theirs) {
+    if (std::abs(ours - theirs) > 1e-6 * std::max(std::abs(ours), 1e-9))
+      throw InputError(fmt::format(
+          "--calibrate {}: {} is {:.6g} in the scene and {:.6g} in the run (SI); calibrate with the run's "
+          "own "
+          "scene, {}",
+          run.directory.string(), key, ours, theirs, (run.directory / "scene.resolved.toml").string()));
+  };
+  differs("motion.speed", scene.motion->speed, run.scene.motion ? run.scene.motion->speed : 0);
+  differs("the presence of [corrugation]", scene.corrugation ? 1 : 0, run.scene.corrugation ? 1 : 0);
+  if (!scene.corrugation) return;
+  const CorrugationSpec& ours = *scene.corrugation;
+  const CorrugationSpec& theirs = *run.scene.corrugation;
+  differs("corrugation.start", ours.start, theirs.start);
+  if (ours.kind != "sine" || theirs.kind != "sine") return;
+  differs("corrugation.wavelength", ours.wavelength, theirs.wavelength);
+  differs("corrugation.depth", ours.depth, theirs.depth);
+}
+
+}  // namespace
+
+TransientRun read_transient_run(const std::filesystem::path& directory) {
+  TransientRun run;
+  run.directory = directory;
+  run.scene = read_scene(directory / "scene.resolved.toml");
+  std::vector<std::vector<double>> columns =
+      read_history(directory / "histories.csv", {{"wheel_x", "m"}, {"vertical_force", "N"}});
+  run.x = std::move(columns[0]);
+  run.force = std::move(columns[1]);
+  if (run.x.size() < 2 || !std::is_sorted(run.x.begin(), run.x.end()))
+    throw InputError(fmt::format("{}: expected at least two rows with a growing wheel_x",
+                                 (directory / "histories.csv").string()));
+  return run;
+}
+
+Calibration calibrate(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step) {
+  require_same_passage(model.scene, run);
+  const Fit fit(model, run, step);
+  const double wave = model.scene.corrugation && model.scene.corrugation->kind == "sine"
+                          ? model.scene.corrugation->wavelength
+                          : 0.05;
+  if (fit.last - fit.first < wave)
+    throw InputError(fmt::format(
+        "--calibrate {}: the run covers x = {:.3f} to {:.3f} m, less than {:.3g} mm of the stretch that is "
+        "evaluated; let it roll further (motion.duration)",
+        run.directory.string(), run.x.front(), run.x.back(), 1e3 * wave));
+  Calibration c;
+  c.first = fit.first;
+  c.last = fit.last;
+  c.x = fit.x;
+  c.run = fit.of_run();
+  c.before = fit.of_model(model.vehicle.contact);
+
+  // A scan, then as many again between the neighbours of the best.
+  const auto tried = [&](double low, double high, int count) {
+    std::vector<std::pair<double, double>> found(static_cast<std::size_t>(count) + 1);
+    each_item(found.size(), [&](std::size_t i) {
+      const double factor = low * std::pow(high / low, static_cast<double>(i) / count);
+      found[i] = {factor, fit.misfit(factor * model.vehicle.contact)};
+    });
+    return found;
+  };
+  std::vector<std::pair<double, double>> all = tried(kSoftest, kStiffest, kScan);
+  const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto best = std::min_element(all.begin(), all.end(), less);
+  c.at_bound = best == all.begin() || best == all.end() - 1;
+  if (!c.at_bound) {
+    const auto finer = tried((best - 1)->first, (best + 1)->first, kRefine);
+    all.insert(all.end(), finer.begin() + 1, finer.end() - 1);
+  }
+  std::sort(all.begin(), all.end());
+  const double factor = std::min_element(all.begin(), all.end(), less)->first;
+  c.contact = factor * model.vehicle.contact;
+  c.after = fit.of_model(c.contact);
+  for (const auto& [tried_factor, misfit] : all) {
+    c.factors.push_back(tried_factor);
+    c.misfits.push_back(misfit);
+  }
+  return c;
+}
+
+}  // namespace tread

@@ -1,0 +1,150 @@
+#include "drivers/multibody/multibody_model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/evaluated_stretch.hpp"
+#include "drivers/lateral_gap.hpp"
+#include "drivers/sections.hpp"
+#include "drivers/verify/half_space.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kTopFrequency = 20e3;  ///< of the modes [Hz]
+constexpr double kBeyond = 0.1;         ///< of the way beyond what is evaluated [m]
+constexpr double kEndOfRail = 0.3;      ///< least distance of the wheel from the rail's ends [m]
+
+void require_parts(const Scene& scene) {
+  const auto need = [](bool there, const char* what) {
+    if (!there)
+      throw InputError(fmt::format(
+          "tread multibody: the scene has no {}; it needs a half wheelset under [vehicle] or [load], a rail "
+          "on fastenings, and [motion] with a speed",
+          what));
+  };
+  need(scene.wheel && scene.wheel->shape == "half_wheelset", "half wheelset ([wheel])");
+  need(scene.rail && scene.fastenings, "rail on fastenings ([rail], [fastenings])");
+  need(scene.contact.has_value(), "[contact]");
+  need(scene.motion && scene.motion->speed > 0, "speed ([motion])");
+}
+
+BeamVehicle lumped_vehicle(const Scene& scene) {
+  BeamVehicle vehicle;
+  vehicle.gravity = scene.gravity;
+  vehicle.unsprung_mass = scene.wheel->mass;
+  if (scene.vehicle) {
+    vehicle.unsprung_mass += scene.vehicle->unsprung_mass;
+    vehicle.sprung_mass = scene.vehicle->sprung_mass;
+    vehicle.stiffness = scene.vehicle->suspension_stiffness;
+    vehicle.damping = scene.vehicle->suspension_damping;
+  }
+  if (scene.load) vehicle.pressed = scene.load->wheel_load;
+  return vehicle;
+}
+
+double contact_modulus(const Material& steel) {
+  return steel.youngs_modulus / (2 * (1 - steel.poissons_ratio * steel.poissons_ratio));
+}
+
+}  // namespace
+
+const char* name_of(BeamTheory theory) {
+  return theory == BeamTheory::euler ? "Euler" : "Timoshenko";
+}
+
+double MultibodyModel::contact_stiffness() const {
+  return 1.5 * vehicle.contact * std::cbrt(vehicle.load() / vehicle.contact);
+}
+
+MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
+  require_parts(scene);
+  MultibodyModel model;
+  model.scene = scene;
+  model.theory = theory;
+  const BeamSection section = rail_beam_section(scene);
+  model.rail = theory == BeamTheory::euler ? euler(section, scene.steel) : timoshenko(section, scene.steel);
+  model.supports = rail_supports(scene);
+  model.vehicle = lumped_vehicle(scene);
+
+  const MeshSizes sizes = mesh_sizes(scene);
+  const double radius = 0.5 * scene.wheel->diameter;
+  const Section rail =
+      scene.rail->profile == "box" ? box_rail_section(scene, sizes) : rail_sections(scene, sizes).cap;
+  const Section tread = wheel_sections(scene, sizes, plan_wheel(radius, {}, sizes)).sections.tread;
+  const LateralGap gap = lateral_gap(SurfaceProfile(rail), SurfaceProfile(tread));
+  model.contact_y = gap.lowest;
+  model.radius_y = gap.radius;
+  model.patch = hertz(radius, gap.radius, contact_modulus(scene.steel), model.vehicle.load());
+  model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
+
+  if (scene.corrugation)
+    model.corrugation =
+        corrugation_of(*scene.corrugation, scene.corrugation->centre.value_or(model.contact_y));
+  model.speed = scene.motion->speed;
+  const double left = -scene.rail->origin;
+  model.start =
+      scene.start() == "rigid" ? 0 : left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
+  model.end = std::max(evaluated_stretch(scene, model.corrugation).last, model.corrugation.last()) + kBeyond;
+  const double last = left + scene.rail->length - kEndOfRail;
+  if (model.start < left + kEndOfRail || model.end > last || model.start >= model.end)
+    throw InputError(
+        fmt::format("tread multibody: the wheel would roll from x = {:.3f} to {:.3f} m, the rail lets it go "
+                    "from {:.3f} to "
+                    "{:.3f} m; state a longer rail.length or another rail.origin",
+                    model.start, model.end, left + kEndOfRail, last));
+  return model;
+}
+
+Corrugation with_wavelength(const MultibodyModel& model, double wavelength) {
+  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
+    throw InputError("tread multibody: the wavelength can only be changed where [corrugation] is a sine");
+  CorrugationSpec spec = *model.scene.corrugation;
+  spec.wavelength = wavelength;
+  return corrugation_of(spec, spec.centre.value_or(model.contact_y));
+}
+
+double contact_filter_gain(const MultibodyModel& model, double wavelength) {
+  using namespace half_space;
+  const HertzPatch& patch = model.patch;
+  const CorrugationSpec& spec = *model.scene.corrugation;
+  const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 8;
+  const Influence influence(centred_grid(2 * patch.semi_axis_x, 2 * patch.semi_axis_y, cell),
+                            {model.scene.steel.youngs_modulus, model.scene.steel.poissons_ratio});
+  const Gap smooth = quadratic_gap(0.5 * model.scene.wheel->diameter, model.radius_y);
+  const auto approach = [&](double phase) {
+    return press(
+               influence,
+               [&](double x, double y) {
+                 const double across = std::max(0.0, 1 - y * y / (spec.width * spec.width));
+                 return smooth(x, y) + 0.5 * spec.depth * across *
+                                           (1 - std::cos(2 * std::numbers::pi * x / wavelength + phase));
+               },
+               model.vehicle.load())
+        .approach;
+  };
+  return (approach(std::numbers::pi) - approach(0)) / spec.depth;
+}
+
+double apply_contact_filter(MultibodyModel& model) {
+  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
+    throw InputError("tread multibody --filter: the gain is that of a sine; [corrugation] is none");
+  CorrugationSpec spec = *model.scene.corrugation;
+  const double gain = contact_filter_gain(model, spec.wavelength);
+  spec.depth *= gain;
+  model.corrugation = corrugation_of(spec, spec.centre.value_or(model.contact_y));
+  return gain;
+}
+
+ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
+  const double length = model.scene.rail->length;
+  const int count = modes.value_or(modes_below(model.rail, length, kTopFrequency));
+  return {ModalBeam(model.rail, -model.scene.rail->origin, length, count), model.supports};
+}
+
+}  // namespace tread

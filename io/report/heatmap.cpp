@@ -1,0 +1,230 @@
+#include "io/report/heatmap.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/report/assets.hpp"
+#include "io/report/chart.hpp"
+#include "io/report/markup.hpp"
+
+namespace tread {
+
+namespace {
+
+// Page geometry [px].
+constexpr double kWidth = 920;
+constexpr double kLeft = 72;
+constexpr double kTop = 18;
+constexpr double kPlotWidth = 700;
+constexpr double kPlotHeight = 420;
+constexpr double kBottom = 46;
+constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // of the colour scale
+constexpr double kScaleWidth = 18;
+constexpr double kSeam = 0.7;  // cells overlap, so that no white shows between them
+constexpr int kShades = 48;    // of the colour scale
+
+/// From low to high: even steps of lightness, readable in grey.
+std::string colour(double share) {
+  constexpr std::array<std::array<double, 3>, 5> kStops = {
+      {{247, 244, 232}, {190, 214, 206}, {94, 156, 175}, {38, 84, 132}, {32, 25, 66}}};
+  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double part = at - static_cast<double>(i);
+  std::array<int, 3> rgb{};
+  for (std::size_t c = 0; c < 3; ++c)
+    rgb[c] = static_cast<int>(std::lround((1 - part) * kStops[i][c] + part * kStops[i + 1][c]));
+  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
+/// Borders of the cells about evenly spaced values.
+struct Cells {
+  double first, pitch;
+  double border(std::size_t i) const { return first + (static_cast<double>(i) - 0.5) * pitch; }
+};
+
+Cells cells(const std::vector<double>& values) {
+  const double pitch =
+      values.size() > 1 ? (values.back() - values.front()) / static_cast<double>(values.size() - 1) : 1;
+  return {values.front(), pitch};
+}
+
+class Plot {
+ public:
+  explicit Plot(const Heatmap& map) : map_(map), along_(cells(map.x)), up_(cells(map.y)) {
+    if (map.values.size() != map.x.size() * map.y.size() ||
+        (!map.marked.empty() && map.marked.size() != map.values.size()))
+      throw std::logic_error("heatmap '" + map.title + "': a value per cell is needed");
+    low_ = high_ = map.values.front();
+    const auto add = [this](double v) {
+      low_ = std::min(low_, v);
+      high_ = std::max(high_, v);
+    };
+    for (const double v : map.values) add(v);
+    for (const HeatDot& dot : map.dots) add(dot.value);
+    if (high_ == low_) high_ = low_ + 1;
+  }
+
+  std::string shapes() const {
+    return "<g shape-rendering=\"crispEdges\">\n" + drawn_cells() + "</g>\n" + outline() + lines() + axes() +
+           scale() + dots();
+  }
+
+ private:
+  double x(double v) const {
+    const double first = along_.border(0);
+    return kLeft + kPlotWidth * (v - first) / (along_.border(map_.x.size()) - first);
+  }
+  double y(double v) const {
+    const double first = up_.border(0);
+    return kTop + kPlotHeight * (1 - (v - first) / (up_.border(map_.y.size()) - first));
+  }
+  double share(double value) const { return (value - low_) / (high_ - low_); }
+
+  std::string drawn_cells() const {
+    std::string out;
+    for (std::size_t j = 0; j < map_.y.size(); ++j)
+      for (std::size_t i = 0; i < map_.x.size(); ++i) {
+        const double left = x(along_.border(i));
+        const double top = y(up_.border(j + 1));
+        out += fmt::format(
+            "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", left, top,
+            x(along_.border(i + 1)) - left, y(up_.border(j)) - top, colour(share(map_.at(i, j))));
+      }
+    return out;
+  }
+
+  /// Between cells that are marked and cells that are not.
+  std::string outline() const {
+    if (map_.marked.empty()) return {};
+    const std::size_t nx = map_.x.size();
+    const auto marked = [&](std::size_t i, std::size_t j) { return map_.marked[j * nx + i]; };
+    std::string path;
+    for (std::size_t j = 0; j < map_.y.size(); ++j)
+      for (std::size_t i = 0; i < nx; ++i) {
+        if (i + 1 < nx && marked(i, j) != marked(i + 1, j))
+          path += fmt::format("M{:.1f} {:.1f}V{:.1f}", x(along_.border(i + 1)), y(up_.border(j)),
+                              y(up_.border(j + 1)));
+        if (j + 1 < map_.y.size() && marked(i, j) != marked(i, j + 1))
+          path += fmt::format("M{:.1f} {:.1f}H{:.1f}", x(along_.border(i)), y(up_.border(j + 1)),
+                              x(along_.border(i + 1)));
+      }
+    return "<path class=\"outline\" d=\"" + path + "\"/>\n";
+  }
+
+  std::string lines() const {
+    std::string out;
+    for (const HeatLine& line : map_.lines) {
+      std::string path;
+      double end_x = 0, end_y = 0;
+      for (std::size_t i = 0; i < line.x.size(); ++i) {
+        const double px = x(line.x[i]);
+        const double py = y(line.y[i]);
+        if (px < kLeft - 0.01 || px > kLeft + kPlotWidth + 0.01 || py < kTop - 0.01 ||
+            py > kTop + kPlotHeight + 0.01)
+          continue;
+        path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", px, py);
+        end_x = px;
+        end_y = py;
+      }
+      if (path.empty()) continue;
+      // Beside the plot where the line leaves at its right border, else above.
+      const bool right = end_x > kLeft + kPlotWidth - 20;
+      out += "<path class=\"position\" fill=\"none\" d=\"" + path + "\"/>\n";
+      out += fmt::format("<text class=\"note{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",
+                         right ? "" : " middle", right ? kLeft + kPlotWidth + 3 : end_x,
+                         right ? end_y + 4 : kTop - 5, svg_text(line.label));
+    }
+    return out;
+  }
+
+  std::string axes() const {
+    const double bottom = kTop + kPlotHeight;
+    std::string out =
+        fmt::format("<path class=\"axis\" fill=\"none\" d=\"M{0:.0f} {1:.0f}V{2:.0f}H{3:.0f}\"/>\n", kLeft,
+                    kTop, bottom, kLeft + kPlotWidth);
+    for (const double v : ticks(map_.x.front(), map_.x.back(), 10))
+      out += fmt::format(
+          "<path class=\"axis\" d=\"M{0:.1f} {1:.0f}v5\"/><text class=\"tick middle\" "
+          "x=\"{0:.1f}\" y=\"{2:.0f}\">{3}</text>\n",
+          x(v), bottom, bottom + 18, readable(v));
+    for (const double v : ticks(map_.y.front(), map_.y.back(), 8))
+      out += fmt::format(
+          "<path class=\"axis\" d=\"M{0:.0f} {1:.1f}h-5\"/><text class=\"tick right\" "
+          "x=\"{2:.0f}\" y=\"{3:.1f}\">{4}</text>\n",
+          kLeft, y(v), kLeft - 8, y(v) + 4, readable(v));
+    out += fmt::format("<text class=\"name middle\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
+                       kLeft + kPlotWidth / 2, bottom + 38, svg_text(map_.x_label));
+    out +=
+        fmt::format("<text class=\"name middle\" transform=\"translate(16 {:.0f}) rotate(-90)\">{}</text>\n",
+                    kTop + kPlotHeight / 2, svg_text(map_.y_label));
+    return out;
+  }
+
+  std::string scale() const {
+    std::string out = "<g shape-rendering=\"crispEdges\">\n";
+    const double height = kPlotHeight / kShades;
+    for (int i = 0; i < kShades; ++i)
+      out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.2f}\" width=\"{:.0f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                         kScaleLeft, kTop + kPlotHeight - (i + 1) * height, kScaleWidth, height,
+                         colour((i + 0.5) / kShades));
+    out += "</g>\n";
+    for (const double v : ticks(low_, high_, 8))
+      out += fmt::format("<text class=\"tick\" x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n",
+                         kScaleLeft + kScaleWidth + 5, kTop + kPlotHeight * (1 - share(v)) + 4, readable(v));
+    out += fmt::format(
+        "<text class=\"name middle\" transform=\"translate({:.0f} {:.0f}) rotate(-90)\">{}</text>\n",
+        kScaleLeft + kScaleWidth + 48, kTop + kPlotHeight / 2, svg_text(map_.value_label));
+    return out;
+  }
+
+  std::string dots() const {
+    std::string out;
+    for (const HeatDot& dot : map_.dots)
+      out += fmt::format(
+          "<circle class=\"dot\" cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"7\" fill=\"{2}\"/><text class=\"dot\" "
+          "x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
+          x(dot.x), y(dot.y), colour(share(dot.value)), x(dot.x) + 11, y(dot.y) + 4, svg_text(dot.label));
+    return out;
+  }
+
+  const Heatmap& map_;
+  Cells along_, up_;
+  double low_ = 0, high_ = 1;
+};
+
+}  // namespace
+
+std::string heatmap_html(const Heatmap& map) {
+  const std::string legend = map.marked_label.empty() ? ""
+                                                      : "<div class=\"legend\"><span class=\"key\"><svg "
+                                                        "width=\"26\" height=\"8\"><path class=\"outline\" "
+                                                        "d=\"M0 4H26\"/></svg>" +
+                                                            html_text(map.marked_label) + "</span></div>\n";
+  const std::string caption =
+      map.caption.empty() ? "" : "<p class=\"caption\">" + html_text(map.caption) + "</p>\n";
+  return fmt::format(
+      "<figure>\n<figcaption>{}</figcaption>\n{}<svg viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n{}"
+      "</figure>\n",
+      html_text(map.title), legend, kWidth, kTop + kPlotHeight + kBottom, Plot(map).shapes(), caption);
+}
+
+std::string heatmap_svg(const Heatmap& map) {
+  constexpr double kHead = 26;
+  std::string head =
+      fmt::format("<text x=\"{:.0f}\" y=\"18\" font-weight=\"bold\">{}</text>\n", kLeft, svg_text(map.title));
+  if (!map.marked_label.empty())
+    head +=
+        fmt::format("<path class=\"outline\" d=\"M{0:.0f} 14h26\"/><text x=\"{1:.0f}\" y=\"18\">{2}</text>\n",
+                    kLeft + kPlotWidth - 210, kLeft + kPlotWidth - 178, svg_text(map.marked_label));
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}<g transform=\"translate(0 {4:.0f})\">\n{5}"
+      "</g>\n</svg>\n",
+      kWidth, kHead + kTop + kPlotHeight + kBottom, kReportStyle, head, kHead, Plot(map).shapes());
+}
+
+}  // namespace tread

@@ -1,0 +1,44 @@
+#pragma once
+// A value over two quantities as coloured cells, drawn as SVG.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tread {
+
+/// A value known from elsewhere, drawn over the cells in their colours.
+struct HeatDot {
+  double x = 0, y = 0;  ///< in the units of the labels
+  double value = 0;
+  std::string label;
+};
+
+/// A line over the cells.
+struct HeatLine {
+  std::vector<double> x, y;  ///< in the units of the labels
+  std::string label;         ///< written at its end
+};
+
+/// Cells about evenly spaced x and y.
+struct Heatmap {
+  std::string title;
+  std::string x_label, y_label, value_label;  ///< with units
+  std::vector<double> x, y;
+  std::vector<double> values;  ///< row by row: x runs fastest
+  std::vector<bool> marked;    ///< as many, or none: the cells that the outline encloses
+  std::string marked_label;    ///< what the outline means
+  std::vector<HeatLine> lines;
+  std::vector<HeatDot> dots;
+  std::string caption;
+
+  double at(std::size_t ix, std::size_t iy) const { return values[iy * x.size() + ix]; }
+};
+
+/// A `figure` element: title, SVG with a colour scale, caption.
+std::string heatmap_html(const Heatmap& map);
+
+/// The map as an SVG file that stands alone, title included.
+std::string heatmap_svg(const Heatmap& map);
+
+}  // namespace tread

@@ -1,0 +1,273 @@
+// The multi-body model against closed forms, the beam's finite elements and itself on finer steps.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/multibody/multibody_run.hpp"
+#include "drivers/verify/wheel_on_beam.hpp"
+#include "io/scene_reader.hpp"
+#include "tests/measured.hpp"
+
+namespace tread {
+namespace {
+
+Scene scene(double speed_km_h, const std::string& corrugation) {
+  return resolve_scene(SceneSource{"test",
+                                   "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n[motion]\n"
+                                   "speed = \"" +
+                                       std::to_string(speed_km_h) + " km/h\"\n" + corrugation,
+                                   {}})
+      .scene;
+}
+
+const char* const kCorrugationD = "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.14 mm\"\n";
+// A tenth of D's depth: the wheel stays on the rail and answers almost linearly.
+const char* const kShallow = "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.014 mm\"\n";
+
+TEST(ModalBeam, HasTheModesOfTheFiniteElements) {
+  const BeamProperties rail = multibody_model(scene(300, ""), BeamTheory::timoshenko).rail;
+  const ModalBeam modal(rail, -1, 3, 12);
+  const TrackBeam elements(rail, -1, 3, BeamEnds::guided);
+  for (int n = 1; n < 12; ++n)
+    EXPECT_NEAR(
+        modal.omega()[static_cast<std::size_t>(n)] / (2 * std::numbers::pi) / elements.eigenfrequency(n), 1,
+        2e-3)
+        << n;
+  // Scaled to a modal mass of 1: the rigid motion is 1 / sqrt(mass of the beam).
+  std::vector<double> values(12);
+  modal.shapes(0.3, values);
+  EXPECT_NEAR(values[0], 1 / std::sqrt(3 * rail.mass), 1e-12);
+}
+
+TEST(ModalTrack, StaticDeflectionIsThatOfTheBeam) {
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+    const MultibodyModel model = multibody_model(scene(300, ""), theory);
+    const TrackBeam beam = rail_beam(model.scene, model.rail);
+    const double load = model.vehicle.load();
+    for (const int modes : {60, 120}) {
+      const ModalTrack track = modal_track(model, modes);
+      for (const double x : {-0.325, 0.0, 0.11}) {
+        const ModalPassage still(track, model.vehicle, x, 1e-6);
+        EXPECT_NEAR(still.force(), load, 1e-9 * load);
+        const double wanted = beam.deflection(beam.static_state(x, load), x);
+        EXPECT_NEAR(still.rail() / wanted, 1, 2e-3) << name_of(theory) << " " << modes << " at " << x;
+      }
+    }
+    // On a Winkler foundation of the same stiffness an Euler beam gives way by 1.375 mm.
+    if (theory == BeamTheory::euler) {
+      const ModalPassage still(modal_track(model, {}), model.vehicle, 0, 1e-6);
+      measured("static deflection of the Euler rail [mm]", 1e3 * still.rail());
+      EXPECT_NEAR(still.rail(), 1.375e-3, 0.02e-3);
+    }
+  }
+}
+
+TEST(ModalPassage, StaysInEquilibrium) {
+  const MultibodyModel model = multibody_model(scene(300, ""), BeamTheory::euler);
+  const ModalTrack track = modal_track(model, {});
+  ModalPassage passage(track, model.vehicle, 0.2, passage_step(track, model.vehicle));
+  for (int i = 0; i < 2000; ++i) passage.step(0.2);
+  EXPECT_NEAR(passage.force(), model.vehicle.load(), 1e-6 * model.vehicle.load());
+}
+
+TEST(ModalPassage, WheelOscillatesOnItsContact) {
+  // On a rail that hardly moves the wheel is a mass on the linearised Hertz spring.
+  const BeamProperties stiff = {1e13, 0, 1e7, 0};
+  const ModalTrack track(ModalBeam(stiff, -1, 2, 4), {{0, 1e14, 0}});
+  BeamVehicle wheel;
+  wheel.unsprung_mass = 926;
+  wheel.contact = 9.1e10;
+  const double dt = 2e-6;
+  ModalPassage passage(track, wheel, 0, dt);
+  const double approach = std::pow(wheel.load() / wheel.contact, 2.0 / 3);
+  const double k = 1.5 * wheel.contact * std::sqrt(approach);
+  const double period = 2 * std::numbers::pi * std::sqrt(wheel.unsprung_mass / k);
+  // A rail lower by a little: F_N swings about the weight; the time between two of its upward crossings.
+  std::vector<double> crossings;
+  double before = passage.force();
+  while (crossings.size() < 3 && passage.time() < 5 * period) {
+    passage.step(0, 0.01 * approach);
+    if (before < wheel.load() && passage.force() >= wheel.load())
+      crossings.push_back(passage.time() -
+                          dt * (passage.force() - wheel.load()) / (passage.force() - before));
+    before = passage.force();
+  }
+  ASSERT_EQ(crossings.size(), 3U);
+  EXPECT_NEAR(crossings[2] - crossings[1], period, 1e-3 * period);
+}
+
+/// F_N over the corrugation at a step, at the evenly spaced places of `x`.
+std::vector<double> force_at(const MultibodyModel& model, const MultibodyStep& step,
+                             const std::vector<double>& x) {
+  const MultibodyResult r = run_multibody(model, step);
+  std::vector<double> force;
+  std::size_t i = 0;
+  for (const double at : x) {
+    while (r.samples[i + 1].x < at) ++i;
+    const double share = (at - r.samples[i].x) / (r.samples[i + 1].x - r.samples[i].x);
+    force.push_back((1 - share) * r.samples[i].force + share * r.samples[i + 1].force);
+  }
+  return force;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+  return worst;
+}
+
+constexpr double kNear = 1.8;  // a wheel that starts at rest here shows every error, too [m]
+
+std::vector<double> places() {
+  std::vector<double> x;
+  for (int i = 0; i <= 400; ++i) x.push_back(2.4 + 0.0013 * i);
+  return x;
+}
+
+TEST(Multibody, ConvergesWithTheStepInSecondOrder) {
+  MultibodyModel model = multibody_model(scene(300, kShallow), BeamTheory::euler);
+  model.start = kNear;
+  const std::vector<double> x = places();
+  const double load = model.vehicle.load();
+  const auto at = [&](double dt) { return force_at(model, {60, dt}, x); };
+  const std::vector<double> finest = at(1e-6);
+  const double coarse = difference(at(8e-6), finest) / load;
+  const double fine = difference(at(4e-6), finest) / load;
+  measured("step 8 and 4 us, error of F_N / static", coarse);
+  measured("order", std::log2(coarse / fine));
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.25);
+}
+
+TEST(Multibody, ConvergesWithTheModes) {
+  const std::vector<double> x = places();
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+    MultibodyModel model = multibody_model(scene(300, kCorrugationD), theory);
+    model.start = kNear;
+    const double load = model.vehicle.load();
+    const std::vector<double> many = force_at(model, {theory == BeamTheory::euler ? 140 : 500, {}}, x);
+    const std::vector<double> own = force_at(model, {}, x);
+    measured(name_of(theory), difference(own, many) / load);
+    EXPECT_LT(difference(own, many), 0.01 * load) << name_of(theory);
+  }
+}
+
+TEST(Multibody, AgreesWithImplicitFiniteElements) {
+  // Newmark's average acceleration on the beam's elements, the contact solved within the step.
+  const std::vector<double> x = places();
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+    MultibodyModel model = multibody_model(scene(300, kCorrugationD), theory);
+    model.start = kNear;
+    const std::vector<double> ours = force_at(model, {}, x);
+    // Under a load inside of a shear-flexible element deflections ripple: short elements.
+    const double element = theory == BeamTheory::euler ? 0.02 : 0.003;
+    TrackBeam beam(model.rail, -6.1, 15.2, BeamEnds::guided, element);
+    for (const BeamSupport& s : model.supports) beam.support(s.x, s.stiffness, s.damping);
+    constexpr double kStep = 1e-5;
+    BeamPassage passage(beam, model.vehicle, model.start, kStep);
+    std::vector<double> theirs;
+    double x_before = model.start;
+    double before = passage.force();
+    for (std::size_t i = 0; i < x.size();) {
+      const double now = model.start + model.speed * (passage.time() + kStep);
+      passage.step(now, model.roughness(now));
+      for (; i < x.size() && x[i] <= now; ++i)
+        theirs.push_back(before + (passage.force() - before) * (x[i] - x_before) / (now - x_before));
+      x_before = now;
+      before = passage.force();
+    }
+    measured(name_of(theory), difference(ours, theirs) / model.vehicle.load());
+    // Shear kinks the beam under every force: modes and elements both converge with their first power there.
+    const double bound = theory == BeamTheory::euler ? 0.005 : 0.02;
+    EXPECT_LT(difference(ours, theirs), bound * model.vehicle.load()) << name_of(theory);
+  }
+}
+
+TEST(Multibody, PassingOfFastenings) {
+  // [a shear-flexible modal beam on fastenings without length: about 6.5 % at 300, 11 % at 500 km/h]
+  for (const auto& [speed, wanted] : {std::pair{300.0, 0.065}, std::pair{500.0, 0.11}}) {
+    Scene smooth = scene(speed, "");
+    smooth.fastenings->columns = 1;
+    const auto part = [&](BeamTheory theory) {
+      const MultibodyModel model = multibody_model(smooth, theory);
+      const MultibodyResult r = run_multibody(model, {});
+      EXPECT_NEAR(r.force.mean / model.vehicle.load(), 1, 0.01);
+      measured(std::string(name_of(theory)) + ", half range over a span / static",
+               r.passing / model.vehicle.load());
+      return r.passing / model.vehicle.load();
+    };
+    const double sheared = part(BeamTheory::timoshenko);
+    EXPECT_NEAR(sheared / wanted, 1, 0.1) << speed;
+    // Without shear the rail dips far less between the fastenings.
+    EXPECT_LT(part(BeamTheory::euler), 0.4 * sheared);
+  }
+}
+
+TEST(Multibody, ShiftFallsWithSpeed) {
+  std::vector<double> shifts;
+  for (const double speed : {100.0, 180.0, 300.0, 500.0}) {
+    const MultibodyResult r =
+        run_multibody(multibody_model(scene(speed, kCorrugationD), BeamTheory::euler), {});
+    ASSERT_EQ(r.peaks.size(), 6U);
+    shifts.push_back(r.peaks.front().shift / std::numbers::pi);
+    measured("shift at the first crest [pi]", shifts.back());
+  }
+  // [paper, Fig. 26: 0.55 pi at 100 and 0.21 pi at 500 km/h by the transient model]
+  EXPECT_TRUE(std::is_sorted(shifts.rbegin(), shifts.rend()));
+}
+
+TEST(Multibody, ContactIsLostAndFoundAgain) {
+  // [paper, Fig. 28: the multi-body approach loses contact at 500 km/h, 80 mm, 0.18 mm]
+  const MultibodyModel model = multibody_model(
+      scene(500, "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.18 mm\"\n"), BeamTheory::euler);
+  const MultibodyResult r = run_multibody(model, {});
+  measured("share of the way without contact", r.loss_of_contact);
+  measured("largest F_N / static", r.force.max / model.vehicle.load());
+  EXPECT_EQ(r.force.min, 0);
+  EXPECT_GT(r.loss_of_contact, 0.01);
+  EXPECT_LT(r.loss_of_contact, 0.6);
+}
+
+TEST(Multibody, ContactFilterIsThatOfTheHalfSpace) {
+  MultibodyModel model = multibody_model(scene(300, kCorrugationD), BeamTheory::euler);
+  const double gain = contact_filter_gain(model, 0.08);
+  measured("gain at 80 mm", gain);
+  EXPECT_NEAR(gain, 0.945, 0.003);  // [docs/verification.md, contact_filter]
+  const double deepest = model.corrugation.deepest();
+  apply_contact_filter(model);
+  EXPECT_NEAR(model.corrugation.deepest(), gain * deepest, 1e-12);
+}
+
+TEST(Multibody, CorrugationIsThatOfTheScene) {
+  const MultibodyModel model = multibody_model(scene(300, kCorrugationD), BeamTheory::euler);
+  EXPECT_EQ(model.roughness(2.4), 0);
+  EXPECT_NEAR(model.roughness(2.44), 0.14e-3, 1e-15);
+  EXPECT_NEAR(model.roughness(2.46), 0.07e-3, 1e-15);
+  EXPECT_EQ(model.roughness(2.97), 0);
+  // Off its deepest line: eq. (7).
+  const MultibodyModel aside =
+      multibody_model(scene(300, std::string(kCorrugationD) + "centre = \"15 mm\"\n"), BeamTheory::euler);
+  const double across = (aside.contact_y - 0.015) / 0.030;
+  EXPECT_NEAR(aside.roughness(2.44), 0.14e-3 * (1 - across * across), 1e-15);
+}
+
+TEST(Multibody, AnUnstableStepIsAnError) {
+  const MultibodyModel model = multibody_model(scene(300, kCorrugationD), BeamTheory::euler);
+  EXPECT_THROW(run_multibody(model, {std::nullopt, 5e-5}), NumericalError);
+}
+
+TEST(Multibody, ScenesWithoutItsPartsAreRefused) {
+  Scene rigid = scene(300, "");
+  rigid.fastenings.reset();
+  EXPECT_THROW(multibody_model(rigid, BeamTheory::euler), InputError);
+  Scene far = scene(300, kCorrugationD);
+  far.corrugation->start = 8.6;
+  EXPECT_THROW(multibody_model(far, BeamTheory::euler), InputError);
+}
+
+}  // namespace
+}  // namespace tread

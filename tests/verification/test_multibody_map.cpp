@@ -1,0 +1,149 @@
+// The fit of the contact spring and the map of response.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "drivers/multibody/response_map.hpp"
+#include "io/scene_reader.hpp"
+#include "tests/measured.hpp"
+
+namespace tread {
+namespace {
+
+MultibodyModel model_of(double speed_km_h, double wavelength_mm) {
+  const std::string text =
+      "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n[motion]\nspeed = \"" +
+      std::to_string(speed_km_h) + " km/h\"\n[corrugation]\nwavelength = \"" + std::to_string(wavelength_mm) +
+      " mm\"\ndepth = \"0.1 mm\"\n";
+  MultibodyModel model =
+      multibody_model(resolve_scene(SceneSource{"test", text, {}}).scene, BeamTheory::euler);
+  model.start = 0;
+  return model;
+}
+
+constexpr MultibodyStep kQuick = {50, 1e-5};
+
+/// What a run with another contact spring would leave.
+TransientRun run_with(double factor, double speed_km_h = 300) {
+  MultibodyModel model = model_of(speed_km_h, 80);
+  model.vehicle.contact *= factor;
+  TransientRun run;
+  run.directory = "made/up";
+  run.scene = model.scene;
+  for (const MultibodySample& s : run_multibody(model, kQuick).samples) {
+    run.x.push_back(s.x);
+    run.force.push_back(s.force);
+  }
+  return run;
+}
+
+TEST(Calibration, FindsTheSpringOfTheRun) {
+  const MultibodyModel model = model_of(300, 80);
+  const Calibration c = calibrate(model, run_with(0.62), kQuick);
+  measured("fitted / true C", c.contact / model.vehicle.contact / 0.62);
+  EXPECT_NEAR(c.contact / model.vehicle.contact, 0.62, 0.01);
+  EXPECT_FALSE(c.at_bound);
+  EXPECT_LT(c.after.misfit, 0.01 * c.before.misfit + 500);
+  EXPECT_GT(c.before.force.range(), 1.1 * c.run.force.range());
+  EXPECT_NEAR(c.after.force.range(), c.run.force.range(), 0.02 * c.run.force.range());
+  EXPECT_TRUE(std::is_sorted(c.factors.begin(), c.factors.end()));
+  EXPECT_EQ(c.first, 2.44);
+  EXPECT_EQ(c.last, 2.92);
+}
+
+TEST(Calibration, SaysWhenNoSpringFits) {
+  EXPECT_TRUE(calibrate(model_of(300, 80), run_with(20), kQuick).at_bound);
+}
+
+TEST(Calibration, RefusesARunThatIsAnother) {
+  EXPECT_THROW(calibrate(model_of(250, 80), run_with(1), kQuick), InputError);
+  EXPECT_THROW(calibrate(model_of(300, 65), run_with(1), kQuick), InputError);
+  TransientRun brief = run_with(1);
+  brief.x.resize(brief.x.size() / 3);
+  brief.force.resize(brief.x.size());
+  EXPECT_THROW(calibrate(model_of(300, 80), brief, kQuick), InputError);
+}
+
+TEST(ResponseMap, AxesAreParsed) {
+  const MapAxes axes = parse_map_axes({"wavelength=40:150:2mm", "speed=100:500:10km/h"});
+  ASSERT_EQ(axes.speed.values.size(), 41U);
+  ASSERT_EQ(axes.wavelength.values.size(), 56U);
+  EXPECT_NEAR(axes.speed.values[20], 300 / 3.6, 1e-12);
+  EXPECT_NEAR(axes.wavelength.values.back(), 0.15, 1e-12);
+  EXPECT_EQ(parse_map_axes({"speed=300:300:10 km/h", "wavelength=0.05:0.08:0.01 m"}).speed.values.size(), 1U);
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"speed=100:500:10km/h", "speed=100:500:10km/h"},
+                                             {"speed=100:500:10km/h", "depth=1:2:1mm"},
+                                             {"speed=100:500km/h", "wavelength=40:150:2mm"},
+                                             {"speed=100:500:10mm", "wavelength=40:150:2mm"},
+                                             {"speed=100:500:10", "wavelength=40:150:2mm"},
+                                             {"speed=500:100:10km/h", "wavelength=40:150:2mm"},
+                                             {"speed=100:500:0km/h", "wavelength=40:150:2mm"},
+                                             {"speed=100:500:0.001km/h", "wavelength=40:150:0.1mm"},
+                                             {"speed=100:x:1km/h", "wavelength=40:150:2mm"}})
+    EXPECT_THROW(parse_map_axes(wrong), InputError) << wrong[0] << " " << wrong[1];
+}
+
+TEST(ResponseMap, PointsAreThoseOfSinglePassages) {
+  const MapAxes axes = parse_map_axes({"speed=200:300:100km/h", "wavelength=60:80:20mm"});
+  const MultibodyStep step = {50, 5e-6};
+  const ResponseMap map = response_map(model_of(120, 100), axes, step, false);
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      const MultibodyModel model =
+          model_of(200 + 100 * static_cast<double>(i), 60 + 20 * static_cast<double>(j));
+      const MultibodyResult r = run_multibody(model, step);
+      EXPECT_NEAR(map.at(i, j).max, r.force.max / model.vehicle.load(), 1e-9) << i << " " << j;
+      EXPECT_NEAR(map.at(i, j).min, r.force.min / model.vehicle.load(), 1e-9) << i << " " << j;
+      EXPECT_NEAR(map.at(i, j).loss_of_contact, r.loss_of_contact, 1e-12) << i << " " << j;
+    }
+}
+
+TEST(ResponseMap, ThreadsDoNotChangeIt) {
+  const MapAxes axes = parse_map_axes({"speed=200:300:50km/h", "wavelength=60:80:20mm"});
+  const auto with = [&](int count) {
+    set_threads(count);
+    return response_map(model_of(300, 80), axes, kQuick, true);
+  };
+  const ResponseMap one = with(1);
+  const ResponseMap three = with(3);
+  set_threads(1);
+  for (std::size_t i = 0; i < one.points.size(); ++i) {
+    EXPECT_EQ(one.points[i].max, three.points[i].max);
+    EXPECT_EQ(one.points[i].min, three.points[i].min);
+  }
+}
+
+TEST(ResponseMap, AnErrorLeavesTheThreads) {
+  const MapAxes axes = parse_map_axes({"speed=200:300:50km/h", "wavelength=60:80:20mm"});
+  set_threads(2);
+  EXPECT_THROW(response_map(model_of(300, 80), axes, {50, 1e-4}, false), NumericalError);
+  EXPECT_THROW(
+      response_map(model_of(300, 80), parse_map_axes({"speed=200:300:50km/h", "wavelength=600:800:200mm"}),
+                   kQuick, false),
+      InputError);
+  set_threads(1);
+}
+
+TEST(ResponseMap, DotsAreTheRunsOwnExtremes) {
+  const MultibodyModel model = model_of(300, 80);
+  const TransientRun run = run_with(0.8);
+  const MapDot dot = map_dot(model, run);
+  EXPECT_EQ(dot.label, "up");
+  EXPECT_EQ(dot.speed, model.speed);
+  double largest = 0;
+  for (std::size_t i = 0; i < run.x.size(); ++i)
+    if (run.x[i] > 2.44 && run.x[i] < 2.92) largest = std::max(largest, run.force[i]);
+  EXPECT_EQ(dot.max, largest / model.vehicle.load());
+  EXPECT_TRUE(dot.remark.empty()) << dot.remark;
+  MultibodyModel deeper = model;
+  deeper.scene.corrugation->depth *= 2;
+  EXPECT_FALSE(map_dot(deeper, run).remark.empty());
+}
+
+}  // namespace
+}  // namespace tread
