@@ -13,6 +13,7 @@
 #include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/multibody_command.hpp"
+#include "drivers/roughness_command.hpp"
 #include "drivers/run_command.hpp"
 #include "drivers/verify_command.hpp"
 #include "drivers/version_command.hpp"
@@ -165,6 +166,23 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
 }
 
+void add_roughness(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<tread::RoughnessOptions>();
+  options->command = command_line;
+  CLI::App& command = *app.add_subcommand(
+      "roughness", "one-third octave levels of a measured profile beside the limit of ISO 3095");
+  command.add_option("file", options->file, "two columns: along the rail, height upwards")->required();
+  command.add_option("--units", options->units,
+                     "of both columns, e.g. m,um, where the file does not state them");
+  command.add_option("--segment", options->segment, "length of the averaged segments (default: \"2 m\")");
+  command.add_flag("--depth", options->depth, "the second column counts downwards");
+  command.add_flag("--raw", options->raw, "leave spikes and pits as they are");
+  command.add_option("-o,--output", options->output, "directory for CSV, SVG and report");
+  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_flag("--json", options->json, "JSON on stdout");
+  command.callback([options] { report_problems(options->json, [&] { tread::roughness(*options); }); });
+}
+
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<tread::VerifyOptions>();
   CLI::App& command =
@@ -204,6 +222,7 @@ int run(int argc, char** argv) {
   add_check(app);
   add_mesh(app);
   add_multibody(app, command_line);
+  add_roughness(app, command_line);
   add_verify(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);
   add_plain(app, "scene-reference", "every key of a scene file, as Markdown", tread::print_scene_reference);

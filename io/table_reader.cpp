@@ -17,7 +17,7 @@ namespace tread {
 
 namespace {
 
-constexpr std::size_t kLargestTable = 16 << 20;  // [bytes]
+constexpr std::size_t kLargestTable = 128 << 20;  // [bytes]
 
 /// The texts between brackets.
 std::vector<std::string> bracketed(const std::string& line) {
@@ -50,14 +50,25 @@ Unit length_unit(const std::string& text) {
   return unit;
 }
 
+bool same_unit(const Unit& a, const Unit& b) {
+  return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator;
+}
+
 class TableParser {
  public:
-  explicit TableParser(const TableRules& rules) : rules_(rules) {}
+  explicit TableParser(const TableRules& rules) : rules_(rules) {
+    if (rules.units) units_ = {length_unit((*rules.units)[0]), length_unit((*rules.units)[1])};
+  }
 
   void read_line(const std::string& line) {
     const std::vector<std::string> units = bracketed(line);
     if (table.first.empty() && units.size() == 2) {
-      units_ = {length_unit(units[0]), length_unit(units[1])};
+      const std::array<Unit, 2> stated = {length_unit(units[0]), length_unit(units[1])};
+      for (std::size_t i = 0; i < 2; ++i)
+        if (rules_.units && !same_unit((*units_)[i], stated[i]))
+          throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", units[i],
+                                       (*rules_.units)[i]));
+      units_ = stated;
       return;
     }
     const std::vector<std::string> row = cells(line.substr(0, line.find('#')));

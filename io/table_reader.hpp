@@ -1,7 +1,9 @@
 #pragma once
 // Two-column text files: profiles and measured corrugation depths.
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace tread {
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row
+  std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
 };
 
 struct TwoColumns {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -194,6 +195,58 @@ TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
   const Outcome broken = call(good + " --json --calibrate " + folder_.string());
   EXPECT_EQ(broken.code, 2);
   EXPECT_TRUE(has(broken.out, "histories.csv:3: 1 values under 2 columns")) << broken.out;
+}
+
+TEST_F(Commands, RoughnessReadsJudgesAndWrites) {
+  const fs::path file = folder_ / "rail.txt";
+  const auto write = [&](const std::string& head) {
+    std::ofstream text(file);
+    text << head;
+    // 0.14 mm from crest to trough, 80 mm.
+    for (int i = 0; i < 4000; ++i)
+      text << fmt::format("{} {:.4f}\n", i, 70 * std::sin(2 * 3.14159265358979 * i / 80));
+  };
+  write("# x [mm] height [um]\n");
+  const Outcome outcome =
+      call(fmt::format("roughness {} --raw --json -t 1 -o {}/out", file.string(), folder_.string()));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(has(outcome.out, "\"wavelength_m\": 0.08,\n      \"level_dB_re_1_um\": 33.89")) << outcome.out;
+  EXPECT_TRUE(has(content("out/levels.csv"), "0.08,33.89"));
+  EXPECT_TRUE(has(content("out/report.html"), "limit of ISO 3095:2013"));
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "levels.svg"));
+  write("");
+  EXPECT_EQ(call("roughness " + file.string()).code, 2);  // no units
+  const Outcome stated = call(fmt::format("roughness {} --units mm,um -t 1", file.string()));
+  EXPECT_EQ(stated.code, 0);
+  EXPECT_TRUE(has(stated.out, "33.9")) << stated.out;
+  write("# x [mm] height [um]\n");
+  EXPECT_EQ(call(fmt::format("roughness {} --units m,um", file.string())).code, 2);
+}
+
+TEST_F(Commands, RoughnessNamesTheBrokenLine) {
+  const fs::path file = folder_ / "rail.txt";
+  const auto answer = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return call("roughness --json " + file.string());
+  };
+  const std::string head = "# x [m] r [um]\n0 1\n";
+  const std::pair<const char*, const char*> wrongs[] = {{"0.001 x\n", "is not a number"},
+                                                        {"0.001 1 2\n", "expected 2 numbers"},
+                                                        {"0 2\n", "must grow"},
+                                                        {"0.001 nan\n", "not finite"}};
+  for (const auto& [line, reason] : wrongs) {
+    const Outcome outcome = answer(head + line + "0.002 1\n");
+    EXPECT_EQ(outcome.code, 2) << line;
+    EXPECT_TRUE(has(outcome.out, "\"line\": 3")) << line << outcome.out;
+    EXPECT_TRUE(has(outcome.out, reason)) << line << outcome.out;
+  }
+  EXPECT_TRUE(has(answer("0 1\n0.001 2\n").out, "units are missing"));
+  EXPECT_TRUE(has(answer("# [m] [kg]\n0 1\n").out, "not a length"));
+  EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n0.003 2\n0.5 2\n").out, "no rows between"));
+  EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n").out, "no band of"));
+  EXPECT_TRUE(has(answer("").out, "at least two rows"));
+  EXPECT_EQ(call("roughness " + (folder_ / "none.txt").string()).code, 2);
+  EXPECT_EQ(call("roughness --segment 2 " + file.string()).code, 2);
 }
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
