@@ -41,8 +41,11 @@ void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
   write_text_file(directory / "scene.resolved.toml", resolved_toml(resolved));
   write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
   write_text_file(directory / "summary.json", multibody_json(outcome));
-  if (outcome.calibration)
+  write_text_file(directory / "multibody.svg", figure_svg(passage_figure(outcome)));
+  if (outcome.calibration) {
     write_text_file(directory / "calibration.csv", calibration_csv(*outcome.calibration));
+    write_text_file(directory / "calibration.svg", figure_svg(calibration_figure(outcome)));
+  }
   if (outcome.map) {
     write_text_file(directory / "map.csv", map_csv(*outcome.map));
     write_text_file(directory / "map.svg", heatmap_svg(response_heatmap(outcome)));

@@ -48,10 +48,6 @@ BeamVehicle lumped_vehicle(const Scene& scene) {
   return vehicle;
 }
 
-double contact_modulus(const Material& steel) {
-  return steel.youngs_modulus / (2 * (1 - steel.poissons_ratio * steel.poissons_ratio));
-}
-
 }  // namespace
 
 const char* name_of(BeamTheory theory) {
@@ -80,7 +76,9 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   const LateralGap gap = lateral_gap(SurfaceProfile(rail), SurfaceProfile(tread));
   model.contact_y = gap.lowest;
   model.radius_y = gap.radius;
-  model.patch = hertz(radius, gap.radius, contact_modulus(scene.steel), model.vehicle.load());
+  model.patch =
+      hertz(radius, gap.radius, contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio),
+            model.vehicle.load());
   model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
 
   if (scene.corrugation)

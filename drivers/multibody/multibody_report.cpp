@@ -39,23 +39,19 @@ Range in_sight(const MultibodyOutcome& o) {
   return {std::max(first, o.result.samples.front().x), o.result.samples.back().x};
 }
 
+Marker at_rest(const MultibodyModel& model) {
+  return {1e-3 * model.vehicle.load(), "static"};
+}
+
+std::vector<double> kilonewtons(std::vector<double> values) {
+  for (double& v : values) v *= 1e-3;
+  return values;
+}
+
 Chapter passage_chapter(const MultibodyOutcome& o) {
   const MultibodyResult& r = o.result;
-  const Marker at_rest{1e-3 * o.model.vehicle.load(), "static"};
-  const Range sight = in_sight(o);
-  Chapter chapter{"Forces", {}};
-  const bool smooth = o.model.corrugation.smooth();
-  Figure near =
-      over_the_way(smooth ? "Vertical force over the solution zone" : "Vertical force over the corrugation",
-                   o.model, sight);
-  near.panels.push_back(
-      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest}, 280));
-  if (!smooth)
-    near.panels.push_back(panel(
-        "Rail surface [mm]",
-        {curve("running surface under the wheel", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
-  chapter.blocks.emplace_back(std::move(near));
-  Figure motion = over_the_way("Deflections", o.model, sight);
+  Chapter chapter{"Forces", {passage_figure(o)}};
+  Figure motion = over_the_way("Deflections", o.model, in_sight(o));
   motion.panels.push_back(
       panel("Downwards [mm]",
             {curve("wheel", r.samples, &MultibodySample::wheel, 1e3),
@@ -65,7 +61,7 @@ Chapter passage_chapter(const MultibodyOutcome& o) {
   Figure far =
       over_the_way("Vertical force from x = 0 on", o.model, {r.samples.front().x, r.samples.back().x});
   far.panels.push_back(
-      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest}, 180));
+      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 180));
   chapter.blocks.emplace_back(std::move(far));
   if (!r.peaks.empty()) {
     Table table{"F_N about the crests",
@@ -96,19 +92,7 @@ Chapter calibration_chapter(const MultibodyOutcome& o) {
   if (c.at_bound) text += " It is the end of the range searched: no spring fits this run.";
   chapter.blocks.emplace_back(Text{text});
   chapter.blocks.emplace_back(calibration_table(c, o.model));
-  const auto kilonewtons = [](std::vector<double> values) {
-    for (double& v : values) v *= 1e-3;
-    return values;
-  };
-  Figure figure =
-      over_the_way("Vertical force: transient run and multi-body model", o.model, {c.first, c.last});
-  figure.panels.push_back(
-      panel("F_N [kN]",
-            {{"transient run", c.x, kilonewtons(c.run.values), Stroke::solid},
-             {"multi-body, Hertz spring", c.x, kilonewtons(c.before.values), Stroke::dashed},
-             {"multi-body, fitted spring", c.x, kilonewtons(c.after.values), Stroke::solid}},
-            {{1e-3 * o.model.vehicle.load(), "static"}}, 300));
-  chapter.blocks.emplace_back(std::move(figure));
+  chapter.blocks.emplace_back(calibration_figure(o));
   Figure search;
   search.title = "Difference from the run against the spring";
   search.x_label = "C / Hertz";
@@ -178,6 +162,34 @@ Chapter model_chapter(const MultibodyOutcome& o) {
 
 }  // namespace
 
+Figure passage_figure(const MultibodyOutcome& o) {
+  const MultibodyResult& r = o.result;
+  const bool smooth = o.model.corrugation.smooth();
+  Figure near =
+      over_the_way(smooth ? "Vertical force over the solution zone" : "Vertical force over the corrugation",
+                   o.model, in_sight(o));
+  near.panels.push_back(
+      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 280));
+  if (!smooth)
+    near.panels.push_back(panel(
+        "Rail surface [mm]",
+        {curve("running surface under the wheel", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
+  return near;
+}
+
+Figure calibration_figure(const MultibodyOutcome& o) {
+  const Calibration& c = *o.calibration;
+  Figure figure =
+      over_the_way("Vertical force: transient run and multi-body model", o.model, {c.first, c.last});
+  figure.panels.push_back(
+      panel("F_N [kN]",
+            {{"transient run", c.x, kilonewtons(c.run.values), Stroke::solid},
+             {"multi-body, Hertz spring", c.x, kilonewtons(c.before.values), Stroke::dashed},
+             {"multi-body, fitted spring", c.x, kilonewtons(c.after.values), Stroke::solid}},
+            {at_rest(o.model)}, 300));
+  return figure;
+}
+
 Heatmap response_heatmap(const MultibodyOutcome& o) {
   const ResponseMap& map = *o.map;
   Heatmap heat;
@@ -187,12 +199,13 @@ Heatmap response_heatmap(const MultibodyOutcome& o) {
   heat.value_label = "max F_N / static";
   for (const double v : map.axes.speed.values) heat.x.push_back(3.6 * v);
   for (const double w : map.axes.wavelength.values) heat.y.push_back(1e3 * w);
-  heat.marked_label = "border of contact loss";
   for (std::size_t j = 0; j < heat.y.size(); ++j)
     for (std::size_t i = 0; i < heat.x.size(); ++i) {
       heat.values.push_back(map.at(i, j).max);
       heat.marked.push_back(map.at(i, j).loss_of_contact > 0);
     }
+  const bool lost = std::find(heat.marked.begin(), heat.marked.end(), true) != heat.marked.end();
+  if (lost) heat.marked_label = "border of contact loss";
   constexpr int kPoints = 200;
   for (const double frequency : {400.0, 600.0, 800.0, 1000.0, 1200.0, 1600.0, 2000.0, 3000.0}) {
     HeatLine line{{}, {}, fmt::format("{:.0f} Hz", frequency)};
@@ -206,11 +219,10 @@ Heatmap response_heatmap(const MultibodyOutcome& o) {
   for (const MapDot& dot : o.dots)
     heat.dots.push_back({3.6 * dot.speed, 1e3 * dot.wavelength, dot.max, readable(dot.max, 3)});
   heat.caption = fmt::format(
-      "{} passages over the corrugation's first {} mm, less half a wave at each end; {} beam. Dashed: lines "
-      "of "
-      "one "
-      "passing frequency v / L.{}",
+      "{} passages over the corrugation's first {} mm, less half a wave at each end; {} beam. Dashed: one "
+      "passing frequency v / L.{}{}",
       map.points.size(), readable(1e3 * o.model.scene.corrugation->length), name_of(o.model.theory),
+      lost ? "" : " Contact is lost nowhere.",
       o.dots.empty() ? "" : " Dots: transient runs, in the colour of their own value, which stands beside.");
   return heat;
 }

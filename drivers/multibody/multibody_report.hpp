@@ -34,6 +34,12 @@ std::string passage_csv(const MultibodyModel& model, const MultibodyResult& resu
 std::string calibration_csv(const Calibration& calibration);
 std::string map_csv(const ResponseMap& map);
 
+/// F_N over the corrugation or the solution zone.
+Figure passage_figure(const MultibodyOutcome& outcome);
+
+/// F_N of the transient run and of both springs.
+Figure calibration_figure(const MultibodyOutcome& outcome);
+
 /// The largest F_N over static against speed and wavelength.
 Heatmap response_heatmap(const MultibodyOutcome& outcome);
 

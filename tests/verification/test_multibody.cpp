@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "drivers/multibody/multibody_run.hpp"
-#include "drivers/verify/wheel_on_beam.hpp"
 #include "io/scene_reader.hpp"
 #include "tests/measured.hpp"
 
