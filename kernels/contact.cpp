@@ -71,6 +71,16 @@ void set_bases(ContactPoint& point) {
 
 }  // namespace
 
+std::vector<NodeShare> node_shares(int points_per_direction) {
+  std::vector<NodeShare> shares;
+  for (const auto& [at, weight] : gauss(points_per_direction)) {
+    const auto [here, ahead] = nearer_end(at);
+    if (here > 0) shares.push_back({at, weight * here});
+    if (ahead > 0) shares.push_back({at - 1, weight * ahead});
+  }
+  return shares;
+}
+
 Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation corrugation)
     : rail_(&mesh.blocks[static_cast<std::size_t>(options.rail_block)]),
       wheel_(&mesh.blocks[static_cast<std::size_t>(options.wheel_block)]),

@@ -20,6 +20,16 @@
 
 namespace tread {
 
+/// An integration point near a node, along one direction of the surface.
+struct NodeShare {
+  double offset;  ///< from the node, over the faces' size [-]
+  double weight;  ///< in the node's average [-]
+};
+
+/// The points that a node averages, faces of one size on both sides of it; weights add up to 1.
+/// [theory.md, eq. 15]
+std::vector<NodeShare> node_shares(int points_per_direction);
+
 struct ContactOptions {
   int rail_block = -1;
   int wheel_block = -1;

@@ -190,7 +190,7 @@ CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& prog
 }  // namespace
 
 VerifyCase cattaneo_mindlin_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(true, 2.2e-3);
+  std::vector<VerifyInput> inputs = tyre_inputs(true);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"push", nullptr, "", 0.875, {0.05, 0.95}, "the largest tangential force over f F_N"});
   inputs.push_back({"ramp", &kTime, "ms", 2e-3, {1e-5, 0.1}, "the time of the first push"});

@@ -74,6 +74,16 @@ Grid centred_grid(double half_x, double half_y, double cell, bool node) {
   return {nx, ny, cell, cell, -0.5 * (nx - 1) * cell, -0.5 * (ny - 1) * cell};
 }
 
+double interpolated(const Grid& grid, const std::vector<double>& field, double x, double y) {
+  const double u = (x - grid.x0) / grid.dx;
+  const double v = (y - grid.y0) / grid.dy;
+  const int i = static_cast<int>(std::floor(u));
+  const int j = static_cast<int>(std::floor(v));
+  if (i < 0 || j < 0 || i + 1 >= grid.nx || j + 1 >= grid.ny) return 0;
+  const auto at = [&](int di, int dj) { return field[grid.index(i + di, j + dj)]; };
+  return std::lerp(std::lerp(at(0, 0), at(1, 0), u - i), std::lerp(at(0, 1), at(1, 1), u - i), v - j);
+}
+
 Influence::Influence(const Grid& g, const Material& m) : grid(g), material(m) {
   const double nu = m.poissons_ratio;
   const double both = 1 / (std::numbers::pi * m.shear_modulus());

@@ -34,6 +34,9 @@ struct Grid {
 /// centre, or, with `node`, a corner of four cells.
 Grid centred_grid(double half_x, double half_y, double cell, bool node = false);
 
+/// A cell field between the cells' centres, bilinear; zero beyond the outermost.
+double interpolated(const Grid& grid, const std::vector<double>& field, double x, double y);
+
 /// A coefficient for every offset |di| <= reach_x, |dj| <= reach_y of a target cell from a loaded cell.
 class OffsetTable {
  public:

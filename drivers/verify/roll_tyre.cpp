@@ -59,12 +59,14 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
         fmt::format("verify: the wheel ends at x = {:.1f} mm, before the observed stretch from {:.1f} mm on; "
                     "raise speed",
                     1e3 * s.back().wheel_x, 1e3 * first));
-  const auto mean = [&](auto value) {
+  const auto over_stretch = [&](auto value) {
     return statistics(
-               s, [&](const Sample& a) { return a.wheel_x >= first; }, value)
-        .mean;
+        s, [&](const Sample& a) { return a.wheel_x >= first; }, value);
   };
-  rolled.force = mean([](const Sample& a) { return a.longitudinal_force; });
+  const auto mean = [&](auto value) { return over_stretch(value).mean; };
+  const Statistics force = over_stretch([](const Sample& a) { return a.longitudinal_force; });
+  rolled.force = force.mean;
+  rolled.force_deviation = force.deviation / std::abs(force.mean);
   rolled.normal_force = mean([](const Sample& a) { return a.vertical_force; });
   rolled.free_creepage = s.front().creepage_mean;
   rolled.creepage = mean([](const Sample& a) { return a.creepage_mean; }) - rolled.free_creepage;

@@ -19,6 +19,7 @@ struct PatchPoint {
 struct Rolled {
   double force = 0;            ///< mean F_L [N]
   double normal_force = 0;     ///< mean F_N [N]
+  double force_deviation = 0;  ///< standard deviation of F_L / mean [-]
   double creepage = 0;         ///< mean of 28 nodes less that of free rolling [-]
   double free_creepage = 0;    ///< [-]
   double work_creepage = 0;    ///< frictional work / (F_L x way) [-]

@@ -166,7 +166,7 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
 }  // namespace
 
 VerifyCase von_mises_case() {
-  std::vector<VerifyInput> inputs = tyre_inputs(false, 2.2e-3);
+  std::vector<VerifyInput> inputs = tyre_inputs(false, 1.6e-3);
   inputs.push_back({"friction", nullptr, "", 0.5, {0.01, 2}, "the coefficient of friction f"});
   inputs.push_back({"mu", nullptr, "", 0.3, {-1.9, 1.9}, "the traction coefficient of the rolling wheel"});
   inputs.push_back({"speed", &kSpeed, "m/s", 5, {0.5, 20}, "the rolling speed"});

@@ -38,7 +38,9 @@ struct Placed {
 /// A wheel with a fine arc and a coarse one, over a flat rail of two pitches.
 class Placement {
  public:
-  explicit Placement(const Placed& placed, SurfaceKind kind = SurfaceKind::exact) : placed_(placed) {
+  /// `points`: of a face in each direction, 2 as points_inside() counts.
+  explicit Placement(const Placed& placed, SurfaceKind kind = SurfaceKind::exact, int points = 2)
+      : placed_(placed) {
     SectionSize size;
     size.surface = 2e-3;
     size.coarse = 10e-3;
@@ -53,7 +55,7 @@ class Placement {
     mesh_.add(make_swept_block("tyre", Sweep::revolved, tyre, {samples::steel()}, -0.2,
                                {{100, fine, 0}, {rest, (kTurn - 100 * fine) / rest, 0}}));
     ContactOptions options;
-    options.points = 2;  // as points_inside() counts
+    options.points = points;
     options.rail_block = 0;
     options.wheel_block = 1;
     options.penalty = kPenalty;
@@ -115,6 +117,34 @@ std::vector<Placed> placements() {
             std::pair{2.0, Vec3{0.03, -0.0031, -1.2e-4}}, std::pair{-47.11, Vec3{-0.0177, 0.0007, -1e-4}}})
         list.push_back({crown, angle, offset, corrugated});
   return list;
+}
+
+TEST(PlacedWheel, NodesAverageTheirShareOfThePoints) {
+  for (int points = 1; points <= 4; ++points) {
+    const Placement placement({0.3, 0.123, {0.0123, 0.002, -1e-4}, false}, SurfaceKind::exact, points);
+    const PatchNodes& nodes = placement.contact().nodes();
+    const SurfaceGrid& grid = nodes.grid();
+    // The node nearest to the patch's middle, all of whose points touch.
+    const auto nearest = [](const std::vector<double>& places, double to) {
+      const auto nearer = [to](double a, double b) { return std::abs(a - to) < std::abs(b - to); };
+      return std::min_element(places.begin(), places.end(), nearer) - places.begin();
+    };
+    const auto station = static_cast<int>(nearest(grid.x, placement.frame().origin.x));
+    const auto row = static_cast<int>(nearest(grid.y, placement.frame().origin.y));
+    const double along = grid.x[index(station + 1)] - grid.x[index(station)];
+    const double across = grid.y[index(row + 1)] - grid.y[index(row)];
+    double expected = 0;
+    double sum = 0;
+    for (const NodeShare& a : node_shares(points)) {
+      sum += a.weight;
+      for (const NodeShare& b : node_shares(points)) {
+        const Vec3 at{grid.x[index(station)] + a.offset * along, grid.y[index(row)] + b.offset * across, 0};
+        expected -= a.weight * b.weight * kPenalty * placement.gap(at);
+      }
+    }
+    EXPECT_NEAR(sum, 1, 1e-14);
+    EXPECT_NEAR(nodes.at(station, row).pressure / expected, 1, 1e-6) << points;
+  }
 }
 
 TEST(PlacedWheel, GapsAreThoseOfTheTorus) {

@@ -106,6 +106,18 @@ TEST(HalfSpaceNormal, CellsAndPressuresAreThoseOfContact) {
   }
 }
 
+TEST(HalfSpaceNormal, BetweenCentresFieldsAreBilinear) {
+  const Grid grid = centred_grid(3e-3, 2e-3, 1e-3);
+  std::vector<double> field(static_cast<std::size_t>(grid.size()));
+  const auto f = [](double x, double y) { return 2 + 3e3 * x - 5e3 * y + 7e6 * x * y; };
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i)
+      field[static_cast<std::size_t>(grid.index(i, j))] = f(grid.x(i), grid.y(j));
+  EXPECT_NEAR(interpolated(grid, field, 0.3e-3, -1.2e-3), f(0.3e-3, -1.2e-3), 1e-12);
+  EXPECT_NEAR(interpolated(grid, field, grid.x(2), grid.y(1)), f(grid.x(2), grid.y(1)), 1e-12);
+  EXPECT_EQ(interpolated(grid, field, 3.6e-3, 0), 0);
+}
+
 TEST(HalfSpaceNormal, ContactThatLeavesTheGridIsRefused) {
   const Influence small(centred_grid(5e-3, 5e-3, 0.5e-3), kSteel);
   EXPECT_THROW(press(small, quadratic_gap(kRadiusX, kRadiusY), kLoad), NumericalError);
