@@ -168,8 +168,8 @@ void Rolling::end(const std::string& why) {
 template <class E>
 std::string Rolling::way_on() const {
   if (!written_) return fmt::format("there is no checkpoint yet: {} starts again", session_->way_on());
-  const std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
-                                       instant(written_->time, written_->steps), session_->way_on());
+  std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
+                                 instant(written_->time, written_->steps), session_->way_on());
   if (!std::is_same_v<E, NumericalError>) return last;
   return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
 }
