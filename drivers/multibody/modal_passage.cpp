@@ -35,7 +35,7 @@ std::vector<double> ModalTrack::static_state(double x, double force) const {
   }
   system.factorise();
   std::vector<double> load(n);
-  beam_.shapes(x, load);
+  beam_.head_shapes(x, load);
   for (double& value : load) value *= force;
   return system.solve(std::move(load));
 }
@@ -104,7 +104,7 @@ ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, 
   scratch_.resize(track.supports());
   // Where the wheel lies follows from the contact's law.
   double modal = 0;
-  track.beam().shapes(x, shape_);
+  track.beam().head_shapes(x, shape_);
   for (std::size_t i = 0; i < state_.size(); ++i) modal += shape_[i] * state_[i];
   wheel_.z = modal + track.beam().residual_flexibility() * vehicle.load() +
              std::pow(vehicle.load() / vehicle.contact, 2.0 / 3);
@@ -158,7 +158,7 @@ double contact_force(double approach, double contact, double flexibility) {
 
 void ModalPassage::accelerate(double x, double roughness) {
   const ModalBeam& beam = track_->beam();
-  beam.shapes(x, shape_);
+  beam.head_shapes(x, shape_);
   double modal = 0;
   for (std::size_t i = 0; i < state_.size(); ++i) modal += shape_[i] * state_[i];
   force_ = contact_force(wheel_.z - modal - roughness, vehicle_.contact, beam.residual_flexibility());
@@ -180,7 +180,7 @@ double passage_step(const ModalTrack& track, const BeamVehicle& vehicle) {
   const double approach = std::pow(10 * vehicle.load() / vehicle.contact, 2.0 / 3);
   const double contact = 1.5 * vehicle.contact * std::sqrt(approach);
   std::vector<double> shape(static_cast<std::size_t>(beam.modes()));
-  beam.shapes(beam.left(), shape);
+  beam.head_shapes(beam.left(), shape);
   double mobility = 1 / vehicle.unsprung_mass;
   for (const double value : shape) mobility += 0.5 * value * value;  // at the end cos^2 = 1, elsewhere half
   const double stiff = contact / (1 + contact * beam.residual_flexibility());

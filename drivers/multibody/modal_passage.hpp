@@ -16,7 +16,7 @@ class ModalTrack {
 
   const ModalBeam& beam() const { return beam_; }
 
-  /// Modal coordinates at rest under a force at x, downwards [m sqrt(kg)].
+  /// Modal coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
   std::vector<double> static_state(double x, double force) const;
 
   /// Adds the modal forces of springs and dampers; `scratch` holds a value of each support.

@@ -142,7 +142,9 @@ double apply_contact_filter(MultibodyModel& model) {
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
   const double length = model.scene.rail->length;
   const int count = modes.value_or(modes_below(model.rail, length, kTopFrequency));
-  return {ModalBeam(model.rail, -model.scene.rail->origin, length, count), model.supports};
+  return {
+      ModalBeam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail)),
+      model.supports};
 }
 
 }  // namespace tread
