@@ -122,6 +122,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                                       {"contact points", "displacement"},
                                       {"surface fields"}});
   list.add(true, {"samples", "on their own clock", {"displacement", "velocity", "force"}, {"samples"}});
+  list.add(true, {"checkpoint",
+                  "a copy of the state, on the wall clock",
+                  {"displacement", "velocity", "samples"},
+                  {"checkpoint"}});
   return list.take();
 }
 
