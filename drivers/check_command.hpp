@@ -1,12 +1,13 @@
 #pragma once
 // `tread check`: what a scene would compute and cost, before anything runs.
 
+#include "drivers/machine.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {
 
 struct CheckOptions {
-  int threads = 0;    ///< 0: as many as the machine has
+  ThreadOptions threads;
   bool json = false;  ///< the figures as JSON on stdout instead of tables
 };
 

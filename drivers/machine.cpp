@@ -12,8 +12,10 @@
 
 namespace tread {
 
-void use_threads(int wanted) {
-  set_threads(wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+void use_threads(const ThreadOptions& options) {
+  if (!options.backend.empty()) set_backend(options.backend);
+  set_threads(options.number > 0 ? options.number
+                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
 
 std::int64_t peak_memory() {

@@ -3,11 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace tread {
 
-/// `wanted` threads, or as many as the machine has if it is 0.
-void use_threads(int wanted);
+struct ThreadOptions {
+  int number = 0;       ///< 0: as many as the machine has
+  std::string backend;  ///< library that runs them; empty: the default
+};
+
+/// InputError for an unknown backend.
+void use_threads(const ThreadOptions& options);
 
 /// Largest resident memory of this process so far [B].
 std::int64_t peak_memory();

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/bench_command.hpp"
 #include "drivers/check_command.hpp"
 #include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
@@ -70,21 +72,30 @@ void report_problems(bool json, const std::function<void()>& action) {
   }
 }
 
+void add_thread_options(CLI::App& command, tread::ThreadOptions& options) {
+  command.add_option("-t,--threads", options.number, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_option("--backend", options.backend,
+                     "library that runs them, openmp (default) or tbb; same bits");
+}
+
+/// Returns the option of the scene itself.
+CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("-q,--quality", arguments.quality, "draft, standard or paper; overrides scene.quality");
+  command
+      .add_option("--set", arguments.overrides,
+                  "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
+      ->allow_extra_args(false);
+  return command.add_option("scene", arguments.scene, "scene file (TOML)");
+}
+
 /// A subcommand that reads a scene: `act(resolved scene, options)`.
 template <class Options>
 CLI::App& add_scene_command(CLI::App& app, const char* name, const char* text,
                             void (*act)(const tread::ResolvedScene&, const Options&),
                             std::shared_ptr<SceneCommand<Options>> state) {
   CLI::App& command = *app.add_subcommand(name, text);
-  command.add_option("scene", state->arguments.scene, "scene file (TOML)")->required();
-  command.add_option("-q,--quality", state->arguments.quality,
-                     "draft, standard or paper; overrides scene.quality");
-  CLI::Option& set =
-      *command.add_option("--set", state->arguments.overrides,
-                          "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"");
-  set.allow_extra_args(false);
-  command.add_option("-t,--threads", state->options.threads, "threads (default: all)")
-      ->check(CLI::PositiveNumber);
+  add_scene_options(command, state->arguments)->required();
+  add_thread_options(command, state->options.threads);
   command.add_flag("--json", state->options.json, "JSON on stdout");
   command.callback([state, act] {
     report_problems(state->options.json, [&] { act(state->arguments.resolve(), state->options); });
@@ -111,7 +122,7 @@ void add_resume(CLI::App& app) {
       .add_option("--set", options->overrides,
                   "key=value for motion.duration, output.* and stop.*, e.g. --set \"stop.wall_time=2 h\"")
       ->allow_extra_args(false);
-  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  add_thread_options(command, options->threads);
   command.add_flag("--json", options->json, "summary on stdout");
   command.add_flag("--quiet", options->quiet, "no progress on stderr");
   command.callback([options] { report_problems(options->json, [&] { tread::resume_run(*options); }); });
@@ -178,7 +189,7 @@ void add_roughness(CLI::App& app, const std::string& command_line) {
   command.add_flag("--depth", options->depth, "the second column counts downwards");
   command.add_flag("--raw", options->raw, "leave spikes and pits as they are");
   command.add_option("-o,--output", options->output, "directory for CSV, SVG and report");
-  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  add_thread_options(command, options->threads);
   command.add_flag("--json", options->json, "JSON on stdout");
   command.callback([options] { report_problems(options->json, [&] { tread::roughness(*options); }); });
 }
@@ -193,7 +204,7 @@ void add_verify(CLI::App& app) {
                   "input=value for every chosen case that has it, e.g. --set \"radius=0.5 m\"")
       ->allow_extra_args(false);
   command.add_option("-o,--output", options->output, "directory for a page and figures of each case");
-  command.add_option("-t,--threads", options->threads, "threads (default: all)")->check(CLI::PositiveNumber);
+  add_thread_options(command, options->threads);
   command.add_flag("--list", options->list, "the cases and their inputs");
   command.add_flag("--json", options->json, "one JSON object a line on stdout");
   command.add_flag("--quiet", options->quiet, "no progress on stderr");
@@ -202,6 +213,78 @@ void add_verify(CLI::App& app) {
     report_problems(options->json, [&] { passed = tread::verify(*options); });
     if (!passed) throw tread::NumericalError("verify: at least one bound fails");
   });
+}
+
+void add_plan_options(CLI::App& command, tread::MeasurementPlan& plan) {
+  command.add_option("--repetitions", plan.repetitions, "runs, of which the median counts")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_bench_kernels(CLI::App& bench) {
+  auto options = std::make_shared<tread::BenchKernelsOptions>();
+  CLI::App& command =
+      *bench.add_subcommand("kernels", "every kernel on made-up data beside the machine's limits");
+  add_thread_options(command, options->threads);
+  add_plan_options(command, options->plan);
+  command.add_flag("--json", options->json, "one JSON object a line on stdout");
+  command.add_option("--kernel", options->kernels, "names of kernels (default: all)");
+  command.add_option("--elements", options->elements, "mesh sizes (default: 10000 100000 1460000)")
+      ->check(CLI::Range(100, 100000000));
+  command.add_option("--lanes", options->lanes, "instruction sets (default: all of this processor)");
+  command.add_option("--precision", options->precisions, "double, single (default: both)");
+  command.callback([options] { tread::bench_kernels(*options); });
+}
+
+void add_bench_scaling(CLI::App& bench) {
+  auto state = std::make_shared<SceneCommand<tread::BenchScalingOptions>>();
+  CLI::App& command = *bench.add_subcommand(
+      "scaling", "one to all threads, strong and weak, by every backend, and where efficiency is lost");
+  add_scene_options(command, state->arguments);
+  add_thread_options(command, state->options.threads);
+  add_plan_options(command, state->options.plan);
+  command
+      .add_option("--elements", state->options.elements,
+                  "of the made-up rail that is measured without a scene (default: 400000)")
+      ->check(CLI::Range(100, 100000000));
+  command.add_flag("--json", state->options.json, "one JSON object a line on stdout");
+  command.callback([state] {
+    if (state->arguments.scene.empty())
+      tread::bench_scaling(state->options);
+    else
+      tread::bench_scaling(state->arguments.resolve(), state->options);
+  });
+}
+
+void add_bench_hotspots(CLI::App& bench) {
+  auto state = std::make_shared<SceneCommand<tread::BenchHotspotsOptions>>();
+  CLI::App& command = add_scene_command(bench, "hotspots", "time, work and balance of every phase of a step",
+                                        tread::bench_hotspots, state);
+  command.add_option("--steps", state->options.steps, "measured (default: 500)")->check(CLI::PositiveNumber);
+  add_plan_options(command, state->options.plan);
+  command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
+}
+
+void add_bench_compare(CLI::App& bench) {
+  auto files = std::make_shared<std::array<std::string, 2>>();
+  CLI::App& command = *bench.add_subcommand(
+      "compare", "two files of `bench kernels --json`; exits 3 where the second is slower beyond the spread");
+  command.add_option("before", (*files)[0], "recorded before")->required();
+  command.add_option("after", (*files)[1], "recorded after")->required();
+  command.callback([files] {
+    if (!tread::compare_benchmarks((*files)[0], (*files)[1]))
+      throw tread::NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");
+  });
+}
+
+void add_bench(CLI::App& app) {
+  CLI::App& bench = *app.add_subcommand("bench", "how fast the program is beside what the machine can do");
+  bench.require_subcommand(1);
+  add_bench_kernels(bench);
+  add_bench_scaling(bench);
+  add_bench_hotspots(bench);
+  add_bench_compare(bench);
 }
 
 void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bool)) {
@@ -224,6 +307,7 @@ int run(int argc, char** argv) {
   add_multibody(app, command_line);
   add_roughness(app, command_line);
   add_verify(app);
+  add_bench(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);
   add_plain(app, "scene-reference", "every key of a scene file, as Markdown", tread::print_scene_reference);
   try {

@@ -3,14 +3,15 @@
 
 #include <filesystem>
 
+#include "drivers/machine.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {
 
 struct MeshOptions {
   std::filesystem::path output;  ///< directory for mesh.hdf, created if missing; empty: no file
-  int threads = 0;               ///< 0: as many as the machine has
-  bool json = false;             ///< the figures as JSON on stdout instead of tables
+  ThreadOptions threads;
+  bool json = false;  ///< the figures as JSON on stdout instead of tables
 };
 
 /// Prints counts, extreme elements, masses and inertias of the bodies and the stable step; writes the mesh.

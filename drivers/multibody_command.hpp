@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/machine.hpp"
 #include "io/scene_reader.hpp"
 
 namespace tread {
@@ -19,8 +20,8 @@ struct MultibodyOptions {
   std::vector<std::string> map;             ///< axes; empty: no map
   std::vector<std::filesystem::path> dots;  ///< directories of transient runs on the map
   std::filesystem::path output;             ///< directory of CSV, JSON and report; empty: none
-  int threads = 0;                          ///< 0: as many as the machine has
-  bool json = false;                        ///< the summary on stdout instead of a table
+  ThreadOptions threads;
+  bool json = false;  ///< the summary on stdout instead of a table
   bool quiet = false;
   std::string command;  ///< the command line, for the report
 };

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "drivers/machine.hpp"
+
 namespace tread {
 
 struct RoughnessOptions {
@@ -13,9 +15,9 @@ struct RoughnessOptions {
   bool depth = false;            ///< the second column counts downwards
   bool raw = false;              ///< neither spikes nor pits are removed
   std::filesystem::path output;  ///< directory of CSV, SVG and report; empty: none
-  int threads = 0;               ///< 0: as many as the machine has
-  bool json = false;             ///< levels as JSON on stdout instead of a table
-  std::string command;           ///< the command line, for the report
+  ThreadOptions threads;
+  bool json = false;    ///< levels as JSON on stdout instead of a table
+  std::string command;  ///< the command line, for the report
 };
 
 /// Reads, processes, prints and writes. ProblemsError with every bad line of the file, InputError.

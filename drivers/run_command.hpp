@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/machine.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/scene_reader.hpp"
 
@@ -12,11 +13,11 @@ namespace tread {
 
 struct RunOptions {
   std::filesystem::path output;  ///< directory; created if missing
-  int threads = 0;               ///< 0: as many as the machine has
-  bool json = false;             ///< summary on stdout
-  bool quiet = false;            ///< no progress on stderr
-  bool overwrite = false;        ///< an unfinished run in the directory may be thrown away
-  std::string command;           ///< as typed, for the report
+  ThreadOptions threads;
+  bool json = false;       ///< summary on stdout
+  bool quiet = false;      ///< no progress on stderr
+  bool overwrite = false;  ///< an unfinished run in the directory may be thrown away
+  std::string command;     ///< as typed, for the report
   /// Of `tread resume`: other values of motion.duration, output and stop.
   std::vector<std::string> overrides;
   CheckpointObserver observer;  ///< told of each stage of each checkpoint, by the thread that writes it

@@ -181,27 +181,39 @@ void Simulation::step() {
   sampled_ = steps_ % sampling_ == 0;
   measured_ = sampled_ || steps_ % kWatchInterval == 0;
   // 1  contact: search and gap
+  enter(StepPhase::contact_search);
   search();
   // 2  internal force K (u + beta v) of every block, with which nodes move that nothing else acts on;
   // secondary nodes hand theirs to the primaries
+  enter(StepPhase::deform);
   deform();
+  enter(StepPhase::measured);
   if (measured_) begin_sample();
+  enter(StepPhase::tied_forces);
   if (model_->ties) model_->ties->hand_over(force_.data());
   // 3  fastenings, primary suspension
+  enter(StepPhase::connectors);
   connect();
   // 4  torque, hammer; the unsprung mass shares the journal's acceleration (gravity and spin terms: with the
   // update)
+  enter(StepPhase::loads);
   drive();
   strike();
   carry();
   // 5  velocities, displacements of the rest, restraints; pressure and friction of the middle of the step;
   // ties, frames
+  enter(StepPhase::update);
   move();
+  enter(StepPhase::contact);
   roll();
+  enter(StepPhase::tied_motion);
   finish();
   // 6  fields of the rail's surface, samples
+  enter(StepPhase::surface_fields);
   record();
+  enter(StepPhase::measured);
   if (measured_) end_sample();
+  enter(StepPhase::anchor);
   if (steps_ % kAnchorInterval == 0) anchor();
 }
 

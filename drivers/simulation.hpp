@@ -9,6 +9,7 @@
 #include "core/state_list.hpp"
 #include "drivers/energy_watch.hpp"
 #include "drivers/model.hpp"
+#include "drivers/phase_clock.hpp"
 #include "drivers/preload.hpp"
 #include "kernels/surface_fields.hpp"
 #include "kernels/time_update.hpp"
@@ -80,6 +81,8 @@ class Simulation {
   /// every few steps between, are not finite or cannot be.
   void step();
   void set_sampling_interval(std::int64_t steps) { sampling_ = steps; }
+  /// Times the phases of every later step; null ends that. It must outlive the steps.
+  void observe(PhaseClock* clock) { clock_ = clock; }
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return sample_; }
 
@@ -101,6 +104,9 @@ class Simulation {
   double torque_at(double time) const;
 
  private:
+  void enter(StepPhase phase) {
+    if (clock_) clock_->enter(phase);
+  }
   void start(const Preload& preload);
   void choose_creepage_nodes(double patch_y);
   void deform();
@@ -142,6 +148,7 @@ class Simulation {
   std::int64_t sampling_ = 100;
   bool sampled_ = false;
   bool measured_ = false;  ///< energies are looked at in this step
+  PhaseClock* clock_ = nullptr;
 
   AlignedVector<double> u_, v_, force_;
   BodyFrame frame_;

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "drivers/machine.hpp"
+
 namespace tread {
 
 struct VerifyOptions {
   std::vector<std::string> names;      ///< of cases; empty: all
   std::vector<std::string> overrides;  ///< "mu=0.25", for every chosen case that has the input
   std::filesystem::path output;        ///< directory for verify.md and the figures; empty: none
-  int threads = 0;                     ///< 0: as many as the machine has
-  bool json = false;                   ///< one object a line on stdout instead of a table
-  bool list = false;                   ///< cases and their inputs instead of running them
+  ThreadOptions threads;
+  bool json = false;  ///< one object a line on stdout instead of a table
+  bool list = false;  ///< cases and their inputs instead of running them
   bool quiet = false;
 };
 

@@ -629,8 +629,14 @@ ElementFrequency BasicInternalForce<Real>::max_frequency(int block) const {
 template <class Real>
 std::int64_t BasicInternalForce<Real>::perturbed_elements() const {
   std::int64_t count = 0;
-  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block)
-    for_each_element(block, [&](const Place& at) { count += at.lanes >= 0; });
+  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) count += perturbed_elements(block);
+  return count;
+}
+
+template <class Real>
+std::int64_t BasicInternalForce<Real>::perturbed_elements(int block) const {
+  std::int64_t count = 0;
+  for_each_element(block, [&](const Place& at) { count += at.lanes >= 0; });
   return count;
 }
 

@@ -89,8 +89,9 @@ class BasicInternalForce {
   ElementFrequency max_frequency() const;
   ElementFrequency max_frequency(int block) const;
 
-  /// Elements with coefficients of their own (whole lanes of a tile's quad).
+  /// Elements with coefficients of their own (whole lanes of a tile's quad), of all blocks or of one.
   std::int64_t perturbed_elements() const;
+  std::int64_t perturbed_elements(int block) const;
 
   /// Bytes of coefficients and buffers.
   std::int64_t bytes() const;

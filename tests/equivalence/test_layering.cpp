@@ -76,7 +76,6 @@ TEST(Layering, LibrariesStayInTheirFolders) {
   const std::map<std::string, std::set<std::string>> homes = {
       {"hdf5.h", {"io"}},
       {"toml++/toml.h", {"io"}},
-      {"omp.h", {"core"}},
       {"CLI/CLI.hpp", {"drivers"}},
   };
   for (const std::string folder : {"core", "kernels", "io", "drivers"})
@@ -91,12 +90,27 @@ TEST(Layering, LibrariesStayInTheirFolders) {
     }
 }
 
+TEST(Layering, ThreadLibrariesStandBehindTheOneInterface) {
+  const std::string interface = "core/parallel_";
+  for (const std::string folder : {"core", "kernels", "io", "drivers"})
+    for (const Include& include : includes_of(folder)) {
+      const bool inside = include.file.compare(0, interface.size(), interface) == 0;
+      const std::string top = first_folder(include.target);
+      if (include.target == "omp.h" || top == "oneapi" || top == "tbb") {
+        EXPECT_TRUE(inside) << include.file << " includes " << include.target;
+      }
+      if (include.target == "core/parallel_backend.hpp") {
+        EXPECT_TRUE(inside || include.file == "core/parallel.cpp") << include.file;
+      }
+    }
+}
+
 TEST(Layering, PragmasForThreadsStandInTheOneInterface) {
   const fs::path root = TREAD_SOURCE_DIR;
   for (const std::string folder : {"core", "kernels", "io", "drivers"})
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
-      if (entry.path() == root / "core/parallel.cpp") continue;
+      if (entry.path() == root / "core/parallel_openmp.cpp") continue;
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);)
         EXPECT_FALSE(line.find("#pragma omp") != std::string::npos && line.find("simd") == std::string::npos)

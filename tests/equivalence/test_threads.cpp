@@ -1,8 +1,10 @@
-// One thread or several: the same bits.
+// One thread or several, OpenMP or TBB: the same bits.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -22,7 +24,8 @@ struct Run {
 };
 
 /// Mesh, preload, corrugation, step and rolling of a small scene with all that a wheel can have.
-Run run(const Scene& scene, int threads) {
+Run run(const Scene& scene, int threads, std::string_view by) {
+  set_backend(by);
   set_threads(threads);
   Model model(scene);
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
@@ -33,17 +36,19 @@ Run run(const Scene& scene, int threads) {
   const auto steps = static_cast<std::int64_t>(std::ceil(scene.motion->duration / dt));
   while (simulation.steps() < steps) simulation.step();
   set_threads(1);
+  set_backend(backends().front());
   return {simulation.state_hash(), preload.residual, dt, simulation.sample()};
 }
 
-void expect_same_bits(const Scene& scene, const std::vector<int>& counts) {
-  const Run one = run(scene, 1);
+/// Of a run with one thread, and those of runs that (threads, backend) describe.
+void expect_same_bits(const Scene& scene, const std::vector<std::pair<int, std::string_view>>& teams) {
+  const Run one = run(scene, 1, "openmp");
   EXPECT_GT(one.sample.vertical_force, 1e4);
   EXPECT_GT(one.sample.energy.frictional_work, 0);
   EXPECT_TRUE(std::isfinite(one.sample.energy.residual));
-  for (const int threads : counts) {
-    const Run more = run(scene, threads);
-    EXPECT_EQ(more.hash, one.hash) << threads << " threads";
+  for (const auto& [threads, by] : teams) {
+    const Run more = run(scene, threads, by);
+    EXPECT_EQ(more.hash, one.hash) << threads << " threads by " << by;
     EXPECT_EQ(more.preload_residual, one.preload_residual);
     EXPECT_EQ(more.dt, one.dt);
     EXPECT_EQ(more.sample.vertical_force, one.sample.vertical_force);
@@ -61,7 +66,7 @@ TEST(Threads, RollingOverCorrugationGivesTheSameBits) {
                         "solution_zone.start=5 mm", "corrugation.kind=sine", "corrugation.wavelength=20 mm",
                         "corrugation.depth=0.04 mm", "corrugation.width=30 mm", "corrugation.start=5 mm",
                         "corrugation.length=40 mm", "corrugation.apply=gap"}),
-                   {2, 3});
+                   {{2, "openmp"}, {3, "openmp"}, {1, "tbb"}, {2, "tbb"}, {3, "tbb"}});
 }
 
 TEST(Threads, FacetsAndMovedNodesGiveTheSameBits) {
@@ -70,7 +75,7 @@ TEST(Threads, FacetsAndMovedNodesGiveTheSameBits) {
                            "contact.surface=facets", "corrugation.kind=sine", "corrugation.wavelength=20 mm",
                            "corrugation.depth=0.04 mm", "corrugation.width=30 mm", "corrugation.start=5 mm",
                            "corrugation.length=40 mm", "corrugation.apply=nodes"}),
-      {3});
+      {{3, "openmp"}, {3, "tbb"}});
 }
 
 }  // namespace

@@ -240,7 +240,7 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=0.3 ms",
                                            "output.checkpoint_interval=1 ms"};
   RunOptions options;
-  options.threads = 1;
+  options.threads.number = 1;
   options.quiet = true;
   options.output = root_ / "short";
   ASSERT_EQ(wait_for(child([&] { run_scene(resolve_scene(fs::path(scene()), values), options); })), 0);

@@ -1,0 +1,66 @@
+#include "drivers/bench/bench_row.hpp"
+
+#include <fmt/core.h>
+
+#include "drivers/plain_text.hpp"
+#include "io/json_writer.hpp"
+
+namespace tread {
+
+std::string json_line(const BenchRow& row) {
+  const BenchKey& key = row.key;
+  JsonWriter json(JsonWriter::Layout::line);
+  json.begin_object()
+      .member("kernel", std::string_view(key.kernel))
+      .member("path", std::string_view(key.path))
+      .member("precision", std::string_view(key.precision))
+      .member("backend", std::string_view(key.backend))
+      .member("lanes", std::string_view(key.lanes))
+      .member("threads", key.threads)
+      .member("elements", key.elements)
+      .member("element_steps_per_s", row.rate())
+      .member("gb_per_s", 1e-9 * row.rate() * row.work.bytes)
+      .member("gflops", 1e-9 * row.rate() * row.work.flops)
+      .member("fraction_of_limit", row.fraction_of_limit())
+      .member("limited_by", row.limit.name())
+      .member("unit", std::string_view(row.unit))
+      .member("bytes_per_element_step", row.work.bytes)
+      .member("flops_per_element_step", row.work.flops)
+      .member("spread", row.measured.spread)
+      .member("repetitions", row.measured.repetitions)
+      .end_object();
+  return json.text();
+}
+
+Table bench_table(const std::vector<BenchRow>& rows) {
+  Table table{"",
+              {{"Kernel"},
+               {"Path"},
+               {"Precision"},
+               {"Backend"},
+               {"Lanes"},
+               {"Threads", Align::right},
+               {"Units", Align::right},
+               {""},
+               {"ns/unit", Align::right},
+               {"GB/s", Align::right},
+               {"GFLOP/s", Align::right},
+               {"Of limit", Align::right},
+               {""},
+               {"Spread", Align::right}},
+              {}};
+  for (const BenchRow& row : rows) {
+    const bool counted = row.limit.seconds > 0;
+    table.rows.push_back({row.key.kernel, row.key.path, row.key.precision, row.key.backend, row.key.lanes,
+                          std::to_string(row.key.threads), grouped(row.key.elements), row.unit,
+                          fmt::format("{:.3g}", 1e9 / row.rate()),
+                          row.work.bytes > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.bytes) : "",
+                          row.work.flops > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.flops) : "",
+                          counted ? fmt::format("{:.2f}", row.fraction_of_limit()) : "",
+                          counted ? row.limit.name() : "",
+                          fmt::format("{:.0f} %", 100 * row.measured.spread)});
+  }
+  return table;
+}
+
+}  // namespace tread

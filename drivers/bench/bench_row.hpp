@@ -1,0 +1,45 @@
+#pragma once
+// One measured result of `tread bench`.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/bench/limits.hpp"
+#include "drivers/bench/measurement.hpp"
+#include "drivers/bench/work.hpp"
+#include "io/report.hpp"
+
+namespace tread {
+
+/// What is measured: rows of two files with the same key are compared.
+struct BenchKey {
+  std::string kernel;
+  std::string path;  ///< version of the kernel
+  std::string precision;
+  std::string backend;  ///< that runs the threads
+  std::string lanes;    ///< instruction set
+  int threads = 1;
+  std::int64_t elements = 0;
+
+  auto operator<=>(const BenchKey&) const = default;
+};
+
+struct BenchRow {
+  BenchKey key;
+  std::string unit;  ///< what `elements` counts: "element", "node", ...
+  Measurement measured;
+  Work work;    ///< by unit
+  Limit limit;  ///< of a step over all units
+
+  double rate() const { return static_cast<double>(key.elements) / measured.seconds; }  ///< units a second
+  /// Of the rate that the binding limit allows; 0 where nothing is counted.
+  double fraction_of_limit() const { return limit.seconds / measured.seconds; }
+};
+
+/// One JSON object in a line.
+std::string json_line(const BenchRow& row);
+
+Table bench_table(const std::vector<BenchRow>& rows);
+
+}  // namespace tread

@@ -1,0 +1,93 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/error.hpp"
+#include "drivers/bench/bench_row.hpp"
+#include "drivers/bench_command.hpp"
+#include "drivers/plain_text.hpp"
+#include "io/json_lines.hpp"
+
+namespace tread {
+
+namespace {
+
+/// What a comparison needs of a row.
+struct Recorded {
+  double rate;    ///< element-steps a second
+  double spread;  ///< [-]
+};
+
+template <class T>
+T member(const JsonRecord& record, const std::string& name, const std::filesystem::path& path) {
+  const auto found = record.find(name);
+  if (found == record.end() || !std::holds_alternative<T>(found->second))
+    throw InputError(
+        fmt::format("{}: a line has no {} '{}'; expected what `tread bench kernels --json` prints",
+                    path.string(), std::is_same_v<T, double> ? "number" : "text", name));
+  return std::get<T>(found->second);
+}
+
+std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path) {
+  std::map<BenchKey, Recorded> rows;
+  for (const JsonRecord& record : read_json_lines(path)) {
+    const auto text = [&](const char* name) { return member<std::string>(record, name, path); };
+    const auto number = [&](const char* name) { return member<double>(record, name, path); };
+    const BenchKey key{text("kernel"),
+                       text("path"),
+                       text("precision"),
+                       text("backend"),
+                       text("lanes"),
+                       static_cast<int>(number("threads")),
+                       static_cast<std::int64_t>(number("elements"))};
+    rows[key] = {number("element_steps_per_s"), number("spread")};
+  }
+  return rows;
+}
+
+}  // namespace
+
+bool compare_benchmarks(const std::filesystem::path& before_path, const std::filesystem::path& after_path) {
+  const auto before = read_rows(before_path);
+  const auto after = read_rows(after_path);
+  Table table{"",
+              {{"Kernel"},
+               {"Path"},
+               {"Precision"},
+               {"Backend"},
+               {"Lanes"},
+               {"Threads", Align::right},
+               {"Units", Align::right},
+               {"Before, 1e6/s", Align::right},
+               {"After, 1e6/s", Align::right},
+               {"Change", Align::right},
+               {"Spread", Align::right},
+               {""}},
+              {}};
+  int regressions = 0;
+  for (const auto& [key, now] : after) {
+    const auto then = before.find(key);
+    if (then == before.end()) continue;
+    const double change = now.rate / then->second.rate - 1;
+    const double spread = std::max(now.spread, then->second.spread);
+    const bool slower = change < -spread;
+    regressions += slower;
+    table.rows.push_back(
+        {key.kernel, key.path, key.precision, key.backend, key.lanes, std::to_string(key.threads),
+         grouped(key.elements), fmt::format("{:.4g}", 1e-6 * then->second.rate),
+         fmt::format("{:.4g}", 1e-6 * now.rate), fmt::format("{:+.1f} %", 100 * change),
+         fmt::format("{:.1f} %", 100 * spread), slower ? "SLOWER" : (change > spread ? "faster" : "")});
+  }
+  if (table.rows.empty())
+    throw InputError(fmt::format(
+        "bench compare: no row of '{}' has a counterpart in '{}': same kernel, path, precision, backend, "
+        "lanes, threads and elements",
+        after_path.string(), before_path.string()));
+  fmt::print("{}{} rows compared, {} only before, {} only after, {} slower by more than the spread\n",
+             plain_text(table), table.rows.size(), before.size() - table.rows.size(),
+             after.size() - table.rows.size(), regressions);
+  return regressions == 0;
+}
+
+}  // namespace tread

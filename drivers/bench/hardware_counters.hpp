@@ -1,0 +1,28 @@
+#pragma once
+// Cycles, instructions and cache misses of all threads, where the system lets a program count them.
+
+#include <array>
+#include <string>
+
+#include "drivers/phase_clock.hpp"
+
+namespace tread {
+
+class HardwareCounters {
+ public:
+  /// Counts in this thread and those that it starts from now on: to be made before the first parallel call.
+  HardwareCounters();
+  ~HardwareCounters();
+  HardwareCounters(const HardwareCounters&) = delete;
+  HardwareCounters& operator=(const HardwareCounters&) = delete;
+
+  bool available() const { return reason_.empty(); }
+  const std::string& reason() const { return reason_; }  ///< why they are not
+  CounterValues read() const;
+
+ private:
+  std::array<int, 3> files_ = {-1, -1, -1};
+  std::string reason_;
+};
+
+}  // namespace tread

@@ -1,0 +1,183 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "drivers/bench/hardware_counters.hpp"
+#include "drivers/bench/rolling_scene.hpp"
+#include "drivers/bench/step_work.hpp"
+#include "drivers/bench_command.hpp"
+#include "drivers/plain_text.hpp"
+#include "drivers/run_results.hpp"
+#include "io/json_writer.hpp"
+#include "kernels/internal_force.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::int64_t kWarmUpSteps = 20;
+
+/// A phase in the mean of the measured steps.
+struct Hotspot {
+  const char* name;
+  double seconds;         ///< of a step [s]
+  double parallel_share;  ///< of it, in parallel calls [-]
+  double imbalance;       ///< slowest thread's busy time over the mean; 0: never parallel
+  Load load;
+  Limit limit;
+  CounterValues counters;  ///< of all steps
+};
+
+double imbalance(const ParallelTimes& times) {
+  double sum = 0;
+  double most = 0;
+  for (const ParallelTimes::Thread& thread : times.by_thread) {
+    sum += thread.busy;
+    most = std::max(most, thread.busy);
+  }
+  return sum > 0 ? most * threads() / sum : 0;
+}
+
+std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, std::int64_t steps,
+                                 Limits& limits) {
+  std::vector<Hotspot> spots;
+  Hotspot whole{"whole step", 0, 0, 0, {}, {}, {}};
+  for (std::size_t i = 0; i < kStepPhases; ++i) {
+    const auto phase = static_cast<StepPhase>(i);
+    const PhaseTimes& times = clock.times(phase);
+    Hotspot spot{name_of(phase),
+                 times.seconds / static_cast<double>(steps),
+                 times.parallel.wall / times.seconds,
+                 imbalance(times.parallel),
+                 phase_load(model, phase),
+                 {},
+                 times.counters};
+    spot.limit = limits.of(spot.load, true, model.internal->instruction_set());
+    whole.seconds += spot.seconds;
+    whole.parallel_share += spot.parallel_share * spot.seconds;
+    whole.load.flops += spot.load.flops;
+    whole.load.bytes += spot.load.bytes;
+    whole.limit.seconds += spot.limit.seconds;
+    whole.counters.cycles += spot.counters.cycles;
+    whole.counters.instructions += spot.counters.instructions;
+    whole.counters.cache_misses += spot.counters.cache_misses;
+    spots.push_back(spot);
+  }
+  whole.parallel_share /= whole.seconds;
+  spots.push_back(whole);
+  return spots;
+}
+
+std::string optional_text(double value, const char* format) {
+  return value > 0 ? fmt::format(fmt::runtime(format), value) : "";
+}
+
+Table hotspot_table(const std::vector<Hotspot>& spots, bool counted) {
+  Table table{"",
+              {{"Phase"},
+               {"us/step", Align::right},
+               {"Share", Align::right},
+               {"In parallel", Align::right},
+               {"Imbalance", Align::right},
+               {"MB/step", Align::right},
+               {"GB/s", Align::right},
+               {"MFLOP/step", Align::right},
+               {"GFLOP/s", Align::right},
+               {"Of limit", Align::right},
+               {""}},
+              {}};
+  if (counted) {
+    table.columns.push_back({"Instructions/cycle", Align::right});
+    table.columns.push_back({"Cache misses/1000 instr.", Align::right});
+  }
+  const double whole = spots.back().seconds;
+  for (const Hotspot& s : spots) {
+    std::vector<std::string> row = {s.name,
+                                    fmt::format("{:.1f}", 1e6 * s.seconds),
+                                    fmt::format("{:.1f} %", 100 * s.seconds / whole),
+                                    fmt::format("{:.0f} %", 100 * s.parallel_share),
+                                    optional_text(s.imbalance, "{:.2f}"),
+                                    optional_text(1e-6 * s.load.bytes, "{:.2f}"),
+                                    optional_text(1e-9 * s.load.bytes / s.seconds, "{:.2f}"),
+                                    optional_text(1e-6 * s.load.flops, "{:.2f}"),
+                                    optional_text(1e-9 * s.load.flops / s.seconds, "{:.2f}"),
+                                    optional_text(s.limit.seconds / s.seconds, "{:.2f}"),
+                                    s.limit.seconds > 0 && &s != &spots.back() ? s.limit.name() : ""};
+    if (counted) {
+      const auto instructions = static_cast<double>(std::max<std::int64_t>(1, s.counters.instructions));
+      const auto cycles = static_cast<double>(std::max<std::int64_t>(1, s.counters.cycles));
+      row.push_back(fmt::format("{:.2f}", instructions / cycles));
+      row.push_back(fmt::format("{:.2f}", 1e3 * static_cast<double>(s.counters.cache_misses) / instructions));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string json_lines(const std::vector<Hotspot>& spots, std::int64_t elements, bool counted) {
+  std::string lines;
+  for (const Hotspot& s : spots) {
+    JsonWriter json(JsonWriter::Layout::line);
+    json.begin_object()
+        .member("phase", s.name)
+        .member("backend", backend())
+        .member("threads", threads())
+        .member("elements", elements)
+        .member("seconds_per_step", s.seconds)
+        .member("share", s.seconds / spots.back().seconds)
+        .member("parallel_share", s.parallel_share)
+        .member("imbalance", s.imbalance)
+        .member("bytes_per_step", s.load.bytes)
+        .member("flops_per_step", s.load.flops)
+        .member("gb_per_s", 1e-9 * s.load.bytes / s.seconds)
+        .member("gflops", 1e-9 * s.load.flops / s.seconds)
+        .member("fraction_of_limit", s.limit.seconds / s.seconds);
+    if (counted)
+      json.member("cycles", s.counters.cycles)
+          .member("instructions", s.counters.instructions)
+          .member("cache_misses", s.counters.cache_misses);
+    lines += json.end_object().text();
+  }
+  return lines;
+}
+
+}  // namespace
+
+void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& options) {
+  const HardwareCounters counters;  // before the threads start, so that theirs count
+  use_threads(options.threads);
+  const Progress progress(options.quiet);
+  const RollingScene scene(resolved.scene, progress);
+  Simulation simulation = scene.start();
+  const std::int64_t all = step_count(resolved.scene, scene.dt());
+  const std::int64_t before = std::min(kWarmUpSteps, all / 2);
+  const std::int64_t last = std::min(all, before + options.steps);
+  while (simulation.steps() < before) simulation.step();
+  PhaseClock clock(counters.available() ? std::function<CounterValues()>([&] { return counters.read(); })
+                                        : std::function<CounterValues()>());
+  simulation.observe(&clock);
+  while (simulation.steps() < last) simulation.step();
+  simulation.observe(nullptr);
+  clock.stop();
+
+  Limits limits(options.plan);
+  const std::int64_t steps = last - before;
+  const std::vector<Hotspot> spots = hotspots_of(scene.model(), clock, steps, limits);
+  const std::int64_t elements = scene.model().elements();
+  if (options.json) {
+    fmt::print("{}", json_lines(spots, elements, counters.available()));
+    return;
+  }
+  fmt::print(
+      "{} elements, {} steps, {} thread{} of {}, {}; {:.2f} ns an element-step, {:.2f} million a second\n",
+      grouped(elements), steps, threads(), threads() == 1 ? "" : "s", backend(),
+      scene.model().internal->instruction_set(), 1e9 * spots.back().seconds / static_cast<double>(elements),
+      1e-6 * static_cast<double>(elements) / spots.back().seconds);
+  fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
+  fmt::print("Phases run one after the other: nothing overlaps.\n");
+  if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());
+}
+
+}  // namespace tread

@@ -1,0 +1,170 @@
+#include "drivers/bench/kernel_cases.hpp"
+
+#include <memory>
+
+#include "core/body_frame.hpp"
+#include "core/parallel.hpp"
+#include "drivers/bench/made_up_blocks.hpp"
+#include "kernels/internal_force.hpp"
+#include "kernels/time_update.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kDisplacement = 1e-5;  ///< of made-up fields [m]
+constexpr double kVelocity = 0.1;       ///< [m/s]
+constexpr double kForce = 1;            ///< [N]
+constexpr double kBeta = 1e-10;         ///< of damped paths [s]
+constexpr double kStep = 1e-10;         ///< so short that repeated steps leave the data what they are [s]
+
+PreparedKernel prepare_empty(std::int64_t elements) {
+  PreparedKernel kernel;
+  kernel.units = elements;
+  kernel.timed.call = [elements] { parallel_ranges(elements, [](std::int64_t, std::int64_t) {}); };
+  return kernel;
+}
+
+/// A block with all that a step of it needs.
+template <class Real>
+struct BlockData {
+  BlockData(const ElementVariant& variant, std::int64_t elements)
+      : mesh(made_up_mesh(variant.sweep, variant.perturbed, elements)),
+        internal(mesh),
+        u(made_up_field<Real>(mesh, kDisplacement)),
+        v(made_up_field<Real>(mesh, kVelocity)),
+        f(made_up_field<Real>(mesh, kForce)),
+        inverse_mass(static_cast<std::size_t>(mesh.slots), Real(1e5)),
+        update(mesh, inverse_mass.data()) {
+    internal.set_finite_rotation(0, variant.finite_rotation);
+    if (variant.damped) internal.set_beta(0, kBeta);
+    loads.dt = kStep;
+    loads.gravity = 9.81;
+    loads.frame.spin = 194;
+  }
+  void force() { internal.internal_force(u.data(), v.data(), f.data()); }
+  void force_and_motion() {
+    internal.move(update, loads, u.data(), v.data(), f.data());
+    update.move_rest(loads, fields(), internal.unmoved_tiles());
+  }
+  void motion() { update.move_all(loads, fields()); }
+  BasicUpdateFields<Real> fields() { return {u.data(), v.data(), f.data()}; }
+
+  Mesh mesh;
+  BasicInternalForce<Real> internal;
+  AlignedVector<Real> u, v, f, inverse_mass;
+  BasicTimeUpdate<Real> update;
+  StepLoads loads;
+};
+
+void set_work(PreparedKernel& kernel, std::int64_t units, const Work& work) {
+  kernel.units = units;
+  kernel.work = work;
+  kernel.working_set = static_cast<std::int64_t>(work.bytes * static_cast<double>(units));
+}
+
+template <class Real>
+PreparedKernel prepare_element(const ElementVariant& variant, std::int64_t elements) {
+  const auto data = std::make_shared<BlockData<Real>>(variant, elements);
+  PreparedKernel kernel;
+  if (variant.moves)
+    kernel.timed.call = [data] { data->force_and_motion(); };
+  else
+    kernel.timed.call = [data] { data->force(); };
+  const SweptBlock& block = data->mesh.blocks.front();
+  set_work(kernel, block.elements(), element_work(variant, block, sizeof(Real)));
+  kernel.lanes = data->internal.instruction_sets();
+  kernel.use_lanes = [data](const char* name) { data->internal.use_instruction_set(name); };
+  return kernel;
+}
+
+std::string path_of(const ElementVariant& variant) {
+  std::string path = variant.sweep == Sweep::revolved ? "revolved" : "extruded";
+  if (variant.perturbed) path += " perturbed";
+  path += variant.finite_rotation ? ", finite rotation" : ", linear";
+  return variant.damped ? path + ", damped" : path;
+}
+
+template <class Real>
+void add_element(std::vector<KernelCase>& cases, const ElementVariant& variant) {
+  cases.push_back({variant.moves ? "force_and_motion" : "internal_force", path_of(variant),
+                   sizeof(Real) == sizeof(double), "element",
+                   [variant](std::int64_t elements) { return prepare_element<Real>(variant, elements); }});
+}
+
+/// What runs with the widest instruction set alone.
+std::vector<const char*> widest() {
+  return {InternalForce::instruction_sets().front()};
+}
+
+template <class Real>
+void add_update(std::vector<KernelCase>& cases, const char* path, Sweep sweep, bool vertical_only) {
+  cases.push_back({"update", path, sizeof(Real) == sizeof(double), "node", [=](std::int64_t elements) {
+                     ElementVariant variant;
+                     variant.sweep = sweep;
+                     const auto data = std::make_shared<BlockData<Real>>(variant, elements);
+                     if (vertical_only) data->update.set_vertical_only(0);
+                     PreparedKernel kernel;
+                     kernel.timed.call = [data] { data->motion(); };
+                     set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, sizeof(Real)));
+                     kernel.lanes = widest();
+                     return kernel;
+                   }});
+}
+
+struct TieData {
+  explicit TieData(std::int64_t elements)
+      : blocks(made_up_tied_blocks(elements)),
+        ties(blocks.mesh, {blocks.tie}),
+        u(made_up_field<double>(blocks.mesh, kDisplacement)),
+        v(made_up_field<double>(blocks.mesh, kVelocity)),
+        f(u.size(), 0.0) {}
+  TiedBlocks blocks;
+  Ties ties;
+  AlignedVector<double> u, v, f;
+};
+
+PreparedKernel prepare_tie(bool hand_over, std::int64_t elements) {
+  const auto data = std::make_shared<TieData>(elements);
+  PreparedKernel kernel;
+  if (hand_over)
+    kernel.timed.call = [data] { data->ties.hand_over(data->f.data()); };
+  else
+    kernel.timed.call = [data] { data->ties.follow({data->u.data(), data->v.data()}); };
+  set_work(kernel, data->ties.secondary_count(), hand_over ? tie_hand_over_work() : tie_follow_work(2));
+  kernel.lanes = widest();
+  return kernel;
+}
+
+}  // namespace
+
+std::vector<KernelCase> kernel_cases() {
+  std::vector<KernelCase> cases;
+  cases.push_back({"empty", "harness", true, "element", prepare_empty});
+  for (const Sweep sweep : {Sweep::extruded, Sweep::revolved})
+    for (const bool perturbed : {false, true})
+      for (const bool finite_rotation : {false, true})
+        for (const bool damped : {false, true}) {
+          if (perturbed && damped) continue;
+          ElementVariant variant{sweep, damped, finite_rotation, perturbed};
+          for (const bool moves : {false, true}) {
+            variant.moves = moves;
+            add_element<double>(cases, variant);
+            add_element<float>(cases, variant);
+          }
+        }
+  for (const bool vertical_only : {false, true}) {
+    const char* path = vertical_only ? "fixed, vertical only" : "fixed";
+    add_update<double>(cases, path, Sweep::extruded, vertical_only);
+    add_update<float>(cases, path, Sweep::extruded, vertical_only);
+  }
+  add_update<double>(cases, "spinning", Sweep::revolved, false);
+  add_update<float>(cases, "spinning", Sweep::revolved, false);
+  for (const bool hand_over : {true, false})
+    cases.push_back({hand_over ? "tie_hand_over" : "tie_follow", "1:3", true, "tied node",
+                     [hand_over](std::int64_t elements) { return prepare_tie(hand_over, elements); }});
+  add_contact_cases(cases);
+  return cases;
+}
+
+}  // namespace tread

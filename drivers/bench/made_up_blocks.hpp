@@ -1,0 +1,28 @@
+#pragma once
+// Blocks of a wanted number of elements, of the sizes and proportions of the paper's rail and tread, for
+// kernels on made-up data.
+
+#include <cstdint>
+
+#include "core/aligned.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/tie.hpp"
+
+namespace tread {
+
+/// One block of about `elements` elements. A revolved one is a full turn. `shifted`: every node is moved a
+/// little, so that all elements carry coefficients of their own.
+Mesh made_up_mesh(Sweep sweep, bool shifted, std::int64_t elements);
+
+/// Two straight blocks of about `elements` elements in all, tied one to three.
+struct TiedBlocks {
+  Mesh mesh;
+  TieSpec tie;
+};
+TiedBlocks made_up_tied_blocks(std::int64_t elements);
+
+/// A smooth vector field of about `size`, 3 * mesh.slots values, zero in unused lanes.
+template <class Real>
+AlignedVector<Real> made_up_field(const Mesh& mesh, double size);
+
+}  // namespace tread

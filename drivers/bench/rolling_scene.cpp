@@ -1,0 +1,29 @@
+#include "drivers/bench/rolling_scene.hpp"
+
+#include <fmt/core.h>
+
+#include "core/error.hpp"
+#include "drivers/run_results.hpp"
+#include "drivers/start.hpp"
+#include "drivers/static_system.hpp"
+
+namespace tread {
+
+RollingScene::RollingScene(const Scene& scene, const Progress& progress) {
+  if (!scene.motion)
+    throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
+  model_ = std::make_unique<Model>(scene);
+  preload_ = solve_preload(*model_, steady_motion(*model_),
+                           [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); });
+  if (scene.corrugation)
+    model_->apply_corrugation(scene.corrugation->centre.value_or(preload_.contact.pressure_peak.y));
+  dt_ = scene.motion->step_safety * step_limit(*model_).stable_step;
+}
+
+Simulation RollingScene::start() const {
+  Simulation simulation(*model_, preload_, dt_);
+  simulation.set_sampling_interval(sampling_interval(model_->scene, dt_));
+  return simulation;
+}
+
+}  // namespace tread

@@ -1,0 +1,215 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "drivers/bench/limits.hpp"
+#include "drivers/bench/made_up_blocks.hpp"
+#include "drivers/bench/rolling_scene.hpp"
+#include "drivers/bench_command.hpp"
+#include "drivers/plain_text.hpp"
+#include "io/json_writer.hpp"
+#include "kernels/internal_force.hpp"
+#include "kernels/time_update.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Held by an element, about: three vectors and the inverse mass of a node. [B]
+constexpr double kBytes = 10 * sizeof(double);
+
+/// Where the core-time of a step goes. [s]
+struct StepTimes {
+  Measurement measured;  ///< wall clock
+  double parallel = 0;   ///< wall clock within parallel calls
+  double busy = 0;       ///< of all threads within bodies
+};
+
+StepTimes time_steps(const std::function<void()>& step, const MeasurementPlan& plan) {
+  ParallelTimes times;
+  std::int64_t calls = 0;
+  measure_parallel(&times);
+  StepTimes result;
+  result.measured = measure({[&] {
+                              step();
+                              ++calls;
+                            }},
+                            plan);
+  measure_parallel(nullptr);
+  result.parallel = times.wall / static_cast<double>(calls);
+  for (const ParallelTimes::Thread& thread : times.by_thread)
+    result.busy += thread.busy / static_cast<double>(calls);
+  return result;
+}
+
+struct ScalingRow {
+  const char* kind;  ///< "strong" or "weak"
+  std::string_view backend;
+  int threads;
+  std::int64_t elements;
+  StepTimes step;
+  StepTimes one;  ///< of the first row
+  double triad;   ///< bandwidth on as many bytes, over that of one thread [-]
+
+  /// Work over that of the first row.
+  double growth() const { return kind[0] == 'w' ? threads : 1; }
+  double core_time() const { return threads * step.measured.seconds; }
+  double efficiency() const { return growth() * one.measured.seconds / core_time(); }
+  /// Of the core-time, what one thread alone would not have needed: outside of parallel calls ...
+  double lost_serial() const {
+    return (threads * (step.measured.seconds - step.parallel) -
+            growth() * (one.measured.seconds - one.parallel)) /
+           core_time();
+  }
+  /// ... waiting within them for work or for the slowest thread ...
+  double lost_waiting() const { return (threads * step.parallel - step.busy) / core_time(); }
+  /// ... and because the same work takes longer beside the other threads.
+  double lost_slower() const { return (step.busy - growth() * one.parallel) / core_time(); }
+};
+
+/// What `threads()` threads do at a time; made anew for every mesh.
+using StepMaker = std::function<std::function<void()>(std::int64_t elements)>;
+
+std::function<void()> made_up_step(std::int64_t elements) {
+  struct Data {
+    explicit Data(std::int64_t count)
+        : mesh(made_up_mesh(Sweep::extruded, false, count)),
+          internal(mesh),
+          u(made_up_field<double>(mesh, 1e-5)),
+          v(u.size(), 0.0),
+          f(u.size(), 0.0),
+          inverse_mass(static_cast<std::size_t>(mesh.slots), 1e5),
+          update(mesh, inverse_mass.data()) {}
+    Mesh mesh;
+    InternalForce internal;
+    AlignedVector<double> u, v, f, inverse_mass;
+    TimeUpdate update;
+  };
+  const auto data = std::make_shared<Data>(elements);
+  return [data] {
+    StepLoads loads;
+    loads.dt = 1e-10;  // far below the stable step: the data stay bounded
+    data->internal.move(data->update, loads, data->u.data(), data->v.data(), data->f.data());
+    data->update.move_rest(loads, {data->u.data(), data->v.data(), data->f.data()},
+                           data->internal.unmoved_tiles());
+  };
+}
+
+/// Rows for one to `most` threads of every backend. The first is the same for all: one thread needs no
+/// backend.
+class Scaling {
+ public:
+  Scaling(const BenchScalingOptions& options) : options_(options), limits_(options.plan) {
+    use_threads(options.threads);
+    most_ = threads();
+    teams_ = options.threads.backend.empty() ? backends() : std::vector<std::string_view>{backend()};
+  }
+
+  void measure_kind(const char* kind, std::int64_t elements, const StepMaker& make) {
+    const bool grows = kind[0] == 'w';
+    StepTimes one;
+    double alone = 0;  ///< a triad on one thread [s]
+    auto step = make(elements);
+    for (int count = 1; count <= most_; ++count) {
+      set_threads(count);
+      const std::int64_t size = grows ? count * elements : elements;
+      if (grows && count > 1) step = make(size);
+      for (const std::string_view team : teams_) {
+        if (count == 1 && team != teams_.front()) continue;
+        set_backend(team);
+        const StepTimes times = time_steps(step, options_.plan);
+        const double triad =
+            limits_.triad(static_cast<std::int64_t>(kBytes * static_cast<double>(size))).seconds;
+        if (count == 1) {
+          one = times;
+          alone = triad;
+        }
+        rows_.push_back({kind, team, count, size, times, one, alone / triad});
+      }
+    }
+  }
+
+  void print() const { fmt::print("{}", options_.json ? json() : plain_text(table())); }
+
+ private:
+  Table table() const {
+    Table table{"",
+                {{"Kind"},
+                 {"Backend"},
+                 {"Threads", Align::right},
+                 {"Elements", Align::right},
+                 {"ns/element-step", Align::right},
+                 {"1e6/s", Align::right},
+                 {"Efficiency", Align::right},
+                 {"Lost: serial", Align::right},
+                 {"waiting", Align::right},
+                 {"slower", Align::right},
+                 {"Triad", Align::right},
+                 {"Spread", Align::right}},
+                {}};
+    const auto percent = [](double share) { return fmt::format("{:.1f} %", 100 * share); };
+    for (const ScalingRow& r : rows_) {
+      const double each = r.step.measured.seconds / static_cast<double>(r.elements);
+      table.rows.push_back({r.kind, r.threads == 1 ? "" : std::string(r.backend), std::to_string(r.threads),
+                            grouped(r.elements), fmt::format("{:.2f}", 1e9 * each),
+                            fmt::format("{:.1f}", 1e-6 / each), percent(r.efficiency()),
+                            percent(r.lost_serial()), percent(r.lost_waiting()), percent(r.lost_slower()),
+                            fmt::format("{:.2f}", r.triad), percent(r.step.measured.spread)});
+    }
+    return table;
+  }
+
+  std::string json() const {
+    std::string lines;
+    for (const ScalingRow& r : rows_) {
+      JsonWriter json(JsonWriter::Layout::line);
+      json.begin_object()
+          .member("kind", r.kind)
+          .member("backend", r.backend)
+          .member("threads", r.threads)
+          .member("elements", r.elements)
+          .member("seconds_per_step", r.step.measured.seconds)
+          .member("element_steps_per_s", static_cast<double>(r.elements) / r.step.measured.seconds)
+          .member("efficiency", r.efficiency())
+          .member("lost_serial", r.lost_serial())
+          .member("lost_waiting", r.lost_waiting())
+          .member("lost_slower", r.lost_slower())
+          .member("triad_ratio", r.triad)
+          .member("spread", r.step.measured.spread)
+          .member("repetitions", r.step.measured.repetitions)
+          .end_object();
+      lines += json.text();
+    }
+    return lines;
+  }
+
+  BenchScalingOptions options_;
+  Limits limits_;
+  int most_ = 1;
+  std::vector<std::string_view> teams_;
+  std::vector<ScalingRow> rows_;
+};
+
+}  // namespace
+
+void bench_scaling(const BenchScalingOptions& options) {
+  Scaling scaling(options);
+  for (const char* kind : {"strong", "weak"}) scaling.measure_kind(kind, options.elements, made_up_step);
+  scaling.print();
+}
+
+void bench_scaling(const ResolvedScene& resolved, const BenchScalingOptions& options) {
+  Scaling scaling(options);
+  const Progress progress(options.json);
+  const RollingScene scene(resolved.scene, progress);
+  const auto simulation = std::make_shared<Simulation>(scene.start());
+  scaling.measure_kind("strong", scene.model().elements(),
+                       [&](std::int64_t) { return [simulation] { simulation->step(); }; });
+  scaling.print();
+}
+
+}  // namespace tread

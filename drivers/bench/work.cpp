@@ -1,0 +1,122 @@
+#include "drivers/bench/work.hpp"
+
+#include "drivers/bench/counted.hpp"
+#include "kernels/element_body.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kCorners = 4;
+constexpr double kComponents = 3;
+
+/// One element between the nodal sums and differences and the forces on them, as the tile loop runs it, with
+/// the additions into its four corners.
+template <bool finite_rotation, class Element>
+void run_element(const Element& element, const SweptConstants<Counted>& constants) {
+  Strain<Counted> strain{};
+  Strain<Counted> force{};
+  for (int i = 0; i < 3; ++i) {
+    const Counted s[kCorners] = {};
+    const Counted d[kCorners] = {};
+    Counted a[kModes] = {};
+    to_modes(s, d, a);
+    element.strain(i, a, strain);
+  }
+  stress_forces<finite_rotation>(constants, strain, force);
+  element.scale_by_volume(force);
+  hourglass_forces(constants.hourglass, strain, force);
+  for (int i = 0; i < 3; ++i) {
+    Counted a[kModes] = {};
+    Counted s[kCorners] = {};
+    Counted d[kCorners] = {};
+    element.forces(i, force, a);
+    from_modes(a, s, d);
+    Counted sum = 0;
+    for (int j = 0; j < kCorners; ++j) sum += s[j] + d[j];
+  }
+}
+
+template <bool finite_rotation>
+double element_flops(const ElementVariant& variant) {
+  const SweptConstants<Counted> constants{};
+  const std::int64_t before = Counted::operations();
+  if (variant.perturbed) {
+    const LanePositions<Counted> lanes{};
+    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(lanes, 0, constants), constants);
+  } else if (variant.sweep == Sweep::revolved) {
+    run_element<finite_rotation>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
+  } else {
+    run_element<finite_rotation>(SweptElement<Sweep::extruded, Counted>{constants}, constants);
+  }
+  return static_cast<double>(Counted::operations() - before);
+}
+
+/// Of a node of the section and one element along the sweep: sum and difference of its ends, their forces,
+/// the sum with the neighbour's.
+double node_flops(const ElementVariant& variant) {
+  double flops = kComponents * (2 + 2 + 1);
+  if (variant.damped) flops += kComponents * 2;
+  if (variant.sweep == Sweep::extruded) return flops;
+  Counted s[3] = {};
+  Counted d[3] = {};
+  const std::int64_t before = Counted::operations();
+  turn_to_middle(Counted(1), Counted(0), s, d);
+  turn_to_nodes(Counted(1), Counted(0), s, d);
+  return flops + static_cast<double>(Counted::operations() - before);
+}
+
+}  // namespace
+
+Work element_work(const ElementVariant& variant, const SweptBlock& block, int value_bytes) {
+  const auto elements = static_cast<double>(block.elements());
+  const double quads = static_cast<double>(block.section.quads.size());
+  const double slots = static_cast<double>(block.slots()) / elements;
+  Work work;
+  work.flops = (variant.finite_rotation ? element_flops<true>(variant) : element_flops<false>(variant)) +
+               node_flops(variant) * block.section.nodes() / quads;
+  if (variant.moves) {
+    // Displacement and velocity in and out, inverse mass; the force does not leave the caches.
+    work.flops += update_work(variant.sweep, false, value_bytes).flops * slots;
+    work.bytes = (4 * kComponents + 1) * value_bytes * slots;
+  } else {
+    const int fields = variant.damped ? 4 : 3;  // displacement; force, fetched and written; velocity
+    work.bytes = fields * kComponents * value_bytes * slots;
+  }
+  if (variant.perturbed) work.bytes += int{kModes} * kComponents * value_bytes + sizeof(int) / double{kLanes};
+  return work;
+}
+
+Work update_work(Sweep sweep, bool vertical_only, int value_bytes) {
+  // Counted in kernels/node_motion_body.hpp: per component f / m + g, v, u; in the spinning frame two
+  // accelerations with their centrifugal term, half of each before and after the turn, and the axial
+  // component.
+  const double components = vertical_only ? 1 : kComponents;
+  const double flops = sweep == Sweep::revolved ? 33 : 6 * components;
+  // Displacement and velocity in and out, force, inverse mass.
+  return {flops, (5 * components + 1) * value_bytes};
+}
+
+namespace {
+
+// Of one to three: a primary node has 5 x 5 secondary ones, nine times as many there are in all; a secondary
+// node has one or two primary ones across, always two along, some of them without weight.
+constexpr double kHandedOver = 25.0 / 9;
+constexpr double kFollowed = 5.0 / 3 * 2;
+constexpr double kPrimaries = 1.0 / 9;
+constexpr double kLinkFlops = 13;  ///< weight; four products and two sums of t and r with the turn, two of y
+constexpr double kVectorBytes = kComponents * sizeof(double);
+
+}  // namespace
+
+Work tie_hand_over_work() {
+  // Secondary forces in, primary ones in and out.
+  return {kHandedOver * kLinkFlops, kVectorBytes * (1 + 2 * kPrimaries)};
+}
+
+Work tie_follow_work(int fields) {
+  // Secondary values fetched and written, primary ones in.
+  return {fields * kFollowed * kLinkFlops, fields * kVectorBytes * (2 + kPrimaries)};
+}
+
+}  // namespace tread

@@ -1,0 +1,36 @@
+#pragma once
+// What kernels compute and move: the numerators of the roofline. [docs/performance.md, How it is counted]
+
+#include <cstdint>
+
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// Of one step over one unit (an element, a node, ...).
+struct Work {
+  double flops = 0;  ///< additions, multiplications and divisions
+  double bytes = 0;  ///< fields read and written once, none twice
+};
+
+/// Which version of the element a block runs.
+struct ElementVariant {
+  Sweep sweep = Sweep::extruded;
+  bool damped = false;
+  bool finite_rotation = false;
+  bool perturbed = false;  ///< coefficients by element
+  bool moves = false;      ///< its nodes move in the same pass
+};
+
+/// Internal force of a block of one such variant, by element. `value_bytes`: of a number.
+Work element_work(const ElementVariant& variant, const SweptBlock& block, int value_bytes);
+
+/// Velocities and displacements of an extruded or a revolved block, by node slot. `value_bytes`: of a number.
+Work update_work(Sweep sweep, bool vertical_only, int value_bytes);
+
+/// Forces of secondary nodes handed to the primary ones, and `fields` that follow back, by secondary node, in
+/// a tie of one to three.
+Work tie_hand_over_work();
+Work tie_follow_work(int fields);
+
+}  // namespace tread

@@ -1,0 +1,152 @@
+// `tread bench` as a user calls it. Nothing here judges a time: machines that run tests are busy.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "io/json_lines.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Bench : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Exit code; what it prints is left in `file`.
+  int call(const std::string& arguments, const std::string& file = "out") const {
+    const std::string command =
+        fmt::format("{} bench {} >{} 2>/dev/null", TREAD_EXECUTABLE, arguments, (folder_ / file).string());
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+  std::vector<JsonRecord> records(const std::string& file = "out") const {
+    return read_json_lines(folder_ / file);
+  }
+  std::string path(const char* name) const { return (folder_ / name).string(); }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_bench_{}", ::getpid());
+};
+
+double number(const JsonRecord& record, const char* name) {
+  return std::get<double>(record.at(name));
+}
+std::string text(const JsonRecord& record, const char* name) {
+  return std::get<std::string>(record.at(name));
+}
+
+constexpr const char* kSmoke = "--repetitions 2 --run-seconds 0 --json";
+
+constexpr const char* kAllButStream =
+    "--kernel empty multiply_add internal_force force_and_motion update tie_hand_over tie_follow "
+    "contact_search contact_resolve "
+    "surface_fields";
+
+TEST_F(Bench, KernelsStateEveryKey) {
+  ASSERT_EQ(call(fmt::format("kernels -t 1 --elements 3000 {} {}", kSmoke, kAllButStream)), 0);
+  std::set<std::string> kernels;
+  for (const JsonRecord& row : records()) {
+    const std::string name = text(row, "kernel") + ", " + text(row, "path");
+    kernels.insert(text(row, "kernel"));
+    EXPECT_TRUE(text(row, "precision") == "double" || text(row, "precision") == "single") << name;
+    EXPECT_EQ(text(row, "backend"), "openmp");
+    EXPECT_FALSE(text(row, "lanes").empty());
+    EXPECT_EQ(number(row, "threads"), 1);
+    EXPECT_GT(number(row, "elements"), 0) << name;
+    EXPECT_GT(number(row, "element_steps_per_s"), 0) << name;
+    EXPECT_GE(number(row, "spread"), 0) << name;
+    if (text(row, "kernel") == "empty") continue;
+    EXPECT_GT(number(row, "gb_per_s") + number(row, "gflops"), 0) << name;
+    EXPECT_GT(number(row, "fraction_of_limit"), 0) << name;
+    EXPECT_LT(number(row, "fraction_of_limit"), 3) << name;
+  }
+  EXPECT_EQ(kernels.size(), 10U);
+}
+
+TEST_F(Bench, SeveralThreadsAreMeasuredByEveryBackend) {
+  ASSERT_EQ(call(fmt::format("kernels -t 2 --elements 3000 {} --kernel update tie_follow", kSmoke)), 0);
+  std::set<std::string> backends;
+  for (const JsonRecord& row : records()) {
+    backends.insert(text(row, "backend"));
+    EXPECT_EQ(number(row, "threads"), 2);
+  }
+  EXPECT_EQ(backends, (std::set<std::string>{"openmp", "tbb"}));
+}
+
+TEST_F(Bench, KernelsRefuseUnknownNames) {
+  EXPECT_EQ(call("kernels --kernel internal_forse"), 2);
+  EXPECT_EQ(call("kernels --lanes avx1024"), 2);
+  EXPECT_EQ(call("kernels --precision half"), 2);
+  EXPECT_EQ(call("kernels --backend pthreads"), 2);
+  EXPECT_EQ(call("kernels --elements 0"), 2);
+}
+
+TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
+  const auto write = [&](const char* name, double rate, double spread) {
+    std::ofstream(folder_ / name) << fmt::format(
+        "{{\"kernel\": \"k\", \"path\": \"p\", \"precision\": \"double\", \"backend\": \"openmp\", "
+        "\"lanes\": \"avx2\", \"threads\": 2, \"elements\": 10, \"element_steps_per_s\": {}, \"spread\": "
+        "{}}}\n",
+        rate, spread);
+  };
+  write("before", 100, 0.05);
+  write("same", 96, 0.02);
+  write("slow", 94, 0.02);
+  write("noisy", 94, 0.1);
+  write("fast", 200, 0.01);
+  for (const auto& [after, code] : {std::pair{"same", 0}, {"slow", 3}, {"noisy", 0}, {"fast", 0}})
+    EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path(after))), code) << after;
+  std::ofstream(folder_ / "other") << "{\"kernel\": \"k\"}\n";
+  EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("other"))), 2);
+  EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("none"))), 2);
+}
+
+TEST_F(Bench, CompareReadsTheBaseline) {
+  const std::string baseline = std::string(TREAD_SOURCE_DIR) + "/perf/baseline.json";
+  EXPECT_EQ(call(fmt::format("compare {} {}", baseline, baseline)), 0);
+}
+
+TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
+  ASSERT_EQ(call(fmt::format("scaling -t 2 --elements 2000 {}", kSmoke)), 0);
+  const auto rows = records();
+  ASSERT_EQ(rows.size(), 6U);  // strong and weak: one thread, two by either backend
+  for (const JsonRecord& row : rows) {
+    const double lost = number(row, "lost_serial") + number(row, "lost_waiting") + number(row, "lost_slower");
+    EXPECT_NEAR(number(row, "efficiency") + lost, 1, 0.5);  // the median against the mean of the runs
+    EXPECT_GT(number(row, "triad_ratio"), 0);
+  }
+  EXPECT_EQ(number(rows[4], "elements"), 2 * number(rows[3], "elements"));
+}
+
+TEST_F(Bench, HotspotsCoverTheWholeStep) {
+  ASSERT_EQ(call(fmt::format("hotspots {}/scenes/tyre.toml -t 2 --quiet --steps 40 --set "
+                             "\"scene.element_size=8 mm\" --set \"motion.duration=0.05 ms\" {}",
+                             TREAD_SOURCE_DIR, kSmoke)),
+            0);
+  double shares = 0;
+  std::set<std::string> phases;
+  for (const JsonRecord& row : records()) {
+    phases.insert(text(row, "phase"));
+    EXPECT_GT(number(row, "seconds_per_step"), 0) << text(row, "phase");
+    if (text(row, "phase") != "whole step") shares += number(row, "share");
+    if (text(row, "phase") != "force and motion") continue;
+    EXPECT_GT(number(row, "bytes_per_step"), 0);
+    EXPECT_GE(number(row, "imbalance"), 1);
+    EXPECT_LE(number(row, "imbalance"), 2);
+  }
+  EXPECT_NEAR(shares, 1, 1e-9);
+  EXPECT_EQ(phases.count("contact"), 1U);
+  EXPECT_EQ(phases.count("whole step"), 1U);
+}
+
+}  // namespace
+}  // namespace tread

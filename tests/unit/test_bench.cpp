@@ -1,0 +1,115 @@
+// What `tread bench` counts, measures and reads.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "drivers/bench/counted.hpp"
+#include "drivers/bench/made_up_blocks.hpp"
+#include "drivers/bench/measurement.hpp"
+#include "drivers/bench/work.hpp"
+#include "io/json_lines.hpp"
+#include "kernels/element_body.hpp"
+
+namespace tread {
+namespace {
+
+std::int64_t operations(const std::function<void()>& body) {
+  const std::int64_t before = Counted::operations();
+  body();
+  return Counted::operations() - before;
+}
+
+TEST(Counted, CountsWhatTheElementBodyDoes) {
+  // The butterfly: 24 additions both ways a component, less the eighth mode, which no element needs.
+  Counted s[4] = {1, 2, 3, 4};
+  Counted d[4] = {5, 6, 7, 8};
+  Counted a[kModes] = {};
+  EXPECT_EQ(operations([&] { to_modes(s, d, a); }), 7 + 8);
+  EXPECT_EQ(operations([&] { from_modes(a, s, d); }), 2 + 4 + 4 + 4);
+  // Two products and a sum for each of four values that turn.
+  Counted x[3] = {1, 2, 3};
+  Counted y[3] = {4, 5, 6};
+  EXPECT_EQ(operations([&] { turn_to_middle(Counted(0.8), Counted(0.6), x, y); }), 12);
+}
+
+TEST(ElementWork, GrowsWithWhatTheElementDoes) {
+  const Mesh mesh = made_up_mesh(Sweep::extruded, false, 8000);
+  const SweptBlock& block = mesh.blocks.front();
+  const Work plain = element_work({}, block, 8);
+  const Work damped = element_work({Sweep::extruded, true, false, false}, block, 8);
+  const Work turning = element_work({Sweep::revolved, false, true, false}, block, 8);
+  const Work perturbed = element_work({Sweep::extruded, false, false, true}, block, 8);
+  EXPECT_GT(plain.flops, 200);
+  EXPECT_LT(plain.flops, 350);
+  EXPECT_GT(turning.flops, plain.flops);
+  EXPECT_GT(perturbed.flops, 1.5 * plain.flops);
+  // Displacement in, force out, velocity in with damping: 24 B a slot each; seven positions an element.
+  const double slots = static_cast<double>(block.slots()) / static_cast<double>(block.elements());
+  EXPECT_DOUBLE_EQ(plain.bytes, 48 * slots);
+  EXPECT_DOUBLE_EQ(damped.bytes, 72 * slots);
+  EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 7 * 24 + 0.5);
+  EXPECT_DOUBLE_EQ(element_work({}, block, 4).bytes, 24 * slots);
+}
+
+TEST(MadeUpBlocks, HaveTheWantedSize) {
+  for (const std::int64_t elements : {2000, 30000})
+    for (const Sweep sweep : {Sweep::extruded, Sweep::revolved})
+      EXPECT_NEAR(static_cast<double>(made_up_mesh(sweep, false, elements).blocks.front().elements()),
+                  static_cast<double>(elements), 300);
+  const TiedBlocks tied = made_up_tied_blocks(10000);
+  EXPECT_GT(Ties(tied.mesh, {tied.tie}).secondary_count(), 400);
+}
+
+TEST(Measurement, TakesTheMedianAndTheSpread) {
+  const Measurement odd = summarise({3, 1, 2});
+  EXPECT_EQ(odd.seconds, 2);
+  EXPECT_EQ(odd.spread, 1);
+  EXPECT_EQ(odd.fastest, 1);
+  EXPECT_EQ(summarise({4, 1, 2, 3}).seconds, 2.5);
+  int calls = 0;
+  int resets = 0;
+  const Measurement measured = measure({[&] { ++calls; }, [&] { ++resets; }}, {3, 0});
+  EXPECT_EQ(calls, 4);
+  EXPECT_EQ(resets, 4);
+  EXPECT_EQ(measured.repetitions, 3);
+}
+
+class JsonLines : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::vector<JsonRecord> read(const std::string& text) {
+    std::ofstream(path_) << text;
+    return read_json_lines(path_);
+  }
+  std::filesystem::path path_ =
+      std::filesystem::path(testing::TempDir()) / fmt::format("tread_json_lines_{}", ::getpid());
+};
+
+TEST_F(JsonLines, ReadsWhatTheCommandsPrint) {
+  const auto records = read("{\"a\": 1.5e-3, \"b\": \"x\\\"y\", \"c\": true, \"d\": null}\n\n{}\n");
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_EQ(std::get<double>(records[0].at("a")), 1.5e-3);
+  EXPECT_EQ(std::get<std::string>(records[0].at("b")), "x\"y");
+  EXPECT_TRUE(std::get<bool>(records[0].at("c")));
+  EXPECT_EQ(records[0].count("d"), 0U);
+}
+
+TEST_F(JsonLines, NamesTheLineThatItCannotRead) {
+  for (const char* wrong : {"{\"a\": 1", "{\"a\" 1}", "{\"a\": [1]}", "{\"a\": 1} x", "[1]", "{\"a\": \"x}",
+                            "{\"a\": 1,}", "{\"a\": nul}"}) {
+    try {
+      read(fmt::format("{{}}\n{}\n", wrong));
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(":2:"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,68 @@
+// Threads: every item once, whoever runs them; times that add up.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace tread {
+namespace {
+
+class Parallel : public testing::TestWithParam<std::string_view> {
+ protected:
+  void SetUp() override { set_backend(GetParam()); }
+  void TearDown() override {
+    set_backend(backends().front());
+    set_threads(1);
+  }
+};
+
+TEST_P(Parallel, VisitsEveryItemOnce) {
+  for (const int threads : {1, 2, 3, 5})
+    for (const std::int64_t n : {0, 1, 7, 1000}) {
+      set_threads(threads);
+      std::vector<int> visits(static_cast<std::size_t>(n), 0);
+      parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) ++visits[static_cast<std::size_t>(i)];
+      });
+      EXPECT_EQ(visits, std::vector<int>(static_cast<std::size_t>(n), 1)) << threads << " threads, " << n;
+    }
+}
+
+TEST_P(Parallel, TimesAddUp) {
+  ParallelTimes times;
+  measure_parallel(&times);
+  for (const int threads : {3, 1}) {
+    set_threads(threads);
+    parallel_ranges(24, [](std::int64_t first, std::int64_t last) {
+      volatile double sink = 0;
+      for (std::int64_t i = 0; i < 200000 * (last - first); ++i) sink = sink + 1;
+    });
+  }
+  measure_parallel(nullptr);
+  parallel_ranges(1, [](std::int64_t, std::int64_t) {});
+  EXPECT_EQ(times.calls, 2);
+  ASSERT_EQ(times.by_thread.size(), 3U);
+  double busy = 0;
+  for (const ParallelTimes::Thread& thread : times.by_thread) {
+    EXPECT_LE(thread.busy, times.wall);
+    busy += thread.busy;
+  }
+  EXPECT_GT(busy, 0);
+  EXPECT_LE(busy, 3 * times.wall);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Parallel, testing::ValuesIn(backends()),
+                         [](const auto& named) { return std::string(named.param); });
+
+TEST(ParallelBackends, UnknownNamesAreRefused) {
+  EXPECT_THROW(set_backend("pthreads"), InputError);
+  EXPECT_EQ(backend(), backends().front());
+}
+
+}  // namespace
+}  // namespace tread
