@@ -23,7 +23,8 @@ std::int64_t beyond_caches() {
 
 /// The fastest run, by unit.
 Measurement per_unit(Measurement of_call, double units) {
-  of_call.seconds = of_call.fastest /= units;
+  of_call.fastest /= units;
+  of_call.seconds = of_call.fastest;
   return of_call;
 }
 
@@ -80,7 +81,7 @@ Measurement Limits::operation(bool in_double, std::string_view instruction_set) 
 
 Limit Limits::of(const Load& load, bool in_double, std::string_view instruction_set) {
   if (load.bytes <= 0 && load.flops <= 0) return {};
-  const double memory = load.bytes / kTriadBytes * triad(load.working_set).seconds;
+  const double memory = load.bytes / kTriadTraffic * triad(load.working_set).seconds;
   const double arithmetic = load.flops * operation(in_double, instruction_set).seconds;
   return {std::max(memory, arithmetic), memory >= arithmetic};
 }

@@ -31,8 +31,8 @@ struct Load {
 /// machine can do is what it does in the fastest run: `seconds` is that of it.
 class Limits {
  public:
-  /// At least five runs.
-  explicit Limits(const MeasurementPlan& plan) : plan_{std::max(5, plan.repetitions), plan.run_seconds} {}
+  /// At least fifteen runs: everything else is judged by these.
+  explicit Limits(const MeasurementPlan& plan) : plan_{std::max(15, plan.repetitions), plan.run_seconds} {}
 
   /// STREAM triads on three arrays beyond every cache, by the widest instruction set: the time of one triad,
   /// which moves kTriadBytes. [s]
@@ -55,5 +55,7 @@ class Limits {
 
 /// By the convention of STREAM: two values read, one written. [B]
 inline constexpr double kTriadBytes = 3 * sizeof(double);
+/// What moves: caches fetch a line before it is written, as Work counts it. [B]
+inline constexpr double kTriadTraffic = 4 * sizeof(double);
 
 }  // namespace tread

@@ -10,7 +10,8 @@ namespace tread {
 /// Of one step over one unit (an element, a node, ...).
 struct Work {
   double flops = 0;  ///< additions, multiplications and divisions
-  double bytes = 0;  ///< fields read and written once, none twice
+  /// Fields read once and written once; what is written without being read is fetched all the same.
+  double bytes = 0;
 };
 
 /// Which version of the element a block runs.
