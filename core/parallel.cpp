@@ -67,6 +67,7 @@ int threads() {
 
 std::vector<std::string_view> backends() {
   std::vector<std::string_view> names;
+  names.reserve(kBackends.size());
   for (const ParallelBackend* backend : kBackends) names.emplace_back(backend->name);
   return names;
 }

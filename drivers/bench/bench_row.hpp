@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "drivers/bench/limits.hpp"
@@ -22,7 +23,12 @@ struct BenchKey {
   int threads = 1;
   std::int64_t elements = 0;
 
-  auto operator<=>(const BenchKey&) const = default;
+  bool operator<(const BenchKey& other) const {
+    const auto all = [](const BenchKey& k) {
+      return std::tie(k.kernel, k.path, k.precision, k.backend, k.lanes, k.threads, k.elements);
+    };
+    return all(*this) < all(other);
+  }
 };
 
 struct BenchRow {

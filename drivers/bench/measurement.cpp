@@ -38,6 +38,7 @@ Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
     seconds = run(timed, calls);
   }
   std::vector<double> seconds;
+  seconds.reserve(static_cast<std::size_t>(plan.repetitions));
   for (int i = 0; i < plan.repetitions; ++i) seconds.push_back(run(timed, calls) / calls);
   return summarise(std::move(seconds));
 }
