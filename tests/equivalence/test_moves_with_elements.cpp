@@ -46,7 +46,9 @@ void expect_same_bits(const Scene& scene) {
     return made;
   };
   const Run all_after = run(*model(), 1, true);
-  if (scene.contact) EXPECT_GT(all_after.contact_impulse.z, 0);
+  if (scene.contact) {
+    EXPECT_GT(all_after.contact_impulse.z, 0);
+  }
   for (const int threads : {1, 2, 3}) {
     const Run with_elements = run(*model(), threads, false);
     EXPECT_EQ(with_elements.hash, all_after.hash) << threads << " threads";
