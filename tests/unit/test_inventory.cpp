@@ -191,7 +191,7 @@ TEST(Inventory, StaticTyreHasNoStep) {
 
 TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   const Model model(scene_of(kBar));
-  EXPECT_EQ(phase_names(model), (Names{"preload", "internal force", "update", "samples"}));
+  EXPECT_EQ(phase_names(model), (Names{"preload", "internal force", "update", "samples", "checkpoint"}));
   const Names names = field_names(model);
   for (const char* absent :
        {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes", "contact points",
