@@ -87,11 +87,11 @@ length = "40 mm"
 
 TEST(MovesWithElements, GuidedBoreOverMovedNodes) {
   expect_same_bits(samples::tyre_scene(
-      {"scene.element_size=6 mm", "motion.duration=0.1 ms", "wheel.bore=guided", "wheel.overhang=60 mm",
-       "motion.traction.torque=5 kN m", "motion.traction.ramp=2 us", "solution_zone.start=-5 mm",
-       "corrugation.kind=sine", "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm",
-       "corrugation.width=30 mm", "corrugation.start=-5 mm", "corrugation.length=40 mm",
-       "corrugation.apply=nodes"}));
+      {"scene.element_size=6 mm", "scene.gravity=0 m/s2", "motion.duration=0.1 ms", "wheel.bore=guided",
+       "wheel.overhang=60 mm", "motion.traction.torque=5 kN m", "motion.traction.ramp=2 us",
+       "solution_zone.start=-5 mm", "corrugation.kind=sine", "corrugation.wavelength=20 mm",
+       "corrugation.depth=0.04 mm", "corrugation.width=30 mm", "corrugation.start=-5 mm",
+       "corrugation.length=40 mm", "corrugation.apply=nodes"}));
 }
 
 TEST(MovesWithElements, HammerOnAFastenedRail) {

@@ -237,7 +237,7 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
 }
 
 TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
-  const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=0.3 ms",
+  const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=1 ms",
                                            "output.checkpoint_interval=1 ms"};
   RunOptions options;
   options.threads.number = 1;
@@ -248,7 +248,7 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   for (int stage = 0; stage < kCheckpointStages; ++stage) {
     int seen = 0;
     options.observer = [&](CheckpointStage reached) {
-      if (static_cast<int>(reached) == stage && ++seen == 3) ::kill(::getpid(), SIGKILL);
+      if (static_cast<int>(reached) == stage && ++seen == 2) ::kill(::getpid(), SIGKILL);
     };
     const pid_t process = child([&] { run_scene(resolve_scene(fs::path(scene()), values), options); });
     ASSERT_EQ(wait_for(process), 1000 + SIGKILL) << "stage " << stage;
