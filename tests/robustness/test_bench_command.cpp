@@ -110,11 +110,6 @@ TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("none"))), 2);
 }
 
-TEST_F(Bench, CompareReadsTheBaseline) {
-  const std::string baseline = std::string(TREAD_SOURCE_DIR) + "/perf/baseline.json";
-  EXPECT_EQ(call(fmt::format("compare {} {}", baseline, baseline)), 0);
-}
-
 TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
   ASSERT_EQ(call(fmt::format("scaling -t 2 --elements 2000 {}", kSmoke)), 0);
   const auto rows = records();
