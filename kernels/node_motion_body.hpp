@@ -16,15 +16,11 @@ struct StepConstants {
   Real spin2 = 0;               ///< square of the frame's spin [1/s2]
 };
 
-/// a b, rounded before anything is added to it.
+/// a b, rounded before anything is added to it. Compilers that contract across expressions need the barrier.
 template <class A, class B>
 TREAD_INLINE auto product(const A& a, const B& b) {
-#if defined(__has_builtin)
 #if __has_builtin(__builtin_assoc_barrier)
   return __builtin_assoc_barrier(a * b);
-#else
-  return a * b;
-#endif
 #else
   return a * b;
 #endif

@@ -16,11 +16,6 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
-template <class Padded>
-Padded padded(const Vec3& v) {
-  return Padded{v.x, v.y, v.z, 0};
-}
-
 }  // namespace
 
 void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
@@ -40,7 +35,7 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
     if (node < 0) {
       node = static_cast<int>(nodes_.size());
       const double* v = motion.velocity;
-      const Padded velocity{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)], 0};
+      const Padded velocity(Vec3{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)]});
       nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity});
       velocity_.push_back(velocity);
     }
@@ -61,19 +56,18 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
                   point.wheel_weight[k] * point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
     }
     link.compliance = 0.5 * dt * dt * point.area * mobility;
-    link.frame_velocity = padded<Padded>(
+    link.frame_velocity = Padded(
         wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin));
   }
 }
 
 void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& impulse) {
-  const Padded on_rail = padded<Padded>(impulse);
+  const Padded on_rail(impulse);
   for (std::size_t station = 0; station < 4; ++station) {
-    const Padded on_wheel =
-        padded<Padded>(localise(point.wheel_cosine[station], point.wheel_sine[station], impulse));
+    const Padded on_wheel(localise(point.wheel_cosine[station], point.wheel_sine[station], impulse));
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      velocity_[index(link.rail[k])] += link.rail_push[k] * on_rail;
-      velocity_[index(link.wheel[k])] += link.wheel_push[k] * on_wheel;
+      velocity_[index(link.rail[k])].add(link.rail_push[k], on_rail);
+      velocity_[index(link.wheel[k])].add(link.wheel_push[k], on_wheel);
     }
   }
 }
@@ -81,15 +75,14 @@ void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& 
 Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link) const {
   Padded relative = link.frame_velocity;
   for (std::size_t station = 0; station < 4; ++station) {
-    Padded local{};
+    Padded local;
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      local += link.wheel_weight[k] * velocity_[index(link.wheel[k])];
-      relative += link.rail_weight[k] * velocity_[index(link.rail[k])];
+      local.add(link.wheel_weight[k], velocity_[index(link.wheel[k])]);
+      relative.add(link.rail_weight[k], velocity_[index(link.rail[k])]);
     }
-    relative += padded<Padded>(
-        globalise(point.wheel_cosine[station], point.wheel_sine[station], {local[0], local[1], local[2]}));
+    relative.add(1, Padded(globalise(point.wheel_cosine[station], point.wheel_sine[station], local)));
   }
-  return {relative[0], relative[1], relative[2]};
+  return relative;
 }
 
 void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
@@ -135,8 +128,7 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     node_of_[static_cast<std::size_t>(node.slot)] = -1;
-    const Padded difference = velocity_[i] - node.free;
-    Vec3 change{difference[0], difference[1], difference[2]};
+    Vec3 change = Vec3(velocity_[i]) - Vec3(node.free);
     if (node.of_wheel)
       change = {cosine * change.x - sine * change.z, change.y, sine * change.x + cosine * change.z};
     for (int c = 0; c < 3; ++c) {

@@ -33,8 +33,19 @@ class PatchSolver {
   std::int64_t bytes() const;
 
  private:
-  /// A vector and a zero: both halves of it move at once.
-  typedef double Padded __attribute__((vector_size(4 * sizeof(double))));
+  /// A vector and a zero, in two registers of every processor.
+  struct Padded {
+    typedef double Half __attribute__((vector_size(2 * sizeof(double))));
+    Half xy, z0;
+
+    Padded() : xy{}, z0{} {}
+    explicit Padded(const Vec3& v) : xy{v.x, v.y}, z0{v.z, 0} {}
+    operator Vec3() const { return {xy[0], xy[1], z0[0]}; }
+    void add(double weight, const Padded& other) {
+      xy += weight * other.xy;
+      z0 += weight * other.z0;
+    }
+  };
   struct Node {
     std::int64_t slot;
     bool of_wheel;
