@@ -161,8 +161,11 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
       add_scene_command(app, "multibody", "the scene by the multi-body approach: a second instead of an hour",
                         tread::run_multibody_command, state);
   command.add_option("-o,--output", options.output, "directory for CSV, summary and report");
-  command.add_option("--beam", options.beam, "the rail: euler (default) or timoshenko")
-      ->check(CLI::IsMember({"euler", "timoshenko"}));
+  command
+      .add_option(
+          "--beam", options.beam,
+          "the rail: euler (default), timoshenko, or spread: timoshenko with the head's forces spread")
+      ->check(CLI::IsMember({"euler", "timoshenko", "spread"}));
   command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
       ->check(CLI::Range(2, 3000));
   command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");

@@ -30,6 +30,11 @@ MultibodyStep step_of(const MultibodyOptions& options) {
   return step;
 }
 
+BeamTheory theory_of(const std::string& beam) {
+  if (beam == "spread") return BeamTheory::spread;
+  return beam == "euler" ? BeamTheory::euler : BeamTheory::timoshenko;
+}
+
 void check(const MultibodyOptions& options) {
   if (options.map.empty() && !options.dots.empty())
     throw InputError("--dots: they belong on a map; add --map speed=... wavelength=...");
@@ -61,8 +66,7 @@ void run_multibody_command(const ResolvedScene& resolved, const MultibodyOptions
   const Progress progress(options.quiet);
   const MultibodyStep step = step_of(options);
   MultibodyOutcome outcome;
-  outcome.model =
-      multibody_model(resolved.scene, options.beam == "euler" ? BeamTheory::euler : BeamTheory::timoshenko);
+  outcome.model = multibody_model(resolved.scene, theory_of(options.beam));
   const MultibodyModel unfiltered = outcome.model;
   if (options.filter) {
     outcome.filter_gain = apply_contact_filter(outcome.model);

@@ -12,7 +12,7 @@
 namespace tread {
 
 struct MultibodyOptions {
-  std::string beam = "euler";               ///< or "timoshenko"
+  std::string beam = "euler";               ///< "timoshenko" or "spread"
   std::optional<int> modes;                 ///< absent: all below 20 kHz
   std::string step;                         ///< "5 us"; empty: chosen
   bool filter = false;                      ///< the corrugation as deep as the contact filter leaves it

@@ -51,7 +51,14 @@ BeamVehicle lumped_vehicle(const Scene& scene) {
 }  // namespace
 
 const char* name_of(BeamTheory theory) {
-  return theory == BeamTheory::euler ? "Euler" : "Timoshenko";
+  switch (theory) {
+    case BeamTheory::euler:
+      return "Euler";
+    case BeamTheory::timoshenko:
+      return "Timoshenko";
+    default:
+      return "Timoshenko (spread)";
+  }
 }
 
 double MultibodyModel::contact_stiffness() const {
@@ -65,6 +72,7 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.theory = theory;
   const BeamSection section = rail_beam_section(scene);
   model.rail = theory == BeamTheory::euler ? euler(section, scene.steel) : timoshenko(section, scene.steel);
+  if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
   model.supports = rail_supports(scene);
   model.vehicle = lumped_vehicle(scene);
 

@@ -11,9 +11,13 @@
 
 namespace tread {
 
-enum class BeamTheory { euler, timoshenko };
+enum class BeamTheory {
+  euler,
+  timoshenko,  ///< forces act at points
+  spread       ///< Timoshenko's with forces on the head spread for the fastenings, as in rail_beam
+};
 
-/// "Euler" or "Timoshenko".
+/// For readers: "Euler".
 const char* name_of(BeamTheory theory);
 
 struct MultibodyModel {

@@ -43,7 +43,7 @@ TEST(ModalBeam, HasTheModesOfTheFiniteElements) {
 }
 
 TEST(ModalTrack, StaticDeflectionIsThatOfTheBeam) {
-  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko, BeamTheory::spread}) {
     const MultibodyModel model = multibody_model(scene(300, ""), theory);
     const TrackBeam beam = rail_beam(model.scene, model.rail);
     const double load = model.vehicle.load();
@@ -144,7 +144,7 @@ TEST(Multibody, ConvergesWithTheStepInSecondOrder) {
 
 TEST(Multibody, ConvergesWithTheModes) {
   const std::vector<double> x = places();
-  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko, BeamTheory::spread}) {
     MultibodyModel model = multibody_model(scene(300, kCorrugationD), theory);
     model.start = kNear;
     const double load = model.vehicle.load();
@@ -158,11 +158,15 @@ TEST(Multibody, ConvergesWithTheModes) {
 TEST(Multibody, AgreesWithImplicitFiniteElements) {
   // Newmark's average acceleration on the beam's elements, the contact solved within the step.
   const std::vector<double> x = places();
-  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko}) {
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::timoshenko, BeamTheory::spread}) {
     MultibodyModel model = multibody_model(scene(300, kCorrugationD), theory);
     model.start = kNear;
     const std::vector<double> ours = force_at(model, {}, x);
-    const TrackBeam beam = rail_beam(model.scene, model.rail);
+    // Under a force at a point inside of a shear-flexible element the deflection ripples: short elements.
+    const bool kinked = theory == BeamTheory::timoshenko;
+    TrackBeam beam(model.rail, -6.1, 15.2, BeamEnds::guided, kinked ? 0.003 : 0.01);
+    beam.spread_head_load(head_spread(model.scene, model.rail));
+    for (const BeamSupport& s : model.supports) beam.support(s.x, s.stiffness, s.damping);
     constexpr double kStep = 1e-5;
     BeamPassage passage(beam, model.vehicle, model.start, kStep);
     std::vector<double> theirs;
@@ -177,7 +181,8 @@ TEST(Multibody, AgreesWithImplicitFiniteElements) {
       before = passage.force();
     }
     measured(name_of(theory), difference(ours, theirs) / model.vehicle.load());
-    EXPECT_LT(difference(ours, theirs), 0.01 * model.vehicle.load()) << name_of(theory);
+    // Around kinks modes and elements both converge with their first power only.
+    EXPECT_LT(difference(ours, theirs), (kinked ? 0.02 : 0.005) * model.vehicle.load()) << name_of(theory);
   }
 }
 
@@ -187,20 +192,20 @@ TEST(Multibody, PassingOfFastenings) {
   for (const auto& [speed, wanted] : {std::pair{300.0, 0.065}, std::pair{500.0, 0.11}}) {
     Scene smooth = scene(speed, "");
     smooth.fastenings->columns = 1;
-    const auto part = [&](MultibodyModel model, const char* what) {
+    const auto part = [&](BeamTheory theory) {
+      const MultibodyModel model = multibody_model(smooth, theory);
       const MultibodyResult r = run_multibody(model, {});
       EXPECT_NEAR(r.force.mean / model.vehicle.load(), 1, 0.01);
-      measured(std::string(what) + ", half range over a span / static", r.passing / model.vehicle.load());
+      measured(std::string(name_of(theory)) + ", half range over a span / static",
+               r.passing / model.vehicle.load());
       return r.passing / model.vehicle.load();
     };
-    MultibodyModel kinked = multibody_model(smooth, BeamTheory::timoshenko);
-    kinked.rail.depth = 0;
-    const double sheared = part(kinked, "forces at points");
+    const double sheared = part(BeamTheory::timoshenko);
     EXPECT_NEAR(sheared / wanted, 1, 0.1) << speed;
     // The head's depth spreads the force; without shear the rail dips least between the fastenings.
-    const double spread = part(multibody_model(smooth, BeamTheory::timoshenko), "forces spread");
-    EXPECT_LT(spread, sheared);
-    EXPECT_LT(part(multibody_model(smooth, BeamTheory::euler), "Euler"), spread);
+    const double spread = part(BeamTheory::spread);
+    EXPECT_LT(spread, 0.9 * sheared);
+    EXPECT_LT(part(BeamTheory::euler), 0.5 * spread);
   }
 }
 
