@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -22,24 +23,28 @@ namespace {
 /// Held by an element, about: three vectors and the inverse mass of a node. [B]
 constexpr double kBytes = 10 * sizeof(double);
 
-/// Where the core-time of a step goes. [s]
+/// Where the core-time of a step goes, in the mean of all steps. [s]
 struct StepTimes {
-  Measurement measured;  ///< wall clock
-  double parallel = 0;   ///< wall clock within parallel calls
-  double busy = 0;       ///< of all threads within bodies
+  Measurement measured;
+  double wall = 0;      ///< wall clock
+  double parallel = 0;  ///< wall clock within parallel calls
+  double busy = 0;      ///< of all threads within bodies
 };
 
 StepTimes time_steps(const std::function<void()>& step, const MeasurementPlan& plan) {
   ParallelTimes times;
+  StepTimes result;
   std::int64_t calls = 0;
   measure_parallel(&times);
-  StepTimes result;
-  result.measured = measure({[&] {
-                              step();
-                              ++calls;
-                            }},
-                            plan);
+  const auto timed_step = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    step();
+    result.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ++calls;
+  };
+  result.measured = measure({timed_step}, plan);
   measure_parallel(nullptr);
+  result.wall /= static_cast<double>(calls);
   result.parallel = times.wall / static_cast<double>(calls);
   for (const ParallelTimes::Thread& thread : times.by_thread)
     result.busy += thread.busy / static_cast<double>(calls);
@@ -57,13 +62,11 @@ struct ScalingRow {
 
   /// Work over that of the first row.
   double growth() const { return kind[0] == 'w' ? threads : 1; }
-  double core_time() const { return threads * step.measured.seconds; }
-  double efficiency() const { return growth() * one.measured.seconds / core_time(); }
+  double core_time() const { return threads * step.wall; }
+  double efficiency() const { return growth() * one.wall / core_time(); }
   /// Of the core-time, what one thread alone would not have needed: outside of parallel calls ...
   double lost_serial() const {
-    return (threads * (step.measured.seconds - step.parallel) -
-            growth() * (one.measured.seconds - one.parallel)) /
-           core_time();
+    return (threads * (step.wall - step.parallel) - growth() * (one.wall - one.parallel)) / core_time();
   }
   /// ... waiting within them for work or for the slowest thread ...
   double lost_waiting() const { return (threads * step.parallel - step.busy) / core_time(); }

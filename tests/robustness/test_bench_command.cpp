@@ -116,7 +116,7 @@ TEST_F(Bench, ScalingTellsWhereEfficiencyIsLost) {
   ASSERT_EQ(rows.size(), 6U);  // strong and weak: one thread, two by either backend
   for (const JsonRecord& row : rows) {
     const double lost = number(row, "lost_serial") + number(row, "lost_waiting") + number(row, "lost_slower");
-    EXPECT_NEAR(number(row, "efficiency") + lost, 1, 0.5);  // the median against the mean of the runs
+    EXPECT_NEAR(number(row, "efficiency") + lost, 1, 1e-9);
     EXPECT_GT(number(row, "triad_ratio"), 0);
   }
   EXPECT_EQ(number(rows[4], "elements"), 2 * number(rows[3], "elements"));
