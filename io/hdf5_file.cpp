@@ -110,8 +110,8 @@ Id make_groups() {
 }
 
 /// File access without locks: a run's file can be read while it grows, and network file systems need no lock
-/// service. Silences the library's own error printing, and its clean-up at exit, which crashes on a file that a
-/// full disk kept from being closed.
+/// service. Silences the library's own error printing, and its clean-up at exit, which crashes on a file that
+/// a full disk kept from being closed.
 Id access() {
   static const herr_t no_clean_up = H5dont_atexit();
   static_cast<void>(no_clean_up);
