@@ -20,16 +20,6 @@
 
 namespace tread {
 
-/// An integration point near a node, along one direction of the surface.
-struct NodeShare {
-  double offset;  ///< from the node, over the faces' size [-]
-  double weight;  ///< in the node's average [-]
-};
-
-/// The points that a node averages, faces of one size on both sides of it; weights add up to 1.
-/// [theory.md, eq. 15]
-std::vector<NodeShare> node_shares(int points_per_direction);
-
 struct ContactOptions {
   int rail_block = -1;
   int wheel_block = -1;
@@ -156,8 +146,9 @@ class Contact {
   StationFinder wheel_stations_;
   CoulombFriction friction_;
   int points_per_face_;
-  std::vector<std::array<double, 2>> gauss_;       ///< points and weights on [0, 1]
-  std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
+  std::vector<std::array<double, 2>> gauss_;  ///< points and weights on [0, 1]
+  /// Along, across, weight on the unit face, factor in the mean over a box.
+  std::vector<std::array<double, 4>> quadrature_;
   std::vector<double> across_;  ///< arc length across the rail up to each integration point of a row [m]
   double width_ = 0;            ///< of the rail's surface along its arc [m]
   int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
