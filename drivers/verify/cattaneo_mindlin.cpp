@@ -161,15 +161,17 @@ CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& prog
   };
   const auto half = rises_to(0.5 * wanted);
   const auto back = std::find_if(first, pull, [](const Moment& m) { return m.push <= 0; });
-  // In the last sample before the largest force the stick area still shrinks.
-  const auto before = first - 1;
+  // What sticks at the largest force has never slipped; what slipped may stick there already.
+  const auto least = std::min_element(moments.begin(), first + 1, [](const Moment& a, const Moment& b) {
+    return a.stick_radius < b.stick_radius;
+  });
 
   const double um = 1e6;
   const double mm = 1e3;
   CaseResult result;
   result.findings = {
       {"largest F_L / (f F_N)", "-", turn, wanted, 0.02},
-      {"stick radius", "mm", mm * before->stick_radius, mm * theory.stick_radius(before->push),
+      {"stick radius", "mm", mm * least->stick_radius, mm * theory.stick_radius(first->push),
        mm * 0.5 * bodies.element_size, true},
       {"stick radius at half of the force", "mm", mm * half->stick_radius,
        mm * theory.stick_radius(half->push), mm * 0.5 * bodies.element_size, true},
