@@ -22,10 +22,8 @@ struct CoulombFriction {
 
   /// Traction at the end of a step: `slip` is the movement of the wheel surface relative to the rail in this
   /// step if the traction at its end were zero, which that traction reduces by `compliance` times itself [m,
-  /// m/Pa]; `pressure` is that at the end of the step; zero pressure releases the traction. Without friction
-  /// all slips.
+  /// m/Pa]; `pressure` is that at the end of the step; zero pressure releases the traction.
   Result advance(const Traction& before, const Traction& slip, double pressure, double compliance) const {
-    if (friction_coefficient == 0) return {{}, true};
     const double scale = 1 / (1 + tangential_penalty * compliance);
     Traction after{scale * (before.along + tangential_penalty * slip.along),
                    scale * (before.across + tangential_penalty * slip.across)};

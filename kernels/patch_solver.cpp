@@ -85,6 +85,52 @@ Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link)
   return relative;
 }
 
+template <bool rubs>
+PatchSolver::Sweep PatchSolver::sweep(std::vector<ContactPoint>& points, const Law& law) {
+  const double dt = law.dt;
+  Sweep sweep;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ContactPoint& point = points[i];
+    const double compliance = links_[i].compliance;
+    const Vec3 velocity = relative_velocity(point, links_[i]);
+    const Vec3 mean = 0.5 * (point.velocity_before + velocity);
+    point.closing_speed = dot(mean, point.normal);
+    // Gap in the middle of the step if the point's own pressure were zero.
+    const double gap = point.gap - 0.5 * dt * dot(velocity, point.normal) - compliance * point.pressure;
+    const double pressure = std::max(0.0, -law.penalty * gap / (1 + law.penalty * compliance));
+    Vec3 by;
+    if constexpr (rubs) {
+      const Vec3 before = point.traction();
+      point.slip_speed = {dot(mean, point.along), dot(mean, point.across)};
+      // Slip between both middles if the point's own shear were zero.
+      const Traction slip{dt * point.slip_speed.along + compliance * point.shear.along,
+                          dt * point.slip_speed.across + compliance * point.shear.across};
+      const auto stick = law.friction.advance(point.shear_before, slip, pressure, compliance);
+      point.shear = stick.traction;
+      point.slips = stick.slips;
+      point.pressure = pressure;
+      by = point.traction() - before;
+    } else {
+      by = pressure * point.normal - point.pressure * point.normal;
+      point.pressure = pressure;
+    }
+    push(point, links_[i], dt * point.area * by);
+    sweep.change = std::max(sweep.change, norm(by));
+    sweep.largest = std::max(sweep.largest, pressure);
+  }
+  return sweep;
+}
+
+void PatchSolver::slip_freely(std::vector<ContactPoint>& points) const {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ContactPoint& point = points[i];
+    const Vec3 mean = 0.5 * (point.velocity_before + relative_velocity(point, links_[i]));
+    point.slip_speed = {dot(mean, point.along), dot(mean, point.across)};
+    point.shear = {};
+    point.slips = true;
+  }
+}
+
 void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
                         const BodyFrame& wheel, const NodeMotion& motion, double dt) {
   link(points, wheel, motion, dt);
@@ -92,32 +138,13 @@ void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const
     push(points[i], links_[i], dt * points[i].area * points[i].traction());
 
   // Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
+  const Law law{penalty, friction, dt};
+  const bool rubs = friction.friction_coefficient > 0;
   for (sweeps_ = 1;; ++sweeps_) {
-    double change = 0;
-    double largest = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      ContactPoint& point = points[i];
-      const double compliance = links_[i].compliance;
-      const Vec3 velocity = relative_velocity(point, links_[i]);
-      const Vec3 mean = 0.5 * (point.velocity_before + velocity);
-      point.closing_speed = dot(mean, point.normal);
-      point.slip_speed = {dot(mean, point.along), dot(mean, point.across)};
-      const Vec3 before = point.traction();
-      // Gap in the middle of the step and slip between both middles if the point's own traction were zero.
-      const double gap = point.gap - 0.5 * dt * dot(velocity, point.normal) - compliance * point.pressure;
-      const Traction slip{dt * point.slip_speed.along + compliance * point.shear.along,
-                          dt * point.slip_speed.across + compliance * point.shear.across};
-      point.pressure = std::max(0.0, -penalty * gap / (1 + penalty * compliance));
-      const auto stick = friction.advance(point.shear_before, slip, point.pressure, compliance);
-      point.shear = stick.traction;
-      point.slips = stick.slips;
-      const Vec3 by = point.traction() - before;
-      push(point, links_[i], dt * point.area * by);
-      change = std::max(change, norm(by));
-      largest = std::max(largest, point.pressure);
-    }
-    if (change <= kTolerance * largest || sweeps_ == kMaxSweeps) break;
+    const Sweep last = rubs ? sweep<true>(points, law) : sweep<false>(points, law);
+    if (last.change <= kTolerance * last.largest || sweeps_ == kMaxSweeps) break;
   }
+  if (!rubs) slip_freely(points);
   write_back(motion, wheel.spin, dt);
 }
 

@@ -59,10 +59,24 @@ class PatchSolver {
     Padded frame_velocity;                                   ///< of the wheel's frame at the point [m/s]
     double compliance;                                       ///< half of dt^2 A sum(w^2 / m) [m/Pa]
   };
+  struct Law {
+    double penalty;  ///< [Pa/m]
+    CoulombFriction friction;
+    double dt;  ///< [s]
+  };
+  /// Of all points. [Pa]
+  struct Sweep {
+    double change = 0;   ///< largest of a traction
+    double largest = 0;  ///< pressure
+  };
   void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion,
             double dt);
   void push(const ContactPoint& point, const Link& link, const Vec3& impulse);
   Vec3 relative_velocity(const ContactPoint& point, const Link& link) const;
+  template <bool rubs>
+  Sweep sweep(std::vector<ContactPoint>& points, const Law& law);
+  /// Slip of points without friction, which no sweep needs.
+  void slip_freely(std::vector<ContactPoint>& points) const;
   void write_back(const NodeMotion& motion, double spin, double dt);
 
   std::vector<int> node_of_;  ///< by slot, -1: none
