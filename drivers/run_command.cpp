@@ -22,9 +22,10 @@ namespace tread {
 namespace {
 
 constexpr int kInstants = 10;  ///< [paper, Fig. 16]
+constexpr int kMovieFrames = 200;
 
-/// The fields of the rail's surface, and the instants of the patch that the report shows: of the last wave of
-/// a corrugation, of the last patch lengths on a smooth rail.
+/// The fields of the rail's surface, and what of the patch the report shows: instants of the last wave of a
+/// corrugation, of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
 void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
   if (!results.surface_fields) return;
   write_surface(directory / "surface.h5", *results.surface_fields);
@@ -35,6 +36,7 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
   const double last = results.evaluated_last;
   results.instants =
       read_patch(directory / kPatchFile, std::max(last - stretch, results.evaluated_first), last, kInstants);
+  results.movie = read_patch(directory / kPatchFile, results.evaluated_first, last, kMovieFrames);
 }
 
 /// Changes of the run, as later values of the keys that a run may change.

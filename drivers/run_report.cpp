@@ -157,6 +157,7 @@ Chapter patch_chapter(const Run& run) {
     chapter.blocks.emplace_back(
         Text{"Seen from above, rolling to the right; a cell for each surface node that touches."});
   }
+  if (!r.movie.empty()) chapter.blocks.emplace_back(patch_movie(run.model, r));
   chapter.blocks.emplace_back(patch_figure(run.model, r));
   return chapter;
 }

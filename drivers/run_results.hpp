@@ -40,6 +40,7 @@ struct RunResults {
   std::optional<SurfaceFields> surface_fields;  ///< none without contact
   SurfaceResults surface;                       ///< from surface_fields
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
+  std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
 
   /// What a run that goes on cannot find again, the samples apart.
   void list_state(StateList& list) {

@@ -46,6 +46,7 @@ class PatchWindow {
   }
   double pressure(int i, int row) const { return value(0, i, row); }
   double shear(int i, int row) const { return std::hypot(value(1, i, row), value(2, i, row)); }
+  double slip_speed(int i, int row) const { return std::hypot(value(3, i, row), value(4, i, row)); }
   PatchState state(int i, int row) const {
     return static_cast<PatchState>(sample_.state[nodes_.grid().node(i, row)]);
   }
@@ -189,6 +190,44 @@ Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
                         stick_and_slip(model, r.instants[k]), Window{{-half, y - half}, {half, y + half}},
                         kWidth});
   return drawings;
+}
+
+PatchMovie patch_movie(const Model& model, const RunResults& r) {
+  PatchMovie movie;
+  movie.title = "The patch on its way";
+  movie.x_label = "Along the rail from the wheel's axis [mm]";
+  movie.y_label = "Across the rail [mm]";
+  movie.labels = {"Pressure [MPa]", "Surface shear stress [MPa]", "Slip speed [mm/s]"};
+  const SurfaceGrid& grid = model.contact->nodes().grid();
+  for (const double y : grid.y) movie.y.push_back(1e3 * y);
+  for (const PatchSample& sample : r.movie) {
+    const PatchWindow window(model, sample);
+    MovieFrame frame;
+    frame.centre = 1e3 * sample.wheel_x;
+    const auto later = std::lower_bound(r.samples.begin(), r.samples.end(), sample.time - 0.5 * r.dt,
+                                        [](const Sample& s, double time) { return s.time < time; });
+    frame.note = fmt::format("t = {:.3f} ms, wheel at x = {:.4f} m", 1e3 * sample.time, sample.wheel_x);
+    if (later != r.samples.end())
+      frame.note +=
+          fmt::format(", F_N {:.2f} kN, F_L {:.2f} kN, creepage {:.3f} %", 1e-3 * later->vertical_force,
+                      1e-3 * later->longitudinal_force, 100 * later->creepage_node);
+    frame.fields.resize(movie.labels.size());
+    for (int i = 0; i < window.stations(); ++i) {
+      frame.x.push_back(1e3 * window.x(i));
+      for (int row = 0; row < grid.rows(); ++row) {
+        frame.fields[0].push_back(static_cast<float>(1e-6 * window.pressure(i, row)));
+        frame.fields[1].push_back(static_cast<float>(1e-6 * window.shear(i, row)));
+        frame.fields[2].push_back(static_cast<float>(1e3 * window.slip_speed(i, row)));
+        frame.state.push_back(static_cast<std::uint8_t>(window.state(i, row)));
+      }
+    }
+    movie.frames.push_back(std::move(frame));
+  }
+  movie.caption =
+      "Left from above, rolling to the right: red lines part what sticks from what slips; right the same as "
+      "a "
+      "relief, drag it to turn it. Averages at the rail's surface nodes.";
+  return movie;
 }
 
 }  // namespace tread

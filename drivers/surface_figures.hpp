@@ -16,4 +16,8 @@ Figure instants_figure(const Model& model, const RunResults& results);
 /// Where the patch sticks and slips at these instants.
 Drawings stick_slip_drawings(const Model& model, const RunResults& results);
 
+/// The patch along the evaluated stretch: pressure, shear stress and slip speed, frame by frame.
+/// [paper, Figs. 16 and 17]
+PatchMovie patch_movie(const Model& model, const RunResults& results);
+
 }  // namespace tread

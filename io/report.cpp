@@ -55,6 +55,10 @@ std::string html(const Heatmap& map) {
   return heatmap_html(map);
 }
 
+std::string html(const PatchMovie& movie) {
+  return movie_html(movie);
+}
+
 std::string html(const Drawings& drawings) {
   std::string out = "<div class=\"drawings\">\n";
   for (const Drawing& drawing : drawings) out += drawing_html(drawing);
@@ -103,7 +107,7 @@ std::string report_html(const Report& report) {
       "<header>\n<h1>{0}</h1>\n<p>{2}</p>\n<nav>\n{3}</nav>\n</header>\n{4}"
       "<footer>{5}</footer>\n<script>\n{6}</script>\n</body>\n</html>\n",
       html_text(report.title), kReportStyle, html_text(report.subtitle), nav, body, html_text(report.footer),
-      kChartScript);
+      kReportScript);
 }
 
 void write_report(const std::filesystem::path& path, const Report& report) {

@@ -10,6 +10,7 @@
 #include "io/report/chart.hpp"
 #include "io/report/drawing.hpp"
 #include "io/report/heatmap.hpp"
+#include "io/report/patch_movie.hpp"
 
 namespace tread {
 
@@ -41,7 +42,7 @@ struct KeyFigure {
 using KeyFigures = std::vector<KeyFigure>;
 using Drawings = std::vector<Drawing>;  ///< side by side where the page is wide enough
 
-using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap>;
+using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap, PatchMovie>;
 
 struct Chapter {
   std::string title;

@@ -1,9 +1,9 @@
 #pragma once
-// Style and script of reports, embedded at build time from report.css and chart.js.
+// Style and script of reports, embedded at build time from report.css, chart.js, patch_movie.js and copy.js.
 
 namespace tread {
 
 extern const char* const kReportStyle;
-extern const char* const kChartScript;
+extern const char* const kReportScript;
 
 }  // namespace tread

@@ -18,7 +18,8 @@ for (const figure of document.querySelectorAll("figure.chart")) {
         ["low", "high", "top", "bottom"].map((key) => Number(panel.dataset[key]));
     return [...panel.querySelectorAll(".curve")].map((path) => {
       const points = path.getAttribute("d").split(/(?=[ML])/).map((p) => p.slice(1).split(" ").map(Number));
-      return {points, value: (y) => bottomValue + (base - y) / (base - top) * (topValue - bottomValue)};
+      const label = panel.querySelector(".name").textContent;
+      return {points, label, value: (y) => bottomValue + (base - y) / (base - top) * (topValue - bottomValue)};
     });
   });
   const cursor = svg.appendChild(element("line", {class: "cursor", y1: 18, y2: bottom, visibility: "hidden"}));
@@ -111,6 +112,21 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     if (ends[1] - ends[0] > 5) show(abscissa(ends[0]), abscissa(ends[1]));
   });
   svg.addEventListener("pointerleave", leave);
+  // The points as drawn, to five digits of the range shown.
+  figure.curvesAsCsv = (quoted) => {
+    const xLabel = [...svg.querySelectorAll(".abscissa .name")].pop().textContent;
+    const names = [...figure.querySelectorAll(".legend .key:not(.at)")].filter((key) => key.querySelector("output"))
+        .map((key) => key.firstChild.nextSibling.textContent);
+    const lines = [["curve", "axis", xLabel, "value"].map(quoted).join()];
+    curves.forEach((curve, i) => {
+      for (const point of curve.points) {
+        if (point.length !== 2) continue;
+        const x = low + (point[0] - left) / (right - left) * (high - low);
+        lines.push([quoted(names[i]), quoted(curve.label), x.toPrecision(7), curve.value(point[1]).toPrecision(6)].join());
+      }
+    });
+    return lines.join("\n") + "\n";
+  };
   svg.addEventListener("dblclick", () => show(low, high));
   figure.classList.add("live");
 }

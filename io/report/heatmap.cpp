@@ -10,6 +10,7 @@
 #include "io/report/assets.hpp"
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/shades.hpp"
 
 namespace tread {
 
@@ -27,16 +28,13 @@ constexpr double kScaleWidth = 18;
 constexpr double kSeam = 0.7;  // cells overlap, so that no white shows between them
 constexpr int kShades = 48;    // of the colour scale
 
-/// From low to high: even steps of lightness, readable in grey.
 std::string colour(double share) {
-  constexpr std::array<std::array<double, 3>, 5> kStops = {
-      {{247, 244, 232}, {190, 214, 206}, {94, 156, 175}, {38, 84, 132}, {32, 25, 66}}};
-  const double at = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double at = std::clamp(share, 0.0, 1.0) * (kShadeStops.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), kShadeStops.size() - 2);
   const double part = at - static_cast<double>(i);
   std::array<int, 3> rgb{};
   for (std::size_t c = 0; c < 3; ++c)
-    rgb[c] = static_cast<int>(std::lround((1 - part) * kStops[i][c] + part * kStops[i + 1][c]));
+    rgb[c] = static_cast<int>(std::lround((1 - part) * kShadeStops[i][c] + part * kShadeStops[i + 1][c]));
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 

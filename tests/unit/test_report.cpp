@@ -129,6 +129,38 @@ TEST(Heatmap, CellsStandAtTheirPlaces) {
   EXPECT_THROW(heatmap_html(map), std::logic_error);
 }
 
+/// Two stations, four rows; only the second row touches.
+PatchMovie one_frame() {
+  MovieFrame frame;
+  frame.centre = 10;
+  frame.note = "t < 1 ms";
+  frame.x = {9.5, 10.5};
+  frame.fields = {{0, 100, 0, 0, 0, 50, 0, 0}};
+  frame.state = {0, 1, 0, 0, 0, 2, 0, 0};
+  return {"Patch", "x [mm]", "y [mm]", {"Pressure [MPa]"}, {-1, 0, 1, 2}, {frame}, ""};
+}
+
+TEST(PatchMovie, KeepsTheRowsThatTouchAndTheirNeighbours) {
+  const std::string html = movie_html(one_frame());
+  EXPECT_NE(html.find("\"y\": [-1, 0, 1]"), std::string::npos) << html;
+  EXPECT_NE(html.find("\"largest\": [100]"), std::string::npos) << html;
+  // Bytes 0 255 0 0 128 0, then the states 0 1 0 0 2 0.
+  EXPECT_NE(html.find("\"values\": \"AP8AAIAAAAEAAAIA\""), std::string::npos) << html;
+}
+
+TEST(PatchMovie, TextsCannotEndTheScript) {
+  PatchMovie movie = one_frame();
+  movie.frames[0].note = "</script>";
+  EXPECT_EQ(count(movie_html(movie), "</script>"), 1U);
+}
+
+TEST(PatchMovie, EveryFrameNeedsAllValues) {
+  PatchMovie movie = one_frame();
+  movie.frames[0].state.pop_back();
+  EXPECT_THROW(movie_html(movie), std::logic_error);
+  EXPECT_EQ(movie_html(PatchMovie{}), "");
+}
+
 TEST(Report, ComparesWithTheReference) {
   const Table table = comparison_table("Forces", "Paper",
                                        {{"Largest F_N", "kN", 193.19, 173.871, "coarse"},
