@@ -11,6 +11,9 @@ struct Traction {
   double across = 0;
 };
 
+/// Share of the limit from which on a point counts as slipping: what vibrates there sticks for single steps.
+inline constexpr double kSlipping = 0.98;
+
 struct CoulombFriction {
   double friction_coefficient;  ///< f [-]
   double tangential_penalty;    ///< k_t [Pa/m]
@@ -29,13 +32,12 @@ struct CoulombFriction {
                    scale * (before.across + tangential_penalty * slip.across)};
     const double limit = friction_coefficient * pressure;
     const double size = std::hypot(after.along, after.across);
-    const bool slips = size > limit;
-    if (slips) {
+    if (size > limit) {
       const double share = limit / size;
       after.along *= share;
       after.across *= share;
     }
-    return {after, slips};
+    return {after, size >= kSlipping * limit && limit > 0};
   }
 
   /// Work of the mid-step traction on the slip of a step less the change of what the elastic stick stores:
