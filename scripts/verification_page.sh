@@ -9,6 +9,7 @@ document="$root/docs/verification.md"
 # One run a line: the case and its inputs; the order is that of the document.
 runs=(
   'hertz_sphere'
+  'hertz_sphere --set "element_size=0.55 mm"' # 25 minutes of a core
   'hertz_ellipse'
   'contact_filter'
   'cattaneo_mindlin'
