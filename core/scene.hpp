@@ -174,6 +174,7 @@ struct StopSpec {
 struct Scene {
   std::string title;
   std::string quality = "draft";       ///< "draft", "standard" or "paper"
+  std::string precision = "double";    ///< of nodal fields and elements: "double", "mixed" or "single"
   double zone_start = 2.4;             ///< solution zone [m]
   double zone_length = 0.6;            ///< [m]
   double gravity = 9.81;               ///< [m/s2]

@@ -19,7 +19,7 @@ namespace tread {
 /// Views of the fields themselves: they live as long as their owners do not move or resize them.
 class StateList {
  public:
-  using Values = std::variant<std::span<double>, std::span<std::int64_t>>;
+  using Values = std::variant<std::span<double>, std::span<std::int64_t>, std::span<float>>;
   struct Field {
     std::string name;  ///< "contact/frictional_work"
     Values values;

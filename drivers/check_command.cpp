@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "core/parallel.hpp"
 #include "drivers/disk_use.hpp"
@@ -36,15 +37,19 @@ struct Estimate {
   double rolling_seconds = 0;  ///< [s]
 };
 
+double seconds_of(const std::function<void()>& force) {
+  constexpr int kTimes = 5;
+  force();
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimes; ++i) force();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes;
+}
+
+/// In double.
 double seconds_of_one_force(const Model& model) {
   const AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   AlignedVector<double> f(u.size(), 0.0);
-  constexpr int kTimes = 5;
-  const AlignedVector<double> v(u.size(), 0.0);
-  model.internal->internal_force(u.data(), v.data(), f.data());
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < kTimes; ++i) model.internal->internal_force(u.data(), v.data(), f.data());
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes;
+  return seconds_of([&] { model.internal->internal_force(u.data(), u.data(), f.data()); });
 }
 
 Estimate estimate(const Model& model) {
@@ -58,7 +63,8 @@ Estimate estimate(const Model& model) {
   e.dt = model.scene.motion->step_safety * e.limit.stable_step;
   e.steps = step_count(model.scene, e.dt);
   e.disk = disk_use(model, e.dt);
-  e.rolling_seconds = kStepOverhead * e.force_seconds * static_cast<double>(e.steps);
+  const auto fields = make_node_fields(model);
+  e.rolling_seconds = kStepOverhead * seconds_of([&] { fields->deform(); }) * static_cast<double>(e.steps);
   return e;
 }
 

@@ -17,7 +17,7 @@ struct Place {
 };
 
 /// What is not finite is faster than all else.
-Place fastest_node(const Model& model, const double* velocity) {
+Place fastest_node(const Model& model, ConstNodeField velocity) {
   Place fastest;
   for (const SweptBlock& block : model.mesh.blocks)
     for (int station = 0; station < block.station_count(); ++station)

@@ -15,7 +15,7 @@ struct EnergyStop {
   double dt = 0;                     ///< [s]
   double missed = 0;                 ///< energy that appeared (> 0) or vanished (< 0) [J]
   double supplied = 0;               ///< [J]
-  const double* velocity = nullptr;  ///< of all nodes [m/s]
+  ConstNodeField velocity;  ///< of all nodes [m/s]
 };
 
 /// Names the instant, the energy, the fastest place, the cause (a step beyond the stable one, computed anew,

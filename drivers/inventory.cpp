@@ -31,6 +31,11 @@ bool fixed_blocks(const Model& model) {
   return model.index.rail_cap >= 0;
 }
 
+/// The run's fields are copies of the static state's.
+bool rounded(const Model& model) {
+  return model.scene.precision != "double";
+}
+
 std::int64_t moved_nodes(const Model& model) {
   std::int64_t count = 0;
   for (const SweptBlock& block : model.mesh.blocks)
@@ -131,6 +136,7 @@ std::vector<PhaseInfo> phases(const Model& model) {
 
 std::vector<FieldInfo> fields(const Model& model) {
   const std::int64_t vector = 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double));
+  const ValueBytes bytes = value_bytes(model.scene);
   std::vector<FieldInfo> list;
   const auto add = [&](bool when, FieldInfo field) {
     if (when) list.push_back(std::move(field));
@@ -154,8 +160,12 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(motion && model.scene.vehicle && !model.journal.empty(),
       {"sprung mass", "m, m/s", "sprung mass", static_cast<std::int64_t>(sizeof(SprungMass))});
   add(true, {"displacement", "m", "node", vector});
-  add(motion, {"velocity", "m/s", "node", vector});
-  add(motion, {"force", "N", "node", vector});
+  add(motion && rounded(model), {"rounded displacement", "m", "node", 3 * model.mesh.slots * bytes.displacement});
+  add(motion && rounded(model),
+      {"rounded coefficients and mass", "m, Pa, 1/kg", "quad and pitch class; moved elements; node",
+       model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
+  add(motion, {"velocity", "m/s", "node", 3 * model.mesh.slots * bytes.other});
+  add(motion, {"force", "N", "node", 3 * model.mesh.slots * bytes.other});
   add(motion && model.contact, {"surface fields", "Pa, J/m2", "rail surface node",
                                 model.contact ? SurfaceFields::bytes(model.contact->nodes().grid()) : 0});
   add(motion, {"samples", "all", "sample",
@@ -189,9 +199,10 @@ Table field_table(const Model& model) {
 }
 
 std::int64_t checkpoint_bytes(const Model& model) {
-  const std::int64_t vector = 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double));
-  if (!model.contact) return 2 * vector;
-  return 2 * vector + model.contact->bytes() + SurfaceFields::bytes(model.contact->nodes().grid());
+  const ValueBytes bytes = value_bytes(model.scene);
+  const std::int64_t motion = 3 * model.mesh.slots * (bytes.displacement + bytes.other);
+  if (!model.contact) return motion;
+  return motion + model.contact->bytes() + SurfaceFields::bytes(model.contact->nodes().grid());
 }
 
 std::int64_t peak_bytes(const Model& model) {
@@ -201,7 +212,7 @@ std::int64_t peak_bytes(const Model& model) {
   for (const FieldInfo& field : fields(model)) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
-    else if (field.name == "velocity" || field.name == "force" || field.name == "surface fields" ||
+    else if (field.name == "velocity" || field.name == "force" || field.name.starts_with("rounded") || field.name == "surface fields" ||
              field.name == "samples" || field.name == "checkpoint")
       rolling += field.bytes;
     else

@@ -28,11 +28,13 @@ namespace {
 struct SceneArguments {
   std::string scene;
   std::string quality;
+  std::string precision;
   std::vector<std::string> overrides;
 
   tread::ResolvedScene resolve() const {
     std::vector<std::string> all;
     if (!quality.empty()) all.push_back("scene.quality=" + quality);
+    if (!precision.empty()) all.push_back("scene.precision=" + precision);
     all.insert(all.end(), overrides.begin(), overrides.end());
     return tread::resolve_scene(std::filesystem::path(scene), all);
   }
@@ -81,6 +83,8 @@ void add_thread_options(CLI::App& command, tread::ThreadOptions& options) {
 /// Returns the option of the scene itself.
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
   command.add_option("-q,--quality", arguments.quality, "draft, standard or paper; overrides scene.quality");
+  command.add_option("--precision", arguments.precision,
+                     "double, mixed or single; overrides scene.precision");
   command
       .add_option("--set", arguments.overrides,
                   "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
@@ -236,7 +240,7 @@ void add_bench_kernels(CLI::App& bench) {
   command.add_option("--elements", options->elements, "mesh sizes (default: 10000 100000 1460000)")
       ->check(CLI::Range(100, 100000000));
   command.add_option("--lanes", options->lanes, "instruction sets (default: all of this processor)");
-  command.add_option("--precision", options->precisions, "double, single (default: both)");
+  command.add_option("--precision", options->precisions, "double, mixed, single (default: all)");
   command.callback([options] { tread::bench_kernels(*options); });
 }
 

@@ -191,7 +191,7 @@ void describe(const Model& model, Preload& out) {
 
 }  // namespace
 
-double wheel_tilt(const Model& model, const double* displacement, double angle) {
+double wheel_tilt(const Model& model, ConstNodeField displacement, double angle) {
   if (model.index.tread < 0) return 0;
   // The tread's lateral displacement varies as the depth below the axle.
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];

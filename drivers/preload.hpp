@@ -60,7 +60,7 @@ SteadyMotion steady_motion(const Model& model);
 
 /// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its
 /// nodes' lateral displacement; `angle` is the wheel frame's [rad].
-double wheel_tilt(const Model& model, const double* displacement, double angle);
+double wheel_tilt(const Model& model, ConstNodeField displacement, double angle);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);

@@ -251,7 +251,7 @@ void Rolling::fill_results() {
   results_->momentum = simulation_->momentum_check();
   results_->surface_fields = simulation_->surface();
   for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
-    results_->block_energy.push_back(model_->internal->energy(b, simulation_->displacement().data()));
+    results_->block_energy.push_back(simulation_->fields().energy(b));
 }
 
 }  // namespace tread

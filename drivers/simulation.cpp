@@ -11,7 +11,6 @@
 #include "drivers/start.hpp"
 #include "drivers/static_system.hpp"
 #include "kernels/solver/chunks.hpp"
-#include "kernels/time_update.hpp"
 
 namespace tread {
 
@@ -29,14 +28,6 @@ double creepage_of(double rim, double speed) {
   constexpr double kLeastSpeed = 1e-3;  // [m/s]
   const double rolling = 0.5 * (rim + speed);
   return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
-}
-
-TimeUpdate time_update(const Model& model) {
-  TimeUpdate update(model.mesh, model.inverse_mass.data());
-  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
-    if (model.vertical_only(b)) update.set_vertical_only(b);
-  update.defer(model.loaded_slots());
-  return update;
 }
 
 /// Restrained unknowns less those that the update leaves alone.
@@ -57,12 +48,12 @@ std::vector<std::int64_t> held_unknowns(const Model& model) {
 
 Simulation::Simulation(Model& model, double patch_y, double dt)
     : model_(&model),
-      update_(time_update(model)),
       held_(held_unknowns(model)),
       dt_(dt),
-      u_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0),
-      v_(u_.size(), 0.0),
-      force_(u_.size(), 0.0) {
+      fields_(make_node_fields(model)),
+      u_(fields_->displacement()),
+      v_(fields_->velocity()),
+      force_(fields_->force()) {
   const Scene& scene = model.scene;
   if (model.wheelset) {
     if (model.contact) surface_.emplace(model.contact->nodes().grid());
@@ -110,36 +101,38 @@ void Simulation::choose_creepage_nodes(double patch_y) {
 void Simulation::start(const Preload& preload) {
   Model& model = *model_;
   const Scene& scene = model.scene;
-  u_ = preload.displacement;
+  AlignedVector<double> u = preload.displacement;
+  AlignedVector<double> v(u.size(), 0.0);
   frame_ = preload.wheel;
-  if (model.guide) model.guide->settle(u_.data());
+  if (model.guide) model.guide->settle(u.data());
   const std::optional<RunIn>& run_in = preload.run_in;
-  const StartFields fields{u_, v_, frame_};
+  const StartFields fields{u, v, frame_};
   if (run_in) place_run_in(model, *run_in, fields);
   if (model.wheelset) {
-    anchor();  // at rest: the wheel then spins about its own displaced axis
+    anchor(u.data(), v.data());  // at rest: the wheel then spins about its own displaced axis
     if (model.contact) {
-      model.contact->find_static({u_.data(), nullptr, &frame_});
+      model.contact->find_static({u.data(), nullptr, &frame_});
       model.contact->begin();
     }
     start_velocities(model, run_in, fields);
-  }
-  if (scene.vehicle) {
-    sprung_.height = (frame_.origin + model.journal.displacement(u_.data(), frame_)).z;
-    if (run_in) {
-      sprung_.height -= run_in->stretch;
-      sprung_.speed = -run_in->sprung_speed;
-    }
   }
   if (scene.pulse) {
     for (const SweptBlock& block : model.mesh.blocks)
       for (int station = 0; station < block.station_count(); ++station)
         if (block.stations[static_cast<std::size_t>(station)] < block.stations.front() + scene.pulse->length)
           for (int node = 0; node < block.section.nodes(); ++node)
-            v_[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
+            v[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
                 scene.pulse->velocity;
   }
-  if (model.hammer) struck_at_ = -model.hammer->value(u_.data(), 2);
+  fields_->set(u, v);
+  if (scene.vehicle) {
+    sprung_.height = (frame_.origin + model.journal.displacement(u_, frame_)).z;
+    if (run_in) {
+      sprung_.height -= run_in->stretch;
+      sprung_.speed = -run_in->sprung_speed;
+    }
+  }
+  if (model.hammer) struck_at_ = -model.hammer->value(u_, 2);
   start_momentum_ = vehicle_momentum();
 }
 
@@ -147,8 +140,7 @@ StateList Simulation::state() {
   StateList list;
   list.add("time", time_);
   list.add("steps", steps_);
-  list.add("displacement", u_);
-  list.add("velocity", v_);
+  fields_->list_state(list);
   list.add("wheel_frame", frame_);
   list.add_part("sprung_mass", sprung_);
   list.add("torque", torque_);
@@ -190,7 +182,7 @@ void Simulation::step() {
   enter(StepPhase::measured);
   if (measured_) begin_sample();
   enter(StepPhase::tied_forces);
-  if (model_->ties) model_->ties->hand_over(force_.data());
+  if (model_->ties) model_->ties->hand_over(force_);
   // 3  fastenings, primary suspension
   enter(StepPhase::connectors);
   connect();
@@ -214,46 +206,46 @@ void Simulation::step() {
   enter(StepPhase::measured);
   if (measured_) end_sample();
   enter(StepPhase::anchor);
-  if (steps_ % kAnchorInterval == 0) anchor();
+  if (steps_ % kAnchorInterval == 0) anchor(u_, v_);
 }
 
 /// Energies want the forces of all nodes.
 void Simulation::deform() {
   if (measured_)
-    model_->internal->internal_force(u_.data(), v_.data(), force_.data());
+    fields_->deform();
   else
-    model_->internal->move(update_, loads(), u_.data(), v_.data(), force_.data());
+    fields_->deform_and_move(loads());
 }
 
 void Simulation::connect() {
-  if (model_->fastenings) model_->fastenings->apply(u_.data(), v_.data(), dt_, force_.data());
+  if (model_->fastenings) model_->fastenings->apply(u_, v_, dt_, force_);
   if (sprung_.mass > 0) {
-    const double height = frame_.origin.z + model_->journal.displacement(u_.data(), frame_).z;
-    const double speed = model_->journal.velocity(u_.data(), v_.data(), frame_).z;
+    const double height = frame_.origin.z + model_->journal.displacement(u_, frame_).z;
+    const double speed = model_->journal.velocity(u_, v_, frame_).z;
     const double up = sprung_.force(height, speed);
-    model_->journal.add(force_.data(), frame_, {0, 0, up});
+    model_->journal.add(force_, frame_, {0, 0, up});
     const double rate = sprung_.speed - speed;
     sprung_.dissipated += sprung_.damping * rate * rate * dt_;
     sprung_.advance(up, model_->scene.gravity, dt_);
   } else if (model_->scene.load && !model_->journal.empty()) {
-    model_->journal.add(force_.data(), frame_, {0, 0, model_->scene.load->wheel_load});
+    model_->journal.add(force_, frame_, {0, 0, model_->scene.load->wheel_load});
   }
 }
 
 void Simulation::search() {
   if (!model_->contact) return;
   if (!std::isfinite(frame_.origin.x)) stop();
-  model_->contact->search({u_.data(), v_.data(), &frame_}, time_, dt_);
+  model_->contact->search({u_, v_, &frame_}, time_, dt_);
 }
 
 void Simulation::roll() {
   if (!model_->contact) return;
-  model_->contact->resolve({u_.data(), v_.data(), model_->inverse_mass.data()}, frame_, dt_);
+  model_->contact->resolve({u_, v_, model_->inverse_mass.data()}, frame_, dt_);
   if (model_->contact->point_at_the_end(frame_)) {
     if (dt_ > stable_step_of(*model_)) stop();
     model_->contact->require_room(frame_);
   }
-  if (measured_) model_->contact->add_forces(force_.data());
+  if (measured_) model_->contact->add_forces(force_);
   const Vec3 on_wheel = -model_->contact->totals().force_on_rail;
   impulse_ += dt_ * on_wheel;
   contact_impulse_ += dt_ * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
@@ -265,7 +257,7 @@ void Simulation::record() {
   surface_->add_step(patch);
   if (!sampled_) return;
   surface_->add_sample(patch, static_cast<double>(sampling_) * dt_);
-  surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_.data());
+  surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_);
 }
 
 void Simulation::drive() {
@@ -273,7 +265,7 @@ void Simulation::drive() {
   torque_ = torque_at(time_);
   const double spin = model_->guide
                           ? frame_.spin + model_->guide->motion().spin
-                          : model_->torque.apply(torque_, u_.data(), v_.data(), frame_, force_.data());
+                          : model_->torque.apply(torque_, u_, v_, frame_, force_);
   torque_work_ += 0.5 * (torque_before_ + torque_) * spin * dt_;
   torque_before_ = torque_;
 }
@@ -281,37 +273,35 @@ void Simulation::drive() {
 void Simulation::strike() {
   if (!model_->hammer) return;
   const double force = model_->scene.hammer->force_at(time_);
-  const double displacement = -model_->hammer->value(u_.data(), 2) - struck_at_;
+  const double displacement = -model_->hammer->value(u_, 2) - struck_at_;
   hammer_work_ += 0.5 * (hammer_force_ + force) * (displacement - hammer_displacement_);
   hammer_force_ = force;
   hammer_displacement_ = displacement;
-  model_->hammer->add(force_.data(), 2, force);
+  model_->hammer->add(force_, 2, force);
 }
 
 void Simulation::carry() {
   if (!model_->scene.vehicle) return;
   const double added = model_->scene.vehicle->unsprung_mass;
-  const Vec3 total = model_->journal.total(force_.data(), frame_);
-  model_->journal.add(force_.data(), frame_, (-added / (model_->journal.mass() + added)) * total);
+  const Vec3 total = model_->journal.total(force_, frame_);
+  model_->journal.add(force_, frame_, (-added / (model_->journal.mass() + added)) * total);
 }
 
 void Simulation::move() {
-  const UpdateFields fields{u_.data(), v_.data(), force_.data()};
   if (measured_)
-    update_.move_all(loads(), fields);
+    fields_->move_all(loads());
   else
-    update_.move_rest(loads(), fields, model_->internal->unmoved_tiles());
+    fields_->move_rest(loads());
   if (model_->guide) guide();
   // Contact must not see restrained nodes move.
-  for (const std::int64_t unknown : held_)
-    u_[static_cast<std::size_t>(unknown)] = v_[static_cast<std::size_t>(unknown)] = 0;
+  for (const std::int64_t unknown : held_) u_[unknown] = v_[unknown] = 0;
 }
 
 void Simulation::guide() {
   GuidedBore& carrier = *model_->guide;
   const MeanMotion before = carrier.motion();
   const double balance = carrier.counterweight(frame_.spin + before.spin, frame_.angle + before.rotation);
-  carrier.move({u_.data(), v_.data()}, frame_, dt_, {balance - model_->journal_load(), torque_});
+  carrier.move({u_, v_}, frame_, dt_, {balance - model_->journal_load(), torque_});
   const double impulse = carrier.guide_impulse();
   guide_work_ += 0.5 * (guide_before_ + impulse) * frame_.velocity.x;
   guide_work_ += dt_ * balance * (frame_.velocity.z + carrier.motion().velocity.z);
@@ -320,31 +310,30 @@ void Simulation::guide() {
 }
 
 void Simulation::finish() {
-  follow_ties();
+  follow_ties(u_, v_);
   frame_.advance(dt_);
   time_ += dt_;
   ++steps_;
 }
 
-void Simulation::anchor() {
+void Simulation::anchor(NodeField u, NodeField v) {
   if (!model_->wheelset) return;
-  model_->wheelset->anchor(wheel_motion(), u_.data(), v_.data(), frame_, dt_);
+  model_->wheelset->anchor(wheel_motion(u, v), u, v, frame_, dt_);
   if (model_->guide) model_->guide->anchored();
-  follow_ties();
+  follow_ties(u, v);
 }
 
-MeanMotion Simulation::wheel_motion() const {
-  return model_->guide ? model_->guide->motion()
-                       : model_->wheelset->mean_motion(u_.data(), v_.data(), frame_);
+MeanMotion Simulation::wheel_motion(ConstNodeField u, ConstNodeField v) const {
+  return model_->guide ? model_->guide->motion() : model_->wheelset->mean_motion(u, v, frame_);
 }
 
 double Simulation::axle_height() const {
   return frame_.origin.z + (model_->guide ? model_->guide->motion().displacement.z
-                                          : model_->journal.displacement(u_.data(), frame_).z);
+                                          : model_->journal.displacement(u_, frame_).z);
 }
 
-void Simulation::follow_ties() {
-  if (model_->ties) model_->ties->follow({u_.data(), v_.data()});
+void Simulation::follow_ties(NodeField u, NodeField v) const {
+  if (model_->ties) model_->ties->follow({u, v});
 }
 
 double Simulation::fixed_kinetic_energy() const {
@@ -358,7 +347,7 @@ double Simulation::fixed_kinetic_energy() const {
         for (int l = 0; l < kLanes; ++l) {
           const double m = model_->mass[static_cast<std::size_t>(g * kLanes + l)];
           for (int c = 0; c < 3; ++c) {
-            const double v = v_[static_cast<std::size_t>((g * 3 + c) * kLanes + l)];
+            const double v = v_[(g * 3 + c) * kLanes + l];
             part += 0.5 * m * v * v;
           }
         }
@@ -377,9 +366,9 @@ BodyFrame Simulation::half_step_frame() const {
 
 double Simulation::kinetic_energy() const {
   double sum = fixed_kinetic_energy();
-  if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_.data(), v_.data(), half_step_frame());
+  if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_, v_, half_step_frame());
   if (model_->scene.vehicle) {
-    const Vec3 v = model_->journal.velocity(u_.data(), v_.data(), frame_);
+    const Vec3 v = model_->journal.velocity(u_, v_, frame_);
     sum += 0.5 * model_->scene.vehicle->unsprung_mass * dot(v, v) +
            0.5 * sprung_.mass * sprung_.speed * sprung_.speed;
   }
@@ -390,7 +379,7 @@ double Simulation::kinetic_energy() const {
 /// together with the strain energy, by dt^2 / 4 F . M^-1 F.
 double Simulation::half_step_excess() const {
   const auto excess_of = [&](std::int64_t slot, int component) {
-    const double f = force_[static_cast<std::size_t>(dof(slot, component))];
+    const double f = force_[dof(slot, component)];
     return 0.25 * dt_ * dt_ * model_->inverse_mass[static_cast<std::size_t>(slot)] * f * f;
   };
   double sum = sum_chunks(model_->mesh.slots, [&](std::int64_t first, std::int64_t last) {
@@ -420,13 +409,13 @@ double Simulation::gravity_potential() const {
       for (std::int64_t k = first_group + first; k < first_group + last; ++k)
         for (int l = 0; l < kLanes; ++l)
           part += g * model_->mass[static_cast<std::size_t>(k * kLanes + l)] *
-                  u_[static_cast<std::size_t>((k * 3 + 2) * kLanes + l)];
+                  u_[(k * 3 + 2) * kLanes + l];
       return part;
     });
   }
   if (model_->wheelset) {
     const double height =
-        frame_.origin.z + model_->wheelset->mean_motion(u_.data(), v_.data(), frame_).displacement.z;
+        frame_.origin.z + model_->wheelset->mean_motion(u_, v_, frame_).displacement.z;
     sum += g * model_->wheelset->mass() * height;
   }
   if (!model_->journal.empty() || model_->guide) {
@@ -440,9 +429,9 @@ double Simulation::gravity_potential() const {
 
 Vec3 Simulation::vehicle_momentum() const {
   Vec3 sum;
-  if (model_->wheelset) sum += model_->wheelset->momentum(u_.data(), v_.data(), half_step_frame());
+  if (model_->wheelset) sum += model_->wheelset->momentum(u_, v_, half_step_frame());
   if (model_->scene.vehicle) {
-    sum += model_->scene.vehicle->unsprung_mass * model_->journal.velocity(u_.data(), v_.data(), frame_);
+    sum += model_->scene.vehicle->unsprung_mass * model_->journal.velocity(u_, v_, frame_);
     sum.z += sprung_.mass * sprung_.speed;
   }
   return sum;
@@ -455,14 +444,11 @@ void Simulation::watch(double excess) {
 
 void Simulation::stop() const {
   throw NumericalError(energy_stop_text(
-      *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_.data()}));
+      *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_}));
 }
 
 bool Simulation::finite() const {
-  const auto all = [](const AlignedVector<double>& field) {
-    return std::all_of(field.begin(), field.end(), [](double value) { return std::isfinite(value); });
-  };
-  return all(u_) && all(v_);
+  return fields_->finite();
 }
 
 MomentumCheck Simulation::momentum_check() const {
@@ -474,32 +460,20 @@ MomentumCheck Simulation::momentum_check() const {
 double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
   const CreepageNode& node = creepage_nodes_[index];
   const double carried = cartesian_to_cylindrical(node.angle + frame_.angle, mean.velocity).x;
-  const double speed = v_[static_cast<std::size_t>(dof(node.slot, 0))] - carried +
-                       frame_.spin * (node.radius + u_[static_cast<std::size_t>(dof(node.slot, 2))]);
+  const double speed = v_[dof(node.slot, 0)] - carried +
+                       frame_.spin * (node.radius + u_[dof(node.slot, 2)]);
   return creepage_of(speed, frame_.velocity.x + mean.velocity.x);
 }
 
 void Simulation::begin_sample() {
   EnergyLedger& energy = sample_.energy;
-  // force_ still holds K (u + beta v) alone: in the linear blocks u . K u / 2 is the energy of strain and
-  // hourglass.
-  energy.strain = 0;
-  for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b) {
-    const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(b)];
-    if (block.sweep == Sweep::extruded) {
-      energy.strain +=
-          0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, force_.data() + 3 * block.base);
-    } else {
-      const DeformationEnergy part = model_->internal->energy(b, u_.data());
-      energy.strain += part.strain + part.hourglass;
-    }
-  }
+  energy.strain = fields_->strain_energy();
   kinetic_before_ = kinetic_energy();
   energy.gravity = gravity_potential();
-  energy.connectors = model_->fastenings ? model_->fastenings->energy(u_.data()) : 0.0;
+  energy.connectors = model_->fastenings ? model_->fastenings->energy(u_) : 0.0;
   if (sprung_.mass > 0) {
     const double stretch = sprung_.height - frame_.origin.z -
-                           model_->journal.displacement(u_.data(), frame_).z - sprung_.free_length_height;
+                           model_->journal.displacement(u_, frame_).z - sprung_.free_length_height;
     energy.connectors += 0.5 * sprung_.stiffness * stretch * stretch;
   }
   sample_.time = time_;
@@ -534,7 +508,7 @@ void Simulation::end_sample() {
     sample_.corrugation_depth = corrugation.depth(sample_.wheel_x, corrugation.centre());
   }
   if (model_->wheelset) {
-    const MeanMotion mean = wheel_motion();
+    const MeanMotion mean = wheel_motion(u_, v_);
     sample_.wheel_speed = frame_.velocity.x + mean.velocity.x;
     sample_.wheel_spin = frame_.spin + mean.spin;
     double sum = 0;
@@ -552,8 +526,8 @@ void Simulation::end_sample() {
 
 std::uint64_t Simulation::state_hash() const {
   Hash hash;
-  for (const double value : u_) hash.add(value);
-  for (const double value : v_) hash.add(value);
+  for (const ConstNodeField field : {ConstNodeField(u_), ConstNodeField(v_)})
+    for (std::int64_t i = 0; i < 3 * model_->mesh.slots; ++i) hash.add(field[i]);
   for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,
                              frame_.velocity.x, sprung_.height, sprung_.speed})
     hash.add(value);

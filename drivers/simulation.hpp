@@ -1,18 +1,18 @@
 #pragma once
 // Step 2: explicit rolling by central difference. [theory.md, Time step]
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "core/aligned.hpp"
 #include "core/body_frame.hpp"
 #include "core/state_list.hpp"
 #include "drivers/energy_watch.hpp"
 #include "drivers/model.hpp"
+#include "drivers/node_fields.hpp"
 #include "drivers/phase_clock.hpp"
 #include "drivers/preload.hpp"
 #include "kernels/surface_fields.hpp"
-#include "kernels/time_update.hpp"
 
 namespace tread {
 
@@ -96,8 +96,9 @@ class Simulation {
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
-  const AlignedVector<double>& displacement() const { return u_; }
-  const AlignedVector<double>& velocity() const { return v_; }
+  const NodeFields& fields() const { return *fields_; }
+  ConstNodeField displacement() const { return u_; }
+  ConstNodeField velocity() const { return v_; }
   const BodyFrame& wheel() const { return frame_; }
   /// What the wheel leaves on the rail's surface; none without contact.
   const std::optional<SurfaceFields>& surface() const { return surface_; }
@@ -133,14 +134,13 @@ class Simulation {
   Vec3 vehicle_momentum() const;
   double creepage(std::size_t node, const MeanMotion& mean) const;
   /// Of the wheel relative to its frame: of the guided bore, or else in the mean over the mass.
-  MeanMotion wheel_motion() const;
+  MeanMotion wheel_motion(ConstNodeField u, ConstNodeField v) const;
   /// Height of the axle, where the load acts [m].
   double axle_height() const;
-  void anchor();
-  void follow_ties();
+  void anchor(NodeField u, NodeField v);
+  void follow_ties(NodeField u, NodeField v) const;
 
   Model* model_;
-  TimeUpdate update_;
   std::vector<std::int64_t> held_;  ///< restrained unknowns that would move
   double dt_;
   double time_ = 0;
@@ -150,7 +150,8 @@ class Simulation {
   bool measured_ = false;  ///< energies are looked at in this step
   PhaseClock* clock_ = nullptr;
 
-  AlignedVector<double> u_, v_, force_;
+  std::unique_ptr<NodeFields> fields_;
+  NodeField u_, v_, force_;  ///< of fields_
   BodyFrame frame_;
   SprungMass sprung_;
   double max_torque_ = 0;

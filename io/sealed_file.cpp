@@ -131,6 +131,7 @@ struct WriteEntry {
   const std::string& name;
 
   void operator()(const std::vector<double>& values) const { file.write<double>(name, values); }
+  void operator()(const std::vector<float>& values) const { file.write<float>(name, values); }
   void operator()(const std::vector<std::int64_t>& values) const { file.write<std::int64_t>(name, values); }
   void operator()(const std::string& text) const {
     file.write<std::uint8_t>(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
@@ -139,6 +140,7 @@ struct WriteEntry {
 
 SealedValues read_entry(const Hdf5File& file, const std::string& name) {
   if (file.holds<double>(name)) return file.read<double>(name);
+  if (file.holds<float>(name)) return file.read<float>(name);
   if (file.holds<std::int64_t>(name)) return file.read<std::int64_t>(name);
   const std::vector<std::uint8_t> bytes = file.read<std::uint8_t>(name);
   return std::string(bytes.begin(), bytes.end());
@@ -182,6 +184,7 @@ const T& sealed_entry(const SealedContent& content, const std::string& name) {
 }
 
 template const std::vector<double>& sealed_entry(const SealedContent&, const std::string&);
+template const std::vector<float>& sealed_entry(const SealedContent&, const std::string&);
 template const std::vector<std::int64_t>& sealed_entry(const SealedContent&, const std::string&);
 template const std::string& sealed_entry(const SealedContent&, const std::string&);
 

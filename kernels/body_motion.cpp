@@ -31,16 +31,6 @@ void visit_tile(const SweptBlock& block, std::size_t t, const double* mass, Visi
   }
 }
 
-Vec3 read(const double* field, std::int64_t slot) {
-  return {field[dof(slot, 0)], field[dof(slot, 1)], field[dof(slot, 2)]};
-}
-
-void write(double* field, std::int64_t slot, const Vec3& v) {
-  field[dof(slot, 0)] = v.x;
-  field[dof(slot, 1)] = v.y;
-  field[dof(slot, 2)] = v.z;
-}
-
 /// Sums over tiles in a fixed order whatever the number of threads.
 template <class Sum, class Visit>
 Sum sum_over_tiles(const Mesh& mesh, const std::vector<int>& blocks, const double* mass, Visit visit) {
@@ -96,36 +86,36 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
   transverse_ = 0.5 * sums.polar + sums.second_y - sums.mass * centre_y_ * centre_y_;
 }
 
-MeanMotion SpinningBody::mean_motion(const double* u, const double* w, const BodyFrame& frame) const {
+MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
   const auto sums =
       sum_over_tiles<MotionSums>(*mesh_, blocks_, nodal_mass_, [&](const NodeView& n, MotionSums& s) {
-        const Vec3 displacement = read(u, n.slot);
-        const Vec3 velocity = read(w, n.slot) + spin_cross(frame.spin, displacement);
+        const Vec3 displacement = u.at(n.slot);
+        const Vec3 velocity = w.at(n.slot) + spin_cross(frame.spin, displacement);
         const double phi = n.angle + frame.angle;
         s += MotionSums{n.mass * cylindrical_to_cartesian(phi, displacement),
                         n.mass * cylindrical_to_cartesian(phi, velocity),
-                        n.mass * n.reference.z * displacement.x, n.mass * n.reference.z * read(w, n.slot).x};
+                        n.mass * n.reference.z * displacement.x, n.mass * n.reference.z * w.at(n.slot).x};
       });
   return {(1 / mass_) * sums.displacement, (1 / mass_) * sums.velocity, sums.rotation / inertia_,
           sums.spin / inertia_};
 }
 
-double SpinningBody::kinetic_energy(const double* u, const double* w, const BodyFrame& frame) const {
+double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
   return sum_over_tiles<double>(*mesh_, blocks_, nodal_mass_, [&](const NodeView& n, double& sum) {
-    const Vec3 relative = read(w, n.slot) + spin_cross(frame.spin, n.reference + read(u, n.slot));
+    const Vec3 relative = w.at(n.slot) + spin_cross(frame.spin, n.reference + u.at(n.slot));
     const Vec3 v = frame.velocity + cylindrical_to_cartesian(n.angle + frame.angle, relative);
     sum += 0.5 * n.mass * dot(v, v);
   });
 }
 
-Vec3 SpinningBody::momentum(const double* u, const double* w, const BodyFrame& frame) const {
+Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
   return sum_over_tiles<Vec3>(*mesh_, blocks_, nodal_mass_, [&](const NodeView& n, Vec3& sum) {
-    const Vec3 relative = read(w, n.slot) + spin_cross(frame.spin, n.reference + read(u, n.slot));
+    const Vec3 relative = w.at(n.slot) + spin_cross(frame.spin, n.reference + u.at(n.slot));
     sum += n.mass * (frame.velocity + cylindrical_to_cartesian(n.angle + frame.angle, relative));
   });
 }
 
-void SpinningBody::anchor(MeanMotion mean, double* u, double* w, BodyFrame& frame, double dt) const {
+void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const {
   // Along the axis the body is restrained, not free: the frame stays there.
   mean.displacement.y = mean.velocity.y = 0;
   BodyFrame moved = frame;
@@ -148,18 +138,18 @@ void SpinningBody::anchor(MeanMotion mean, double* u, double* w, BodyFrame& fram
                                                                        std::int64_t last) {
       for (auto t = static_cast<std::size_t>(first); t < static_cast<std::size_t>(last); ++t)
         visit_tile(block, t, nodal_mass_, [&](const NodeView& n) {
-          const Vec3 displacement = read(u, n.slot);
-          const Vec3 velocity = read(w, n.slot);
+          const Vec3 displacement = u.at(n.slot);
+          const Vec3 velocity = w.at(n.slot);
           // Absolute position now, seen from the moved frame.
           const Vec3 arm =
               n.reference + displacement - cartesian_to_cylindrical(n.angle + frame.angle, mean.displacement);
-          write(u, n.slot, turn(arm, -mean.rotation) - n.reference);
+          u.set(n.slot, turn(arm, -mean.rotation) - n.reference);
           // Absolute velocity at the half step, seen from the moved frame.
           const double phi_half = n.angle + before_half.angle;
           const Vec3 arm_half = n.reference + displacement - (0.5 * dt) * velocity;
           const Vec3 absolute = velocity + spin_cross(frame.spin, arm_half);
           const Vec3 moved_arm = turn(arm_half - cartesian_to_cylindrical(phi_half, step_half), -turned_half);
-          write(w, n.slot,
+          w.set(n.slot,
                 turn(absolute - cartesian_to_cylindrical(phi_half, speed_change), -turned_half) -
                     spin_cross(moved.spin, moved_arm));
         });

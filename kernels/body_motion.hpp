@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/body_frame.hpp"
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 
 namespace tread {
@@ -31,19 +32,19 @@ class SpinningBody {
   const std::vector<int>& blocks() const { return blocks_; }
 
   /// u, w: displacement and relative velocity fields.
-  MeanMotion mean_motion(const double* u, const double* w, const BodyFrame& frame) const;
+  MeanMotion mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
   /// Kinetic energy in inertial axes [J].
-  double kinetic_energy(const double* u, const double* w, const BodyFrame& frame) const;
-  Vec3 momentum(const double* u, const double* w, const BodyFrame& frame) const;
+  double kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
+  Vec3 momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
   /// Moves the frame onto a motion relative to it, the body's mean_motion() say, in the plane of rolling
   /// (along y it stays); absolute positions at the time of u and absolute velocities at the half step before
   /// it (`dt` [s] long) stay what they are.
-  void anchor(double* u, double* w, BodyFrame& frame, double dt) const {
+  void anchor(NodeField u, NodeField w, BodyFrame& frame, double dt) const {
     anchor(mean_motion(u, w, frame), u, w, frame, dt);
   }
-  void anchor(MeanMotion mean, double* u, double* w, BodyFrame& frame, double dt) const;
+  void anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const;
 
  private:
   template <class Visit>

@@ -4,7 +4,7 @@
 
 namespace tread {
 
-void SpringDampers::apply(const double* u, const double* v, double dt, double* force) {
+void SpringDampers::apply(ConstNodeField u, ConstNodeField v, double dt, NodeField force) {
   for (const Element& e : elements_) {
     const double rate = e.upper.value(v, 2) - e.lower.value(v, 2);
     const double load = e.stiffness * (e.upper.value(u, 2) - e.lower.value(u, 2)) + e.damping * rate;
@@ -34,7 +34,7 @@ std::vector<Spring> SpringDampers::springs() const {
   return springs;
 }
 
-double SpringDampers::energy(const double* u) const {
+double SpringDampers::energy(ConstNodeField u) const {
   double sum = 0;
   for (const Element& e : elements_) {
     const double stretch = e.upper.value(u, 2) - e.lower.value(u, 2);
@@ -102,7 +102,7 @@ Turned space_angle(double c, double s, double frame_c, double frame_s) {
 
 }  // namespace
 
-Vec3 Journal::displacement(const double* u, const BodyFrame& frame) const {
+Vec3 Journal::displacement(ConstNodeField u, const BodyFrame& frame) const {
   const double fc = std::cos(frame.angle);
   const double fs = std::sin(frame.angle);
   Vec3 sum;
@@ -115,11 +115,11 @@ Vec3 Journal::displacement(const double* u, const BodyFrame& frame) const {
   return sum;
 }
 
-Vec3 Journal::velocity(const double* u, const double* w, const BodyFrame& frame) const {
+Vec3 Journal::velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
   return frame.velocity + displacement(w, frame) + cross({0, frame.spin, 0}, displacement(u, frame));
 }
 
-Vec3 Journal::total(const double* force, const BodyFrame& frame) const {
+Vec3 Journal::total(ConstNodeField force, const BodyFrame& frame) const {
   const double fc = std::cos(frame.angle);
   const double fs = std::sin(frame.angle);
   Vec3 sum;
@@ -132,7 +132,7 @@ Vec3 Journal::total(const double* force, const BodyFrame& frame) const {
   return sum;
 }
 
-void Journal::add(double* field, const BodyFrame& frame, const Vec3& load) const {
+void Journal::add(NodeField field, const BodyFrame& frame, const Vec3& load) const {
   const double fc = std::cos(frame.angle);
   const double fs = std::sin(frame.angle);
   for (const Node& node : nodes_) {
@@ -156,8 +156,8 @@ AxleTorque::AxleTorque(const SweptBlock& block, const std::vector<int>& path, co
   for (Node& node : nodes_) node.lever /= inertia;
 }
 
-double AxleTorque::apply(double torque, const double* u, const double* w, const BodyFrame& frame,
-                         double* force) const {
+double AxleTorque::apply(double torque, ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+                         NodeField force) const {
   double spin = frame.spin;
   for (const Node& node : nodes_) {
     force[dof(node.slot, 0)] -= torque * node.lever;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/body_frame.hpp"
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/state_list.hpp"
 #include "kernels/solver/linear_operator.hpp"
@@ -20,13 +21,13 @@ struct Attachment {
   std::array<std::int64_t, 4> slot = {-1, -1, -1, -1};
   std::array<double, 4> weight = {0, 0, 0, 0};
 
-  double value(const double* field, int component) const {
+  double value(ConstNodeField field, int component) const {
     double sum = 0;
     for (std::size_t k = 0; k < 4; ++k)
       if (slot[k] >= 0) sum += weight[k] * field[dof(slot[k], component)];
     return sum;
   }
-  void add(double* field, int component, double load) const {
+  void add(NodeField field, int component, double load) const {
     for (std::size_t k = 0; k < 4; ++k)
       if (slot[k] >= 0) field[dof(slot[k], component)] += weight[k] * load;
   }
@@ -46,9 +47,9 @@ class SpringDampers {
   const std::vector<Element>& elements() const { return elements_; }
 
   /// force += K u + C v; the dampers' loss over dt is added to dissipated().
-  void apply(const double* u, const double* v, double dt, double* force);
+  void apply(ConstNodeField u, ConstNodeField v, double dt, NodeField force);
   std::vector<Spring> springs() const;
-  double energy(const double* u) const;              ///< [J]
+  double energy(ConstNodeField u) const;             ///< [J]
   double dissipated() const { return dissipated_; }  ///< [J]
 
   void list_state(StateList& list) { list.add("dissipated", dissipated_); }
@@ -67,12 +68,12 @@ class Journal {
   Journal(const SweptBlock& block, const std::vector<int>& path, const double* mass);
 
   /// Mean displacement from the axis and mean velocity, Cartesian [m], [m/s].
-  Vec3 displacement(const double* u, const BodyFrame& frame) const;
-  Vec3 velocity(const double* u, const double* w, const BodyFrame& frame) const;
-  Vec3 total(const double* force, const BodyFrame& frame) const;
+  Vec3 displacement(ConstNodeField u, const BodyFrame& frame) const;
+  Vec3 velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
+  Vec3 total(ConstNodeField force, const BodyFrame& frame) const;
 
   /// Spreads a Cartesian force over the nodes: field += sign of the caller.
-  void add(double* field, const BodyFrame& frame, const Vec3& load) const;
+  void add(NodeField field, const BodyFrame& frame, const Vec3& load) const;
   double mass() const { return mass_; }
   bool empty() const { return nodes_.empty(); }
   std::vector<std::int64_t> slots() const;
@@ -123,7 +124,8 @@ class AxleTorque {
   /// Subtracts the nodal forces of `torque` [N m] (about +y) from `force`; returns their power per torque
   /// [rad/s]: the mean spin of the loaded nodes in space. The radial growth of a spinning body lengthens
   /// their levers.
-  double apply(double torque, const double* u, const double* w, const BodyFrame& frame, double* force) const;
+  double apply(double torque, ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+               NodeField force) const;
   bool empty() const { return nodes_.empty(); }
   std::vector<std::int64_t> slots() const;
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }

@@ -15,16 +15,6 @@ namespace tread {
 
 namespace {
 
-Vec3 read(const double* field, std::int64_t slot) {
-  return {field[dof(slot, 0)], field[dof(slot, 1)], field[dof(slot, 2)]};
-}
-
-void subtract(double* field, std::int64_t slot, const Vec3& value) {
-  field[dof(slot, 0)] -= value.x;
-  field[dof(slot, 1)] -= value.y;
-  field[dof(slot, 2)] -= value.z;
-}
-
 /// Points and weights of Gauss on [0, 1].
 std::vector<std::array<double, 2>> gauss(int points) {
   switch (points) {
@@ -182,7 +172,7 @@ void Contact::update_window(const BodyFrame& wheel) {
 
 double Contact::probe(const ContactState& state, const Candidate& where, ContactPoint& point) const {
   const auto& [along, across, weight, box_factor] = quadrature_[static_cast<std::size_t>(where.point)];
-  const double* u = state.displacement;
+  const ConstNodeField u = state.displacement;
   const bool exact = options_.surface == SurfaceKind::exact;
 
   // The rail point.
@@ -200,7 +190,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
       const int station = rail_along.ordinal[i];
       point.rail_slot[k] = rail_->base + rail_->slot(node, station);
       point.rail_weight[k] = rail_along.value[i] * rail_across.value[j];
-      x += point.rail_weight[k] * read(u, point.rail_slot[k]);
+      x += point.rail_weight[k] * u.at(point.rail_slot[k]);
       if (!exact)
         depth += point.rail_weight[k] * corrugation_.depth(rail_->stations[static_cast<std::size_t>(station)],
                                                            rail_->section.p[static_cast<std::size_t>(node)]);
@@ -245,7 +235,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
         const std::size_t k = 4 * i + j;
         point.wheel_slot[k] = wheel_->base + wheel_->slot(node, around.ordinal[i]);
         point.wheel_weight[k] = around.value[i] * over.value[j];
-        Vec3 nodal = read(u, point.wheel_slot[k]);
+        Vec3 nodal = u.at(point.wheel_slot[k]);
         if (!exact)
           nodal += {0, wheel_->section.p[static_cast<std::size_t>(node)],
                     wheel_->section.q[static_cast<std::size_t>(node)]};
@@ -285,7 +275,7 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
 Vec3 Contact::rail_velocity(const ContactState& state, const ContactPoint& point) const {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
-    v += point.rail_weight[k] * read(state.velocity, point.rail_slot[k]);
+    v += point.rail_weight[k] * state.velocity.at(point.rail_slot[k]);
   return v;
 }
 
@@ -293,7 +283,7 @@ Vec3 Contact::wheel_velocity(const ContactState& state, const ContactPoint& poin
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
     v += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
-                                           read(state.velocity, point.wheel_slot[k]));
+                                           state.velocity.at(point.wheel_slot[k]));
   const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
   return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
 }
@@ -312,7 +302,7 @@ Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
 void Contact::visit_column(const ContactState& state, int station, double time) {
   std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
   column.clear();
-  const bool dynamic = state.velocity != nullptr;
+  const bool dynamic = static_cast<bool>(state.velocity);
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
     double& wake = wake_time_[static_cast<std::size_t>(face_index(station, edge))];
     if (dynamic && time < wake) continue;
@@ -434,6 +424,8 @@ void Contact::find_static(const ContactState& state) {
 
 void Contact::begin() {
   std::fill(history_.begin(), history_.end(), History{});
+  std::fill(wake_time_.begin(), wake_time_.end(), -std::numeric_limits<double>::infinity());
+  frictional_work_ = damping_work_ = 0;
   for (const ContactPoint& point : points_)
     history_[static_cast<std::size_t>(point.history)].pressure = point.pressure;
 }
@@ -502,14 +494,14 @@ double Contact::stored_energy(double pressure, const Traction& shear) const {
   return 0.5 * pressure * pressure / options_.penalty + friction_.stored(shear);
 }
 
-void Contact::add_forces(double* force) const {
+void Contact::add_forces(NodeField force) const {
   for (const ContactPoint& point : points_) {
     const Vec3 load = point.area * point.traction();
     std::array<Vec3, 4> local{};
     for (std::size_t i = 0; i < 4; ++i) local[i] = localise(point.wheel_cosine[i], point.wheel_sine[i], load);
     for (std::size_t k = 0; k < kSupport; ++k) {
-      subtract(force, point.rail_slot[k], point.rail_weight[k] * load);
-      subtract(force, point.wheel_slot[k], -point.wheel_weight[k] * local[k / 4]);
+      force.add(point.rail_slot[k], -point.rail_weight[k] * load);
+      force.add(point.wheel_slot[k], point.wheel_weight[k] * local[k / 4]);
     }
   }
 }

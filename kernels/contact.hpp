@@ -9,6 +9,7 @@
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
 #include "core/corrugation.hpp"
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/state_list.hpp"
 #include "kernels/contact_point.hpp"
@@ -46,8 +47,8 @@ struct ContactTotals {
 
 /// Where the bodies are: displacement and velocity fields in local components, and the wheel's frame.
 struct ContactState {
-  const double* displacement;  ///< [m]
-  const double* velocity;      ///< relative to the frame [m/s]; null in statics
+  ConstNodeField displacement;  ///< [m]
+  ConstNodeField velocity;      ///< relative to the frame [m/s]; none in statics
   const BodyFrame* wheel;
 };
 
@@ -80,7 +81,7 @@ class Contact {
   Vec3 mean_slip_velocity(const ContactState& state) const;
 
   /// Subtracts the contact forces from `force` (internal minus external).
-  void add_forces(double* force) const;
+  void add_forces(NodeField force) const;
 
   /// The normal penalties of the points found last, one spring each.
   std::vector<Spring> springs() const;

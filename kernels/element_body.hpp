@@ -117,7 +117,20 @@ TREAD_INLINE void cross_product(const V (&a)[3], const V (&b)[3], V (&result)[3]
   result[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/// Strains of perturbed elements, each lane with positions of its own; V covers the lanes from `lane` on.
+/// Reads the positions of a tile's elements from `lane` on.
+template <class V, class Real>
+struct PositionsFrom {
+  const LanePositions<Real>& lanes;
+  int lane;
+
+  TREAD_INLINE V operator()(int m, int j) const {
+    V value;
+    __builtin_memcpy(&value, lanes.position[m][j] + lane, sizeof value);
+    return value;
+  }
+};
+
+/// Strains of perturbed elements, each lane with positions of its own: read(mode, component).
 /// Gradients are formed here, as in element_geometry: reading them would cost more time than these products.
 template <class V, class Real>
 struct PerturbedElement {
@@ -125,10 +138,10 @@ struct PerturbedElement {
   V gradient[kGradientModes][3];
   V volume_ratio;  ///< by the volume of the swept shape
 
-  TREAD_INLINE PerturbedElement(const LanePositions<Real>& lanes, int lane,
-                                const SweptConstants<Real>& swept) {
+  template <class Read>
+  TREAD_INLINE PerturbedElement(const Read& read, const SweptConstants<Real>& swept) {
     for (int m = 0; m < kModes; ++m)
-      for (int j = 0; j < 3; ++j) __builtin_memcpy(&position[m][j], lanes.position[m][j] + lane, sizeof(V));
+      for (int j = 0; j < 3; ++j) position[m][j] = read(m, j);
     const Real third = Real(1) / 3;
     set_linear(mode_xi, third);
     set_linear(mode_eta, third);

@@ -53,7 +53,7 @@ double GuidedBore::counterweight(double spin, double angle) const {
   return spin * spin * (imbalance_down_ * std::cos(angle) - imbalance_behind_ * std::sin(angle));
 }
 
-void GuidedBore::settle(const double* displacement) {
+void GuidedBore::settle(ConstNodeField displacement) {
   rise_ = displacement[unknown_] / per_rise_;
   rotation_ = rise_speed_ = spin_ = 0;
 }
@@ -68,8 +68,8 @@ MeanMotion GuidedBore::motion() const {
 }
 
 void GuidedBore::move(const BoreFields& fields, const BodyFrame& frame, double dt, const CarrierLoad& load) {
-  double* u = fields.displacement;
-  double* w = fields.velocity;
+  const NodeField u = fields.displacement;
+  const NodeField w = fields.velocity;
   // Per node: displacement of the rigid carrier, its change per rise and per rotation.
   const double after_c = std::cos(frame.angle + frame.spin * dt);
   const double after_s = std::sin(frame.angle + frame.spin * dt);
@@ -112,10 +112,10 @@ void GuidedBore::move(const BoreFields& fields, const BodyFrame& frame, double d
 
   guide_impulse_ = 0;
   for (const Node& node : nodes_) {
-    double& u_t = u[dof(node.slot, 0)];
-    double& u_r = u[dof(node.slot, 2)];
-    double& w_t = w[dof(node.slot, 0)];
-    double& w_r = w[dof(node.slot, 2)];
+    NodeField::Value u_t = u[dof(node.slot, 0)];
+    NodeField::Value u_r = u[dof(node.slot, 2)];
+    NodeField::Value w_t = w[dof(node.slot, 0)];
+    NodeField::Value w_r = w[dof(node.slot, 2)];
     const Vec3 at = place(node, rise_, rotation_);
     const Vec3 velocity = (1 / dt) * (at - Vec3{u_t - dt * w_t, 0, u_r - dt * w_r});
     const Vec3 up = upwards(node);

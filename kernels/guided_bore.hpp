@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body_frame.hpp"
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/state_list.hpp"
 #include "kernels/body_motion.hpp"
@@ -20,8 +21,8 @@ struct CarrierLoad {
 
 /// Displacements and velocities of the bore's nodes, relative to the wheel's frame.
 struct BoreFields {
-  double* displacement;  ///< [m]
-  double* velocity;      ///< [m/s]
+  NodeField displacement;  ///< [m]
+  NodeField velocity;      ///< [m/s]
 };
 
 class GuidedBore {
@@ -47,7 +48,7 @@ class GuidedBore {
   double counterweight(double spin, double angle) const;
 
   /// Takes over the carrier's place from the fields, which move rigidly: after statics.
-  void settle(const double* displacement);
+  void settle(ConstNodeField displacement);
   /// The frame has been moved onto the carrier.
   void anchored() { rise_ = rotation_ = rise_speed_ = spin_ = 0; }
 

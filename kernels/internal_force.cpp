@@ -99,7 +99,7 @@ void element_forces(const Element& element, const Strain<Real>& force, Real (&s)
 template <class Real>
 Real* front_of(const FrontPlan& plan) {
   thread_local AlignedVector<Real> front;
-  front.resize(std::max(front.size(), index(plan.slots) * kFrontValues));
+  front.resize(std::max(front.size(), index(plan.slots) * kTilesAbreast * kFrontValues));
   return front.data();
 }
 
@@ -110,13 +110,14 @@ double von_mises(const std::array<double, 6>& s) {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-template <class Real>
-BasicInternalForce<Real>::BasicInternalForce(const Mesh& mesh)
+template <class Real, class U>
+BasicInternalForce<Real, U>::BasicInternalForce(const Mesh& mesh)
     : mesh_(mesh), forces_(tile_forces().front()), blocks_(mesh.blocks.size()), carries_(mesh.blocks.size()) {
   cost_.push_back(0);
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
     build_swept(block);
     build_perturbed(block);
+    join_tiles(block);
     const SweptBlock& swept = mesh.blocks[index(block)];
     BlockData& data = blocks_[index(block)];
     data.carry_stride = index(3 * swept.section.nodes() + kLanes);
@@ -133,8 +134,8 @@ BasicInternalForce<Real>::BasicInternalForce(const Mesh& mesh)
   unmoved_.resize(items_.size(), 0);
 }
 
-template <class Real>
-void BasicInternalForce<Real>::build_swept(int block) {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::build_swept(int block) {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   BlockData& data = blocks_[index(block)];
   data.plan = make_front_plan(swept.section);
@@ -150,8 +151,8 @@ void BasicInternalForce<Real>::build_swept(int block) {
     const double pitch = swept.classes[index(pitch_class)].pitch;
     ClassData& elements = data.classes.emplace_back();
     if (swept.sweep == Sweep::revolved) {
-      elements.cosine = static_cast<Real>(std::cos(pitch / 2));
-      elements.sine = static_cast<Real>(std::sin(pitch / 2));
+      elements.cosine = std::cos(pitch / 2);
+      elements.sine = std::sin(pitch / 2);
     }
     for (const FrontPlan::Quad& entry : data.plan.quads) {
       const HexNodes nodes = swept_nodes(swept.section, entry.quad, swept.sweep, pitch);
@@ -165,8 +166,8 @@ void BasicInternalForce<Real>::build_swept(int block) {
   faults.raise("a revolved section must lie on the positive side of its axis");
 }
 
-template <class Real>
-void BasicInternalForce<Real>::build_perturbed(int block) {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::build_perturbed(int block) {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   BlockData& data = blocks_[index(block)];
   data.perturbed_row.assign(swept.tiles.size(), -1);
@@ -220,30 +221,43 @@ void BasicInternalForce<Real>::build_perturbed(int block) {
   faults.raise("reduce the shift of their nodes or make the elements larger");
 }
 
-template <class Real>
-void BasicInternalForce<Real>::set_beta(int block, double beta) {
-  blocks_[index(block)].beta = static_cast<Real>(beta);
+/// Two tiles that the loop takes at once lie behind one another in memory and along the sweep, the first is
+/// full, and their elements have the same coefficients or both their own.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::join_tiles(int block) {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  BlockData& data = blocks_[index(block)];
+  const std::size_t quads = swept.section.quads.size();
+  const auto perturbed = [&](std::size_t tile, std::size_t place) {
+    const int row = data.perturbed_row[tile];
+    return row >= 0 && data.perturbed[index(row) * quads + place] >= 0;
+  };
+  data.joins_next.assign(swept.tiles.size(), 0);
+  for (std::size_t tile = 0; tile + 1 < swept.tiles.size(); ++tile) {
+    const Tile& own = swept.tiles[tile];
+    const Tile& next = swept.tiles[tile + 1];
+    bool alike = own.next == static_cast<int>(tile + 1) && own.elements == kLanes && next.elements > 0 &&
+                 own.pitch_class == next.pitch_class;
+    for (std::size_t place = 0; alike && place < quads; ++place)
+      alike = perturbed(tile, place) == perturbed(tile + 1, place);
+    data.joins_next[tile] = alike;
+  }
 }
 
-template <class Real>
-void BasicInternalForce<Real>::set_finite_rotation(int block, bool on) {
-  blocks_[index(block)].finite_rotation = on;
-}
-
-template <class Real>
-void BasicInternalForce<Real>::internal_force(int block, const Real* u, const Real* v, Real* f) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::internal_force(int block, const U* u, const Real* v, Real* f) const {
   const std::size_t first = blocks_[index(block)].first_item;
   evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, f, false});
 }
 
-template <class Real>
-Real* BasicInternalForce<Real>::carry(const Item& item) const {
+template <class Real, class U>
+Real* BasicInternalForce<Real, U>::carry(const Item& item) const {
   return carries_[index(item.block)].data() + index(item.tile) * blocks_[index(item.block)].carry_stride +
          kLanes;
 }
 
-template <class Real>
-void BasicInternalForce<Real>::evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
   const auto begin = cost_.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = cost_.begin() + static_cast<std::ptrdiff_t>(last);
   const auto item_at = [&](std::int64_t cost) {
@@ -256,8 +270,8 @@ void BasicInternalForce<Real>::evaluate(std::size_t first, std::size_t last, con
     if (pending_[i]) add_carry(items_[i], fields.f);
 }
 
-template <class Real>
-void BasicInternalForce<Real>::add_carry(const Item& item, Real* f) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::add_carry(const Item& item, Real* f) const {
   const SweptBlock& swept = mesh_.blocks[index(item.block)];
   const Real* carry = this->carry({item.block, blocks_[index(item.block)].previous[index(item.tile)]});
   f += dof(swept.base + std::int64_t{item.tile} * swept.section.nodes() * kLanes, 0);
@@ -265,43 +279,56 @@ void BasicInternalForce<Real>::add_carry(const Item& item, Real* f) const {
     f[std::ptrdiff_t{value} * kLanes] += carry[value];
 }
 
-template <class Real>
-void BasicInternalForce<Real>::evaluate_items(std::size_t first, std::size_t last,
-                                              const Fields& fields) const {
-  for (std::size_t i = first; i < last; ++i) {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t last,
+                                                 const Fields& fields) const {
+  const int most = forces_->loops<Real, U>().tiles;
+  for (std::size_t i = first; i < last;) {
     const Item item = items_[i];
     const BlockData& data = blocks_[index(item.block)];
     const int previous = data.previous[index(item.tile)];
     const bool at_hand =
         i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
+    const bool empty = mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
+    const int tiles = i + 1 < last && data.joins_next[index(item.tile)] ? most : 1;
     pending_[i] = previous >= 0 && !at_hand;
     // The tile before reads what a pending one holds, maybe later.
-    unmoved_[i] = pending_[i] || mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
-    Fields here = fields;
-    if (unmoved_[i]) here.moved = {};
-    evaluate_tile(item, at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes, here,
-                  front_of<Real>(data.plan));
+    unmoved_[i] = pending_[i] || empty;
+    if (tiles > 1) pending_[i + 1] = unmoved_[i + 1] = 0;
+    const Real* carry_in = at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes;
+    if (empty)
+      pass_carry(item, carry_in, fields.f);
+    else
+      evaluate_tiles(i, tiles, carry_in, fields);
+    i += static_cast<std::size_t>(tiles);
   }
 }
 
-template <class Real>
-void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields,
-                                             Real* front) const {
+/// To the last station of an open block in a tile of its own.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::pass_carry(const Item& item, const Real* carry_in, Real* f) const {
+  const SweptBlock& swept = mesh_.blocks[index(item.block)];
+  const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
+  f += dof(swept.base + item.tile * slots, 0);
+  std::fill_n(f, 3 * slots, Real{0});
+  for (std::int64_t value = 0; value < 3 * swept.section.nodes(); ++value)
+    f[value * kLanes] = carry_in[value];
+}
+
+template <class Real, class U>
+void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, const Real* carry_in,
+                                                 const Fields& fields) const {
+  const Item& item = items_[first];
+  const Item& last = items_[first + static_cast<std::size_t>(tiles) - 1];
   const SweptBlock& swept = mesh_.blocks[index(item.block)];
   const BlockData& data = blocks_[index(item.block)];
-  const Tile& tile = swept.tiles[index(item.tile)];
+  const Tile& last_tile = swept.tiles[index(last.tile)];
   const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
   const std::int64_t own = dof(swept.base + item.tile * slots, 0);
-  if (tile.elements == 0) {
-    std::fill_n(fields.f + own, 3 * slots, Real{0});
-    for (std::int64_t value = 0; value < 3 * swept.section.nodes(); ++value)
-      fields.f[own + value * kLanes] = carry_in[value];
-    return;
-  }
-  const std::int64_t next = dof(swept.base + tile.next * slots, 0);
+  const std::int64_t next = dof(swept.base + last_tile.next * slots, 0);
   const bool damped = fields.v != nullptr && data.beta != 0;
 
-  TileView<Real> view;
+  TileView<Real, U> view;
   view.u = fields.u + own;
   view.u_next = fields.u + next;
   if (fields.v != nullptr) {
@@ -309,21 +336,25 @@ void BasicInternalForce<Real>::evaluate_tile(const Item& item, const Real* carry
     view.v_next = fields.v + next;
   }
   view.f = fields.f + own;
-  TileMotion<Real> motion;
-  if (const Moved& moved = fields.moved; moved.update != nullptr) {
-    motion = moved.update->motion(item.block, item.tile, *moved.loads, moved.u, moved.v);
-    view.motion = &motion;
+  TileMotion<Real, U> motion[kTilesAbreast];
+  for (int tile = 0; tile < tiles; ++tile) {
+    const Moved& moved = fields.moved;
+    if (moved.update == nullptr || unmoved_[first + static_cast<std::size_t>(tile)]) continue;
+    motion[tile] = moved.update->motion(item.block, item.tile + tile, *moved.loads, moved.u, moved.v);
+    view.motion[tile] = &motion[tile];
   }
   view.carry_in = carry_in;
-  view.carry_out = carry(item);
-  view.elements = tile.elements;
+  view.carry_out = carry(last);
+  view.elements = last_tile.elements;
+  view.tiles = tiles;
+  view.stride = 3 * slots;
 
-  forces_->get({swept.sweep, damped, data.finite_rotation && !fields.linear}, Real{})(tile_elements(item),
-                                                                                      view, front);
+  forces_->loops<Real, U>().force({swept.sweep, damped, data.finite_rotation && !fields.linear})(
+      tile_elements(item, tiles), view, front_of<Real>(data.plan));
 }
 
-template <class Real>
-TileElements<Real> BasicInternalForce<Real>::tile_elements(const Item& item) const {
+template <class Real, class U>
+TileElements<Real> BasicInternalForce<Real, U>::tile_elements(const Item& item, int tiles) const {
   const BlockData& data = blocks_[index(item.block)];
   const Tile& tile = mesh_.blocks[index(item.block)].tiles[index(item.tile)];
   const ClassData& elements = data.classes[index(tile.pitch_class)];
@@ -333,8 +364,9 @@ TileElements<Real> BasicInternalForce<Real>::tile_elements(const Item& item) con
   made_of.close = data.plan.close.data();
   made_of.quad_count = static_cast<int>(data.plan.quads.size());
   made_of.swept = elements.constants.data();
-  const int row = data.perturbed_row[index(item.tile)];
-  if (row >= 0) made_of.perturbed = data.perturbed.data() + index(row) * data.plan.quads.size();
+  for (int i = 0; i < tiles; ++i)
+    if (const int row = data.perturbed_row[index(item.tile + i)]; row >= 0)
+      made_of.perturbed[i] = data.perturbed.data() + index(row) * data.plan.quads.size();
   made_of.lanes = data.lanes.data();
   made_of.beta = data.beta;
   made_of.cosine = elements.cosine;
@@ -342,8 +374,8 @@ TileElements<Real> BasicInternalForce<Real>::tile_elements(const Item& item) con
   return made_of;
 }
 
-template <class Real>
-typename BasicInternalForce<Real>::Place BasicInternalForce<Real>::locate(int block, int quad,
+template <class Real, class U>
+typename BasicInternalForce<Real, U>::Place BasicInternalForce<Real, U>::locate(int block, int quad,
                                                                           int station) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
@@ -359,8 +391,8 @@ typename BasicInternalForce<Real>::Place BasicInternalForce<Real>::locate(int bl
   return at;
 }
 
-template <class Real>
-HexNodes BasicInternalForce<Real>::element_nodes(int block, const Place& at) const {
+template <class Real, class U>
+HexNodes BasicInternalForce<Real, U>::element_nodes(int block, const Place& at) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const double pitch = swept.classes[index(at.pitch_class)].pitch;
   HexNodes nodes = swept_nodes(swept.section, at.quad, swept.sweep, pitch);
@@ -376,14 +408,14 @@ HexNodes BasicInternalForce<Real>::element_nodes(int block, const Place& at) con
   return nodes;
 }
 
-template <class Real>
-ElementGeometry BasicInternalForce<Real>::geometry(int block, const Place& at) const {
+template <class Real, class U>
+ElementGeometry BasicInternalForce<Real, U>::geometry(int block, const Place& at) const {
   if (at.lanes >= 0) return element_geometry(element_nodes(block, at));
   return blocks_[index(block)].classes[index(at.pitch_class)].geometry[index(at.place)];
 }
 
-template <class Real>
-Strain<Real> BasicInternalForce<Real>::strain(int block, const Place& at, const Real (&u)[8][3]) const {
+template <class Real, class U>
+Strain<Real> BasicInternalForce<Real, U>::strain(int block, const Place& at, const Real (&u)[8][3]) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
   const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
@@ -394,18 +426,19 @@ Strain<Real> BasicInternalForce<Real>::strain(int block, const Place& at, const 
       s[j][i] = u[j][i] + u[j + 4][i];
       d[j][i] = u[j + 4][i] - u[j][i];
     }
-    if (revolved) turn_to_middle(elements.cosine, elements.sine, s[j], d[j]);
+    if (revolved)
+      turn_to_middle(static_cast<Real>(elements.cosine), static_cast<Real>(elements.sine), s[j], d[j]);
   }
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   if (at.lanes >= 0)
-    return element_strain(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), s,
+    return element_strain(PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants), s,
                           d);
   if (revolved) return element_strain(SweptElement<Sweep::revolved, Real>{constants}, s, d);
   return element_strain(SweptElement<Sweep::extruded, Real>{constants}, s, d);
 }
 
-template <class Real>
-Strain<Real> BasicInternalForce<Real>::linear_forces(int block, const Place& at,
+template <class Real, class U>
+Strain<Real> BasicInternalForce<Real, U>::linear_forces(int block, const Place& at,
                                                      const Strain<Real>& strain) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
@@ -413,13 +446,13 @@ Strain<Real> BasicInternalForce<Real>::linear_forces(int block, const Place& at,
   Strain<Real> force;
   stress_forces<false>(constants, strain, force);
   if (at.lanes >= 0)
-    PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants).scale_by_volume(force);
+    PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants).scale_by_volume(force);
   hourglass_forces(constants.hourglass, strain, force);
   return force;
 }
 
-template <class Real>
-void BasicInternalForce<Real>::nodal_forces(int block, const Place& at, const Strain<Real>& force,
+template <class Real, class U>
+void BasicInternalForce<Real, U>::nodal_forces(int block, const Place& at, const Strain<Real>& force,
                                             Real (&f)[8][3]) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
@@ -428,14 +461,15 @@ void BasicInternalForce<Real>::nodal_forces(int block, const Place& at, const St
   Real s[4][3];
   Real d[4][3];
   if (at.lanes >= 0)
-    element_forces(PerturbedElement<Real, Real>(data.lanes[index(at.lanes)], at.lane, constants), force, s,
+    element_forces(PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants), force, s,
                    d);
   else if (revolved)
     element_forces(SweptElement<Sweep::revolved, Real>{constants}, force, s, d);
   else
     element_forces(SweptElement<Sweep::extruded, Real>{constants}, force, s, d);
   for (int j = 0; j < 4; ++j) {
-    if (revolved) turn_to_nodes(elements.cosine, elements.sine, s[j], d[j]);
+    if (revolved)
+      turn_to_nodes(static_cast<Real>(elements.cosine), static_cast<Real>(elements.sine), s[j], d[j]);
     for (int i = 0; i < 3; ++i) {
       f[j][i] = s[j][i] - d[j][i];
       f[j + 4][i] = s[j][i] + d[j][i];
@@ -443,20 +477,20 @@ void BasicInternalForce<Real>::nodal_forces(int block, const Place& at, const St
   }
 }
 
-template <class Real>
-void BasicInternalForce<Real>::gather(int block, const Place& at, const Real* u, Real (&values)[8][3]) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   for (int node = 0; node < 8; ++node) {
     const int station = node < 4 ? at.station : far_station(swept, at.station);
     const std::int64_t slot =
         swept.base + swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station);
-    for (int i = 0; i < 3; ++i) values[node][i] = u[dof(slot, i)];
+    for (int i = 0; i < 3; ++i) values[node][i] = static_cast<Real>(u[dof(slot, i)]);
   }
 }
 
-template <class Real>
+template <class Real, class U>
 template <class Visit>
-void BasicInternalForce<Real>::for_each_element(int block, const Visit& visit) const {
+void BasicInternalForce<Real, U>::for_each_element(int block, const Visit& visit) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   for (const Tile& tile : swept.tiles)
     for (const FrontPlan::Quad& entry : blocks_[index(block)].plan.quads)
@@ -464,24 +498,25 @@ void BasicInternalForce<Real>::for_each_element(int block, const Visit& visit) c
         visit(locate(block, entry.quad, tile.first_station + lane));
 }
 
-template <class Real>
-DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) const {
+template <class Real, class U>
+DeformationEnergy BasicInternalForce<Real, U>::energy(int block, const U* u) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
   std::vector<DeformationEnergy> partial(swept.tiles.size());
-  const TileEnergy<Real> tile_energy = forces_->energy({swept.sweep, false, data.finite_rotation}, Real{});
+  const TileEnergy<Real, U> tile_energy =
+      forces_->loops<Real, U>().energy({swept.sweep, false, data.finite_rotation});
   parallel_ranges(static_cast<std::int64_t>(partial.size()), [&](std::int64_t first, std::int64_t last) {
     Real* const front = front_of<Real>(data.plan);
     for (std::int64_t i = first; i < last; ++i) {
       const Tile& tile = swept.tiles[index(static_cast<int>(i))];
       if (tile.elements == 0) continue;
       const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
-      TileView<Real> view;
+      TileView<Real, U> view;
       view.u = u + dof(swept.base + i * slots, 0);
       view.u_next = u + dof(swept.base + tile.next * slots, 0);
       view.elements = tile.elements;
       partial[static_cast<std::size_t>(i)] =
-          tile_energy(tile_elements({block, static_cast<int>(i)}), view, front);
+          tile_energy(tile_elements({block, static_cast<int>(i)}, 1), view, front);
     }
   });
   DeformationEnergy total;
@@ -492,9 +527,9 @@ DeformationEnergy BasicInternalForce<Real>::energy(int block, const Real* u) con
   return total;
 }
 
-template <class Real>
-std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int station,
-                                                       const Real* u) const {
+template <class Real, class U>
+std::array<double, 6> BasicInternalForce<Real, U>::stress(int block, int quad, int station,
+                                                       ConstNodeField u) const {
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);
@@ -506,8 +541,8 @@ std::array<double, 6> BasicInternalForce<Real>::stress(int block, int quad, int 
   return {s[0], s[1], s[2], s[3], s[4], s[5]};
 }
 
-template <class Real>
-void BasicInternalForce<Real>::lumped_mass(double* mass) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::lumped_mass(double* mass) const {
   std::fill_n(mass, mesh_.slots, 0.0);
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
     const SweptBlock& swept = mesh_.blocks[index(block)];
@@ -523,8 +558,8 @@ void BasicInternalForce<Real>::lumped_mass(double* mass) const {
   }
 }
 
-template <class Real>
-void BasicInternalForce<Real>::diagonal(double* d) const {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::diagonal(double* d) const {
   std::fill_n(d, 3 * mesh_.slots, 0.0);
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
     const SweptBlock& swept = mesh_.blocks[index(block)];
@@ -555,8 +590,8 @@ void BasicInternalForce<Real>::diagonal(double* d) const {
   }
 }
 
-template <class Real>
-ElementStiffness BasicInternalForce<Real>::stiffness(int block, const Place& at) const {
+template <class Real, class U>
+ElementStiffness BasicInternalForce<Real, U>::stiffness(int block, const Place& at) const {
   ElementStiffness k;
   for (int column = 0; column < 24; ++column) {
     Real u[8][3] = {};
@@ -568,13 +603,13 @@ ElementStiffness BasicInternalForce<Real>::stiffness(int block, const Place& at)
   return k;
 }
 
-template <class Real>
-ElementStiffness BasicInternalForce<Real>::element_stiffness(int block, int quad, int station) const {
+template <class Real, class U>
+ElementStiffness BasicInternalForce<Real, U>::element_stiffness(int block, int quad, int station) const {
   return stiffness(block, locate(block, quad, station));
 }
 
-template <class Real>
-double BasicInternalForce<Real>::frequency(int block, const Place& at) const {
+template <class Real, class U>
+double BasicInternalForce<Real, U>::frequency(int block, const Place& at) const {
   const ElementStiffness k = stiffness(block, at);
   const ElementGeometry shape = geometry(block, at);
   const double density = mesh_.blocks[index(block)].material(at.quad, at.pitch_class).density;
@@ -588,13 +623,13 @@ double BasicInternalForce<Real>::frequency(int block, const Place& at) const {
   return std::sqrt(solver.eigenvalues()(23));
 }
 
-template <class Real>
-double BasicInternalForce<Real>::element_frequency(int block, int quad, int station) const {
+template <class Real, class U>
+double BasicInternalForce<Real, U>::element_frequency(int block, int quad, int station) const {
   return frequency(block, locate(block, quad, station));
 }
 
-template <class Real>
-ElementFrequency BasicInternalForce<Real>::max_frequency() const {
+template <class Real, class U>
+ElementFrequency BasicInternalForce<Real, U>::max_frequency() const {
   ElementFrequency highest;
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
     const ElementFrequency of_block = max_frequency(block);
@@ -603,8 +638,8 @@ ElementFrequency BasicInternalForce<Real>::max_frequency() const {
   return highest;
 }
 
-template <class Real>
-ElementFrequency BasicInternalForce<Real>::max_frequency(int block) const {
+template <class Real, class U>
+ElementFrequency BasicInternalForce<Real, U>::max_frequency(int block) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::size_t quads = swept.section.quads.size();
   std::vector<Place> candidates;  // one of each kind
@@ -626,22 +661,22 @@ ElementFrequency BasicInternalForce<Real>::max_frequency(int block) const {
   return {*highest, block, at.quad, at.station};
 }
 
-template <class Real>
-std::int64_t BasicInternalForce<Real>::perturbed_elements() const {
+template <class Real, class U>
+std::int64_t BasicInternalForce<Real, U>::perturbed_elements() const {
   std::int64_t count = 0;
   for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) count += perturbed_elements(block);
   return count;
 }
 
-template <class Real>
-std::int64_t BasicInternalForce<Real>::perturbed_elements(int block) const {
+template <class Real, class U>
+std::int64_t BasicInternalForce<Real, U>::perturbed_elements(int block) const {
   std::int64_t count = 0;
   for_each_element(block, [&](const Place& at) { count += at.lanes >= 0; });
   return count;
 }
 
-template <class Real>
-std::int64_t BasicInternalForce<Real>::bytes() const {
+template <class Real, class U>
+std::int64_t BasicInternalForce<Real, U>::bytes() const {
   std::size_t sum = 0;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     const BlockData& data = blocks_[block];
@@ -653,15 +688,15 @@ std::int64_t BasicInternalForce<Real>::bytes() const {
   return static_cast<std::int64_t>(sum);
 }
 
-template <class Real>
-std::vector<const char*> BasicInternalForce<Real>::instruction_sets() {
+template <class Real, class U>
+std::vector<const char*> BasicInternalForce<Real, U>::instruction_sets() {
   std::vector<const char*> names;
   for (const TileForces* forces : tile_forces()) names.push_back(forces->name);
   return names;
 }
 
-template <class Real>
-void BasicInternalForce<Real>::use_instruction_set(const char* name) {
+template <class Real, class U>
+void BasicInternalForce<Real, U>::use_instruction_set(const char* name) {
   for (const TileForces* forces : tile_forces())
     if (std::strcmp(forces->name, name) == 0) {
       forces_ = forces;
@@ -671,6 +706,7 @@ void BasicInternalForce<Real>::use_instruction_set(const char* name) {
 }
 
 template class BasicInternalForce<double>;
+template class BasicInternalForce<float, double>;
 template class BasicInternalForce<float>;
 
 }  // namespace tread

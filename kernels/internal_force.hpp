@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tile_force.hpp"
 #include "kernels/time_update.hpp"
@@ -33,9 +34,10 @@ struct ElementFrequency {
 double von_mises(const std::array<double, 6>& stress);
 
 /// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
-/// unused lanes hold zero on entry and on return. Results are the same bits for any number of threads. One
-/// object serves one caller at a time: applying it uses buffers of its own.
-template <class Real>
+/// unused lanes hold zero on entry and on return. Precisions as in kernels/lanes/tile_force.hpp. Results are
+/// the same bits for any number of threads. One object serves one caller at a time: applying it uses buffers
+/// of its own.
+template <class Real, class U = Real>
 class BasicInternalForce {
  public:
   /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their
@@ -43,35 +45,39 @@ class BasicInternalForce {
   explicit BasicInternalForce(const Mesh& mesh);
 
   /// Damping of a block: forces are those of u + beta v. [s]
-  void set_beta(int block, double beta);
+  void set_beta(int block, double beta) { blocks_[static_cast<std::size_t>(block)].beta = beta; }
+  double beta(int block) const { return blocks_[static_cast<std::size_t>(block)].beta; }
 
   /// Green-Lagrange strain in the one-point stress of a block: forces balance moments about the deformed
   /// positions, rigid rotation is free of stress. [theory.md, Finite rotation]
-  void set_finite_rotation(int block, bool on);
+  void set_finite_rotation(int block, bool on) {
+    blocks_[static_cast<std::size_t>(block)].finite_rotation = on;
+  }
+  bool finite_rotation(int block) const { return blocks_[static_cast<std::size_t>(block)].finite_rotation; }
 
   /// f = K u, overwritten: the linear operator of all blocks, without damping. [N]
-  void apply(const Real* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f, true}); }
+  void apply(const U* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f, true}); }
   /// f = F(u + beta v), overwritten, with F(u) the law that the block has; v may be null. [N]
-  void internal_force(const Real* u, const Real* v, Real* f) const {
+  void internal_force(const U* u, const Real* v, Real* f) const {
     evaluate(0, items_.size(), {u, v, f, false});
   }
   /// internal_force(u, v, f), and nodes whose force is complete move by a step while they are at hand: those
   /// that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force in f.
-  void move(const BasicTimeUpdate<Real>& update, const StepLoads& loads, Real* u, Real* v, Real* f) const {
+  void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads, U* u, Real* v, Real* f) const {
     evaluate(0, items_.size(), {u, v, f, false, {&update, &loads, u, v}});
   }
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
   /// internal_force for the slots of one block. Pointers are those of the whole fields.
-  void internal_force(int block, const Real* u, const Real* v, Real* f) const;
+  void internal_force(int block, const U* u, const Real* v, Real* f) const;
 
   /// Energy of u by the law that the block has: F is its gradient. [J]
-  DeformationEnergy energy(int block, const Real* u) const;
+  DeformationEnergy energy(int block, const U* u) const;
 
   /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
   /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
   /// the material and at small strain is the true one. [Pa]
-  std::array<double, 6> stress(int block, int quad, int station, const Real* u) const;
+  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u) const;
 
   /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
   void lumped_mass(double* mass) const;
@@ -108,8 +114,8 @@ class BasicInternalForce {
   };
   /// Elements of one pitch class, in the order of the plan's quads.
   struct ClassData {
-    Real cosine = 1;  ///< of half the pitch
-    Real sine = 0;
+    double cosine = 1;  ///< of half the pitch
+    double sine = 0;
     std::vector<ElementGeometry> geometry;
     AlignedVector<SweptConstants<Real>> constants;
   };
@@ -118,12 +124,13 @@ class BasicInternalForce {
     std::vector<int> place;  ///< of each quad in the plan's order
     std::vector<ClassData> classes;
     std::vector<int> previous;       ///< tile whose last element ends in this tile, or -1
-    std::vector<int> perturbed_row;  ///< by tile: row of `perturbed`, or -1
+    std::vector<unsigned char> joins_next;  ///< by tile: the loop may take the tile behind it along
+    std::vector<int> perturbed_row;         ///< by tile: row of `perturbed`, or -1
     std::vector<int> perturbed;      ///< [row][place]: index into `lanes`, or -1
     AlignedVector<LanePositions<Real>> lanes;
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
-    Real beta = 0;
+    double beta = 0;  ///< [s]
     bool finite_rotation = false;
   };
   /// An element and where its coefficients are.
@@ -136,13 +143,13 @@ class BasicInternalForce {
     int lanes = -1;  ///< index into BlockData::lanes, or -1
   };
   struct Moved {
-    const BasicTimeUpdate<Real>* update = nullptr;  ///< null: nothing moves
+    const BasicTimeUpdate<Real, U>* update = nullptr;  ///< null: nothing moves
     const StepLoads* loads = nullptr;
-    Real* u = nullptr;
+    U* u = nullptr;
     Real* v = nullptr;
   };
   struct Fields {
-    const Real* u;
+    const U* u;
     const Real* v;
     Real* f;
     bool linear;  ///< in blocks of finite rotation too
@@ -151,13 +158,14 @@ class BasicInternalForce {
 
   void build_swept(int block);
   void build_perturbed(int block);
+  void join_tiles(int block);
   Place locate(int block, int quad, int station) const;
   HexNodes element_nodes(int block, const Place& at) const;
   ElementGeometry geometry(int block, const Place& at) const;
   Strain<Real> strain(int block, const Place& at, const Real (&u)[8][3]) const;
   Strain<Real> linear_forces(int block, const Place& at, const Strain<Real>& strain) const;
   void nodal_forces(int block, const Place& at, const Strain<Real>& force, Real (&f)[8][3]) const;
-  void gather(int block, const Place& at, const Real* u, Real (&values)[8][3]) const;
+  void gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const;
   ElementStiffness stiffness(int block, const Place& at) const;
   double frequency(int block, const Place& at) const;
   template <class Visit>
@@ -167,8 +175,10 @@ class BasicInternalForce {
   Real* carry(const Item& item) const;
   void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
   void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
-  void evaluate_tile(const Item& item, const Real* carry_in, const Fields& fields, Real* front) const;
-  TileElements<Real> tile_elements(const Item& item) const;
+  /// The item's tile and, if `tiles` is 2, the one behind it.
+  void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
+  void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
+  TileElements<Real> tile_elements(const Item& item, int tiles) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;
@@ -184,6 +194,7 @@ class BasicInternalForce {
 
 using InternalForce = BasicInternalForce<double>;
 extern template class BasicInternalForce<double>;
+extern template class BasicInternalForce<float, double>;
 extern template class BasicInternalForce<float>;
 
 }  // namespace tread

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/mesh/swept_block.hpp"
 
 namespace tread {
 
@@ -34,8 +33,7 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
     int& node = node_of_[static_cast<std::size_t>(slot)];
     if (node < 0) {
       node = static_cast<int>(nodes_.size());
-      const double* v = motion.velocity;
-      const Padded velocity(Vec3{v[dof(slot, 0)], v[dof(slot, 1)], v[dof(slot, 2)]});
+      const Padded velocity(motion.velocity.at(slot));
       nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity});
       velocity_.push_back(velocity);
     }
@@ -158,10 +156,8 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
     Vec3 change = Vec3(velocity_[i]) - Vec3(node.free);
     if (node.of_wheel)
       change = {cosine * change.x - sine * change.z, change.y, sine * change.x + cosine * change.z};
-    for (int c = 0; c < 3; ++c) {
-      motion.velocity[dof(node.slot, c)] += change[c];
-      motion.displacement[dof(node.slot, c)] += dt * change[c];
-    }
+    motion.velocity.add(node.slot, change);
+    motion.displacement.add(node.slot, dt * change);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/body_frame.hpp"
+#include "core/mesh/node_field.hpp"
 #include "kernels/contact_point.hpp"
 #include "kernels/friction.hpp"
 
@@ -14,8 +15,8 @@ namespace tread {
 
 /// Nodal fields after a step without contact, components in the nodes' local bases.
 struct NodeMotion {
-  double* displacement;        ///< at the end of the step [m]
-  double* velocity;            ///< mean of the step, relative to the frame [m/s]
+  NodeField displacement;      ///< at the end of the step [m]
+  NodeField velocity;          ///< mean of the step, relative to the frame [m/s]
   const double* inverse_mass;  ///< by slot [1/kg]
 };
 

@@ -52,7 +52,7 @@ void SurfaceFields::add_sample(const PatchNodes& patch, double interval) {
 }
 
 void SurfaceFields::add_stress(const PatchNodes& patch, const InternalForce& force, int block,
-                               const double* displacement) {
+                               ConstNodeField displacement) {
   for (int station = patch.first(); station < patch.last(); ++station)
     for (int row = 0; row + 1 < grid_.rows(); ++row)
       if (pressed(patch, station, row))

@@ -23,7 +23,8 @@ class SurfaceFields {
   void add_sample(const PatchNodes& patch, double interval);
 
   /// The stress of the surface elements about the nodes under pressure; `block` is the rail's.
-  void add_stress(const PatchNodes& patch, const InternalForce& force, int block, const double* displacement);
+  void add_stress(const PatchNodes& patch, const InternalForce& force, int block,
+                  ConstNodeField displacement);
 
   const SurfaceGrid& grid() const { return grid_; }
   const std::vector<double>& max_pressure() const { return max_pressure_; }        ///< by node [Pa]

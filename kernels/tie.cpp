@@ -199,7 +199,7 @@ void add_items(TieSums& sums, std::size_t first_node, const SweptBlock& own, con
     sums.items.push_back({place(own, tile.first_station), sums.stations.size(), static_cast<int>(most),
                           first_node, static_cast<int>(sums.nodes.size() - first_node)});
     for (std::size_t k = 0; k < most; ++k) {
-      StationLink<double>& link = sums.stations.emplace_back();
+      StationLink& link = sums.stations.emplace_back();
       std::fill_n(link.at, kLanes, place(other, 0));  // without a share any will do
       for (int lane = 0; lane < tile.stations; ++lane) {
         if (k >= begin[lane].size()) continue;
@@ -225,9 +225,9 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
       for (int lane = 0; lane < kLanes; ++lane)
         for (int k = 0; k < item.station_count; ++k) {
           const LinkedNode& node = sums.nodes[item.first_node + index(n)];
-          const StationLink<double>& station = sums.stations[item.first_station + index(k)];
+          const StationLink& station = sums.stations[item.first_station + index(k)];
           for (int i = node.first; i < node.last; ++i) {
-            const NodeLink<double>& link = sums.links[index(i)];
+            const NodeLink& link = sums.links[index(i)];
             const double weight = link.share * station.share[lane];
             if (weight > 0)
               visit(slot_of(item.own + lane) + std::int64_t{node.node} * kLanes,
@@ -237,18 +237,19 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
 }
 
 /// The sums replace the fields' values, or are added to them.
-void sum_up(const TieSums& sums, bool add, std::initializer_list<double*> fields) {
+void sum_up(const TieSums& sums, bool add, std::initializer_list<NodeField> fields) {
   parallel_ranges(static_cast<std::int64_t>(sums.items.size()), [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       const TieSums::Item& item = sums.items[index(i)];
-      TieTile<double> tile;
+      TieTile tile;
       tile.own = item.own;
       tile.stations = sums.stations.data() + item.first_station;
       tile.station_count = item.station_count;
       tile.nodes = sums.nodes.data() + item.first_node;
       tile.node_count = item.node_count;
       tile.links = sums.links.data();
-      for (double* field : fields) tile_forces().front()->tie_in_double(tile, add, field);
+      for (const NodeField& field : fields)
+        field.visit([&](auto* values) { tile_forces().front()->sum(tile, add, values); });
     }
   });
 }
@@ -285,20 +286,20 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
   const auto across = [](const SectionPoint& point, std::size_t end) {
     return end == 0 ? 1 - point.fraction : point.fraction;
   };
-  const auto add_node = [](TieSums& sums, int node, const std::vector<NodeLink<double>>& links) {
+  const auto add_node = [](TieSums& sums, int node, const std::vector<NodeLink>& links) {
     if (links.empty()) return;
     const int first = static_cast<int>(sums.links.size());
     sums.links.insert(sums.links.end(), links.begin(), links.end());
     sums.nodes.push_back({node, first, static_cast<int>(sums.links.size())});
   };
   for (std::size_t i = 0; i < fine_path.size(); ++i) {
-    std::vector<NodeLink<double>> links;
+    std::vector<NodeLink> links;
     for (std::size_t end = 0; end < 2; ++end)
       if (across(points[i], end) > 0) links.push_back({points[i].node[end], across(points[i], end)});
     add_node(to_secondary_, fine_path[i], links);
   }
   for (const int node : coarse_path) {
-    std::vector<NodeLink<double>> links;
+    std::vector<NodeLink> links;
     for (std::size_t i = 0; i < fine_path.size(); ++i)
       for (std::size_t end = 0; end < 2; ++end)
         if (points[i].node[end] == node && across(points[i], end) > 0)
@@ -326,11 +327,11 @@ std::int64_t Ties::bytes() const {
   return static_cast<std::int64_t>(sum);
 }
 
-void Ties::follow(std::initializer_list<double*> fields) const {
+void Ties::follow(std::initializer_list<NodeField> fields) const {
   sum_up(to_secondary_, false, fields);
 }
 
-void Ties::hand_over(double* force) const {
+void Ties::hand_over(NodeField force) const {
   sum_up(to_primary_, true, {force});
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tie_sum.hpp"
 #include "kernels/solver/coarse_solver.hpp"
@@ -38,9 +39,9 @@ struct TieSums {
     int node_count = 0;
   };
   std::vector<Item> items;
-  std::vector<StationLink<double>> stations;
+  std::vector<StationLink> stations;
   std::vector<LinkedNode> nodes;
-  std::vector<NodeLink<double>> links;
+  std::vector<NodeLink> links;
 };
 
 class Ties {
@@ -60,10 +61,10 @@ class Ties {
   std::vector<TiedSlot> tied_slots() const;
 
   /// Secondary values from the primary ones; vector fields of 3 * slots values.
-  void follow(std::initializer_list<double*> fields) const;
+  void follow(std::initializer_list<NodeField> fields) const;
 
   /// Adds the secondary values to the primary ones: transpose of follow.
-  void hand_over(double* force) const;
+  void hand_over(NodeField force) const;
   /// hand_over, and the secondary values become zero.
   void gather(double* force) const;
 

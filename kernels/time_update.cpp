@@ -17,8 +17,8 @@ std::size_t index(std::int64_t i) {
 
 }  // namespace
 
-template <class Real>
-BasicTimeUpdate<Real>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
+template <class Real, class U>
+BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
     : mesh_(mesh),
       inverse_mass_(inverse_mass),
       vertical_only_(mesh.blocks.size(), false),
@@ -33,8 +33,8 @@ BasicTimeUpdate<Real>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mas
   defer({});
 }
 
-template <class Real>
-void BasicTimeUpdate<Real>::defer(const std::vector<std::int64_t>& slots) {
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
   for (const std::int64_t slot : slots) deferred_[index(slot / kLanes)] = 1;
   deferred_nodes_.clear();
   first_deferred_.assign(1, 0);
@@ -50,12 +50,11 @@ void BasicTimeUpdate<Real>::defer(const std::vector<std::int64_t>& slots) {
   }
 }
 
-template <class Real>
-TileMotion<Real> BasicTimeUpdate<Real>::motion(int block, int tile, const StepLoads& loads, Real* u,
-                                               Real* v) const {
+template <class Real, class U>
+TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-  TileMotion<Real> motion;
+  TileMotion<Real, U> motion;
   motion.step.dt = static_cast<Real>(loads.dt);
   motion.u = u + dof(slot, 0);
   motion.v = v + dof(slot, 0);
@@ -80,9 +79,10 @@ TileMotion<Real> BasicTimeUpdate<Real>::motion(int block, int tile, const StepLo
   return motion;
 }
 
-template <class Real>
-void BasicTimeUpdate<Real>::move(const StepLoads& loads, const BasicUpdateFields<Real>& fields,
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
                                  const unsigned char* whole) const {
+  const auto select = tile_forces().front()->loops<Real, U>().move;
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t i = from; i < to; ++i) {
       const auto [block, tile] = items_[index(i)];
@@ -93,7 +93,7 @@ void BasicTimeUpdate<Real>::move(const StepLoads& loads, const BasicUpdateFields
                  deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
       if (nodes.empty()) continue;
       const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-      tile_forces().front()->get(swept.sweep, Real{})(
+      select(swept.sweep)(
           motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
           fields.force + dof(slot, 0));
     }
@@ -101,6 +101,7 @@ void BasicTimeUpdate<Real>::move(const StepLoads& loads, const BasicUpdateFields
 }
 
 template class BasicTimeUpdate<double>;
+template class BasicTimeUpdate<float, double>;
 template class BasicTimeUpdate<float>;
 
 }  // namespace tread

@@ -11,10 +11,10 @@
 
 namespace tread {
 
-/// Vector fields of 3 * mesh.slots values.
-template <class Real>
+/// Vector fields of 3 * mesh.slots values; precisions as in kernels/lanes/tile_force.hpp.
+template <class Real, class U = Real>
 struct BasicUpdateFields {
-  Real* displacement;  ///< [m]
+  U* displacement;     ///< [m]
   Real* velocity;      ///< at the half step [m/s]
   const Real* force;   ///< internal minus external [N]
 };
@@ -31,7 +31,7 @@ struct StepLoads {
 /// spinning frame in revolved ones. Nodes whose force nothing but elements make may move with the elements of
 /// their tile (BasicInternalForce::move); deferred ones move here, once their force is complete. Which way a
 /// node takes does not show in its bits.
-template <class Real>
+template <class Real, class U = Real>
 class BasicTimeUpdate {
  public:
   /// Keeps references; `inverse_mass`: mesh.slots values, 0 where nothing moves (unused lanes, secondary
@@ -46,14 +46,14 @@ class BasicTimeUpdate {
   void defer(const std::vector<std::int64_t>& slots);
 
   /// How the nodes of a tile move.
-  TileMotion<Real> motion(int block, int tile, const StepLoads& loads, Real* u, Real* v) const;
+  TileMotion<Real, U> motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const;
 
   /// Moves all nodes.
-  void move_all(const StepLoads& loads, const BasicUpdateFields<Real>& fields) const {
+  void move_all(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const {
     move(loads, fields, nullptr);
   }
   /// Moves the deferred nodes, and all of the tiles marked in `whole` (in the order of blocks and tiles).
-  void move_rest(const StepLoads& loads, const BasicUpdateFields<Real>& fields,
+  void move_rest(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
                  const std::vector<unsigned char>& whole) const {
     move(loads, fields, whole.data());
   }
@@ -63,7 +63,7 @@ class BasicTimeUpdate {
     int block = 0;
     int tile = 0;
   };
-  void move(const StepLoads& loads, const BasicUpdateFields<Real>& fields, const unsigned char* whole) const;
+  void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields, const unsigned char* whole) const;
 
   const Mesh& mesh_;
   const Real* inverse_mass_;
@@ -78,6 +78,7 @@ class BasicTimeUpdate {
 
 using TimeUpdate = BasicTimeUpdate<double>;
 extern template class BasicTimeUpdate<double>;
+extern template class BasicTimeUpdate<float, double>;
 extern template class BasicTimeUpdate<float>;
 
 }  // namespace tread

@@ -12,18 +12,18 @@ namespace {
 
 /// Visits slot and Cartesian displacement of every node of a revolved block.
 template <class Visit>
-void visit_nodes(const SweptBlock& block, const double* u, const BodyFrame& wheel, const Visit& visit) {
+void visit_nodes(const SweptBlock& block, ConstNodeField u, const BodyFrame& wheel, const Visit& visit) {
   for (int station = 0; station < block.station_count(); ++station)
     for (int node = 0; node < block.section.nodes(); ++node) {
       const std::int64_t slot = block.base + block.slot(node, station);
       visit(slot,
-            to_cartesian(block, station, wheel.angle, {u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]}));
+            to_cartesian(block, station, wheel.angle, u.at(slot)));
     }
 }
 
 }  // namespace
 
-Vec3 rim_displacement(const Model& model, const double* displacement, const BodyFrame& wheel) {
+Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const BodyFrame& wheel) {
   Vec3 sum;
   double mass = 0;
   visit_nodes(model.mesh.blocks[static_cast<std::size_t>(model.index.tread)], displacement, wheel,
@@ -35,7 +35,7 @@ Vec3 rim_displacement(const Model& model, const double* displacement, const Body
   return (1 / mass) * sum;
 }
 
-AxleBending axle_bending(const Model& model, const double* displacement, const BodyFrame& wheel) {
+AxleBending axle_bending(const Model& model, ConstNodeField displacement, const BodyFrame& wheel) {
   constexpr double kHardly = 0.1;  // of the Hertz approach
   AxleBending axle;
   const Vec3 rim = rim_displacement(model, displacement, wheel);

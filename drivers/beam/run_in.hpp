@@ -21,10 +21,10 @@ struct AxleBending {
 };
 
 /// From the static displacement; of a wheel that hardly bends: rigid.
-AxleBending axle_bending(const Model& model, const double* displacement, const BodyFrame& wheel);
+AxleBending axle_bending(const Model& model, ConstNodeField displacement, const BodyFrame& wheel);
 
 /// Mean displacement of the rim, Cartesian [m].
-Vec3 rim_displacement(const Model& model, const double* displacement, const BodyFrame& wheel);
+Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const BodyFrame& wheel);
 
 /// The model's wheelset with M_a, its vehicle or load, the Hertz spring of its undeformed surfaces.
 BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);

@@ -169,9 +169,9 @@ PreparedKernel prepare_fields(std::int64_t elements) {
 }  // namespace
 
 void add_contact_cases(std::vector<KernelCase>& cases) {
-  cases.push_back({"contact_search", "exact profiles", true, "point", prepare_search});
-  cases.push_back({"contact_resolve", "friction", true, "point", prepare_resolve});
-  cases.push_back({"surface_fields", "step", true, "surface node", prepare_fields});
+  cases.push_back({"contact_search", "exact profiles", "double", "point", prepare_search});
+  cases.push_back({"contact_resolve", "friction", "double", "point", prepare_resolve});
+  cases.push_back({"surface_fields", "step", "double", "surface node", prepare_fields});
 }
 
 }  // namespace tread

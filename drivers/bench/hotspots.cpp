@@ -54,7 +54,7 @@ std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, st
                  phase_load(model, phase),
                  {},
                  times.counters};
-    spot.limit = limits.of(spot.load, true, model.internal->instruction_set());
+    spot.limit = limits.of(spot.load, model.scene.precision == "double", model.internal->instruction_set());
     whole.seconds += spot.seconds;
     whole.parallel_share += spot.parallel_share * spot.seconds;
     whole.load.flops += spot.load.flops;

@@ -1,6 +1,7 @@
 #include "drivers/bench/kernel_cases.hpp"
 
 #include <memory>
+#include <type_traits>
 
 #include "core/body_frame.hpp"
 #include "core/parallel.hpp"
@@ -26,12 +27,12 @@ PreparedKernel prepare_empty(std::int64_t elements) {
 }
 
 /// A block with all that a step of it needs.
-template <class Real>
+template <class Real, class U>
 struct BlockData {
   BlockData(const ElementVariant& variant, std::int64_t elements)
       : mesh(made_up_mesh(variant.sweep, variant.perturbed, elements)),
         internal(mesh),
-        u(made_up_field<Real>(mesh, kDisplacement)),
+        u(made_up_field<U>(mesh, kDisplacement)),
         v(made_up_field<Real>(mesh, kVelocity)),
         f(made_up_field<Real>(mesh, kForce)),
         inverse_mass(static_cast<std::size_t>(mesh.slots), Real(1e5)),
@@ -48,12 +49,13 @@ struct BlockData {
     update.move_rest(loads, fields(), internal.unmoved_tiles());
   }
   void motion() { update.move_all(loads, fields()); }
-  BasicUpdateFields<Real> fields() { return {u.data(), v.data(), f.data()}; }
+  BasicUpdateFields<Real, U> fields() { return {u.data(), v.data(), f.data()}; }
 
   Mesh mesh;
-  BasicInternalForce<Real> internal;
-  AlignedVector<Real> u, v, f, inverse_mass;
-  BasicTimeUpdate<Real> update;
+  BasicInternalForce<Real, U> internal;
+  AlignedVector<U> u;
+  AlignedVector<Real> v, f, inverse_mass;
+  BasicTimeUpdate<Real, U> update;
   StepLoads loads;
 };
 
@@ -63,16 +65,16 @@ void set_work(PreparedKernel& kernel, std::int64_t units, const Work& work) {
   kernel.working_set = static_cast<std::int64_t>(work.bytes * static_cast<double>(units));
 }
 
-template <class Real>
+template <class Real, class U>
 PreparedKernel prepare_element(const ElementVariant& variant, std::int64_t elements) {
-  const auto data = std::make_shared<BlockData<Real>>(variant, elements);
+  const auto data = std::make_shared<BlockData<Real, U>>(variant, elements);
   PreparedKernel kernel;
   if (variant.moves)
     kernel.timed.call = [data] { data->force_and_motion(); };
   else
     kernel.timed.call = [data] { data->force(); };
   const SweptBlock& block = data->mesh.blocks.front();
-  set_work(kernel, block.elements(), element_work(variant, block, sizeof(Real)));
+  set_work(kernel, block.elements(), element_work(variant, block, {sizeof(U), sizeof(Real)}));
   kernel.lanes = data->internal.instruction_sets();
   kernel.use_lanes = [data](const char* name) { data->internal.use_instruction_set(name); };
   return kernel;
@@ -85,11 +87,17 @@ std::string path_of(const ElementVariant& variant) {
   return variant.damped ? path + ", damped" : path;
 }
 
-template <class Real>
+template <class Real, class U>
+const char* precision() {
+  if (std::is_same_v<Real, double>) return "double";
+  return std::is_same_v<U, double> ? "mixed" : "single";
+}
+
+template <class Real, class U>
 void add_element(std::vector<KernelCase>& cases, const ElementVariant& variant) {
   cases.push_back({variant.moves ? "force_and_motion" : "internal_force", path_of(variant),
-                   sizeof(Real) == sizeof(double), "element",
-                   [variant](std::int64_t elements) { return prepare_element<Real>(variant, elements); }});
+                   precision<Real, U>(), "element",
+                   [variant](std::int64_t elements) { return prepare_element<Real, U>(variant, elements); }});
 }
 
 /// What runs with the widest instruction set alone.
@@ -97,50 +105,69 @@ std::vector<const char*> widest() {
   return {InternalForce::instruction_sets().front()};
 }
 
-template <class Real>
+template <class Real, class U>
 void add_update(std::vector<KernelCase>& cases, const char* path, Sweep sweep, bool vertical_only) {
-  cases.push_back({"update", path, sizeof(Real) == sizeof(double), "node", [=](std::int64_t elements) {
+  cases.push_back({"update", path, precision<Real, U>(), "node", [=](std::int64_t elements) {
                      ElementVariant variant;
                      variant.sweep = sweep;
-                     const auto data = std::make_shared<BlockData<Real>>(variant, elements);
+                     const auto data = std::make_shared<BlockData<Real, U>>(variant, elements);
                      if (vertical_only) data->update.set_vertical_only(0);
                      PreparedKernel kernel;
                      kernel.timed.call = [data] { data->motion(); };
-                     set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, sizeof(Real)));
+                     set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, {sizeof(U), sizeof(Real)}));
                      kernel.lanes = widest();
                      return kernel;
                    }});
 }
 
+template <class Real, class U>
+void add_updates(std::vector<KernelCase>& cases) {
+  add_update<Real, U>(cases, "fixed", Sweep::extruded, false);
+  add_update<Real, U>(cases, "fixed, vertical only", Sweep::extruded, true);
+  add_update<Real, U>(cases, "spinning", Sweep::revolved, false);
+}
+
+template <class Real, class U>
 struct TieData {
   explicit TieData(std::int64_t elements)
       : blocks(made_up_tied_blocks(elements)),
         ties(blocks.mesh, {blocks.tie}),
-        u(made_up_field<double>(blocks.mesh, kDisplacement)),
-        v(made_up_field<double>(blocks.mesh, kVelocity)),
-        f(u.size(), 0.0) {}
+        u(made_up_field<U>(blocks.mesh, kDisplacement)),
+        v(made_up_field<Real>(blocks.mesh, kVelocity)),
+        f(u.size(), 0) {}
   TiedBlocks blocks;
   Ties ties;
-  AlignedVector<double> u, v, f;
+  AlignedVector<U> u;
+  AlignedVector<Real> v, f;
 };
 
+template <class Real, class U>
 PreparedKernel prepare_tie(bool hand_over, std::int64_t elements) {
-  const auto data = std::make_shared<TieData>(elements);
+  const auto data = std::make_shared<TieData<Real, U>>(elements);
+  constexpr ValueBytes bytes{sizeof(U), sizeof(Real)};
   PreparedKernel kernel;
   if (hand_over)
     kernel.timed.call = [data] { data->ties.hand_over(data->f.data()); };
   else
     kernel.timed.call = [data] { data->ties.follow({data->u.data(), data->v.data()}); };
-  set_work(kernel, data->ties.secondary_count(), hand_over ? tie_hand_over_work() : tie_follow_work(2));
+  set_work(kernel, data->ties.secondary_count(),
+           hand_over ? tie_hand_over_work(bytes) : tie_follow_work(bytes));
   kernel.lanes = widest();
   return kernel;
+}
+
+template <class Real, class U>
+void add_ties(std::vector<KernelCase>& cases) {
+  for (const bool hand_over : {true, false})
+    cases.push_back({hand_over ? "tie_hand_over" : "tie_follow", "1:3", precision<Real, U>(), "tied node",
+                     [hand_over](std::int64_t elements) { return prepare_tie<Real, U>(hand_over, elements); }});
 }
 
 }  // namespace
 
 std::vector<KernelCase> kernel_cases() {
   std::vector<KernelCase> cases;
-  cases.push_back({"empty", "harness", true, "element", prepare_empty});
+  cases.push_back({"empty", "harness", "double", "element", prepare_empty});
   for (const Sweep sweep : {Sweep::extruded, Sweep::revolved})
     for (const bool perturbed : {false, true})
       for (const bool finite_rotation : {false, true})
@@ -149,20 +176,17 @@ std::vector<KernelCase> kernel_cases() {
           ElementVariant variant{sweep, damped, finite_rotation, perturbed};
           for (const bool moves : {false, true}) {
             variant.moves = moves;
-            add_element<double>(cases, variant);
-            add_element<float>(cases, variant);
+            add_element<double, double>(cases, variant);
+            add_element<float, double>(cases, variant);
+            add_element<float, float>(cases, variant);
           }
         }
-  for (const bool vertical_only : {false, true}) {
-    const char* path = vertical_only ? "fixed, vertical only" : "fixed";
-    add_update<double>(cases, path, Sweep::extruded, vertical_only);
-    add_update<float>(cases, path, Sweep::extruded, vertical_only);
-  }
-  add_update<double>(cases, "spinning", Sweep::revolved, false);
-  add_update<float>(cases, "spinning", Sweep::revolved, false);
-  for (const bool hand_over : {true, false})
-    cases.push_back({hand_over ? "tie_hand_over" : "tie_follow", "1:3", true, "tied node",
-                     [hand_over](std::int64_t elements) { return prepare_tie(hand_over, elements); }});
+  add_updates<double, double>(cases);
+  add_updates<float, double>(cases);
+  add_updates<float, float>(cases);
+  add_ties<double, double>(cases);
+  add_ties<float, double>(cases);
+  add_ties<float, float>(cases);
   add_contact_cases(cases);
   return cases;
 }

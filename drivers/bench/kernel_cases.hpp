@@ -27,12 +27,10 @@ struct PreparedKernel {
 struct KernelCase {
   std::string kernel;
   std::string path;
-  bool in_double = true;
+  std::string precision = "double";
   std::string unit;  ///< "element", "node", ...
   /// On a mesh of about so many elements.
   std::function<PreparedKernel(std::int64_t elements)> prepare;
-
-  const char* precision() const { return in_double ? "double" : "single"; }
 };
 
 /// What the harness costs, internal force, update and ties; then contact and the surface's fields.

@@ -38,7 +38,7 @@ void check_options(const BenchKernelsOptions& options, const std::vector<KernelC
   check_names("--kernel", options.kernels, kernels);
   const auto sets = InternalForce::instruction_sets();
   check_names("--lanes", options.lanes, {sets.begin(), sets.end()});
-  check_names("--precision", options.precisions, {"double", "single"});
+  check_names("--precision", options.precisions, {"double", "mixed", "single"});
 }
 
 /// Prints rows as they come, or all of them as a table at the end.
@@ -93,7 +93,7 @@ void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, 
       if (!chosen(options.lanes, lanes)) continue;
       kernel.use_lanes(lanes);
     }
-    BenchRow row{key_of(measured.kernel.c_str(), measured.path.c_str(), measured.precision(), lanes),
+    BenchRow row{key_of(measured.kernel.c_str(), measured.path.c_str(), measured.precision.c_str(), lanes),
                  measured.unit,
                  measure(kernel.timed, options.plan),
                  kernel.work,
@@ -101,7 +101,7 @@ void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, 
     row.key.elements = kernel.units;
     const auto units = static_cast<double>(kernel.units);
     row.limit = limits.of({kernel.work.flops * units, kernel.work.bytes * units, kernel.working_set},
-                          measured.in_double, lanes);
+                          measured.precision == "double", lanes);
     rows.add(std::move(row));
   }
 }
@@ -126,7 +126,7 @@ void bench_kernels(const BenchKernelsOptions& options) {
     add_limits(options, limits, rows);
   }
   for (const KernelCase& measured : cases) {
-    if (!chosen(options.kernels, measured.kernel) || !chosen(options.precisions, measured.precision()))
+    if (!chosen(options.kernels, measured.kernel) || !chosen(options.precisions, measured.precision))
       continue;
     for (const std::int64_t elements : options.elements) {
       const PreparedKernel kernel = measured.prepare(elements);

@@ -19,7 +19,8 @@ Load force_and_motion(const Model& model) {
     const bool damped = model.beta[static_cast<std::size_t>(b)] != 0;
     const std::int64_t perturbed = model.internal->perturbed_elements(b);
     for (const bool own : {false, true})
-      add(load, element_work({block.sweep, damped, revolved, own, true}, block, sizeof(double)),
+      add(load, element_work({block.sweep, damped, revolved, own, true}, block,
+                             value_bytes(model.scene)),
           own ? perturbed : block.elements() - perturbed);
   }
   return load;
@@ -29,10 +30,11 @@ Load force_and_motion(const Model& model) {
 
 Load phase_load(const Model& model, StepPhase phase) {
   Load load;
+  const ValueBytes bytes = value_bytes(model.scene);
   const std::int64_t tied = model.ties ? model.ties->secondary_count() : 0;
   if (phase == StepPhase::deform) load = force_and_motion(model);
-  if (phase == StepPhase::tied_forces) add(load, tie_hand_over_work(), tied);
-  if (phase == StepPhase::tied_motion) add(load, tie_follow_work(2), tied);
+  if (phase == StepPhase::tied_forces) add(load, tie_hand_over_work(bytes), tied);
+  if (phase == StepPhase::tied_motion) add(load, tie_follow_work(bytes), tied);
   load.working_set = static_cast<std::int64_t>(load.bytes);
   return load;
 }

@@ -43,7 +43,7 @@ double element_flops(const ElementVariant& variant) {
   const std::int64_t before = Counted::operations();
   if (variant.perturbed) {
     const LanePositions<Counted> lanes{};
-    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(lanes, 0, constants), constants);
+    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(PositionsFrom<Counted, Counted>{lanes, 0}, constants), constants);
   } else if (variant.sweep == Sweep::revolved) {
     run_element<finite_rotation>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
   } else {
@@ -68,7 +68,7 @@ double node_flops(const ElementVariant& variant) {
 
 }  // namespace
 
-Work element_work(const ElementVariant& variant, const SweptBlock& block, int value_bytes) {
+Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueBytes bytes) {
   const auto elements = static_cast<double>(block.elements());
   const double quads = static_cast<double>(block.section.quads.size());
   const double slots = static_cast<double>(block.slots()) / elements;
@@ -77,24 +77,25 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, int va
                node_flops(variant) * block.section.nodes() / quads;
   if (variant.moves) {
     // Displacement and velocity in and out, inverse mass; the force does not leave the caches.
-    work.flops += update_work(variant.sweep, false, value_bytes).flops * slots;
-    work.bytes = (4 * kComponents + 1) * value_bytes * slots;
+    work.flops += update_work(variant.sweep, false, bytes).flops * slots;
+    work.bytes =
+        (2 * kComponents * (bytes.displacement + bytes.other) + bytes.other) * slots;
   } else {
-    const int fields = variant.damped ? 4 : 3;  // displacement; force, fetched and written; velocity
-    work.bytes = fields * kComponents * value_bytes * slots;
+    const int others = variant.damped ? 3 : 2;  // force, fetched and written; velocity
+    work.bytes = kComponents * (bytes.displacement + others * bytes.other) * slots;
   }
-  if (variant.perturbed) work.bytes += int{kModes} * kComponents * value_bytes + sizeof(int) / double{kLanes};
+  if (variant.perturbed) work.bytes += int{kModes} * kComponents * bytes.other + sizeof(int) / double{kLanes};
   return work;
 }
 
-Work update_work(Sweep sweep, bool vertical_only, int value_bytes) {
+Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
   // Counted in kernels/node_motion_body.hpp: per component f / m + g, v, u; in the spinning frame two
   // accelerations with their centrifugal term, half of each before and after the turn, and the axial
   // component.
   const double components = vertical_only ? 1 : kComponents;
   const double flops = sweep == Sweep::revolved ? 33 : 6 * components;
   // Displacement and velocity in and out, force, inverse mass.
-  return {flops, (5 * components + 1) * value_bytes};
+  return {flops, 2 * components * bytes.displacement + (3 * components + 1) * bytes.other};
 }
 
 namespace {
@@ -105,18 +106,18 @@ constexpr double kHandedOver = 25.0 / 9;
 constexpr double kFollowed = 5.0 / 3 * 2;
 constexpr double kPrimaries = 1.0 / 9;
 constexpr double kLinkFlops = 13;  ///< weight; four products and two sums of t and r with the turn, two of y
-constexpr double kVectorBytes = kComponents * sizeof(double);
 
 }  // namespace
 
-Work tie_hand_over_work() {
+Work tie_hand_over_work(ValueBytes bytes) {
   // Secondary forces in, primary ones in and out.
-  return {kHandedOver * kLinkFlops, kVectorBytes * (1 + 2 * kPrimaries)};
+  return {kHandedOver * kLinkFlops, kComponents * bytes.other * (1 + 2 * kPrimaries)};
 }
 
-Work tie_follow_work(int fields) {
+Work tie_follow_work(ValueBytes bytes) {
   // Secondary values fetched and written, primary ones in.
-  return {fields * kFollowed * kLinkFlops, fields * kVectorBytes * (2 + kPrimaries)};
+  return {2 * kFollowed * kLinkFlops,
+          kComponents * (bytes.displacement + bytes.other) * (2 + kPrimaries)};
 }
 
 }  // namespace tread

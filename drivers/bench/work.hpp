@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/mesh/swept_block.hpp"
+#include "drivers/node_fields.hpp"
 
 namespace tread {
 
@@ -23,15 +24,15 @@ struct ElementVariant {
   bool moves = false;      ///< its nodes move in the same pass
 };
 
-/// Internal force of a block of one such variant, by element. `value_bytes`: of a number.
-Work element_work(const ElementVariant& variant, const SweptBlock& block, int value_bytes);
+/// Internal force of a block of one such variant, by element.
+Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueBytes bytes);
 
-/// Velocities and displacements of an extruded or a revolved block, by node slot. `value_bytes`: of a number.
-Work update_work(Sweep sweep, bool vertical_only, int value_bytes);
+/// Velocities and displacements of an extruded or a revolved block, by node slot.
+Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes);
 
-/// Forces of secondary nodes handed to the primary ones, and `fields` that follow back, by secondary node, in
-/// a tie of one to three.
-Work tie_hand_over_work();
-Work tie_follow_work(int fields);
+/// Forces of secondary nodes handed to the primary ones; displacements and velocities that follow back; by
+/// secondary node, in a tie of one to three.
+Work tie_hand_over_work(ValueBytes bytes);
+Work tie_follow_work(ValueBytes bytes);
 
 }  // namespace tread

@@ -68,7 +68,7 @@ struct Moment {
 /// Shift of the bodies as two points on the axis see it, one in each, at the same depth: theirs and what a
 /// half-space still moves there.
 double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation, double depth) {
-  const double* u = simulation.displacement().data();
+  const ConstNodeField u = simulation.displacement();
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).x;
   const double turned = model.guide->motion().rotation;
   const double wheel = -displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).x -

@@ -33,7 +33,7 @@ class FirstMode {
     return 2 * sound / element_size_ * std::sin(0.5 * std::numbers::pi * element_size_ / length_);
   }
   /// Mass-weighted projection of a field's component along the bar.
-  double amplitude(const AlignedVector<double>& field) const {
+  double amplitude(ConstNodeField field) const {
     double sum = 0;
     for (int station = 0; station < block_->station_count(); ++station) {
       const double x = block_->stations[static_cast<std::size_t>(station)] - block_->stations.front();
@@ -41,7 +41,7 @@ class FirstMode {
       for (int node = 0; node < block_->section.nodes(); ++node) {
         const std::int64_t slot = block_->base + block_->slot(node, station);
         sum += model_->mass[static_cast<std::size_t>(slot)] * shape *
-               field[static_cast<std::size_t>(dof(slot, 0))];
+               field[dof(slot, 0)];
       }
     }
     return sum;

@@ -109,7 +109,7 @@ struct Run {
 
 /// Mean hoop stress over the section, and rho spin^2 times the mean of r^2: half a ring is pulled apart by
 /// its centrifugal force and held by its two cuts, whatever the material's law.
-void compare_hoop(const Model& model, const double* u, double spin, Run& run) {
+void compare_hoop(const Model& model, ConstNodeField u, double spin, Run& run) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
   const AreaMoments section = area_moments(block.section);
   double force = 0;
@@ -124,8 +124,8 @@ void compare_hoop(const Model& model, const double* u, double spin, Run& run) {
 
 Moment moment_of(const Model& model, const Simulation& simulation) {
   const Sample& sample = simulation.sample();
-  const double* u = simulation.displacement().data();
-  const MeanMotion mean = model.wheelset->mean_motion(u, simulation.velocity().data(), simulation.wheel());
+  const ConstNodeField u = simulation.displacement();
+  const MeanMotion mean = model.wheelset->mean_motion(u, simulation.velocity(), simulation.wheel());
   Moment m;
   m.step = static_cast<double>(simulation.steps());
   m.time = simulation.time();
@@ -168,7 +168,7 @@ Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress
     run.moments.push_back(moment_of(model, simulation));
     if (run.moments.size() == 1) {
       run.kinetic = simulation.sample().energy.kinetic;
-      compare_hoop(model, simulation.displacement().data(), simulation.wheel().spin, run);
+      compare_hoop(model, simulation.displacement(), simulation.wheel().spin, run);
     }
     if (run.moments.size() % 100 != 0) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;

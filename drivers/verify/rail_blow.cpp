@@ -13,7 +13,7 @@ namespace tread {
 RailAxis::RailAxis(const Model& model)
     : model_(&model), x_(model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())].stations) {}
 
-double RailAxis::deflection(int station, const double* u) const {
+double RailAxis::deflection(int station, ConstNodeField u) const {
   double sum = 0;
   double mass = 0;
   for (const int b : model_->index.rail()) {
@@ -28,7 +28,7 @@ double RailAxis::deflection(int station, const double* u) const {
   return sum / mass;
 }
 
-double RailAxis::deflection_at(double x, const double* u) const {
+double RailAxis::deflection_at(double x, ConstNodeField u) const {
   const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
   const auto i = static_cast<int>(above - x_.begin()) - 1;
   const double share = (x - *(above - 1)) / (*above - *(above - 1));
@@ -47,7 +47,7 @@ EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, c
   simulation.set_sampling_interval(every);
   progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), samples * every, dt));
   for (std::int64_t i = 0; i <= samples * every; ++i) {
-    if (i % every == 0) sample(simulation.time(), simulation.displacement().data());
+    if (i % every == 0) sample(simulation.time(), simulation.displacement());
     simulation.step();
   }
   return simulation.sample().energy;

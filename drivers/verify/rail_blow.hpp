@@ -18,9 +18,9 @@ class RailAxis {
 
   const std::vector<double>& stations() const { return x_; }
   /// Mean downward displacement of a cross-section, weighted by mass. [m]
-  double deflection(int station, const double* u) const;
+  double deflection(int station, ConstNodeField u) const;
   /// The same at x, linear between stations.
-  double deflection_at(double x, const double* u) const;
+  double deflection_at(double x, ConstNodeField u) const;
 
  private:
   const Model* model_;
@@ -28,7 +28,7 @@ class RailAxis {
 };
 
 /// Called with time and displacements at every sample, the start included.
-using BlowSample = std::function<void(double, const double*)>;
+using BlowSample = std::function<void(double, ConstNodeField)>;
 
 /// Runs the scene's own step to its end, samples `interval` apart [s]; returns the last sample's energies.
 EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress);

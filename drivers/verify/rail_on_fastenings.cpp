@@ -80,7 +80,7 @@ Strike strike(const Scene& scene, const ProgressText& progress) {
   double section = 0;
   const EnergyLedger energy = run_blow(
       model, kInterval,
-      [&](double time, const double* u) {
+      [&](double time, ConstNodeField u) {
         const double at_head = -model.hammer->value(u, 2);
         const double of_section = axis.deflection_at(x, u);
         if (out.head.time.empty()) {

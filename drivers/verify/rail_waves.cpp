@@ -63,7 +63,7 @@ std::vector<Mode> rail_modes(const Scene& scene, int count, const ProgressText& 
   const double left = x.front();
   const double length = x.back() - left;
   std::vector<std::vector<double>> amplitudes(static_cast<std::size_t>(count));
-  const auto sample = [&](double time, const double* u) {
+  const auto sample = [&](double time, ConstNodeField u) {
     if (time < scene.hammer->duration) return;
     std::vector<double> sums(amplitudes.size());
     for (std::size_t i = 0; i < x.size(); ++i) {

@@ -204,7 +204,7 @@ std::optional<std::array<double, 4>> weights_inside(const Section& section, cons
 
 }  // namespace
 
-Vec3 displacement_at(const Model& model, int index, double p, double q, double s, const double* u) {
+Vec3 displacement_at(const Model& model, int index, double p, double q, double s, ConstNodeField u) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(index)];
   const auto cell = StationFinder(block).find(s);
   for (const std::array<int, 4>& quad : block.section.quads) {
@@ -216,7 +216,7 @@ Vec3 displacement_at(const Model& model, int index, double p, double q, double s
       for (const int station : {cell.station, cell.next}) {
         const std::int64_t slot = block.base + block.slot(quad[i], station);
         const double share = (*weight)[i] * (station == cell.station ? 1 - along : along);
-        sum += share * to_cartesian(block, station, 0, {u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]});
+        sum += share * to_cartesian(block, station, 0, u.at(slot));
       }
     return sum;
   }

@@ -63,6 +63,6 @@ TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits);
 
 /// Displacement at the point (p, q) of an extruded or revolved block's section and the station coordinate s,
 /// Cartesian. [m]
-Vec3 displacement_at(const Model& model, int block, double p, double q, double s, const double* u);
+Vec3 displacement_at(const Model& model, int block, double p, double q, double s, ConstNodeField u);
 
 }  // namespace tread

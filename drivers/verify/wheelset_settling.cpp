@@ -53,7 +53,7 @@ Settling settle(Model& model, const Preload& preload, const VerifyInputs& inputs
     if (i % every == 0) {
       const BodyFrame& frame = simulation.wheel();
       const double height =
-          frame.origin.z + rim_displacement(model, simulation.displacement().data(), frame).z;
+          frame.origin.z + rim_displacement(model, simulation.displacement(), frame).z;
       if (settling.empty()) start = height;
       settling.push_back(start - height);
     }

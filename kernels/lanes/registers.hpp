@@ -33,12 +33,14 @@ TREAD_INLINE void store(Real* at, const V& value) {
   __builtin_memcpy(at, &value, sizeof value);
 }
 
+/// Values in a register.
+template <class Real>
+constexpr int kFitting = kRegisterBytes / static_cast<int>(sizeof(Real));
+
 /// The lanes of a tile in as many registers as they need.
 template <class Real>
 struct Lanes {
-  static constexpr int kWidth = kRegisterBytes / static_cast<int>(sizeof(Real)) < kLanes
-                                    ? kRegisterBytes / static_cast<int>(sizeof(Real))
-                                    : kLanes;
+  static constexpr int kWidth = kFitting<Real> < kLanes ? kFitting<Real> : kLanes;
   static constexpr int kParts = kLanes / kWidth;
   using Register = typename Vector<Real, kWidth>::type;
 };

@@ -8,19 +8,17 @@
 namespace tread {
 
 /// For every lane of a tile a station of the other block.
-template <class Real>
 struct StationLink {
   std::int64_t at[kLanes] = {};  ///< its section node 0, component 0, in a vector field
-  Real share[kLanes] = {};       ///< 0: none
-  Real cosine[kLanes] = {};      ///< of the turn from the other's basis to the lane's
-  Real sine[kLanes] = {};
+  double share[kLanes] = {};     ///< 0: none
+  double cosine[kLanes] = {};    ///< of the turn from the other's basis to the lane's
+  double sine[kLanes] = {};
 };
 
 /// A section node of the other block.
-template <class Real>
 struct NodeLink {
   int node = 0;
-  Real share = 0;
+  double share = 0;
 };
 
 /// Own section node and its links, [first, last).
@@ -30,19 +28,18 @@ struct LinkedNode {
   int last = 0;
 };
 
-template <class Real>
 struct TieTile {
   std::int64_t own = 0;  ///< of the tile's section node 0, component 0, in a vector field
-  const StationLink<Real>* stations = nullptr;
+  const StationLink* stations = nullptr;
   int station_count = 0;
   const LinkedNode* nodes = nullptr;
   int node_count = 0;
-  const NodeLink<Real>* links = nullptr;
+  const NodeLink* links = nullptr;
 };
 
-/// The sum replaces a node's values, or is added to them. In the order of the stations' links, then of the
-/// nodes': not contracted, the same bits for all instruction sets.
+/// The sum replaces a node's values, or is added to them. In double whatever the field is stored in, in the
+/// order of the stations' links, then of the nodes': not contracted, the same bits for all instruction sets.
 template <class Real>
-using TieSum = void (*)(const TieTile<Real>& tile, bool add, Real* field);
+using TieSum = void (*)(const TieTile& tile, bool add, Real* field);
 
 }  // namespace tread

@@ -8,39 +8,44 @@
 namespace tread {
 namespace {
 
-template <class V, class Real>
-TREAD_INLINE V pick(const Real* field, const std::int64_t* at) {
-  V value;
-  for (int l = 0; l < static_cast<int>(sizeof(V) / sizeof(Real)); ++l) value[l] = field[at[l]];
+using TieRegister = Lanes<double>::Register;
+
+template <class Real>
+TREAD_INLINE TieRegister pick(const Real* field, const std::int64_t* at) {
+  TieRegister value;
+  for (int l = 0; l < Lanes<double>::kWidth; ++l) value[l] = field[at[l]];
   return value;
 }
 
-template <class V, class Real>
-TREAD_INLINE void add_link(const StationLink<Real>& station, int lane, const NodeLink<Real>& link,
-                           const Real* field, V (&sum)[3]) {
-  const V c = load<V>(station.cosine + lane);
-  const V s = load<V>(station.sine + lane);
-  const V weight = link.share * load<V>(station.share + lane);
+template <class Real>
+TREAD_INLINE void add_link(const StationLink& station, int lane, const NodeLink& link, const Real* field,
+                           TieRegister (&sum)[3]) {
+  const auto c = load<TieRegister>(station.cosine + lane);
+  const auto s = load<TieRegister>(station.sine + lane);
+  const TieRegister weight = link.share * load<TieRegister>(station.share + lane);
   const Real* values = field + static_cast<std::ptrdiff_t>(link.node) * 3 * kLanes;
-  const V t = pick<V>(values, station.at + lane);
-  const V y = pick<V>(values + kLanes, station.at + lane);
-  const V r = pick<V>(values + 2 * kLanes, station.at + lane);
+  const TieRegister t = pick(values, station.at + lane);
+  const TieRegister y = pick(values + kLanes, station.at + lane);
+  const TieRegister r = pick(values + 2 * kLanes, station.at + lane);
   sum[0] += product(weight, product(c, t) - product(s, r));
   sum[1] += product(weight, y);
   sum[2] += product(weight, product(s, t) + product(c, r));
 }
 
 template <class Real>
-void tie_sum(const TieTile<Real>& tile, bool add, Real* field) {
-  using Register = typename Lanes<Real>::Register;
+void tie_sum(const TieTile& tile, bool add, Real* field) {
+  using Stored = typename Vector<Real, Lanes<double>::kWidth>::type;
   for (const LinkedNode* own = tile.nodes; own != tile.nodes + tile.node_count; ++own)
-    for (int lane = 0; lane < kLanes; lane += Lanes<Real>::kWidth) {
-      Register sum[3] = {};
+    for (int lane = 0; lane < kLanes; lane += Lanes<double>::kWidth) {
+      TieRegister sum[3] = {};
       for (int k = 0; k < tile.station_count; ++k)
         for (int link = own->first; link < own->last; ++link)
           add_link(tile.stations[k], lane, tile.links[link], field, sum);
       Real* at = field + tile.own + static_cast<std::ptrdiff_t>(own->node) * 3 * kLanes + lane;
-      for (int i = 0; i < 3; ++i, at += kLanes) store(at, add ? load<Register>(at) + sum[i] : sum[i]);
+      for (int i = 0; i < 3; ++i, at += kLanes) {
+        if (add) sum[i] += converted<TieRegister>(load<Stored>(at));
+        store(at, converted<Stored>(sum[i]));
+      }
     }
 }
 

@@ -1,9 +1,15 @@
 #pragma once
-// The hot loop: internal force of all elements that start in one tile, and the motion of its nodes. Its
-// source is compiled once per instruction set; the widest one that the processor has is chosen at run time.
+// The hot loop: internal force of all elements that start in one tile or in two of them abreast, and the
+// motion of their nodes. Its source is compiled once per instruction set; the widest one that the processor
+// has is chosen at run time.
+//
+// Real is what elements compute in and what velocities, forces and masses are stored in; U is what
+// displacements are stored in. Where U is wider, an element's differences are formed in U before they are
+// rounded. [theory.md, Precision]
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "kernels/element.hpp"
@@ -14,10 +20,10 @@
 namespace tread {
 
 /// How the nodes of a tile move over a step; pointers are to the tile's section node 0.
-template <class Real>
+template <class Real, class U>
 struct TileMotion {
   StepConstants<Real> step;
-  Real* u = nullptr;                        ///< displacement [m]
+  U* u = nullptr;                           ///< displacement [m]
   Real* v = nullptr;                        ///< velocity [m/s]
   const Real* inverse_mass = nullptr;       ///< 0 where nothing moves: unused lanes, secondary nodes [1/kg]
   const unsigned char* deferred = nullptr;  ///< by section node: more is added to its force before it moves
@@ -26,21 +32,28 @@ struct TileMotion {
   Real weight[2][kLanes] = {};              ///< gravity along t and r (revolved) [m/s2]
 };
 
-/// Values that a tile reads and writes; `u`, `v`, `f` point to the tile's section node 0. Vector fields: per
-/// section node three components of kLanes values.
-template <class Real>
+/// Tiles that a loop takes at once at the most.
+inline constexpr int kTilesAbreast = 2;
+
+/// Values that a tile, or a tile and the one that follows it in memory and along the sweep, read and write;
+/// `u`, `v`, `f` point to the first one's section node 0. Vector fields: per section node three components of
+/// kLanes values.
+template <class Real, class U>
 struct TileView {
-  const Real* u = nullptr;       ///< displacement [m]
-  const Real* v = nullptr;       ///< velocity [m/s]; used when `damped`, at hand for `motion`
-  const Real* u_next = nullptr;  ///< the same of the tile that holds the last element's far station
+  const U* u = nullptr;       ///< displacement [m]
+  const Real* v = nullptr;    ///< velocity [m/s]; used when `damped`, at hand for `motion`
+  const U* u_next = nullptr;  ///< the same of the tile that holds the last element's far station
   const Real* v_next = nullptr;
   Real* f = nullptr;  ///< force, overwritten [N]
-  /// Null, or: nodes move as soon as their force is complete, and only deferred ones store it in `f`.
-  const TileMotion<Real>* motion = nullptr;
+  /// By tile: null, or: nodes move as soon as their force is complete, and only deferred ones store it in
+  /// `f`.
+  const TileMotion<Real, U>* motion[kTilesAbreast] = {};
   const Real* carry_in =
       nullptr;  ///< force of the preceding element on lane 0: [section node][3] behind kLanes of padding [N]
-  Real* carry_out = nullptr;  ///< force of this tile's last element on the station behind it [N]
-  int elements = 0;           ///< 1 ... kLanes
+  Real* carry_out = nullptr;  ///< force of the last tile's last element on the station behind it [N]
+  int elements = 0;           ///< of the last tile, 1 ... kLanes; another one has kLanes
+  int tiles = 1;
+  std::ptrdiff_t stride = 0;  ///< from a tile's vector fields to those of the tile behind it in memory
 };
 
 /// What the elements of a tile are made of, in the order of the plan's quads.
@@ -51,19 +64,21 @@ struct TileElements {
   const FrontPlan::Node* close = nullptr;
   int quad_count = 0;
   const SweptConstants<Real>* swept = nullptr;
-  const int* perturbed = nullptr;  ///< index into `lanes` or -1; null if all are swept
+  /// By tile, both alike: index into `lanes` or -1; null if all are swept.
+  const int* perturbed[kTilesAbreast] = {};
   const LanePositions<Real>* lanes = nullptr;
-  Real beta = 0;    ///< stiffness-proportional damping [s]
-  Real cosine = 1;  ///< of half the pitch (revolved)
-  Real sine = 0;
+  double beta = 0;    ///< stiffness-proportional damping [s]
+  double cosine = 1;  ///< of half the pitch (revolved)
+  double sine = 0;
 };
 
-/// Values of kLanes per node of the front: sum and difference of the displacements, and of the forces.
+/// Values of kLanes per tile and node of the front: sum and difference of the displacements, and of the
+/// forces.
 inline constexpr int kFrontValues = 12 * kLanes;
 
-/// `front` is scratch of plan.slots * kFrontValues values aligned to 64 bytes.
-template <class Real>
-using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real>& view, Real* front);
+/// `front` is scratch of plan.slots * kTilesAbreast * kFrontValues values aligned to 64 bytes.
+template <class Real, class U>
+using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front);
 
 /// Strain and hourglass energy. [J]
 struct DeformationEnergy {
@@ -72,13 +87,13 @@ struct DeformationEnergy {
 };
 
 /// Energy of a tile's elements by the law that the variant has; reads `u` and `u_next` of the view.
-template <class Real>
-using TileEnergy = DeformationEnergy (*)(const TileElements<Real>& elements, const TileView<Real>& view,
+template <class Real, class U>
+using TileEnergy = DeformationEnergy (*)(const TileElements<Real>& elements, const TileView<Real, U>& view,
                                          Real* front);
 
 /// Moves the section nodes `nodes` of a tile by the forces `f`.
-template <class Real>
-using TileMove = void (*)(const TileMotion<Real>& motion, std::span<const int> nodes, const Real* f);
+template <class Real, class U>
+using TileMove = void (*)(const TileMotion<Real, U>& motion, std::span<const int> nodes, const Real* f);
 
 struct TileVariant {
   Sweep sweep = Sweep::extruded;
@@ -86,28 +101,35 @@ struct TileVariant {
   bool finite_rotation = false;
 };
 
+/// The loops of one precision.
+template <class Real, class U>
+struct TileLoops {
+  TileForce<Real, U> (*force)(TileVariant);
+  TileEnergy<Real, U> (*energy)(TileVariant);
+  TileMove<Real, U> (*move)(Sweep);
+  int tiles;  ///< that `force` takes at once
+};
+
 /// One instruction set's versions of the loops.
 struct TileForces {
   const char* name;
-  TileForce<double> (*in_double)(TileVariant);
-  TileForce<float> (*in_float)(TileVariant);
-  TileEnergy<double> (*energy_in_double)(TileVariant);
-  TileEnergy<float> (*energy_in_float)(TileVariant);
-  TileMove<double> (*move_in_double)(Sweep);
-  TileMove<float> (*move_in_float)(Sweep);
+  TileLoops<double, double> in_double;
+  TileLoops<float, double> mixed;
+  TileLoops<float, float> single;
   TieSum<double> tie_in_double;
   TieSum<float> tie_in_float;
 
-  TileForce<double> get(TileVariant variant, double /*precision*/) const { return in_double(variant); }
-  TileForce<float> get(TileVariant variant, float /*precision*/) const { return in_float(variant); }
-  TileEnergy<double> energy(TileVariant variant, double /*precision*/) const {
-    return energy_in_double(variant);
+  template <class Real, class U>
+  const TileLoops<Real, U>& loops() const {
+    if constexpr (std::is_same_v<Real, double>)
+      return in_double;
+    else if constexpr (std::is_same_v<U, double>)
+      return mixed;
+    else
+      return single;
   }
-  TileEnergy<float> energy(TileVariant variant, float /*precision*/) const {
-    return energy_in_float(variant);
-  }
-  TileMove<double> get(Sweep sweep, double /*precision*/) const { return move_in_double(sweep); }
-  TileMove<float> get(Sweep sweep, float /*precision*/) const { return move_in_float(sweep); }
+  void sum(const TieTile& tile, bool add, double* field) const { tie_in_double(tile, add, field); }
+  void sum(const TieTile& tile, bool add, float* field) const { tie_in_float(tile, add, field); }
 };
 
 /// The instruction sets that this program contains and this processor has: the one that the environment's

@@ -1,6 +1,8 @@
 #pragma once
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
+#include <algorithm>
+
 #include "kernels/element_body.hpp"
 #include "kernels/lanes/registers.hpp"
 #include "kernels/lanes/tie_sum_body.hpp"
@@ -26,16 +28,35 @@ TREAD_INLINE V shift_up(const V& a, const V& b) {
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
 }
 
+/// Both side by side.
+template <class V>
+TREAD_INLINE auto abreast(const V& a, const V& b) {
+  static_assert(sizeof a / sizeof a[0] == 8);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+
+/// Registers for the values of a tile's nodes: as many lanes of both precisions as fit one of the wider.
+template <class Real, class U>
+struct NodeLanes {
+  static constexpr int kWidth = Lanes<U>::kWidth;
+  static constexpr int kParts = Lanes<U>::kParts;
+  using Register = typename Vector<Real, kWidth>::type;
+  using Displacement = typename Lanes<U>::Register;
+};
+
 /// Moves the lanes of a section node that begin at `lane` by their force.
-template <Sweep sweep, class Real, class V>
-TREAD_INLINE void move_node(const TileMotion<Real>& motion, int node, int lane, const V (&f)[3]) {
+template <Sweep sweep, class Real, class U>
+TREAD_INLINE void move_node(const TileMotion<Real, U>& motion, int node, int lane,
+                            const typename NodeLanes<Real, U>::Register (&f)[3]) {
+  using V = typename NodeLanes<Real, U>::Register;
+  using Displacement = typename NodeLanes<Real, U>::Displacement;
   const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(node) * kLanes + lane;
   const std::ptrdiff_t vectors = static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
   const V inverse_mass = load<V>(motion.inverse_mass + first);
-  V u[3];
+  Displacement u[3];
   V v[3];
   for (int c = 0; c < 3; ++c) {
-    u[c] = load<V>(motion.u + vectors + c * kLanes);
+    u[c] = load<Displacement>(motion.u + vectors + c * kLanes);
     v[c] = load<V>(motion.v + vectors + c * kLanes);
   }
   if constexpr (sweep == Sweep::revolved) {
@@ -50,16 +71,28 @@ TREAD_INLINE void move_node(const TileMotion<Real>& motion, int node, int lane, 
   }
 }
 
-template <class Real, Sweep sweep, bool damped, bool finite_rotation>
+/// Nodes are opened and closed tile by tile; their elements take the lanes of all tiles abreast.
+template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
 class TileLoop {
  public:
-  static constexpr int kWidth = Lanes<Real>::kWidth;
-  static constexpr int kParts = Lanes<Real>::kParts;
-  using Register = typename Lanes<Real>::Register;
+  static constexpr int kTiles = kFitting<Real> > kLanes ? kTilesAbreast : 1;
+  static constexpr int kAbreast = kTiles * kLanes;  ///< lanes of a value in the front
+  static constexpr int kWidth = kFitting<Real> < kAbreast ? kFitting<Real> : kAbreast;
+  static constexpr int kNodeWidth = NodeLanes<Real, U>::kWidth;
+  static constexpr int kParts = NodeLanes<Real, U>::kParts;
+  using Register = typename Vector<Real, kWidth>::type;  ///< of elements
+  using NodeRegister = typename NodeLanes<Real, U>::Register;
+  using Displacement = typename NodeLanes<Real, U>::Displacement;
   using Sums = typename Vector<double, kWidth>::type;
 
-  TileLoop(const TileElements<Real>& elements, const TileView<Real>& view, Real* front)
-      : elements_(elements), view_(view), front_(front) {}
+  TileLoop(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front)
+      : elements_(elements), view_(view), front_(front) {
+    if constexpr (kRelative) {
+      Displacement differences[kParts][3];
+      for (int tile = 0; tile < kTiles && tile < view.tiles; ++tile)
+        form_sums(elements.open->node, tile, origin_[tile], differences);
+    }
+  }
 
   /// Of all elements.
   DeformationEnergy energy() const {
@@ -96,121 +129,189 @@ class TileLoop {
   }
 
  private:
+  /// Sums are taken relative to those of one node, so that what all nodes have in common is not rounded.
+  static constexpr bool kRelative = !std::is_same_v<Real, U>;
+
   /// A node's displacements and velocities in the next tile, its forces or masses in this one: all that comes
   /// from memory, in an order that the processor does not foresee.
   TREAD_INLINE void prefetch(int node) const {
-    constexpr int kLine = 64 / static_cast<int>(sizeof(Real));
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
-    const bool moves = view_.motion != nullptr;
-    if (moves) __builtin_prefetch(view_.motion->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
-    for (int value = 0; value < 3 * kLanes; value += kLine) {
-      __builtin_prefetch(view_.u_next + at + value);
-      if (damped || moves) __builtin_prefetch(view_.v_next + at + value);
-      if (!moves) __builtin_prefetch(view_.f + at + value, 1);
+    for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
+      const bool moves = view_.motion[tile] != nullptr;
+      if (moves)
+        __builtin_prefetch(view_.motion[tile]->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
+      prefetch_vector<0>(next(view_.u, view_.u_next, tile) + at);
+      if (damped || moves) prefetch_vector<0>(next(view_.v, view_.v_next, tile) + at);
+      if (!moves) prefetch_vector<1>(view_.f + tile * view_.stride + at);
     }
   }
 
-  TREAD_INLINE Register displacement(const Real* u, const Real* v, std::ptrdiff_t at) const {
-    if constexpr (damped) return load<Register>(u + at) + elements_.beta * load<Register>(v + at);
-    return load<Register>(u + at);
+  template <int to_write, class Value>
+  TREAD_INLINE void prefetch_vector(const Value* at) const {
+    constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
+    for (int value = 0; value < 3 * kLanes; value += kLine) __builtin_prefetch(at + value, to_write);
   }
 
-  /// Sums and differences of a node's displacements at both ends of the elements, in their middle frames.
-  TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
-    Register s[kParts][3];
-    Register d[kParts][3];
+  /// The field of the tile behind `tile` along the sweep.
+  template <class Value>
+  TREAD_INLINE const Value* next(const Value* field, const Value* field_next, int tile) const {
+    return tile + 1 == view_.tiles ? field_next : field + (tile + 1) * view_.stride;
+  }
+
+  TREAD_INLINE int elements_of(int tile) const { return tile + 1 == view_.tiles ? view_.elements : kLanes; }
+
+  TREAD_INLINE Displacement displacement(const U* u, const Real* v, std::ptrdiff_t at) const {
+    if constexpr (damped)
+      return load<Displacement>(u + at) +
+             static_cast<U>(elements_.beta) * converted<Displacement>(load<NodeRegister>(v + at));
+    return load<Displacement>(u + at);
+  }
+
+  /// Sums and differences of a node's displacements at both ends of a tile's elements, in their middle
+  /// frames.
+  TREAD_INLINE void form_sums(int node, int tile, Displacement (&s)[kParts][3],
+                              Displacement (&d)[kParts][3]) const {
+    const U* u = view_.u + tile * view_.stride;
+    const Real* v = damped ? view_.v + tile * view_.stride : nullptr;
+    const U* u_next = next(view_.u, view_.u_next, tile);
+    const Real* v_next = damped ? next(view_.v, view_.v_next, tile) : nullptr;
     for (int i = 0; i < 3; ++i) {
-      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes;
-      Register near[kParts + 1];
-      Register far[kParts];
-      for (int part = 0; part < kParts; ++part)
-        near[part] = displacement(view_.u, view_.v, at + part * kWidth);
-      near[kParts] = displacement(view_.u_next, view_.v_next, at);
-      if (view_.elements == kLanes) [[likely]] {
+      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node) * 3 + i) * kLanes;
+      Displacement near[kParts + 1];
+      Displacement far[kParts];
+      for (int part = 0; part < kParts; ++part) near[part] = displacement(u, v, at + part * kNodeWidth);
+      near[kParts] = displacement(u_next, v_next, at);
+      if (elements_of(tile) == kLanes) [[likely]] {
         for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
       } else {
-        Real row[kLanes + 1] = {};
+        U row[kLanes + 1] = {};
         const int last = view_.elements - 1;
-        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, near[part]);
+        for (int part = 0; part < kParts; ++part) store(row + part * kNodeWidth, near[part]);
         row[last + 1] = near[kParts][0];
-        for (int part = 0; part < kParts; ++part) far[part] = load<Register>(row + 1 + part * kWidth);
+        for (int part = 0; part < kParts; ++part) far[part] = load<Displacement>(row + 1 + part * kNodeWidth);
       }
       for (int part = 0; part < kParts; ++part) {
         s[part][i] = near[part] + far[part];
         d[part][i] = far[part] - near[part];
       }
     }
-    Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kFrontValues;
-    for (int part = 0; part < kParts; ++part, slot += kWidth) {
-      if constexpr (sweep == Sweep::revolved)
-        turn_to_middle(elements_.cosine, elements_.sine, s[part], d[part]);
-      for (int i = 0; i < 3; ++i) {
-        store(slot + i * kLanes, s[part][i]);
-        store(slot + (3 + i) * kLanes, d[part][i]);
-        store(slot + (6 + i) * kLanes, Register{});
-        store(slot + (9 + i) * kLanes, Register{});
+    if constexpr (sweep == Sweep::revolved)
+      for (int part = 0; part < kParts; ++part)
+        turn_to_middle(static_cast<U>(elements_.cosine), static_cast<U>(elements_.sine), s[part], d[part]);
+  }
+
+  TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
+    for (int tile = 0; tile < kTiles; ++tile) {
+      Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kTiles * kFrontValues + tile * kLanes;
+      if (tile >= view_.tiles) [[unlikely]] {
+        for (int value = 0; value < 12; ++value) std::fill_n(slot + value * kAbreast, kLanes, Real{0});
+        continue;
       }
+      Displacement s[kParts][3];
+      Displacement d[kParts][3];
+      form_sums(node.node, tile, s, d);
+      for (int part = 0; part < kParts; ++part, slot += kNodeWidth)
+        for (int i = 0; i < 3; ++i) {
+          if constexpr (kRelative) s[part][i] -= origin_[tile][part][i];
+          store(slot + i * kAbreast, converted<NodeRegister>(s[part][i]));
+          store(slot + (3 + i) * kAbreast, converted<NodeRegister>(d[part][i]));
+          store(slot + (6 + i) * kAbreast, NodeRegister{});
+          store(slot + (9 + i) * kAbreast, NodeRegister{});
+        }
     }
   }
 
   /// Forces on both ends of the elements; those on the far ends belong to the next lanes.
   TREAD_INLINE void close_node(const FrontPlan::Node& node) const {
-    const Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kFrontValues;
-    Register s[kParts][3];
-    Register d[kParts][3];
-    for (int part = 0; part < kParts; ++part, slot += kWidth) {
+    NodeRegister before[3];  // far force of the preceding tile, whose last lane counts
+    for (int i = 0; i < 3; ++i)
+      before[i] = load<NodeRegister>(view_.carry_in + static_cast<std::ptrdiff_t>(node.node) * 3 + i -
+                                     (kNodeWidth - 1));
+    for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) close_node(node, tile, before);
+  }
+
+  TREAD_INLINE void close_node(const FrontPlan::Node& node, int tile, NodeRegister (&before)[3]) const {
+    const Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kTiles * kFrontValues + tile * kLanes;
+    NodeRegister s[kParts][3];
+    NodeRegister d[kParts][3];
+    for (int part = 0; part < kParts; ++part, slot += kNodeWidth) {
       for (int i = 0; i < 3; ++i) {
-        s[part][i] = load<Register>(slot + (6 + i) * kLanes);
-        d[part][i] = load<Register>(slot + (9 + i) * kLanes);
+        s[part][i] = load<NodeRegister>(slot + (6 + i) * kAbreast);
+        d[part][i] = load<NodeRegister>(slot + (9 + i) * kAbreast);
       }
       if constexpr (sweep == Sweep::revolved)
-        turn_to_nodes(elements_.cosine, elements_.sine, s[part], d[part]);
+        turn_to_nodes(static_cast<Real>(elements_.cosine), static_cast<Real>(elements_.sine), s[part],
+                      d[part]);
     }
-    Register force[kParts][3];
+    const bool last_tile = tile + 1 == view_.tiles;
+    NodeRegister force[kParts][3];
     for (int i = 0; i < 3; ++i) {
-      const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
-      Register far[kParts + 1];  // behind that of the preceding tile, whose last lane counts
-      far[0] = load<Register>(view_.carry_in + value - (kWidth - 1));
+      NodeRegister far[kParts + 1];
+      far[0] = before[i];
       for (int part = 0; part < kParts; ++part) far[part + 1] = s[part][i] + d[part][i];
-      if (view_.elements == kLanes) [[likely]] {
-        view_.carry_out[value] = far[kParts][kWidth - 1];
-      } else {
-        Real row[kLanes];
-        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, far[part + 1]);
-        view_.carry_out[value] = row[view_.elements - 1];
-        row[view_.elements - 1] = 0;
-        for (int part = 0; part < kParts; ++part) far[part + 1] = load<Register>(row + part * kWidth);
+      if (last_tile) {
+        Real& carry_out = view_.carry_out[static_cast<std::ptrdiff_t>(node.node) * 3 + i];
+        if (view_.elements == kLanes) [[likely]] {
+          carry_out = far[kParts][kNodeWidth - 1];
+        } else {
+          Real row[kLanes];
+          for (int part = 0; part < kParts; ++part) store(row + part * kNodeWidth, far[part + 1]);
+          carry_out = row[view_.elements - 1];
+          row[view_.elements - 1] = 0;
+          for (int part = 0; part < kParts; ++part)
+            far[part + 1] = load<NodeRegister>(row + part * kNodeWidth);
+        }
       }
+      before[i] = far[kParts];
       for (int part = 0; part < kParts; ++part)
         force[part][i] = (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]);
     }
-    if (view_.motion != nullptr && view_.motion->deferred[node.node] == 0) {
+    const TileMotion<Real, U>* motion = view_.motion[tile];
+    if (motion != nullptr && motion->deferred[node.node] == 0) {
       for (int part = 0; part < kParts; ++part)
-        move_node<sweep>(*view_.motion, node.node, part * kWidth, force[part]);
+        move_node<sweep, Real, U>(*motion, node.node, part * kNodeWidth, force[part]);
       return;
     }
+    Real* f = view_.f + tile * view_.stride + static_cast<std::ptrdiff_t>(node.node) * 3 * kLanes;
     for (int part = 0; part < kParts; ++part)
-      for (int i = 0; i < 3; ++i)
-        store(view_.f + (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes + part * kWidth,
-              force[part][i]);
+      for (int i = 0; i < 3; ++i) store(f + i * kLanes + part * kNodeWidth, force[part][i]);
   }
+
+  /// Positions of the elements in the lanes from `lane` on, abreast.
+  struct Positions {
+    const LanePositions<Real>* tile[kTilesAbreast];
+    int lane;
+
+    TREAD_INLINE Register operator()(int m, int j) const {
+      if constexpr (kWidth <= kLanes) {
+        return load<Register>(tile[0]->position[m][j] + lane);
+      } else {
+        using Half = typename Vector<Real, kLanes>::type;
+        return abreast(load<Half>(tile[0]->position[m][j]), load<Half>(tile[1]->position[m][j]));
+      }
+    }
+  };
 
   /// visit(lane, element) for the elements of a quad from that lane on.
   template <class Visit>
   TREAD_INLINE void with_elements(int index, const Visit& visit) const {
     const SweptConstants<Real>& constants = elements_.swept[index];
-    if (elements_.perturbed != nullptr && elements_.perturbed[index] >= 0) {
-      const LanePositions<Real>& lanes = elements_.lanes[elements_.perturbed[index]];
-      for (int lane = 0; lane < kLanes; lane += kWidth)
-        visit(lane, PerturbedElement<Register, Real>(lanes, lane, constants));
+    if (elements_.perturbed[0] != nullptr && elements_.perturbed[0][index] >= 0) {
+      Positions positions{};
+      for (int tile = 0; tile < kTiles; ++tile)
+        positions.tile[tile] =
+            elements_.lanes + elements_.perturbed[tile < view_.tiles ? tile : 0][index];
+      for (positions.lane = 0; positions.lane < kAbreast; positions.lane += kWidth)
+        visit(positions.lane, PerturbedElement<Register, Real>(positions, constants));
     } else {
-      for (int lane = 0; lane < kLanes; lane += kWidth) visit(lane, SweptElement<sweep, Real>{constants});
+      for (int lane = 0; lane < kAbreast; lane += kWidth)
+        visit(lane, SweptElement<sweep, Real>{constants});
     }
   }
 
   /// A corner's values in the front.
   TREAD_INLINE Real* corner(const FrontPlan::Quad& quad, int j, int lane) const {
-    return front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kFrontValues + lane;
+    return front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kTiles * kFrontValues + lane;
   }
 
   template <class Element>
@@ -222,8 +323,8 @@ class TileLoop {
       Register d[4];
       Register a[kModes];
       for (int j = 0; j < 4; ++j) {
-        s[j] = load<Register>(corner(quad, j, lane) + i * kLanes);
-        d[j] = load<Register>(corner(quad, j, lane) + (3 + i) * kLanes);
+        s[j] = load<Register>(corner(quad, j, lane) + i * kAbreast);
+        d[j] = load<Register>(corner(quad, j, lane) + (3 + i) * kAbreast);
       }
       to_modes(s, d, a);
       element.strain(i, a, strain);
@@ -247,8 +348,8 @@ class TileLoop {
       element.forces(i, force, a);
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
-        Real* const fs = corner(quad, j, lane) + (6 + i) * kLanes;
-        Real* const fd = corner(quad, j, lane) + (9 + i) * kLanes;
+        Real* const fs = corner(quad, j, lane) + (6 + i) * kAbreast;
+        Real* const fd = corner(quad, j, lane) + (9 + i) * kAbreast;
         store(fs, load<Register>(fs) + s[j]);
         store(fd, load<Register>(fd) + d[j]);
       }
@@ -273,58 +374,68 @@ class TileLoop {
   }
 
   const TileElements<Real>& elements_;
-  const TileView<Real>& view_;
+  const TileView<Real, U>& view_;
   Real* front_;
+  Displacement origin_[kTiles][kParts][3];
 };
 
-template <class Real, Sweep sweep, bool damped, bool finite_rotation>
-void tile_force(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
-  TileLoop<Real, sweep, damped, finite_rotation>(elements, view, front).run();
+template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
+void tile_force(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front) {
+  TileLoop<Real, U, sweep, damped, finite_rotation>(elements, view, front).run();
 }
 
-template <class Real, Sweep sweep>
-void move_nodes(const TileMotion<Real>& motion, std::span<const int> nodes, const Real* f) {
-  using Register = typename Lanes<Real>::Register;
+template <class Real, class U, Sweep sweep>
+void move_nodes(const TileMotion<Real, U>& motion, std::span<const int> nodes, const Real* f) {
+  using Lanes = NodeLanes<Real, U>;
+  using Register = typename Lanes::Register;
   for (const int node : nodes)
-    for (int lane = 0; lane < kLanes; lane += Lanes<Real>::kWidth) {
+    for (int lane = 0; lane < kLanes; lane += Lanes::kWidth) {
       const Real* at = f + static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
       const Register force[3] = {load<Register>(at), load<Register>(at + kLanes),
                                  load<Register>(at + 2 * kLanes)};
-      move_node<sweep>(motion, node, lane, force);
+      move_node<sweep, Real, U>(motion, node, lane, force);
     }
 }
 
-template <class Real>
-TileMove<Real> select_move(Sweep sweep) {
-  return sweep == Sweep::revolved ? move_nodes<Real, Sweep::revolved> : move_nodes<Real, Sweep::extruded>;
+template <class Real, class U>
+TileMove<Real, U> select_move(Sweep sweep) {
+  return sweep == Sweep::revolved ? move_nodes<Real, U, Sweep::revolved>
+                                  : move_nodes<Real, U, Sweep::extruded>;
 }
 
-template <class Real, Sweep sweep, bool finite_rotation>
-DeformationEnergy tile_energy(const TileElements<Real>& elements, const TileView<Real>& view, Real* front) {
-  return TileLoop<Real, sweep, false, finite_rotation>(elements, view, front).energy();
+template <class Real, class U, Sweep sweep, bool finite_rotation>
+DeformationEnergy tile_energy(const TileElements<Real>& elements, const TileView<Real, U>& view,
+                              Real* front) {
+  return TileLoop<Real, U, sweep, false, finite_rotation>(elements, view, front).energy();
 }
 
-template <class Real>
-TileEnergy<Real> select_energy(TileVariant v) {
+template <class Real, class U>
+TileEnergy<Real, U> select_energy(TileVariant v) {
   if (v.sweep == Sweep::revolved)
-    return v.finite_rotation ? tile_energy<Real, Sweep::revolved, true>
-                             : tile_energy<Real, Sweep::revolved, false>;
-  return v.finite_rotation ? tile_energy<Real, Sweep::extruded, true>
-                           : tile_energy<Real, Sweep::extruded, false>;
+    return v.finite_rotation ? tile_energy<Real, U, Sweep::revolved, true>
+                             : tile_energy<Real, U, Sweep::revolved, false>;
+  return v.finite_rotation ? tile_energy<Real, U, Sweep::extruded, true>
+                           : tile_energy<Real, U, Sweep::extruded, false>;
 }
 
-template <class Real, Sweep sweep>
-TileForce<Real> select_options(TileVariant v) {
+template <class Real, class U, Sweep sweep>
+TileForce<Real, U> select_options(TileVariant v) {
   if (v.damped)
-    return v.finite_rotation ? tile_force<Real, sweep, true, true> : tile_force<Real, sweep, true, false>;
-  return v.finite_rotation ? tile_force<Real, sweep, false, true> : tile_force<Real, sweep, false, false>;
+    return v.finite_rotation ? tile_force<Real, U, sweep, true, true> : tile_force<Real, U, sweep, true, false>;
+  return v.finite_rotation ? tile_force<Real, U, sweep, false, true>
+                           : tile_force<Real, U, sweep, false, false>;
 }
 
-template <class Real>
-TileForce<Real> select_variant(TileVariant v) {
-  return v.sweep == Sweep::revolved ? select_options<Real, Sweep::revolved>(v)
-                                    : select_options<Real, Sweep::extruded>(v);
+template <class Real, class U>
+TileForce<Real, U> select_variant(TileVariant v) {
+  return v.sweep == Sweep::revolved ? select_options<Real, U, Sweep::revolved>(v)
+                                    : select_options<Real, U, Sweep::extruded>(v);
 }
+
+template <class Real, class U>
+constexpr TileLoops<Real, U> tile_loops = {select_variant<Real, U>, select_energy<Real, U>,
+                                           select_move<Real, U>,
+                                           kFitting<Real> > kLanes ? kTilesAbreast : 1};
 
 }  // namespace
 }  // namespace tread

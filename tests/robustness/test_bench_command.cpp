@@ -57,7 +57,8 @@ TEST_F(Bench, KernelsStateEveryKey) {
   for (const JsonRecord& row : records()) {
     const std::string name = text(row, "kernel") + ", " + text(row, "path");
     kernels.insert(text(row, "kernel"));
-    EXPECT_TRUE(text(row, "precision") == "double" || text(row, "precision") == "single") << name;
+    const std::string precision = text(row, "precision");
+    EXPECT_TRUE(precision == "double" || precision == "mixed" || precision == "single") << name;
     EXPECT_EQ(text(row, "backend"), "openmp");
     EXPECT_FALSE(text(row, "lanes").empty());
     EXPECT_EQ(number(row, "threads"), 1);

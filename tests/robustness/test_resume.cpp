@@ -202,6 +202,15 @@ TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
   EXPECT_TRUE(has(content_of(folder_ / "scene.resolved.toml"), "duration = \"0.001 s\""));
 }
 
+TEST_F(Resume, InSinglePrecision) {
+  const std::string shorter = "--precision single --set \"motion.duration=0.1 ms\"";
+  const fs::path whole = root_ / "single";
+  ASSERT_EQ(call(run(whole, shorter)), 0) << errors();
+  EXPECT_EQ(call(run(folder_, shorter + " --set stop.steps=100")), 4) << errors();
+  EXPECT_EQ(call(resume("--set stop.steps=0")), 0) << errors();
+  expect_same_run(whole, folder_);
+}
+
 TEST_F(Resume, ADamagedCheckpointIsReplacedByThePreviousOne) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
   const std::vector<fs::path> states = CheckpointFolder(folder_ / "checkpoint").states();

@@ -40,10 +40,10 @@ TEST(Counted, CountsWhatTheElementBodyDoes) {
 TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   const Mesh mesh = made_up_mesh(Sweep::extruded, false, 8000);
   const SweptBlock& block = mesh.blocks.front();
-  const Work plain = element_work({}, block, 8);
-  const Work damped = element_work({Sweep::extruded, true, false, false}, block, 8);
-  const Work turning = element_work({Sweep::revolved, false, true, false}, block, 8);
-  const Work perturbed = element_work({Sweep::extruded, false, false, true}, block, 8);
+  const Work plain = element_work({}, block, {8, 8});
+  const Work damped = element_work({Sweep::extruded, true, false, false}, block, {8, 8});
+  const Work turning = element_work({Sweep::revolved, false, true, false}, block, {8, 8});
+  const Work perturbed = element_work({Sweep::extruded, false, false, true}, block, {8, 8});
   EXPECT_GT(plain.flops, 200);
   EXPECT_LT(plain.flops, 350);
   EXPECT_GT(turning.flops, plain.flops);
@@ -54,7 +54,7 @@ TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   EXPECT_DOUBLE_EQ(plain.bytes, 72 * slots);
   EXPECT_DOUBLE_EQ(damped.bytes, 96 * slots);
   EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 7 * 24 + 0.5);
-  EXPECT_DOUBLE_EQ(element_work({}, block, 4).bytes, 36 * slots);
+  EXPECT_DOUBLE_EQ(element_work({}, block, {4, 4}).bytes, 36 * slots);
 }
 
 TEST(MadeUpBlocks, HaveTheWantedSize) {

@@ -146,7 +146,7 @@ TEST_P(SweptSymmetry, PerturbedBodyGivesTheSameStrains) {
     SweptElement<Sweep::revolved, double>{constants}.strain(0, a, swept);
   else
     SweptElement<Sweep::extruded, double>{constants}.strain(0, a, swept);
-  const PerturbedElement<double, double> element(lanes, 3, constants);
+  const PerturbedElement<double, double> element(PositionsFrom<double, double>{lanes, 3}, constants);
   element.strain(0, a, perturbed);
   EXPECT_NEAR(element.volume_ratio, 1, 1e-14);
   for (int j = 0; j < 3; ++j) EXPECT_NEAR(swept.g[0][j], perturbed.g[0][j], 1e-12 * std::abs(swept.g[0][0]));

@@ -28,10 +28,10 @@ Scene bar_scene() {
 }
 
 /// Mean longitudinal velocity of a station's nodes.
-double velocity(const SweptBlock& block, int station, const AlignedVector<double>& v) {
+double velocity(const SweptBlock& block, int station, ConstNodeField v) {
   double sum = 0;
   for (int node = 0; node < block.section.nodes(); ++node)
-    sum += v[index(dof(block.base + block.slot(node, station), 0))];
+    sum += v[dof(block.base + block.slot(node, station), 0)];
   return sum / block.section.nodes();
 }
 
@@ -86,9 +86,9 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   for (int station = 0; station < bar.station_count(); ++station)
     for (int node = 0; node < bar.section.nodes(); ++node) {
       const std::int64_t slot = bar.base + bar.slot(node, station);
-      momentum += model.mass[index(slot)] * simulation.velocity()[index(dof(slot, 0))];
+      momentum += model.mass[index(slot)] * simulation.velocity()[dof(slot, 0)];
       // Without lateral contraction nothing moves sideways.
-      EXPECT_NEAR(simulation.velocity()[index(dof(slot, 1))], 0, 1e-9);
+      EXPECT_NEAR(simulation.velocity()[dof(slot, 1)], 0, 1e-9);
     }
   // The first 20 of 200 elements, the station at 0.1 m not: 0.1 m less half an element of the bar's
   // cross-section.

@@ -60,7 +60,7 @@ duration = "2 ms"
   double change = 0;
   while (simulation.time() < scene.motion->duration) {
     for (int i = 0; i < 50; ++i) simulation.step();
-    const double tilt = wheel_tilt(model, simulation.displacement().data(), simulation.wheel().angle);
+    const double tilt = wheel_tilt(model, simulation.displacement(), simulation.wheel().angle);
     change = std::max(change, std::abs(tilt / preload.tilt - 1));
   }
   return change;

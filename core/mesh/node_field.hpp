@@ -1,0 +1,92 @@
+#pragma once
+// A vector field over the nodes of a mesh, stored in double or in single precision, for those that read or
+// change few of its values: they compute in double whatever the field is stored in.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/mesh/swept_block.hpp"
+#include "core/vec.hpp"
+
+namespace tread {
+
+/// A view to read; values in the order of dof(). False: there is no field.
+class ConstNodeField {
+ public:
+  ConstNodeField(std::nullptr_t = nullptr) {}
+  ConstNodeField(const double* values) : double_(values) {}
+  ConstNodeField(const float* values) : single_(values) {}
+
+  explicit operator bool() const { return double_ != nullptr || single_ != nullptr; }
+
+  double operator[](std::int64_t i) const { return single_ != nullptr ? single_[i] : double_[i]; }
+
+  /// The three components at a node, in its local basis.
+  Vec3 at(std::int64_t slot) const {
+    const std::int64_t first = dof(slot, 0);
+    if (single_ != nullptr) return {single_[first], single_[first + kLanes], single_[first + 2 * kLanes]};
+    return {double_[first], double_[first + kLanes], double_[first + 2 * kLanes]};
+  }
+
+ private:
+  const double* double_ = nullptr;
+  const float* single_ = nullptr;
+};
+
+/// A view to read and write; what is written is rounded to the field's precision.
+class NodeField {
+ public:
+  /// Stands for a value of the field.
+  class Value {
+   public:
+    Value(const NodeField& field, std::int64_t i) : double_(field.double_), single_(field.single_), i_(i) {}
+    Value(const Value&) = default;
+    Value& operator=(const Value& other) { return *this = static_cast<double>(other); }
+    operator double() const { return single_ != nullptr ? single_[i_] : double_[i_]; }
+    Value& operator=(double value) {
+      if (single_ != nullptr)
+        single_[i_] = static_cast<float>(value);
+      else
+        double_[i_] = value;
+      return *this;
+    }
+    Value& operator+=(double value) { return *this = *this + value; }
+    Value& operator-=(double value) { return *this = *this - value; }
+
+   private:
+    double* double_;
+    float* single_;
+    std::int64_t i_;
+  };
+
+  NodeField() = default;
+  NodeField(double* values) : double_(values) {}
+  NodeField(float* values) : single_(values) {}
+  operator ConstNodeField() const {
+    return single_ != nullptr ? ConstNodeField(single_) : ConstNodeField(double_);
+  }
+
+  /// Calls act with a pointer to the values in the type that they have.
+  template <class Act>
+  void visit(const Act& act) const {
+    if (single_ != nullptr)
+      act(single_);
+    else
+      act(double_);
+  }
+
+  Value operator[](std::int64_t i) const { return {*this, i}; }
+  Vec3 at(std::int64_t slot) const { return ConstNodeField(*this).at(slot); }
+  void set(std::int64_t slot, const Vec3& value) const {
+    for (int c = 0; c < 3; ++c) (*this)[dof(slot, c)] = value[c];
+  }
+  void add(std::int64_t slot, const Vec3& value) const {
+    for (int c = 0; c < 3; ++c) (*this)[dof(slot, c)] += value[c];
+  }
+
+ private:
+  double* double_ = nullptr;
+  float* single_ = nullptr;
+};
+
+}  // namespace tread
