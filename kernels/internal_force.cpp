@@ -222,7 +222,8 @@ void BasicInternalForce<Real, U>::build_perturbed(int block) {
 }
 
 /// Two tiles that the loop takes at once lie behind one another in memory and along the sweep, the first is
-/// full, and their elements have the same coefficients or both their own.
+/// full, and their elements have the same coefficients or both their own. Which ones does not depend on the
+/// threads: displacements are rounded relative to one of the first tile's.
 template <class Real, class U>
 void BasicInternalForce<Real, U>::join_tiles(int block) {
   const SweptBlock& swept = mesh_.blocks[index(block)];
@@ -240,7 +241,7 @@ void BasicInternalForce<Real, U>::join_tiles(int block) {
                  own.pitch_class == next.pitch_class;
     for (std::size_t place = 0; alike && place < quads; ++place)
       alike = perturbed(tile, place) == perturbed(tile + 1, place);
-    data.joins_next[tile] = alike;
+    data.joins_next[tile] = alike && (tile == 0 || data.joins_next[tile - 1] == 0);
   }
 }
 
@@ -261,7 +262,8 @@ void BasicInternalForce<Real, U>::evaluate(std::size_t first, std::size_t last, 
   const auto begin = cost_.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = cost_.begin() + static_cast<std::ptrdiff_t>(last);
   const auto item_at = [&](std::int64_t cost) {
-    return static_cast<std::size_t>(std::lower_bound(begin, end, *begin + cost) - cost_.begin());
+    const auto i = static_cast<std::size_t>(std::lower_bound(begin, end, *begin + cost) - cost_.begin());
+    return i > first && i < last && joined(i - 1) ? i + 1 : i;
   };
   parallel_ranges(*end - *begin, [&](std::int64_t from, std::int64_t to) {
     evaluate_items(item_at(from), item_at(to), fields);
@@ -290,7 +292,7 @@ void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t 
     const bool at_hand =
         i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
     const bool empty = mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
-    const int tiles = i + 1 < last && data.joins_next[index(item.tile)] ? most : 1;
+    const int tiles = joined(i) ? most : 1;
     pending_[i] = previous >= 0 && !at_hand;
     // The tile before reads what a pending one holds, maybe later.
     unmoved_[i] = pending_[i] || empty;
@@ -376,7 +378,7 @@ TileElements<Real> BasicInternalForce<Real, U>::tile_elements(const Item& item, 
 
 template <class Real, class U>
 typename BasicInternalForce<Real, U>::Place BasicInternalForce<Real, U>::locate(int block, int quad,
-                                                                          int station) const {
+                                                                                int station) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
   const int tile = swept.tile_of_station[index(station)];
@@ -431,29 +433,31 @@ Strain<Real> BasicInternalForce<Real, U>::strain(int block, const Place& at, con
   }
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   if (at.lanes >= 0)
-    return element_strain(PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants), s,
-                          d);
+    return element_strain(PerturbedElement<Real, Real>(
+                              PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants),
+                          s, d);
   if (revolved) return element_strain(SweptElement<Sweep::revolved, Real>{constants}, s, d);
   return element_strain(SweptElement<Sweep::extruded, Real>{constants}, s, d);
 }
 
 template <class Real, class U>
 Strain<Real> BasicInternalForce<Real, U>::linear_forces(int block, const Place& at,
-                                                     const Strain<Real>& strain) const {
+                                                        const Strain<Real>& strain) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   Strain<Real> force;
   stress_forces<false>(constants, strain, force);
   if (at.lanes >= 0)
-    PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants).scale_by_volume(force);
+    PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants)
+        .scale_by_volume(force);
   hourglass_forces(constants.hourglass, strain, force);
   return force;
 }
 
 template <class Real, class U>
 void BasicInternalForce<Real, U>::nodal_forces(int block, const Place& at, const Strain<Real>& force,
-                                            Real (&f)[8][3]) const {
+                                               Real (&f)[8][3]) const {
   const BlockData& data = blocks_[index(block)];
   const ClassData& elements = data.classes[index(at.pitch_class)];
   const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
@@ -461,8 +465,9 @@ void BasicInternalForce<Real, U>::nodal_forces(int block, const Place& at, const
   Real s[4][3];
   Real d[4][3];
   if (at.lanes >= 0)
-    element_forces(PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants), force, s,
-                   d);
+    element_forces(PerturbedElement<Real, Real>(
+                       PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants),
+                   force, s, d);
   else if (revolved)
     element_forces(SweptElement<Sweep::revolved, Real>{constants}, force, s, d);
   else
@@ -478,7 +483,8 @@ void BasicInternalForce<Real, U>::nodal_forces(int block, const Place& at, const
 }
 
 template <class Real, class U>
-void BasicInternalForce<Real, U>::gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const {
+void BasicInternalForce<Real, U>::gather(int block, const Place& at, ConstNodeField u,
+                                         Real (&values)[8][3]) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   for (int node = 0; node < 8; ++node) {
     const int station = node < 4 ? at.station : far_station(swept, at.station);
@@ -529,7 +535,7 @@ DeformationEnergy BasicInternalForce<Real, U>::energy(int block, const U* u) con
 
 template <class Real, class U>
 std::array<double, 6> BasicInternalForce<Real, U>::stress(int block, int quad, int station,
-                                                       ConstNodeField u) const {
+                                                          ConstNodeField u) const {
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);

@@ -123,10 +123,10 @@ class BasicInternalForce {
     FrontPlan plan;
     std::vector<int> place;  ///< of each quad in the plan's order
     std::vector<ClassData> classes;
-    std::vector<int> previous;       ///< tile whose last element ends in this tile, or -1
-    std::vector<unsigned char> joins_next;  ///< by tile: the loop may take the tile behind it along
+    std::vector<int> previous;              ///< tile whose last element ends in this tile, or -1
+    std::vector<unsigned char> joins_next;  ///< by tile: the loop takes the tile behind it along if it can
     std::vector<int> perturbed_row;         ///< by tile: row of `perturbed`, or -1
-    std::vector<int> perturbed;      ///< [row][place]: index into `lanes`, or -1
+    std::vector<int> perturbed;             ///< [row][place]: index into `lanes`, or -1
     AlignedVector<LanePositions<Real>> lanes;
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
@@ -171,6 +171,10 @@ class BasicInternalForce {
   template <class Visit>
   void for_each_element(int block, const Visit& visit) const;
 
+  bool joined(std::size_t item) const {
+    const Item& at = items_[item];
+    return blocks_[static_cast<std::size_t>(at.block)].joins_next[static_cast<std::size_t>(at.tile)] != 0;
+  }
   /// Force of a tile's last element on the station behind it: [section node][3].
   Real* carry(const Item& item) const;
   void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;

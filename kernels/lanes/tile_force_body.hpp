@@ -1,8 +1,6 @@
 #pragma once
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
-#include <algorithm>
-
 #include "kernels/element_body.hpp"
 #include "kernels/lanes/registers.hpp"
 #include "kernels/lanes/tie_sum_body.hpp"
@@ -14,6 +12,8 @@ namespace {
 /// (a[1], ..., a[last], b[0])
 template <class V>
 TREAD_INLINE V shift_down(const V& a, const V& b) {
+  if constexpr (sizeof a / sizeof a[0] == 16)
+    return __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16);
   if constexpr (sizeof a / sizeof a[0] == 8) return __builtin_shufflevector(a, b, 1, 2, 3, 4, 5, 6, 7, 8);
   if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 1, 2, 3, 4);
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 1, 2);
@@ -22,6 +22,8 @@ TREAD_INLINE V shift_down(const V& a, const V& b) {
 /// (a[last], b[0], ..., b[last - 1])
 template <class V>
 TREAD_INLINE V shift_up(const V& a, const V& b) {
+  if constexpr (sizeof a / sizeof a[0] == 16)
+    return __builtin_shufflevector(a, b, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30);
   if constexpr (sizeof a / sizeof a[0] == 8)
     return __builtin_shufflevector(a, b, 7, 8, 9, 10, 11, 12, 13, 14);
   if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 3, 4, 5, 6);
@@ -31,11 +33,26 @@ TREAD_INLINE V shift_up(const V& a, const V& b) {
 /// Both side by side.
 template <class V>
 TREAD_INLINE auto abreast(const V& a, const V& b) {
-  static_assert(sizeof a / sizeof a[0] == 8);
-  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  if constexpr (sizeof a / sizeof a[0] == 8)
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+  if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 0, 1, 2, 3);
 }
 
-/// Registers for the values of a tile's nodes: as many lanes of both precisions as fit one of the wider.
+/// Differences of `lanes` values in U, rounded to Real.
+template <class Real, int lanes, class U>
+TREAD_INLINE auto rounded_difference(const U* a, const U* b) {
+  if constexpr (lanes > Lanes<U>::kWidth) {
+    constexpr int kHalf = lanes / 2;
+    return abreast(rounded_difference<Real, kHalf>(a, b),
+                   rounded_difference<Real, kHalf>(a + kHalf, b + kHalf));
+  } else {
+    using V = typename Vector<U, lanes>::type;
+    return converted<typename Vector<Real, lanes>::type>(load<V>(a) - load<V>(b));
+  }
+}
+
+/// Registers in which a tile's nodes move: as many lanes of both precisions as fit one of the wider.
 template <class Real, class U>
 struct NodeLanes {
   static constexpr int kWidth = Lanes<U>::kWidth;
@@ -71,27 +88,21 @@ TREAD_INLINE void move_node(const TileMotion<Real, U>& motion, int node, int lan
   }
 }
 
-/// Nodes are opened and closed tile by tile; their elements take the lanes of all tiles abreast.
+/// The lanes of all tiles abreast are one row of registers.
 template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
 class TileLoop {
  public:
   static constexpr int kTiles = kFitting<Real> > kLanes ? kTilesAbreast : 1;
-  static constexpr int kAbreast = kTiles * kLanes;  ///< lanes of a value in the front
+  static constexpr int kAbreast = kTiles * kLanes;
   static constexpr int kWidth = kFitting<Real> < kAbreast ? kFitting<Real> : kAbreast;
-  static constexpr int kNodeWidth = NodeLanes<Real, U>::kWidth;
-  static constexpr int kParts = NodeLanes<Real, U>::kParts;
-  using Register = typename Vector<Real, kWidth>::type;  ///< of elements
-  using NodeRegister = typename NodeLanes<Real, U>::Register;
-  using Displacement = typename NodeLanes<Real, U>::Displacement;
+  static constexpr int kParts = kAbreast / kWidth;
+  using Register = typename Vector<Real, kWidth>::type;
+  using Half = typename Vector<Real, kLanes>::type;  ///< where a register holds two tiles
   using Sums = typename Vector<double, kWidth>::type;
 
   TileLoop(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front)
-      : elements_(elements), view_(view), front_(front) {
-    if constexpr (kRelative) {
-      Displacement differences[kParts][3];
-      for (int tile = 0; tile < kTiles && tile < view.tiles; ++tile)
-        form_sums(elements.open->node, tile, origin_[tile], differences);
-    }
+      : elements_(elements), view_(view), front_(front), count_((view.tiles - 1) * kLanes + view.elements) {
+    if constexpr (kRelative) place_origin();
   }
 
   /// Of all elements.
@@ -129,8 +140,29 @@ class TileLoop {
   }
 
  private:
-  /// Sums are taken relative to those of one node, so that what all nodes have in common is not rounded.
+  /// Displacements are taken relative to a translation, so that what all nodes share is not rounded.
   static constexpr bool kRelative = !std::is_same_v<Real, U>;
+
+  /// The translation is the displacement of one node, in the bases of all stations of the elements; where
+  /// there is no station it is zero, as displacements are.
+  TREAD_INLINE void place_origin() {
+    U at[3];
+    for (int i = 0; i < 3; ++i)
+      at[i] = view_.u[(static_cast<std::ptrdiff_t>(elements_.open->node) * 3 + i) * kLanes];
+    const U c = static_cast<U>(elements_.cosine);
+    const U w = static_cast<U>(elements_.sine);
+    for (int station = 0; station <= kAbreast; ++station) {
+      for (int i = 0; i < 3; ++i) origin_[i][station] = station < count_ ? at[i] : 0;
+      if (station == count_)
+        for (int i = 0; i < 3; ++i) far_origin_[i] = at[i];
+      if constexpr (sweep == Sweep::revolved)
+        for (int half = 0; half < 2; ++half) {
+          const U t = c * at[0] - w * at[2];
+          at[2] = c * at[2] + w * at[0];
+          at[0] = t;
+        }
+    }
+  }
 
   /// A node's displacements and velocities in the next tile, its forces or masses in this one: all that comes
   /// from memory, in an order that the processor does not foresee.
@@ -158,137 +190,157 @@ class TileLoop {
     return tile + 1 == view_.tiles ? field_next : field + (tile + 1) * view_.stride;
   }
 
-  TREAD_INLINE int elements_of(int tile) const { return tile + 1 == view_.tiles ? view_.elements : kLanes; }
-
-  TREAD_INLINE Displacement displacement(const U* u, const Real* v, std::ptrdiff_t at) const {
-    if constexpr (damped)
-      return load<Displacement>(u + at) +
-             static_cast<U>(elements_.beta) * converted<Displacement>(load<NodeRegister>(v + at));
-    return load<Displacement>(u + at);
+  /// A part of the lanes of a field whose first tile's values are at `at`.
+  TREAD_INLINE Register load_part(const Real* at, int part) const {
+    if constexpr (kWidth <= kLanes)
+      return load<Register>(at + part * kWidth);
+    else
+      return abreast(load<Half>(at), view_.tiles > 1 ? load<Half>(at + view_.stride) : Half{});
   }
 
-  /// Sums and differences of a node's displacements at both ends of a tile's elements, in their middle
-  /// frames.
-  TREAD_INLINE void form_sums(int node, int tile, Displacement (&s)[kParts][3],
-                              Displacement (&d)[kParts][3]) const {
-    const U* u = view_.u + tile * view_.stride;
-    const Real* v = damped ? view_.v + tile * view_.stride : nullptr;
-    const U* u_next = next(view_.u, view_.u_next, tile);
-    const Real* v_next = damped ? next(view_.v, view_.v_next, tile) : nullptr;
+  /// Of displacements' component i, plus beta times velocity.
+  TREAD_INLINE Register displacement(std::ptrdiff_t at, int i, int part) const {
+    Register u;
+    if constexpr (!kRelative)
+      u = load_part(view_.u + at, part);
+    else if constexpr (kWidth <= kLanes)
+      u = rounded_difference<Real, kWidth>(view_.u + at + part * kWidth, origin_[i] + part * kWidth);
+    else
+      u = abreast(rounded_difference<Real, kLanes>(view_.u + at, origin_[i]),
+                  view_.tiles > 1
+                      ? rounded_difference<Real, kLanes>(view_.u + view_.stride + at, origin_[i] + kLanes)
+                      : Half{});
+    if constexpr (damped) return u + static_cast<Real>(elements_.beta) * load_part(view_.v + at, part);
+    return u;
+  }
+
+  /// The same at the far end of the last element.
+  TREAD_INLINE Real far_displacement(std::ptrdiff_t at, int i) const {
+    Real u = 0;
+    if constexpr (kRelative)
+      u = static_cast<Real>(view_.u_next[at] - far_origin_[i]);
+    else
+      u = view_.u_next[at];
+    if constexpr (damped) return u + static_cast<Real>(elements_.beta) * view_.v_next[at];
+    return u;
+  }
+
+  /// Sums and differences of a node's displacements at both ends of the elements, in their middle frames.
+  TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
+    Register s[kParts][3];
+    Register d[kParts][3];
     for (int i = 0; i < 3; ++i) {
-      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node) * 3 + i) * kLanes;
-      Displacement near[kParts + 1];
-      Displacement far[kParts];
-      for (int part = 0; part < kParts; ++part) near[part] = displacement(u, v, at + part * kNodeWidth);
-      near[kParts] = displacement(u_next, v_next, at);
-      if (elements_of(tile) == kLanes) [[likely]] {
+      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes;
+      Register near[kParts + 1];
+      Register far[kParts];
+      for (int part = 0; part < kParts; ++part) near[part] = displacement(at, i, part);
+      near[kParts] = Register{};
+      near[kParts][0] = far_displacement(at, i);
+      if (count_ == kAbreast) [[likely]] {
         for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
       } else {
-        U row[kLanes + 1] = {};
-        const int last = view_.elements - 1;
-        for (int part = 0; part < kParts; ++part) store(row + part * kNodeWidth, near[part]);
-        row[last + 1] = near[kParts][0];
-        for (int part = 0; part < kParts; ++part) far[part] = load<Displacement>(row + 1 + part * kNodeWidth);
+        Real row[kAbreast + 1] = {};
+        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, near[part]);
+        row[count_] = near[kParts][0];
+        for (int part = 0; part < kParts; ++part) far[part] = load<Register>(row + 1 + part * kWidth);
       }
       for (int part = 0; part < kParts; ++part) {
         s[part][i] = near[part] + far[part];
         d[part][i] = far[part] - near[part];
       }
     }
-    if constexpr (sweep == Sweep::revolved)
-      for (int part = 0; part < kParts; ++part)
-        turn_to_middle(static_cast<U>(elements_.cosine), static_cast<U>(elements_.sine), s[part], d[part]);
+    Real* slot = corner(node.slot, 0);
+    for (int part = 0; part < kParts; ++part, slot += kWidth) {
+      if constexpr (sweep == Sweep::revolved) turn_to_middle(cosine(), sine(), s[part], d[part]);
+      for (int i = 0; i < 3; ++i) {
+        store(slot + i * kAbreast, s[part][i]);
+        store(slot + (3 + i) * kAbreast, d[part][i]);
+        store(slot + (6 + i) * kAbreast, Register{});
+        store(slot + (9 + i) * kAbreast, Register{});
+      }
+    }
   }
 
-  TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
-    for (int tile = 0; tile < kTiles; ++tile) {
-      Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kTiles * kFrontValues + tile * kLanes;
-      if (tile >= view_.tiles) [[unlikely]] {
-        for (int value = 0; value < 12; ++value) std::fill_n(slot + value * kAbreast, kLanes, Real{0});
-        continue;
-      }
-      Displacement s[kParts][3];
-      Displacement d[kParts][3];
-      form_sums(node.node, tile, s, d);
-      for (int part = 0; part < kParts; ++part, slot += kNodeWidth)
-        for (int i = 0; i < 3; ++i) {
-          if constexpr (kRelative) s[part][i] -= origin_[tile][part][i];
-          store(slot + i * kAbreast, converted<NodeRegister>(s[part][i]));
-          store(slot + (3 + i) * kAbreast, converted<NodeRegister>(d[part][i]));
-          store(slot + (6 + i) * kAbreast, NodeRegister{});
-          store(slot + (9 + i) * kAbreast, NodeRegister{});
-        }
+  TREAD_INLINE Real cosine() const { return static_cast<Real>(elements_.cosine); }
+  TREAD_INLINE Real sine() const { return static_cast<Real>(elements_.sine); }
+
+  /// A register whose last lane is that of the element before the first.
+  TREAD_INLINE Register carried(std::ptrdiff_t value) const {
+    if constexpr (kWidth <= kLanes) {
+      return load<Register>(view_.carry_in + value - (kWidth - 1));
+    } else {
+      const Half before = load<Half>(view_.carry_in + value - (kLanes - 1));
+      return abreast(before, before);
     }
   }
 
   /// Forces on both ends of the elements; those on the far ends belong to the next lanes.
   TREAD_INLINE void close_node(const FrontPlan::Node& node) const {
-    NodeRegister before[3];  // far force of the preceding tile, whose last lane counts
-    for (int i = 0; i < 3; ++i)
-      before[i] = load<NodeRegister>(view_.carry_in + static_cast<std::ptrdiff_t>(node.node) * 3 + i -
-                                     (kNodeWidth - 1));
-    for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) close_node(node, tile, before);
-  }
-
-  TREAD_INLINE void close_node(const FrontPlan::Node& node, int tile, NodeRegister (&before)[3]) const {
-    const Real* slot = front_ + static_cast<std::ptrdiff_t>(node.slot) * kTiles * kFrontValues + tile * kLanes;
-    NodeRegister s[kParts][3];
-    NodeRegister d[kParts][3];
-    for (int part = 0; part < kParts; ++part, slot += kNodeWidth) {
+    const Real* slot = corner(node.slot, 0);
+    Register s[kParts][3];
+    Register d[kParts][3];
+    for (int part = 0; part < kParts; ++part, slot += kWidth) {
       for (int i = 0; i < 3; ++i) {
-        s[part][i] = load<NodeRegister>(slot + (6 + i) * kAbreast);
-        d[part][i] = load<NodeRegister>(slot + (9 + i) * kAbreast);
+        s[part][i] = load<Register>(slot + (6 + i) * kAbreast);
+        d[part][i] = load<Register>(slot + (9 + i) * kAbreast);
       }
-      if constexpr (sweep == Sweep::revolved)
-        turn_to_nodes(static_cast<Real>(elements_.cosine), static_cast<Real>(elements_.sine), s[part],
-                      d[part]);
+      if constexpr (sweep == Sweep::revolved) turn_to_nodes(cosine(), sine(), s[part], d[part]);
     }
-    const bool last_tile = tile + 1 == view_.tiles;
-    NodeRegister force[kParts][3];
+    Register force[kParts][3];
     for (int i = 0; i < 3; ++i) {
-      NodeRegister far[kParts + 1];
-      far[0] = before[i];
+      const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
+      Register far[kParts + 1];
+      far[0] = carried(value);
       for (int part = 0; part < kParts; ++part) far[part + 1] = s[part][i] + d[part][i];
-      if (last_tile) {
-        Real& carry_out = view_.carry_out[static_cast<std::ptrdiff_t>(node.node) * 3 + i];
-        if (view_.elements == kLanes) [[likely]] {
-          carry_out = far[kParts][kNodeWidth - 1];
-        } else {
-          Real row[kLanes];
-          for (int part = 0; part < kParts; ++part) store(row + part * kNodeWidth, far[part + 1]);
-          carry_out = row[view_.elements - 1];
-          row[view_.elements - 1] = 0;
-          for (int part = 0; part < kParts; ++part)
-            far[part + 1] = load<NodeRegister>(row + part * kNodeWidth);
-        }
+      if (count_ == kAbreast) [[likely]] {
+        view_.carry_out[value] = far[kParts][kWidth - 1];
+      } else {
+        Real row[kAbreast];
+        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, far[part + 1]);
+        view_.carry_out[value] = row[count_ - 1];
+        row[count_ - 1] = 0;
+        for (int part = 0; part < kParts; ++part) far[part + 1] = load<Register>(row + part * kWidth);
       }
-      before[i] = far[kParts];
       for (int part = 0; part < kParts; ++part)
         force[part][i] = (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]);
     }
-    const TileMotion<Real, U>* motion = view_.motion[tile];
-    if (motion != nullptr && motion->deferred[node.node] == 0) {
-      for (int part = 0; part < kParts; ++part)
-        move_node<sweep, Real, U>(*motion, node.node, part * kNodeWidth, force[part]);
-      return;
-    }
-    Real* f = view_.f + tile * view_.stride + static_cast<std::ptrdiff_t>(node.node) * 3 * kLanes;
-    for (int part = 0; part < kParts; ++part)
-      for (int i = 0; i < 3; ++i) store(f + i * kLanes + part * kNodeWidth, force[part][i]);
+    for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) finish_node(node.node, tile, force);
   }
 
-  /// Positions of the elements in the lanes from `lane` on, abreast.
+  /// Moves a tile's lanes of a node, or keeps their forces.
+  TREAD_INLINE void finish_node(int node, int tile, const Register (&force)[kParts][3]) const {
+    constexpr int kNodeWidth = NodeLanes<Real, U>::kWidth;
+    using Piece = typename NodeLanes<Real, U>::Register;
+    const TileMotion<Real, U>* motion = view_.motion[tile];
+    const bool moves = motion != nullptr && motion->deferred[node] == 0;
+    Real* f = view_.f + tile * view_.stride + static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
+    for (int lane = 0; lane < kLanes; lane += kNodeWidth) {
+      const int place = tile * kLanes + lane;
+      Piece piece[3];
+      for (int i = 0; i < 3; ++i) {
+        const Register& part = force[place / kWidth][i];
+        if constexpr (kNodeWidth == kWidth)
+          piece[i] = part;
+        else
+          piece[i] = load<Piece>(reinterpret_cast<const Real*>(&part) + place % kWidth);
+      }
+      if (moves)
+        move_node<sweep, Real, U>(*motion, node, lane, piece);
+      else
+        for (int i = 0; i < 3; ++i) store(f + i * kLanes + lane, piece[i]);
+    }
+  }
+
+  /// Positions of the elements in the lanes from `lane` on.
   struct Positions {
     const LanePositions<Real>* tile[kTilesAbreast];
     int lane;
 
     TREAD_INLINE Register operator()(int m, int j) const {
-      if constexpr (kWidth <= kLanes) {
+      if constexpr (kWidth <= kLanes)
         return load<Register>(tile[0]->position[m][j] + lane);
-      } else {
-        using Half = typename Vector<Real, kLanes>::type;
+      else
         return abreast(load<Half>(tile[0]->position[m][j]), load<Half>(tile[1]->position[m][j]));
-      }
     }
   };
 
@@ -299,19 +351,17 @@ class TileLoop {
     if (elements_.perturbed[0] != nullptr && elements_.perturbed[0][index] >= 0) {
       Positions positions{};
       for (int tile = 0; tile < kTiles; ++tile)
-        positions.tile[tile] =
-            elements_.lanes + elements_.perturbed[tile < view_.tiles ? tile : 0][index];
+        positions.tile[tile] = elements_.lanes + elements_.perturbed[tile < view_.tiles ? tile : 0][index];
       for (positions.lane = 0; positions.lane < kAbreast; positions.lane += kWidth)
         visit(positions.lane, PerturbedElement<Register, Real>(positions, constants));
     } else {
-      for (int lane = 0; lane < kAbreast; lane += kWidth)
-        visit(lane, SweptElement<sweep, Real>{constants});
+      for (int lane = 0; lane < kAbreast; lane += kWidth) visit(lane, SweptElement<sweep, Real>{constants});
     }
   }
 
   /// A corner's values in the front.
-  TREAD_INLINE Real* corner(const FrontPlan::Quad& quad, int j, int lane) const {
-    return front_ + static_cast<std::ptrdiff_t>(quad.slot[j]) * kTiles * kFrontValues + lane;
+  TREAD_INLINE Real* corner(int slot, int lane) const {
+    return front_ + static_cast<std::ptrdiff_t>(slot) * kTiles * kFrontValues + lane;
   }
 
   template <class Element>
@@ -323,8 +373,8 @@ class TileLoop {
       Register d[4];
       Register a[kModes];
       for (int j = 0; j < 4; ++j) {
-        s[j] = load<Register>(corner(quad, j, lane) + i * kAbreast);
-        d[j] = load<Register>(corner(quad, j, lane) + (3 + i) * kAbreast);
+        s[j] = load<Register>(corner(quad.slot[j], lane) + i * kAbreast);
+        d[j] = load<Register>(corner(quad.slot[j], lane) + (3 + i) * kAbreast);
       }
       to_modes(s, d, a);
       element.strain(i, a, strain);
@@ -348,8 +398,8 @@ class TileLoop {
       element.forces(i, force, a);
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
-        Real* const fs = corner(quad, j, lane) + (6 + i) * kAbreast;
-        Real* const fd = corner(quad, j, lane) + (9 + i) * kAbreast;
+        Real* const fs = corner(quad.slot[j], lane) + (6 + i) * kAbreast;
+        Real* const fd = corner(quad.slot[j], lane) + (9 + i) * kAbreast;
         store(fs, load<Register>(fs) + s[j]);
         store(fd, load<Register>(fd) + d[j]);
       }
@@ -376,7 +426,9 @@ class TileLoop {
   const TileElements<Real>& elements_;
   const TileView<Real, U>& view_;
   Real* front_;
-  Displacement origin_[kTiles][kParts][3];
+  int count_;  ///< elements abreast
+  alignas(64) U origin_[3][kRelative ? kAbreast + 1 : 1];
+  U far_origin_[3];
 };
 
 template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
@@ -421,7 +473,8 @@ TileEnergy<Real, U> select_energy(TileVariant v) {
 template <class Real, class U, Sweep sweep>
 TileForce<Real, U> select_options(TileVariant v) {
   if (v.damped)
-    return v.finite_rotation ? tile_force<Real, U, sweep, true, true> : tile_force<Real, U, sweep, true, false>;
+    return v.finite_rotation ? tile_force<Real, U, sweep, true, true>
+                             : tile_force<Real, U, sweep, true, false>;
   return v.finite_rotation ? tile_force<Real, U, sweep, false, true>
                            : tile_force<Real, U, sweep, false, false>;
 }
@@ -434,8 +487,7 @@ TileForce<Real, U> select_variant(TileVariant v) {
 
 template <class Real, class U>
 constexpr TileLoops<Real, U> tile_loops = {select_variant<Real, U>, select_energy<Real, U>,
-                                           select_move<Real, U>,
-                                           kFitting<Real> > kLanes ? kTilesAbreast : 1};
+                                           select_move<Real, U>, kFitting<Real> > kLanes ? kTilesAbreast : 1};
 
 }  // namespace
 }  // namespace tread
