@@ -28,8 +28,9 @@ Mesh long_blocks() {
   for (const bool moved : {false, true})
     for (const Sweep sweep : {Sweep::extruded, Sweep::revolved, Sweep::revolved}) {
       const bool closed = sweep == Sweep::revolved && mesh.blocks.size() % 3 == 2;
-      const std::vector<Segment> segments = closed ? std::vector<Segment>{{48, kTurn / 48, 0}}
-                                                   : std::vector<Segment>{{21, 0.01, 0}, {37, 0.004, 1}};
+      std::vector<Segment> segments = {{21, 0.01, 0}, {37, 0.004, 1}};         // [m]
+      if (sweep == Sweep::revolved) segments = {{21, 0.06, 0}, {37, 0.1, 1}};  // [rad]
+      if (closed) segments = {{48, kTurn / 48, 0}};
       SweptBlock block = make_swept_block("block", sweep, section, samples::materials(), -0.1, segments);
       if (moved) samples::shift_nodes(block, 3e-4, 1);
       mesh.add(std::move(block));
@@ -188,7 +189,7 @@ const std::vector<std::string> kDriven = {"scene.element_size=8 mm", "motion.dur
 TEST(PrecisionOfRuns, ForcesAndWorkAreThoseOfDouble) {
   Rolled tyre(kDriven);
   const Rolled::Run expected = tyre.run("double");
-  for (const auto& [precision, bound] : {std::pair("mixed", 1e-5), std::pair("single", 1e-3)}) {
+  for (const auto& [precision, bound] : {std::pair("mixed", 2e-4), std::pair("single", 1e-3)}) {
     const Rolled::Run found = tyre.run(precision);
     const auto compare = [&, name = precision, most = bound](const char* what, double a, double b) {
       measured(std::string(name) + ": " + what + " / double - 1", a / b - 1);
@@ -214,7 +215,7 @@ TEST(PrecisionOfRuns, SameBitsForAnyThreadsAndWayToMove) {
   Rolled tyre(overrides);
   for (const char* precision : {"mixed", "single"}) {
     const Rolled::Run one = tyre.run(precision);
-    EXPECT_GT(one.last.energy.frictional_work, 0);
+    EXPECT_GT(one.mean_force, 1e4);
     for (const auto& [threads, by] : {std::pair(2, "openmp"), std::pair(3, "tbb")}) {
       const Rolled::Run more = tyre.run(precision, threads, by);
       EXPECT_EQ(more.hash, one.hash) << precision << ' ' << threads << ' ' << by;

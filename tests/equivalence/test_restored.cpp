@@ -121,8 +121,8 @@ TEST(Restored, MovedNodesAndFacets) {
 TEST(Restored, MixedAndSinglePrecision) {
   for (const char* precision : {"scene.precision=mixed", "scene.precision=single"})
     expect_same_bits(samples::tyre_scene({"scene.element_size=8 mm", "motion.duration=0.5 ms", precision,
-                                          "motion.traction.torque=13.8 kN m",
-                                          "motion.traction.ramp=0.05 ms", "solution_zone.start=5 mm"}),
+                                          "motion.traction.torque=13.8 kN m", "motion.traction.ramp=0.05 ms",
+                                          "solution_zone.start=5 mm"}),
                      300);
 }
 
