@@ -12,9 +12,9 @@ namespace tread {
 struct EnergyStop {
   double time = 0;  ///< [s]
   std::int64_t steps = 0;
-  double dt = 0;                     ///< [s]
-  double missed = 0;                 ///< energy that appeared (> 0) or vanished (< 0) [J]
-  double supplied = 0;               ///< [J]
+  double dt = 0;            ///< [s]
+  double missed = 0;        ///< energy that appeared (> 0) or vanished (< 0) [J]
+  double supplied = 0;      ///< [J]
   ConstNodeField velocity;  ///< of all nodes [m/s]
 };
 

@@ -160,7 +160,8 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(motion && model.scene.vehicle && !model.journal.empty(),
       {"sprung mass", "m, m/s", "sprung mass", static_cast<std::int64_t>(sizeof(SprungMass))});
   add(true, {"displacement", "m", "node", vector});
-  add(motion && rounded(model), {"rounded displacement", "m", "node", 3 * model.mesh.slots * bytes.displacement});
+  add(motion && rounded(model),
+      {"rounded displacement", "m", "node", 3 * model.mesh.slots * bytes.displacement});
   add(motion && rounded(model),
       {"rounded coefficients and mass", "m, Pa, 1/kg", "quad and pitch class; moved elements; node",
        model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
@@ -212,8 +213,8 @@ std::int64_t peak_bytes(const Model& model) {
   for (const FieldInfo& field : fields(model)) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
-    else if (field.name == "velocity" || field.name == "force" || field.name.starts_with("rounded") || field.name == "surface fields" ||
-             field.name == "samples" || field.name == "checkpoint")
+    else if (field.name == "velocity" || field.name == "force" || field.name.starts_with("rounded") ||
+             field.name == "surface fields" || field.name == "samples" || field.name == "checkpoint")
       rolling += field.bytes;
     else
       always += field.bytes;

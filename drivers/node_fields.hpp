@@ -19,11 +19,11 @@ class NodeFields {
   NodeFields& operator=(const NodeFields&) = delete;
   virtual ~NodeFields() = default;
 
-  NodeField displacement() { return displacement_; }            ///< [m]
+  NodeField displacement() { return displacement_; }  ///< [m]
   ConstNodeField displacement() const { return displacement_; }
-  NodeField velocity() { return velocity_; }                    ///< at the half step [m/s]
+  NodeField velocity() { return velocity_; }  ///< at the half step [m/s]
   ConstNodeField velocity() const { return velocity_; }
-  NodeField force() { return force_; }                          ///< internal minus external [N]
+  NodeField force() { return force_; }  ///< internal minus external [N]
   ConstNodeField force() const { return force_; }
 
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.

@@ -263,9 +263,8 @@ void Simulation::record() {
 void Simulation::drive() {
   if (max_torque_ == 0) return;
   torque_ = torque_at(time_);
-  const double spin = model_->guide
-                          ? frame_.spin + model_->guide->motion().spin
-                          : model_->torque.apply(torque_, u_, v_, frame_, force_);
+  const double spin = model_->guide ? frame_.spin + model_->guide->motion().spin
+                                    : model_->torque.apply(torque_, u_, v_, frame_, force_);
   torque_work_ += 0.5 * (torque_before_ + torque_) * spin * dt_;
   torque_before_ = torque_;
 }
@@ -408,14 +407,12 @@ double Simulation::gravity_potential() const {
       double part = 0;
       for (std::int64_t k = first_group + first; k < first_group + last; ++k)
         for (int l = 0; l < kLanes; ++l)
-          part += g * model_->mass[static_cast<std::size_t>(k * kLanes + l)] *
-                  u_[(k * 3 + 2) * kLanes + l];
+          part += g * model_->mass[static_cast<std::size_t>(k * kLanes + l)] * u_[(k * 3 + 2) * kLanes + l];
       return part;
     });
   }
   if (model_->wheelset) {
-    const double height =
-        frame_.origin.z + model_->wheelset->mean_motion(u_, v_, frame_).displacement.z;
+    const double height = frame_.origin.z + model_->wheelset->mean_motion(u_, v_, frame_).displacement.z;
     sum += g * model_->wheelset->mass() * height;
   }
   if (!model_->journal.empty() || model_->guide) {
@@ -443,8 +440,8 @@ void Simulation::watch(double excess) {
 }
 
 void Simulation::stop() const {
-  throw NumericalError(energy_stop_text(
-      *model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_}));
+  throw NumericalError(
+      energy_stop_text(*model_, {time_, steps_, dt_, energy_watch_.missed(), energy_watch_.supplied(), v_}));
 }
 
 bool Simulation::finite() const {
@@ -460,8 +457,7 @@ MomentumCheck Simulation::momentum_check() const {
 double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
   const CreepageNode& node = creepage_nodes_[index];
   const double carried = cartesian_to_cylindrical(node.angle + frame_.angle, mean.velocity).x;
-  const double speed = v_[dof(node.slot, 0)] - carried +
-                       frame_.spin * (node.radius + u_[dof(node.slot, 2)]);
+  const double speed = v_[dof(node.slot, 0)] - carried + frame_.spin * (node.radius + u_[dof(node.slot, 2)]);
   return creepage_of(speed, frame_.velocity.x + mean.velocity.x);
 }
 
@@ -472,8 +468,8 @@ void Simulation::begin_sample() {
   energy.gravity = gravity_potential();
   energy.connectors = model_->fastenings ? model_->fastenings->energy(u_) : 0.0;
   if (sprung_.mass > 0) {
-    const double stretch = sprung_.height - frame_.origin.z -
-                           model_->journal.displacement(u_, frame_).z - sprung_.free_length_height;
+    const double stretch = sprung_.height - frame_.origin.z - model_->journal.displacement(u_, frame_).z -
+                           sprung_.free_length_height;
     energy.connectors += 0.5 * sprung_.stiffness * stretch * stretch;
   }
   sample_.time = time_;

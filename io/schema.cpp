@@ -120,11 +120,12 @@ void add_general(Keys& keys) {
                         "Fineness of the generated mesh: elements of 2.2, 1.6 or 1.1 mm in the contact "
                         "surface; `paper` has the "
                         "paper's 1.46 million in its scene"));
-  keys.push_back(choice("scene.precision", at(&Scene::precision), {"double", "mixed", "single"},
-                        "Of nodes and elements while they move: `mixed` keeps displacements in double and the "
-                        "rest in "
-                        "single precision, `single` keeps them in single too. The static state, contact, "
-                        "frames, time and sums are in double always"));
+  keys.push_back(
+      choice("scene.precision", at(&Scene::precision), {"double", "mixed", "single"},
+             "Of nodes and elements while they move: `mixed` keeps displacements in double and the "
+             "rest in "
+             "single precision, `single` keeps them in single too. The static state, contact, "
+             "frames, time and sums are in double always"));
   keys.push_back(quantity("scene.element_size", at(&Scene::element_size), kLength, "mm", above(0, 0.1),
                           "Element size in the contact surface, in place of the quality's"));
   keys.push_back(quantity("scene.gravity", at(&Scene::gravity), kAcceleration, "m/s2", from(0, 100),

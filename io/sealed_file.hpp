@@ -10,7 +10,8 @@
 
 namespace tread {
 
-using SealedValues = std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>, std::string>;
+using SealedValues =
+    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int64_t>, std::string>;
 
 /// By name, "state/displacement". A text may hold any bytes.
 using SealedContent = std::map<std::string, SealedValues>;

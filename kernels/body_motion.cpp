@@ -149,9 +149,8 @@ void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& 
           const Vec3 arm_half = n.reference + displacement - (0.5 * dt) * velocity;
           const Vec3 absolute = velocity + spin_cross(frame.spin, arm_half);
           const Vec3 moved_arm = turn(arm_half - cartesian_to_cylindrical(phi_half, step_half), -turned_half);
-          w.set(n.slot,
-                turn(absolute - cartesian_to_cylindrical(phi_half, speed_change), -turned_half) -
-                    spin_cross(moved.spin, moved_arm));
+          w.set(n.slot, turn(absolute - cartesian_to_cylindrical(phi_half, speed_change), -turned_half) -
+                            spin_cross(moved.spin, moved_arm));
         });
     });
   }

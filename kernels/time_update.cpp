@@ -51,7 +51,8 @@ void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
 }
 
 template <class Real, class U>
-TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const {
+TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const StepLoads& loads, U* u,
+                                                     Real* v) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
   TileMotion<Real, U> motion;
@@ -81,7 +82,7 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
 
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
-                                 const unsigned char* whole) const {
+                                    const unsigned char* whole) const {
   const auto select = tile_forces().front()->loops<Real, U>().move;
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t i = from; i < to; ++i) {
@@ -93,9 +94,8 @@ void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFie
                  deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
       if (nodes.empty()) continue;
       const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-      select(swept.sweep)(
-          motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
-          fields.force + dof(slot, 0));
+      select(swept.sweep)(motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
+                          fields.force + dof(slot, 0));
     }
   });
 }

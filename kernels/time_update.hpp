@@ -14,9 +14,9 @@ namespace tread {
 /// Vector fields of 3 * mesh.slots values; precisions as in kernels/lanes/tile_force.hpp.
 template <class Real, class U = Real>
 struct BasicUpdateFields {
-  U* displacement;     ///< [m]
-  Real* velocity;      ///< at the half step [m/s]
-  const Real* force;   ///< internal minus external [N]
+  U* displacement;    ///< [m]
+  Real* velocity;     ///< at the half step [m/s]
+  const Real* force;  ///< internal minus external [N]
 };
 using UpdateFields = BasicUpdateFields<double>;
 
@@ -63,7 +63,8 @@ class BasicTimeUpdate {
     int block = 0;
     int tile = 0;
   };
-  void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields, const unsigned char* whole) const;
+  void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
+            const unsigned char* whole) const;
 
   const Mesh& mesh_;
   const Real* inverse_mass_;

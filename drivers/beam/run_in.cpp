@@ -16,8 +16,7 @@ void visit_nodes(const SweptBlock& block, ConstNodeField u, const BodyFrame& whe
   for (int station = 0; station < block.station_count(); ++station)
     for (int node = 0; node < block.section.nodes(); ++node) {
       const std::int64_t slot = block.base + block.slot(node, station);
-      visit(slot,
-            to_cartesian(block, station, wheel.angle, u.at(slot)));
+      visit(slot, to_cartesian(block, station, wheel.angle, u.at(slot)));
     }
 }
 

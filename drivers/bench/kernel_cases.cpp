@@ -107,17 +107,18 @@ std::vector<const char*> widest() {
 
 template <class Real, class U>
 void add_update(std::vector<KernelCase>& cases, const char* path, Sweep sweep, bool vertical_only) {
-  cases.push_back({"update", path, precision<Real, U>(), "node", [=](std::int64_t elements) {
-                     ElementVariant variant;
-                     variant.sweep = sweep;
-                     const auto data = std::make_shared<BlockData<Real, U>>(variant, elements);
-                     if (vertical_only) data->update.set_vertical_only(0);
-                     PreparedKernel kernel;
-                     kernel.timed.call = [data] { data->motion(); };
-                     set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, {sizeof(U), sizeof(Real)}));
-                     kernel.lanes = widest();
-                     return kernel;
-                   }});
+  cases.push_back(
+      {"update", path, precision<Real, U>(), "node", [=](std::int64_t elements) {
+         ElementVariant variant;
+         variant.sweep = sweep;
+         const auto data = std::make_shared<BlockData<Real, U>>(variant, elements);
+         if (vertical_only) data->update.set_vertical_only(0);
+         PreparedKernel kernel;
+         kernel.timed.call = [data] { data->motion(); };
+         set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, {sizeof(U), sizeof(Real)}));
+         kernel.lanes = widest();
+         return kernel;
+       }});
 }
 
 template <class Real, class U>
@@ -159,8 +160,9 @@ PreparedKernel prepare_tie(bool hand_over, std::int64_t elements) {
 template <class Real, class U>
 void add_ties(std::vector<KernelCase>& cases) {
   for (const bool hand_over : {true, false})
-    cases.push_back({hand_over ? "tie_hand_over" : "tie_follow", "1:3", precision<Real, U>(), "tied node",
-                     [hand_over](std::int64_t elements) { return prepare_tie<Real, U>(hand_over, elements); }});
+    cases.push_back(
+        {hand_over ? "tie_hand_over" : "tie_follow", "1:3", precision<Real, U>(), "tied node",
+         [hand_over](std::int64_t elements) { return prepare_tie<Real, U>(hand_over, elements); }});
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ Load force_and_motion(const Model& model) {
     const bool damped = model.beta[static_cast<std::size_t>(b)] != 0;
     const std::int64_t perturbed = model.internal->perturbed_elements(b);
     for (const bool own : {false, true})
-      add(load, element_work({block.sweep, damped, revolved, own, true}, block,
-                             value_bytes(model.scene)),
+      add(load, element_work({block.sweep, damped, revolved, own, true}, block, value_bytes(model.scene)),
           own ? perturbed : block.elements() - perturbed);
   }
   return load;

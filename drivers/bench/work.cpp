@@ -43,7 +43,8 @@ double element_flops(const ElementVariant& variant) {
   const std::int64_t before = Counted::operations();
   if (variant.perturbed) {
     const LanePositions<Counted> lanes{};
-    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(PositionsFrom<Counted, Counted>{lanes, 0}, constants), constants);
+    run_element<finite_rotation>(
+        PerturbedElement<Counted, Counted>(PositionsFrom<Counted, Counted>{lanes, 0}, constants), constants);
   } else if (variant.sweep == Sweep::revolved) {
     run_element<finite_rotation>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
   } else {
@@ -78,8 +79,7 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
   if (variant.moves) {
     // Displacement and velocity in and out, inverse mass; the force does not leave the caches.
     work.flops += update_work(variant.sweep, false, bytes).flops * slots;
-    work.bytes =
-        (2 * kComponents * (bytes.displacement + bytes.other) + bytes.other) * slots;
+    work.bytes = (2 * kComponents * (bytes.displacement + bytes.other) + bytes.other) * slots;
   } else {
     const int others = variant.damped ? 3 : 2;  // force, fetched and written; velocity
     work.bytes = kComponents * (bytes.displacement + others * bytes.other) * slots;
@@ -116,8 +116,7 @@ Work tie_hand_over_work(ValueBytes bytes) {
 
 Work tie_follow_work(ValueBytes bytes) {
   // Secondary values fetched and written, primary ones in.
-  return {2 * kFollowed * kLinkFlops,
-          kComponents * (bytes.displacement + bytes.other) * (2 + kPrimaries)};
+  return {2 * kFollowed * kLinkFlops, kComponents * (bytes.displacement + bytes.other) * (2 + kPrimaries)};
 }
 
 }  // namespace tread

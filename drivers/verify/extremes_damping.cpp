@@ -40,8 +40,7 @@ class FirstMode {
       const double shape = std::cos(std::numbers::pi * x / length_);
       for (int node = 0; node < block_->section.nodes(); ++node) {
         const std::int64_t slot = block_->base + block_->slot(node, station);
-        sum += model_->mass[static_cast<std::size_t>(slot)] * shape *
-               field[dof(slot, 0)];
+        sum += model_->mass[static_cast<std::size_t>(slot)] * shape * field[dof(slot, 0)];
       }
     }
     return sum;

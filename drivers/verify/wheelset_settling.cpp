@@ -52,8 +52,7 @@ Settling settle(Model& model, const Preload& preload, const VerifyInputs& inputs
   for (std::int64_t i = 0; i <= samples * every; ++i) {
     if (i % every == 0) {
       const BodyFrame& frame = simulation.wheel();
-      const double height =
-          frame.origin.z + rim_displacement(model, simulation.displacement(), frame).z;
+      const double height = frame.origin.z + rim_displacement(model, simulation.displacement(), frame).z;
       if (settling.empty()) start = height;
       settling.push_back(start - height);
     }

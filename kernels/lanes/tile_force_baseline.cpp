@@ -3,8 +3,11 @@
 namespace tread {
 
 extern const TileForces tile_forces_baseline;
-const TileForces tile_forces_baseline = {
-    "baseline", tile_loops<double, double>, tile_loops<float, double>, tile_loops<float, float>,
-    tie_sum<double>, tie_sum<float>};
+const TileForces tile_forces_baseline = {"baseline",
+                                         tile_loops<double, double>,
+                                         tile_loops<float, double>,
+                                         tile_loops<float, float>,
+                                         tie_sum<double>,
+                                         tie_sum<float>};
 
 }  // namespace tread

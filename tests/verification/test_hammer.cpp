@@ -57,8 +57,7 @@ TEST(Hammer, GivesAFreeBarItsImpulseAndItsWork) {
   for (int station = 0; station < bar.station_count(); ++station)
     for (int node = 0; node < bar.section.nodes(); ++node) {
       const std::int64_t slot = bar.base + bar.slot(node, station);
-      momentum -= model.mass[static_cast<std::size_t>(slot)] *
-                  simulation.velocity()[dof(slot, 2)];
+      momentum -= model.mass[static_cast<std::size_t>(slot)] * simulation.velocity()[dof(slot, 2)];
     }
   const double impulse = 2 / std::numbers::pi * scene.hammer->force * scene.hammer->duration;
   EXPECT_NEAR(momentum, impulse, 1e-4 * impulse);
