@@ -131,7 +131,7 @@ double pulse_error(double element_size) {
   double worst = 0;
   const double passed = sound * (steps - 0.5) * dt;
   for (int station = 0; station < mesh.blocks[0].station_count(); ++station)
-    worst = std::max(worst, std::abs(velocity(mesh.blocks[0], station, v) -
+    worst = std::max(worst, std::abs(velocity(mesh.blocks[0], station, v.data()) -
                                      bump(mesh.blocks[0].stations[index(station)] - passed)));
   return worst;
 }
