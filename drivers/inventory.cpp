@@ -1,7 +1,9 @@
 #include "drivers/inventory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "drivers/plain_text.hpp"
 #include "drivers/simulation.hpp"
@@ -161,7 +163,7 @@ std::vector<FieldInfo> fields(const Model& model) {
       {"sprung mass", "m, m/s", "sprung mass", static_cast<std::int64_t>(sizeof(SprungMass))});
   add(true, {"displacement", "m", "node", vector});
   add(motion && rounded(model),
-      {"rounded displacement", "m", "node", 3 * model.mesh.slots * bytes.displacement});
+      {"displacement in motion", "m", "node", 3 * model.mesh.slots * bytes.displacement});
   add(motion && rounded(model),
       {"rounded coefficients and mass", "m, Pa, 1/kg", "quad and pitch class; moved elements; node",
        model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
@@ -207,14 +209,20 @@ std::int64_t checkpoint_bytes(const Model& model) {
 }
 
 std::int64_t peak_bytes(const Model& model) {
+  constexpr std::array<std::string_view, 7> kInMotion = {"displacement in motion",
+                                                         "rounded coefficients and mass",
+                                                         "velocity",
+                                                         "force",
+                                                         "surface fields",
+                                                         "samples",
+                                                         "checkpoint"};
   std::int64_t always = 0;
   std::int64_t preload = 0;
   std::int64_t rolling = 0;
   for (const FieldInfo& field : fields(model)) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
-    else if (field.name == "velocity" || field.name == "force" || field.name.starts_with("rounded") ||
-             field.name == "surface fields" || field.name == "samples" || field.name == "checkpoint")
+    else if (std::find(kInMotion.begin(), kInMotion.end(), field.name) != kInMotion.end())
       rolling += field.bytes;
     else
       always += field.bytes;
