@@ -206,7 +206,7 @@ TEST_F(Resume, InSinglePrecision) {
   const std::string shorter = "--precision single --set \"motion.duration=0.1 ms\"";
   const fs::path whole = root_ / "single";
   ASSERT_EQ(call(run(whole, shorter)), 0) << errors();
-  EXPECT_EQ(call(run(folder_, shorter + " --set stop.steps=100")), 4) << errors();
+  EXPECT_EQ(call(run(folder_, shorter + " --set stop.steps=40")), 4) << errors();
   EXPECT_EQ(call(resume("--set stop.steps=0")), 0) << errors();
   expect_same_run(whole, folder_);
 }
