@@ -28,6 +28,7 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
 
 void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
+  AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has its own
   files_.emplace(*model_, session_->folder.path());
 }
 

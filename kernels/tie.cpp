@@ -336,8 +336,14 @@ void Ties::hand_over(double* force) const {
 
 void Ties::gather(double* force) const {
   hand_over(force);
-  for (const std::int64_t slot : secondary_)
-    for (int c = 0; c < 3; ++c) force[dof(slot, c)] = 0;
+  clear(force);
+}
+
+void Ties::clear(double* field) const {
+  parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      for (int c = 0; c < 3; ++c) field[dof(secondary_[index(i)], c)] = 0;
+  });
 }
 
 void Ties::gather_diagonal(double* diagonal) const {

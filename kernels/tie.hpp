@@ -66,6 +66,8 @@ class Ties {
   void hand_over(double* force) const;
   /// hand_over, and the secondary values become zero.
   void gather(double* force) const;
+  /// The secondary values become zero.
+  void clear(double* field) const;
 
   /// Diagonal of T^T D T for a diagonal D given as a vector field (its turn between the bases left out).
   void gather_diagonal(double* diagonal) const;

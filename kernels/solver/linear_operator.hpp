@@ -8,8 +8,9 @@
 namespace tread {
 
 /// y = A x on vector fields of 3 * mesh.slots values (layout: dof()). A is symmetric and positive
-/// semidefinite; it reads and writes zero outside the free unknowns. x and y do not overlap.
-using Operator = std::function<void(const double* x, double* y)>;
+/// semidefinite; x and y are zero outside the free unknowns and do not overlap. x is lent: it is on return
+/// what it was.
+using Operator = std::function<void(double* x, double* y)>;
 
 /// The energy stiffness / 2 (sum_i weights[i] x[dofs[i]])^2: a spring between bodies or one contact point.
 struct Spring {
