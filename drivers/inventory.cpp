@@ -10,10 +10,9 @@ namespace tread {
 
 namespace {
 
-// What the static solver holds beside the displacement, in vector fields: load, residual, correction,
-// eliminated diagonal and copy, four of conjugate gradients, five of the preconditioner; aggregates and
-// coarse factor as measured on runs.
-constexpr int kSolverVectors = 14 + 14;
+// What the static solver holds beside the displacement, in vector fields: the residual, two of conjugate
+// gradients, one and a half of the preconditioner; aggregates and coarse factor as measured on runs.
+constexpr double kSolverVectors = 4.5 + 2.5;
 // A node of std::map: key, value, colour and three links.
 constexpr std::int64_t kMapNode = 64;
 
@@ -163,7 +162,8 @@ std::vector<FieldInfo> fields(const Model& model) {
                       : 0});
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
-  add(true, {"solver", "N, m", "node and aggregate, during the preload", kSolverVectors * vector});
+  add(true, {"solver", "N, m", "node and aggregate, during the preload",
+             static_cast<std::int64_t>(kSolverVectors * static_cast<double>(vector))});
   return list;
 }
 

@@ -324,6 +324,7 @@ class TangentSolver {
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
   constexpr int kMaxNewton = 40;
   constexpr double kTolerance = 1e-7;
+  constexpr double kForcing = 0.03;  ///< of the linear systems against their right sides
   const auto n = 3 * model.mesh.slots;
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
@@ -360,8 +361,9 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       throw NumericalError(fmt::format(
           "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
           iteration, kTolerance, why_unbalanced(model, out.residual * scale, size)));
-    const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
-    out.cg_iterations += solver.correct(wanted * out.residual * scale, residual, out.displacement);
+    // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
+    const double wanted = std::max(0.3 * kTolerance, kForcing * out.residual);
+    out.cg_iterations += solver.correct(wanted * scale, residual, out.displacement);
   }
   return out;
 }

@@ -312,9 +312,10 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
 std::vector<TiedSlot> Ties::tied_slots() const {
   std::vector<TiedSlot> slots;
   for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-    if (slots.empty() || slots.back().secondary != secondary) slots.push_back({secondary, {}});
-    slots.back().primaries.push_back(primary);
+    slots.push_back({secondary, primary});
   });
+  std::stable_sort(slots.begin(), slots.end(),
+                   [](const TiedSlot& a, const TiedSlot& b) { return a.secondary < b.secondary; });
   return slots;
 }
 

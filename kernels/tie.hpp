@@ -10,7 +10,7 @@
 
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tie_sum.hpp"
-#include "kernels/solver/coarse_solver.hpp"
+#include "kernels/solver/linear_operator.hpp"
 
 namespace tread {
 
@@ -56,7 +56,7 @@ class Ties {
   /// Bytes of the links.
   std::int64_t bytes() const;
 
-  /// Who follows whom, for the solver's coarse level.
+  /// Who follows whom, by secondary node, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
   /// Secondary values from the primary ones; vector fields of 3 * slots values.

@@ -12,9 +12,9 @@
 namespace tread {
 
 struct AggregateOptions {
-  double size = 0.04;    ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 8;  ///< most nodes along one direction, roughly
-  int least_across = 3;  ///< nodes along one direction that `size` does not part
+  double size = 0.06;     ///< largest extent of an aggregate, roughly [m]
+  int nodes_across = 12;  ///< most nodes along one direction, roughly
+  int least_across = 3;   ///< nodes along one direction that `size` does not part
 };
 
 /// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations.

@@ -19,6 +19,13 @@ struct Spring {
   std::vector<double> weights;     ///< of the displacements in the spring's elongation [-], as many as dofs
 };
 
+/// A secondary node that a tie eliminates follows this primary node and perhaps others; a primary is not
+/// secondary itself.
+struct TiedSlot {
+  std::int64_t secondary = -1;
+  std::int64_t primary = -1;
+};
+
 /// y += K x for all springs, in their order.
 inline void add_springs(const std::vector<Spring>& springs, const double* x, double* y) {
   for (const Spring& spring : springs) {

@@ -17,11 +17,13 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
       aggregates_(mesh, diagonal, options.aggregates),
       coarse_(aggregates_, aggregate_graph(mesh, aggregates_, ties), elastic,
               static_cast<std::int64_t>(diagonal.size())),
-      inverse_(std::move(diagonal)),
       coarse_values_(static_cast<std::size_t>(aggregates_.modes())) {
-  for (double& value : inverse_) value = value > 0 ? 1 / value : 0;
+  for (double& value : diagonal) value = value > 0 ? 1 / value : 0;
   constexpr int kSteps = 20;
-  lambda_max_ = std::pow(highest_frequency(elastic, inverse_, kSteps).omega, 2);
+  constexpr double kRounding = 1e-6;  // of what is kept of the diagonal
+  lambda_max_ = (1 + kRounding) * std::pow(highest_frequency(elastic, diagonal, kSteps).omega, 2);
+  inverse_.assign(diagonal.begin(), diagonal.end());
+  AlignedVector<double>().swap(diagonal);
   a_z_.resize(inverse_.size());
 }
 
@@ -38,7 +40,8 @@ void TwoLevelPreconditioner::update(Operator a, const std::vector<Spring>& sprin
       const auto at = static_cast<std::size_t>(spring.dofs[i]);
       if (inverse_[at] == 0) continue;
       changes_.emplace_back(at, inverse_[at]);
-      inverse_[at] = 1 / (1 / inverse_[at] + spring.stiffness * sum * std::abs(spring.weights[i]));
+      const double added = spring.stiffness * sum * std::abs(spring.weights[i]);
+      inverse_[at] = static_cast<float>(1 / (1.0 / inverse_[at] + added));
     }
   }
   coarse_.factorise(aggregates_, springs);

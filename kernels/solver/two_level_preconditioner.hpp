@@ -16,7 +16,7 @@ namespace tread {
 struct TwoLevelOptions {
   AggregateOptions aggregates;
   int degree = 3;      ///< of the Chebyshev polynomial: it applies the operator degree - 1 times
-  double spread = 40;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
+  double spread = 60;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
 };
 
 /// B = S + Z (Z^T A Z)^-1 Z^T with S a Chebyshev polynomial in D^-1 A times D^-1, D the diagonal. Iterations
@@ -46,9 +46,9 @@ class TwoLevelPreconditioner : public Preconditioner {
   Aggregates aggregates_;
   CoarseSolver coarse_;
   Operator a_;
-  AlignedVector<double> inverse_;  ///< of the diagonal with springs; 0 where an unknown is not free
-  std::vector<std::pair<std::size_t, double>> changes_;  ///< of inverse_ by the springs: place, value before
-  double lambda_max_ = 0;                                ///< of D^-1 A
+  AlignedVector<float> inverse_;  ///< of the diagonal with springs; 0 where an unknown is not free [m/N]
+  std::vector<std::pair<std::size_t, float>> changes_;  ///< of inverse_ by the springs: place, value before
+  double lambda_max_ = 0;                               ///< of D^-1 A
   mutable AlignedVector<double> a_z_;
   mutable std::vector<double> coarse_values_;
 };
