@@ -13,7 +13,7 @@ namespace tread {
 
 struct AggregateOptions {
   double size = 0.05;     ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 12;  ///< most nodes along one direction, roughly
+  int nodes_across = 16;  ///< most nodes along one direction, roughly
   int least_across = 3;   ///< nodes along one direction that `size` does not part
 };
 
