@@ -12,7 +12,7 @@ namespace {
 
 // What the static solver holds beside the displacement, in vector fields: the residual, two of conjugate
 // gradients, one and a half of the preconditioner; aggregates and coarse factor as measured on runs.
-constexpr double kSolverVectors = 4.5 + 2.5;
+constexpr double kSolverVectors = 4.5 + 2;
 // A node of std::map: key, value, colour and three links.
 constexpr std::int64_t kMapNode = 64;
 
