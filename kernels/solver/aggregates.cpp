@@ -282,12 +282,13 @@ void Aggregates::restrict_to_modes(const double* fine, double* coarse) const {
       const Part& part = parts_[static_cast<std::size_t>(items_[static_cast<std::size_t>(i)].part)];
       const SweptBlock& block = *part.block;
       const int t = items_[static_cast<std::size_t>(i)].tile;
-      const double* values = fine + dof(block.base + std::int64_t{t} * block.section.nodes() * kLanes, 0);
+      const std::int64_t first_slot = block.base + std::int64_t{t} * block.section.nodes() * kLanes;
       TileValues sums;
-      for (const int node : part.nodes)
+      for (const int node : part.nodes) {
+        const std::int64_t slot = first_slot + std::int64_t{kLanes} * node;
         sums.add(block.section.p[static_cast<std::size_t>(node)],
-                 block.section.q[static_cast<std::size_t>(node)], values + std::int64_t{3 * kLanes} * node,
-                 [](int) { return 1.0; });
+                 block.section.q[static_cast<std::size_t>(node)], fine + dof(slot, 0), where_free(slot));
+      }
       const Tile& tile = block.tiles[static_cast<std::size_t>(t)];
       for (int lane = 0; lane < tile.stations; ++lane)
         sums_[part.first_slice + static_cast<std::size_t>(tile.first_station + lane)] = sums.at(lane);
@@ -332,10 +333,9 @@ void Aggregates::prolongate_add(const double* coarse, double* fine) const {
       const std::int64_t first_slot = block.base + std::int64_t{t} * block.section.nodes() * kLanes;
       for (const int node : part.nodes) {
         const std::int64_t slot = first_slot + std::int64_t{kLanes} * node;
-        const std::uint8_t* free = free_.data() + slot;
         motions.add_to(block.section.p[static_cast<std::size_t>(node)],
                        block.section.q[static_cast<std::size_t>(node)], fine + dof(slot, 0),
-                       [free](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; });
+                       where_free(slot));
       }
     }
   });

@@ -40,7 +40,7 @@ class Aggregates {
   /// Row of Z at an unknown of a free node: its values on the modes of the node's aggregate.
   std::array<double, 6> mode_row(std::int64_t unknown) const;
 
-  /// coarse = Z^T fine; `coarse` has modes() values, `fine` 3 * mesh.slots, zero where they are not free.
+  /// coarse = Z^T fine; `coarse` has modes() values, `fine` 3 * mesh.slots, read where it is free.
   void restrict_to_modes(const double* fine, double* coarse) const;
 
   /// fine += Z coarse, where it is free
@@ -82,6 +82,10 @@ class Aggregates {
     return slices_[part.first_slice + static_cast<std::size_t>(station)];
   }
   RigidMotion motion(const Patch& patch, const double* coarse) const;
+  /// 1 or 0 by component and lane of a group of slots.
+  auto where_free(std::int64_t first_slot) const {
+    return [free = free_.data() + first_slot](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; };
+  }
 
   const Mesh* mesh_;
   std::vector<std::uint8_t> free_;  ///< by slot; bit c: component c is free

@@ -58,7 +58,7 @@ RigidMotion HeldMotions::resultant(const double* field, bool weighted) const {
       TileValues sums;
       for_each_node(*block, tile, [&](double p, double q, std::int64_t slot) {
         const double* mass = mass_ + slot;
-        sums.add(p, q, field + dof(slot, 0), [=](int lane) { return weighted ? mass[lane] : 1.0; });
+        sums.add(p, q, field + dof(slot, 0), [=](int, int lane) { return weighted ? mass[lane] : 1.0; });
       });
       partial_[i] = {};
       for (int lane = 0; lane < block->tiles[static_cast<std::size_t>(tile)].stations; ++lane)

@@ -88,12 +88,12 @@ struct TileValues {
     return {vector(constant), vector(along_p), vector(along_q)};
   }
 
-  /// Adds the values of a node's lanes to the sums, times `weight(lane)`.
+  /// Adds the values of a node's lanes to the sums, times `weight(component, lane)`.
   template <class Weight>
   void add(double p, double q, const double* values, const Weight& weight) {
     for (int c = 0; c < 3; ++c)
       for (int lane = 0; lane < kLanes; ++lane) {
-        const double value = values[c * kLanes + lane] * weight(lane);
+        const double value = weight(c, lane) * values[c * kLanes + lane];
         constant[c][lane] += value;
         along_p[c][lane] += p * value;
         along_q[c][lane] += q * value;
