@@ -12,11 +12,9 @@ namespace tread {
 
 namespace {
 
-// What the static solver holds beside the displacement, in vector fields: load, residual, correction,
-// eliminated diagonal and copy, four of conjugate gradients, five of the preconditioner; aggregates and
-// coarse factor as measured on runs.
-constexpr int kSolverVectors = 14 + 14;
-constexpr int kHeldVectors = 4;  ///< two held motions and their means
+// What the static solver holds beside the displacement, in vector fields: the residual, two of conjugate
+// gradients, one and a half of the preconditioner; aggregates and coarse factor as measured on runs.
+constexpr double kSolverVectors = 4.5 + 2;
 // A node of std::map: key, value, colour and three links.
 constexpr std::int64_t kMapNode = 64;
 
@@ -75,7 +73,7 @@ void add_preload(const Model& model, Phases& list) {
   if (!model.journal.empty()) reads.emplace_back("journal nodes");
   if (model.contact) reads.emplace_back("contact points");
   std::vector<std::string> writes = {"displacement", "solver"};
-  if (wheel) writes.insert(writes.end(), {"held motions", "wheel frame"});
+  if (wheel) writes.emplace_back("wheel frame");
   list.add(true, {"preload", "static equilibrium of all blocks", reads, writes});
 }
 
@@ -177,8 +175,8 @@ std::vector<FieldInfo> fields(const Model& model) {
                       : 0});
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
-  add(true, {"solver", "N, m", "node and aggregate, during the preload", kSolverVectors * vector});
-  add(wheel, {"held motions", "-", "node, during the preload", kHeldVectors * vector});
+  add(true, {"solver", "N, m", "node and aggregate, during the preload",
+             static_cast<std::int64_t>(kSolverVectors * static_cast<double>(vector))});
   return list;
 }
 
@@ -220,7 +218,7 @@ std::int64_t peak_bytes(const Model& model) {
   std::int64_t preload = 0;
   std::int64_t rolling = 0;
   for (const FieldInfo& field : fields(model)) {
-    if (field.name == "solver" || field.name == "held motions")
+    if (field.name == "solver")
       preload += field.bytes;
     else if (std::find(kInMotion.begin(), kInMotion.end(), field.name) != kInMotion.end())
       rolling += field.bytes;

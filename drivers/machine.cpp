@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <system_error>
 #include <thread>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -16,6 +19,14 @@ void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
   set_threads(options.number > 0 ? options.number
                                  : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+}
+
+void give_back_large_arrays() {
+#ifdef __GLIBC__
+  // The GNU library raises this threshold to the largest array that was ever let go, up to 32 MiB.
+  constexpr int kLarge = 1 << 20;  // [B]
+  ::mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
 }
 
 std::int64_t peak_memory() {

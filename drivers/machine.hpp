@@ -15,6 +15,10 @@ struct ThreadOptions {
 /// InputError for an unknown backend.
 void use_threads(const ThreadOptions& options);
 
+/// From now on the memory of large arrays goes back to the machine with them, so that what one phase has
+/// needed is there for all programs in the next.
+void give_back_large_arrays();
+
 /// Largest resident memory of this process so far [B].
 std::int64_t peak_memory();
 

@@ -330,6 +330,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    tread::give_back_large_arrays();
     return run(argc, argv);
   } catch (const tread::Error& error) {
     fmt::print(stderr, "tread: {}\n", error.what());

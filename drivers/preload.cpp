@@ -39,20 +39,20 @@ void add_centrifugal(const Model& model, const SweptBlock& block, double spin, d
     }
 }
 
-/// Gravity, centrifugal force and vehicle weight as an external force field.
-AlignedVector<double> external_load(const Model& model, const BodyFrame& frame, double spin) {
-  AlignedVector<double> load(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+/// Adds gravity, centrifugal force and vehicle weight, but for what acts on a carrier.
+void add_external_load(const Model& model, const BodyFrame& frame, double spin, double* load) {
   for (const SweptBlock& block : model.mesh.blocks) {
-    add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load.data());
-    if (block.sweep == Sweep::revolved) add_centrifugal(model, block, spin, load.data());
+    add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load);
+    if (block.sweep == Sweep::revolved) add_centrifugal(model, block, spin, load);
   }
-  if (!model.journal.empty()) model.journal.add(load.data(), frame, {0, 0, -model.journal_load()});
-  if (model.guide) {
-    model.guide->reduce(load.data());
-    load[static_cast<std::size_t>(model.guide->unknown())] +=
-        (model.guide->counterweight(spin, frame.angle) - model.journal_load()) / model.guide->per_rise();
-  }
-  return load;
+  if (!model.journal.empty()) model.journal.add(load, frame, {0, 0, -model.journal_load()});
+}
+
+/// Adds the forces on a carrier to its unknown, after StaticSystem::reduce.
+void add_carrier_load(const Model& model, const BodyFrame& frame, double spin, double* load) {
+  if (!model.guide) return;
+  load[model.guide->unknown()] +=
+      (model.guide->counterweight(spin, frame.angle) - model.journal_load()) / model.guide->per_rise();
 }
 
 /// Adds -m rate^2 d2u/ds2, the inertia of material that passes through the steady deflection u, s the station
@@ -96,31 +96,12 @@ void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame,
 
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
 /// rail its height too.
-std::optional<HeldMotions> held_wheel(const Model& model, const AlignedVector<double>& diagonal) {
+std::optional<HeldMotions> held_wheel(const Model& model) {
   if (!model.wheelset || model.guide) return std::nullopt;
-  const auto n = static_cast<std::size_t>(3 * model.mesh.slots);
-  const std::size_t count = model.contact ? 2 : 3;
-  std::vector<AlignedVector<double>> motions(count, AlignedVector<double>(n, 0.0));
-  auto means = motions;
-  for (const int b : model.wheelset->blocks()) {
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
-    for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const Vec3 ahead = to_local(block, station, 0, {1, 0, 0});
-        const Vec3 up = to_local(block, station, 0, {0, 0, 1});
-        const std::array<Vec3, 3> motion = {ahead,
-                                            Vec3{block.section.q[static_cast<std::size_t>(node)], 0, 0}, up};
-        for (std::size_t m = 0; m < count; ++m)
-          for (int c = 0; c < 3; ++c) {
-            const auto unknown = static_cast<std::size_t>(dof(slot, c));
-            if (diagonal[unknown] <= 0) continue;
-            motions[m][unknown] = motion[m][c];
-            means[m][unknown] = model.mass[static_cast<std::size_t>(slot)] * motion[m][c];
-          }
-      }
-  }
-  return HeldMotions(std::move(motions), std::move(means));
+  std::vector<RigidMotion> motions = {{{1, 0, 0}, {}}, {{}, {0, 1, 0}}};
+  if (!model.contact) motions.push_back({{0, 0, 1}, {}});
+  return std::optional<HeldMotions>(std::in_place, model.mesh, model.wheelset->blocks(), model.mass.data(),
+                                    std::move(motions));
 }
 
 /// Adds the carrier's unknown, which couples to the whole bore, to a preconditioner that does not know it.
@@ -140,8 +121,8 @@ class WithCarrier : public Preconditioner {
 };
 
 /// Of the wheel's elements against the carrier's unknown alone [N/m].
-double carrier_stiffness(const StaticSystem& system, std::int64_t unknown) {
-  AlignedVector<double> unit(system.diagonal().size(), 0.0);
+double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::int64_t unknown) {
+  AlignedVector<double> unit(static_cast<std::size_t>(values), 0.0);
   AlignedVector<double> force(unit.size());
   unit[static_cast<std::size_t>(unknown)] = 1;
   system.apply(unit.data(), force.data());
@@ -217,12 +198,134 @@ SteadyMotion steady_motion(const Model& model) {
   return out;
 }
 
+namespace {
+
+/// The equations of the static state and their tangent.
+class Equilibrium {
+ public:
+  Equilibrium(Model& model, const SteadyMotion& motion)
+      : model_(&model), motion_(motion), system_(model), held_(held_wheel(model)) {
+    if (model.fastenings) fixed_springs_ = model.fastenings->springs();
+  }
+
+  /// r = what loads the bodies, with `state.run_in` where there is one [N].
+  void load(const Preload& state, double* r) const {
+    std::fill_n(r, 3 * model_->mesh.slots, 0.0);
+    add_load(state, r);
+    finish(state, r);
+  }
+
+  /// r = loads less internal forces, balanced by the holding forces, which `state` takes over; finds contact
+  /// and tangent at the displacement, whose secondary nodes are filled. [N]
+  void residual(Preload& state, double* r);
+
+  /// Of the last residual().
+  void apply_tangent(double* x, double* y) const {
+    system_.apply(x, y);
+    add_springs(springs_, x, y);
+  }
+  const StaticSystem& system() const { return system_; }
+  const std::vector<Spring>& springs() const { return springs_; }
+  const HeldMotions* held() const { return held_ ? &*held_ : nullptr; }
+
+ private:
+  void add_load(const Preload& state, double* r) const {
+    add_external_load(*model_, state.wheel, motion_.spin, r);
+    if (state.run_in) add_run_in(*model_, *state.run_in, state.wheel, r);
+  }
+  void finish(const Preload& state, double* r) const {
+    system_.reduce(r);
+    add_carrier_load(*model_, state.wheel, motion_.spin, r);
+  }
+
+  Model* model_;
+  SteadyMotion motion_;
+  StaticSystem system_;
+  std::optional<HeldMotions> held_;
+  std::vector<Spring> fixed_springs_, springs_;
+};
+
+void Equilibrium::residual(Preload& state, double* r) {
+  double* u = state.displacement.data();
+  const auto n = static_cast<std::int64_t>(state.displacement.size());
+  system_.expand(u);
+  springs_ = fixed_springs_;
+  model_->internal->internal_force(u, nullptr, r);
+  add_springs(fixed_springs_, u, r);
+  if (model_->contact) {
+    model_->contact->find_static({u, nullptr, &state.wheel});
+    model_->contact->add_forces(r);
+    for (Spring& spring : model_->contact->springs()) springs_.push_back(std::move(spring));
+  }
+  for_chunks(n, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) r[i] = -r[i];
+  });
+  add_load(state, r);
+  add_steady_inertia(*model_, motion_, u, r);
+  finish(state, r);
+  if (!held_) return;
+  const auto work = held_->work(r);
+  state.held_force_x = work[0];
+  state.held_moment = work[1];
+  held_->balance(r);
+}
+
+/// NumericalError where no point is in contact. `size`: of the load [N].
+void require_contact(const Model& model, int iteration, double residual, double size) {
+  if (!model.contact || !model.contact->points().empty()) return;
+  throw NumericalError(
+      iteration == 0
+          ? fmt::format("preload: no integration point of the rail touches the wheel; check "
+                        "wheel.lateral_offset, and raise the wheel load of {:.3g} N if its patch is smaller "
+                        "than an element",
+                        model.wheel_load())
+          : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}", iteration,
+                        why_unbalanced(model, residual, size)));
+}
+
+/// Solves with the tangent of an Equilibrium.
+class TangentSolver {
+ public:
+  TangentSolver(const Model& model, const Equilibrium& equilibrium)
+      : equilibrium_(&equilibrium),
+        two_level_(
+            model.mesh, [&](double* x, double* y) { equilibrium.system().apply(x, y); },
+            equilibrium.system().diagonal(), tied_slots(model)) {
+    if (model.guide)
+      with_carrier_.emplace(
+          two_level_, model.guide->unknown(),
+          carrier_stiffness(equilibrium.system(), 3 * model.mesh.slots, model.guide->unknown()));
+  }
+
+  /// Moves u until the linear system leaves no more than `tolerance` of `residual`; returns the iterations
+  /// that took.
+  int correct(double tolerance, AlignedVector<double>& residual, AlignedVector<double>& u) {
+    const Operator tangent = [this](double* x, double* y) { equilibrium_->apply_tangent(x, y); };
+    const Preconditioner* preconditioner = &two_level_;
+    if (with_carrier_) preconditioner = &*with_carrier_;
+    two_level_.update(tangent, equilibrium_->springs());
+    const CgResult solved =
+        conjugate_gradients(tangent, preconditioner, equilibrium_->held(), residual, u, {tolerance, 5000});
+    if (!solved.converged)
+      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
+                                       solved.residual_history.back() / solved.residual_history.front(),
+                                       solved.iterations));
+    return solved.iterations;
+  }
+
+ private:
+  const Equilibrium* equilibrium_;
+  TwoLevelPreconditioner two_level_;
+  std::optional<WithCarrier> with_carrier_;
+};
+
+}  // namespace
+
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
   constexpr int kMaxNewton = 40;
   constexpr double kTolerance = 1e-7;
-  const StaticSystem system(model);
-  const auto n = static_cast<std::int64_t>(system.diagonal().size());
-
+  constexpr double kForcing = 0.03;  ///< of the linear systems against their right sides
+  const auto n = 3 * model.mesh.slots;
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
   if (model.contact) {
@@ -232,65 +335,17 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }
-  AlignedVector<double> load = external_load(model, out.wheel, motion.spin);
-  const auto held = held_wheel(model, system.diagonal());
-  AlignedVector<double> reduced = load;
-  system.reduce(reduced.data());
-  const double size = std::sqrt(dot(n, reduced.data(), reduced.data()));
+  Equilibrium equilibrium(model, motion);
+  AlignedVector<double> residual(static_cast<std::size_t>(n));
+  equilibrium.load(out, residual.data());
+  const double size = std::sqrt(dot(n, residual.data(), residual.data()));
   if (size == 0) return out;  // nothing loads the bodies: they rest as they are
   const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
-  std::vector<Spring> fixed_springs;
-  if (model.fastenings) fixed_springs = model.fastenings->springs();
-  std::vector<Spring> springs;
-  const Operator elastic = [&](const double* x, double* y) { system.apply(x, y); };
-  const Operator tangent = [&](const double* x, double* y) {
-    system.apply(x, y);
-    add_springs(springs, x, y);
-  };
-  TwoLevelPreconditioner preconditioner(model.mesh, elastic, system.diagonal(), tied_slots(model), {});
-  std::optional<WithCarrier> with_carrier;
-  if (model.guide)
-    with_carrier.emplace(preconditioner, model.guide->unknown(),
-                         carrier_stiffness(system, model.guide->unknown()));
-  const Preconditioner* precondition = &preconditioner;
-  if (with_carrier) precondition = &*with_carrier;
-
-  AlignedVector<double> residual(static_cast<std::size_t>(n));
-  AlignedVector<double> correction(static_cast<std::size_t>(n));
-  double* u = out.displacement.data();
+  TangentSolver solver(model, equilibrium);
   for (int iteration = 0;; ++iteration) {
-    system.expand(u);
-    springs = fixed_springs;
-    model.internal->internal_force(u, nullptr, residual.data());
-    add_springs(fixed_springs, u, residual.data());
-    if (model.contact) {
-      model.contact->find_static({u, nullptr, &out.wheel});
-      model.contact->add_forces(residual.data());
-      for (Spring& spring : model.contact->springs()) springs.push_back(std::move(spring));
-      if (model.contact->points().empty())
-        throw NumericalError(
-            iteration == 0
-                ? fmt::format(
-                      "preload: no integration point of the rail touches the wheel; check "
-                      "wheel.lateral_offset, and raise the wheel load of {:.3g} N if its patch is smaller "
-                      "than an element",
-                      model.wheel_load())
-                : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}",
-                              iteration, why_unbalanced(model, out.residual * scale, size)));
-    }
-    for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        residual[i] = load[i] - residual[i];
-    });
-    add_steady_inertia(model, motion, u, residual.data());
-    system.reduce(residual.data());
-    if (held) {
-      const auto work = held->work(residual.data());
-      out.held_force_x = work[0];
-      out.held_moment = work[1];
-      held->balance(residual.data());
-    }
+    equilibrium.residual(out, residual.data());
+    require_contact(model, iteration, out.residual * scale, size);
     out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
     progress(fmt::format("iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
                          out.residual, model.contact ? model.contact->points().size() : 0,
@@ -299,24 +354,16 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     if (out.residual < kTolerance) {
       if (!out.run_in) describe(model, out);
       if (!motion.rolling || out.run_in) break;
-      out.run_in = run_in(model, axle_bending(model, u, out.wheel));
-      add_run_in(model, *out.run_in, out.wheel, load.data());
+      out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
       continue;
     }
     if (iteration == kMaxNewton)
       throw NumericalError(fmt::format(
           "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
           iteration, kTolerance, why_unbalanced(model, out.residual * scale, size)));
-    preconditioner.update(tangent, springs);
-    std::fill(correction.begin(), correction.end(), 0.0);
-    const double wanted = std::clamp(0.3 * kTolerance / out.residual, 1e-7, 1e-3);
-    const CgResult solved = conjugate_gradients(tangent, precondition, held ? &*held : nullptr, residual,
-                                                correction, {wanted, 5000});
-    if (!solved.converged)
-      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
-                                       solved.relative_residual, solved.iterations));
-    out.cg_iterations += solved.iterations;
-    add_scaled(n, 1.0, correction.data(), u);
+    // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
+    const double wanted = std::max(0.3 * kTolerance, kForcing * out.residual);
+    out.cg_iterations += solver.correct(wanted * scale, residual, out.displacement);
   }
   return out;
 }

@@ -28,6 +28,7 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
 
 void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
+  AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has its own
   files_.emplace(*model_, session_->folder.path());
 }
 
@@ -126,11 +127,11 @@ void Rolling::write_checkpoint() {
   if (!simulation_->finite()) return;
   const Mark mark{simulation_->steps(), simulation_->time()};
   results_->seconds_rolling = seconds();
-  writer_.start(
-      [this, mark,
-       content = pack_run(session_->order, *results_, *model_, *simulation_, files_->patch_bytes())] {
-        session_->checkpoints.write(mark.steps, content, session_->options.observer);
-      });
+  writer_.start([this, mark,
+                 content = pack_run(session_->order, *results_, *model_, *simulation_,
+                                    files_->patch_bytes())]() mutable {
+    session_->checkpoints.write(mark.steps, std::move(content), session_->options.observer);
+  });
   being_written_ = mark;
   checkpoint_at_ = session_->progress.seconds();
   if (!Hdf5File::thread_safe()) wait_for_checkpoint();

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "drivers/energy_stop.hpp"
+#include "drivers/energy_sums.hpp"
 #include "drivers/start.hpp"
 #include "drivers/static_system.hpp"
 #include "kernels/solver/chunks.hpp"
@@ -20,6 +21,13 @@ constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the w
 /// Longest stretch of steps without a look at the energies: a motion whose step is 2 % too long grows by
 /// e^0.4 in each.
 constexpr std::int64_t kWatchInterval = 64;
+
+/// Steps between looks at the energies: samples look at them anyway, and share the stretch between two of
+/// them evenly.
+std::int64_t watch_interval(std::int64_t sampling) {
+  const std::int64_t looks = (sampling + kWatchInterval - 1) / kWatchInterval;
+  return (sampling + looks - 1) / looks;
+}
 constexpr int kCreepageNodes = 28;  ///< [paper, section 4.2]
 
 /// Of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed there is
@@ -171,7 +179,7 @@ double Simulation::torque_at(double time) const {
 
 void Simulation::step() {
   sampled_ = steps_ % sampling_ == 0;
-  measured_ = sampled_ || steps_ % kWatchInterval == 0;
+  measured_ = steps_ % sampling_ % watch_interval(sampling_) == 0;
   // 1  contact: search and gap
   enter(StepPhase::contact_search);
   search();
@@ -335,27 +343,6 @@ void Simulation::follow_ties(NodeField u, NodeField v) const {
   if (model_->ties) model_->ties->follow({u, v});
 }
 
-double Simulation::fixed_kinetic_energy() const {
-  double sum = 0;
-  for (const SweptBlock& block : model_->mesh.blocks) {
-    if (block.sweep == Sweep::revolved) continue;
-    const std::int64_t first_group = block.base / kLanes;
-    sum += sum_chunks(block.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
-      double part = 0;
-      for (std::int64_t g = first_group + first; g < first_group + last; ++g)
-        for (int l = 0; l < kLanes; ++l) {
-          const double m = model_->mass[static_cast<std::size_t>(g * kLanes + l)];
-          for (int c = 0; c < 3; ++c) {
-            const double v = v_[(g * 3 + c) * kLanes + l];
-            part += 0.5 * m * v * v;
-          }
-        }
-      return part;
-    });
-  }
-  return sum;
-}
-
 /// Where the wheel's frame was at the time of the velocities.
 BodyFrame Simulation::half_step_frame() const {
   BodyFrame frame = frame_;
@@ -364,7 +351,7 @@ BodyFrame Simulation::half_step_frame() const {
 }
 
 double Simulation::kinetic_energy() const {
-  double sum = fixed_kinetic_energy();
+  double sum = fixed_kinetic_energy(*model_, v_);
   if (model_->wheelset) sum += model_->wheelset->kinetic_energy(u_, v_, half_step_frame());
   if (model_->scene.vehicle) {
     const Vec3 v = model_->journal.velocity(u_, v_, frame_);
@@ -374,43 +361,9 @@ double Simulation::kinetic_energy() const {
   return sum;
 }
 
-/// The mean of both half steps' kinetic energies exceeds v- . M v+ / 2, which central difference conserves
-/// together with the strain energy, by dt^2 / 4 F . M^-1 F.
-double Simulation::half_step_excess() const {
-  const auto excess_of = [&](std::int64_t slot, int component) {
-    const double f = force_[dof(slot, component)];
-    return 0.25 * dt_ * dt_ * model_->inverse_mass[static_cast<std::size_t>(slot)] * f * f;
-  };
-  double sum = sum_chunks(model_->mesh.slots, [&](std::int64_t first, std::int64_t last) {
-    double part = 0;
-    for (std::int64_t slot = first; slot < last; ++slot)
-      for (int c = 0; c < 3; ++c) part += excess_of(slot, c);
-    return part;
-  });
-  const auto leave_out = [&](const std::vector<std::int64_t>& unknowns) {
-    for (const std::int64_t unknown : unknowns)
-      sum -= excess_of(unknown / (3 * kLanes) * kLanes + unknown % kLanes,
-                       static_cast<int>(unknown / kLanes % 3));
-  };
-  leave_out(model_->restrained);
-  if (model_->guide) leave_out(model_->guide->unknowns());
-  return sum;
-}
-
 double Simulation::gravity_potential() const {
   const double g = model_->scene.gravity;
-  double sum = 0;
-  for (const SweptBlock& block : model_->mesh.blocks) {
-    if (block.sweep == Sweep::revolved) continue;
-    const std::int64_t first_group = block.base / kLanes;
-    sum += sum_chunks(block.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
-      double part = 0;
-      for (std::int64_t k = first_group + first; k < first_group + last; ++k)
-        for (int l = 0; l < kLanes; ++l)
-          part += g * model_->mass[static_cast<std::size_t>(k * kLanes + l)] * u_[(k * 3 + 2) * kLanes + l];
-      return part;
-    });
-  }
+  double sum = fixed_gravity_potential(*model_, u_);
   if (model_->wheelset) {
     const double height = frame_.origin.z + model_->wheelset->mean_motion(u_, v_, frame_).displacement.z;
     sum += g * model_->wheelset->mass() * height;
@@ -435,7 +388,8 @@ Vec3 Simulation::vehicle_momentum() const {
 }
 
 void Simulation::watch(double excess) {
-  if (!energy_watch_.started()) energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy());
+  if (!energy_watch_.started())
+    energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy(*model_, v_.data()));
   if (!energy_watch_.sound(sample_.energy, excess)) stop();
 }
 
@@ -479,7 +433,7 @@ void Simulation::begin_sample() {
 
 void Simulation::end_sample() {
   EnergyLedger& energy = sample_.energy;
-  const double excess = half_step_excess();
+  const double excess = half_step_excess(*model_, held_, force_.data(), dt_);
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy()) - excess;
   energy.torque_work = torque_work_;
   energy.guide_work = guide_work_;

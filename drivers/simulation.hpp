@@ -128,8 +128,6 @@ class Simulation {
   StepLoads loads() const { return {dt_, model_->scene.gravity, frame_}; }
   BodyFrame half_step_frame() const;
   double kinetic_energy() const;
-  double fixed_kinetic_energy() const;
-  double half_step_excess() const;
   double gravity_potential() const;
   Vec3 vehicle_momentum() const;
   double creepage(std::size_t node, const MeanMotion& mean) const;

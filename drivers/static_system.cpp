@@ -7,29 +7,30 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "kernels/solver/chunks.hpp"
 #include "kernels/stable_step.hpp"
 
 namespace tread {
 
-StaticSystem::StaticSystem(const Model& model)
-    : model_(&model),
-      diagonal_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0),
-      full_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0) {
-  model.internal->diagonal(diagonal_.data());
-  if (model.ties) model.ties->gather_diagonal(diagonal_.data());
-  for (const std::int64_t unknown : model.restrained) diagonal_[static_cast<std::size_t>(unknown)] = 0;
-  if (model.guide)
-    for (const std::int64_t unknown : model.guide->unknowns())
-      diagonal_[static_cast<std::size_t>(unknown)] = 0;
+AlignedVector<double> StaticSystem::diagonal() const {
+  AlignedVector<double> diagonal(static_cast<std::size_t>(3 * model_->mesh.slots), 0.0);
+  model_->internal->diagonal(diagonal.data());
+  if (model_->ties) model_->ties->gather_diagonal(diagonal.data());
+  for (const std::int64_t unknown : model_->restrained) diagonal[static_cast<std::size_t>(unknown)] = 0;
+  if (model_->guide)
+    for (const std::int64_t unknown : model_->guide->unknowns())
+      diagonal[static_cast<std::size_t>(unknown)] = 0;
+  return diagonal;
 }
 
-void StaticSystem::apply(const double* x, double* y) const {
-  for_chunks(static_cast<std::int64_t>(full_.size()), [&](std::int64_t first, std::int64_t last) {
-    std::copy(x + first, x + last, full_.data() + first);
-  });
-  expand(full_.data());
-  model_->internal->apply(full_.data(), y);
+void StaticSystem::apply(double* x, double* y) const {
+  const double rise = model_->guide ? x[model_->guide->unknown()] : 0;
+  expand(x);
+  model_->internal->apply(x, y);
+  if (model_->ties) model_->ties->clear(x);
+  if (model_->guide) {
+    for (const std::int64_t unknown : model_->guide->unknowns()) x[unknown] = 0;
+    x[model_->guide->unknown()] = rise;
+  }
   reduce(y);
 }
 
@@ -73,13 +74,12 @@ double largest_beta(const Model& model) {
 /// The free unknowns' inverse masses, and the elastic operator with the fastenings' springs.
 class AssembledBodies {
  public:
-  explicit AssembledBodies(const Model& model)
-      : system_(model), inverse_mass_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0) {
+  explicit AssembledBodies(const Model& model) : system_(model), inverse_mass_(system_.diagonal()) {
     for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
-      for (int c = 0; c < 3; ++c)
-        if (system_.diagonal()[static_cast<std::size_t>(dof(slot, c))] > 0)
-          inverse_mass_[static_cast<std::size_t>(dof(slot, c))] =
-              model.inverse_mass[static_cast<std::size_t>(slot)];
+      for (int c = 0; c < 3; ++c) {
+        double& value = inverse_mass_[static_cast<std::size_t>(dof(slot, c))];
+        if (value > 0) value = model.inverse_mass[static_cast<std::size_t>(slot)];
+      }
     if (model.guide)
       inverse_mass_[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();
     if (!model.fastenings) return;
@@ -104,7 +104,7 @@ class AssembledBodies {
 
  private:
   double frequency_with(const std::vector<Spring>& springs) const {
-    const Operator elastic = [&](const double* x, double* y) {
+    const Operator elastic = [&](double* x, double* y) {
       system_.apply(x, y);
       add_springs(springs, x, y);
     };

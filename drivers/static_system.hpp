@@ -11,10 +11,11 @@ namespace tread {
 
 class StaticSystem {
  public:
-  explicit StaticSystem(const Model& model);
+  explicit StaticSystem(const Model& model) : model_(&model) {}
 
-  /// y = T^T K T x on the free unknowns, springs not included.
-  void apply(const double* x, double* y) const;
+  /// y = T^T K T x on the free unknowns, springs not included; x is zero elsewhere. Fills secondary nodes and
+  /// guided bore of x while it runs.
+  void apply(double* x, double* y) const;
 
   /// Zero at secondary nodes and restrained unknowns: forces of secondary nodes go to their primaries first.
   void reduce(double* force) const;
@@ -23,12 +24,10 @@ class StaticSystem {
   void expand(double* field) const;
 
   /// Diagonal of the operator, 0 where an unknown is not free and at a guided bore [N/m].
-  const AlignedVector<double>& diagonal() const { return diagonal_; }
+  AlignedVector<double> diagonal() const;
 
  private:
   const Model* model_;
-  AlignedVector<double> diagonal_;
-  mutable AlignedVector<double> full_;
 };
 
 /// What limits the time step, for the report.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/output_file.hpp"
@@ -50,16 +51,18 @@ void remove_parts(const fs::path& folder) {
   remove_all(paths);
 }
 
-void write_verified(const fs::path& path, const SealedContent& content, const CheckpointObserver& observer) {
+void write_verified(const fs::path& path, SealedContent content, const CheckpointObserver& observer) {
+  const auto digests = digests_of(content);
   const auto reached = [&](CheckpointStage stage) {
     if (observer) observer(stage);
   };
   replace_file(path, [&](const fs::path& part) {
     reached(CheckpointStage::begun);
-    write_sealed(part, kKind, kVersion, content);
+    write_sealed(part, kKind, kVersion, std::move(content));
     reached(CheckpointStage::sealed);
     try {
-      if (read_sealed(part, kKind, kVersion) != content) throw InputError("other values come back");
+      if (digests_of(read_sealed(part, kKind, kVersion)) != digests)
+        throw InputError("other values come back");
     } catch (const InputError& error) {
       throw ResourceError(fmt::format("{} does not read back as it was written: {}; look after the disk",
                                       part.string(), error.what()));
@@ -71,21 +74,21 @@ void write_verified(const fs::path& path, const SealedContent& content, const Ch
 
 }  // namespace
 
-void CheckpointFolder::write_order(const SealedContent& order) const {
+void CheckpointFolder::write_order(SealedContent order) const {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
-  write_verified(folder_ / "order.h5", order, {});
+  write_verified(folder_ / "order.h5", std::move(order), {});
 }
 
 SealedContent CheckpointFolder::read_order() const {
   return read_sealed(folder_ / "order.h5", kKind, kVersion);
 }
 
-void CheckpointFolder::write(std::int64_t steps, const SealedContent& content,
+void CheckpointFolder::write(std::int64_t steps, SealedContent content,
                              const CheckpointObserver& observer) const {
   remove_parts(folder_);
-  write_verified(folder_ / fmt::format("{}{:012}{}", kPrefix, steps, kSuffix), content, observer);
+  write_verified(folder_ / fmt::format("{}{:012}{}", kPrefix, steps, kSuffix), std::move(content), observer);
   std::vector<fs::path> old = states();
   std::size_t kept = 0;
   // States beyond this one were no good, or the run would have gone on from them.

@@ -25,12 +25,12 @@ class CheckpointFolder {
   explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// What a run needs before it has a state. Throws ResourceError.
-  void write_order(const SealedContent& order) const;
+  void write_order(SealedContent order) const;
   SealedContent read_order() const;
 
   /// Writes the state after so many steps beside the others, forces it to the disk, reads it back, gives it
   /// its name and removes all others but the newest. Throws ResourceError; the others then stay as they were.
-  void write(std::int64_t steps, const SealedContent& content, const CheckpointObserver& observer = {}) const;
+  void write(std::int64_t steps, SealedContent content, const CheckpointObserver& observer = {}) const;
 
   struct Found {
     std::filesystem::path path;

@@ -146,14 +146,35 @@ SealedValues read_entry(const Hdf5File& file, const std::string& name) {
   return std::string(bytes.begin(), bytes.end());
 }
 
+/// The HDF5 part of the file. HDF5 never sees the disk: of what that refuses it recovers badly.
+std::string image_of(SealedContent content) {
+  Hdf5File file = Hdf5File::create_in_memory(size_of(content));
+  for (auto entry = content.begin(); entry != content.end(); entry = content.erase(entry))
+    std::visit(WriteEntry{file, entry->first}, entry->second);
+  return file.image();
+}
+
 }  // namespace
 
+std::map<std::string, std::uint64_t> digests_of(const SealedContent& content) {
+  std::map<std::string, std::uint64_t> digests;
+  for (const auto& [name, values] : content) {
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(values.index()));
+    std::visit(
+        [&](const auto& v) {
+          hash.add(static_cast<std::uint64_t>(v.size()));
+          hash.add(std::as_bytes(std::span(v)));
+        },
+        values);
+    digests[name] = hash.value();
+  }
+  return digests;
+}
+
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
-                  const SealedContent& content) {
-  // HDF5 never sees the disk: of what that refuses it recovers badly.
-  Hdf5File file = Hdf5File::create_in_memory(size_of(content));
-  for (const auto& [name, values] : content) std::visit(WriteEntry{file, name}, values);
-  const std::string image = file.image();
+                  SealedContent content) {
+  const std::string image = image_of(std::move(content));
   Hash hash;
   hash.add(std::as_bytes(std::span(image)));
   GrowingFile out(path);

@@ -18,13 +18,17 @@ using SealedContent = std::map<std::string, SealedValues>;
 
 /// Writes an HDF5 file: a dataset per entry, texts as bytes. The 512 bytes before its HDF5 part are a text
 /// that states `kind`, `version`, the length of the file and a checksum of the rest, so that damage is seen
-/// before HDF5 reads anything. Forces the file to the disk. Throws ResourceError.
+/// before HDF5 reads anything. Forces the file to the disk. Lets go of the content as it is written: memory
+/// holds it twice at most. Throws ResourceError.
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
-                  const SealedContent& content);
+                  SealedContent content);
 
 /// Reads such a file back. InputError with the reason where it is absent, no regular file (a symbolic link is
 /// none), truncated, damaged, or of another kind or version.
 SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version);
+
+/// A hash of each entry.
+std::map<std::string, std::uint64_t> digests_of(const SealedContent& content);
 
 /// The entry of this name and type. InputError where there is none.
 template <class T>

@@ -317,8 +317,7 @@ void Contact::visit_column(const ContactState& state, int station, double time) 
       if (gap >= margin_ && !(dynamic && history.pressure > 0)) continue;
       set_bases(point);
       if (dynamic) {
-        point.pressure = history.pressure;
-        point.shear = point.shear_before = history.shear;
+        point.shear_before = history.shear;
         point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
       } else {
         point.pressure = -options_.penalty * gap;

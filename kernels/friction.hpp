@@ -31,7 +31,7 @@ struct CoulombFriction {
     Traction after{scale * (before.along + tangential_penalty * slip.along),
                    scale * (before.across + tangential_penalty * slip.across)};
     const double limit = friction_coefficient * pressure;
-    const double size = std::hypot(after.along, after.across);
+    const double size = std::sqrt(after.along * after.along + after.across * after.across);
     if (size > limit) {
       const double share = limit / size;
       after.along *= share;

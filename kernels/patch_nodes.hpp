@@ -54,7 +54,9 @@ struct NodalContact {
   double touching = 0;          ///< share of the node's area [-]
   double slipping = 0;          ///< share of the node's area [-]
 
-  double shear_size() const { return std::hypot(shear.along, shear.across); }  ///< [Pa]
+  double shear_size() const {
+    return std::sqrt(shear.along * shear.along + shear.across * shear.across);
+  }  ///< [Pa]
 };
 
 enum class PatchState : std::uint8_t { out, stick, slip };

@@ -14,6 +14,14 @@ std::size_t index(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Sets the traction that a point would have if the surfaces went on as in the step before.
+void guess(ContactPoint& point, double penalty, const CoulombFriction& friction, double dt) {
+  const Vec3 moved = dt * point.velocity_before;
+  point.pressure = std::max(0.0, penalty * (0.5 * dot(moved, point.normal) - point.gap));
+  const Traction slip{dot(moved, point.along), dot(moved, point.across)};
+  point.shear = friction.advance(point.shear_before, slip, point.pressure, 0).traction;
+}
+
 }  // namespace
 
 void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
@@ -72,12 +80,13 @@ void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& 
 Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link) const {
   Padded relative = link.frame_velocity;
   for (std::size_t station = 0; station < 4; ++station) {
-    Padded local;
+    Padded on_rail, local;
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
       local.add(link.wheel_weight[k], velocity_[index(link.wheel[k])]);
-      relative.add(link.rail_weight[k], velocity_[index(link.rail[k])]);
+      on_rail.add(link.rail_weight[k], velocity_[index(link.rail[k])]);
     }
-    relative.add(1, Padded(globalise(point.wheel_cosine[station], point.wheel_sine[station], local)));
+    on_rail.add(1, Padded(globalise(point.wheel_cosine[station], point.wheel_sine[station], local)));
+    relative.add(1, on_rail);
   }
   return relative;
 }
@@ -131,8 +140,10 @@ void PatchSolver::slip_freely(std::vector<ContactPoint>& points) const {
 void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
                         const BodyFrame& wheel, const NodeMotion& motion, double dt) {
   link(points, wheel, motion, dt);
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    guess(points[i], penalty, friction, dt);
     push(points[i], links_[i], dt * points[i].area * points[i].traction());
+  }
 
   // Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
   const Law law{penalty, friction, dt};

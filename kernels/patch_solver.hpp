@@ -25,8 +25,8 @@ class PatchSolver {
   /// Makes room for fields of `slots` nodes, of which `points` points carry `nodes` at once.
   void reserve(std::int64_t slots, std::size_t points, std::size_t nodes);
 
-  /// Sets pressure, shear, closing and slip speed of the points for a step of length dt [s], from pressure
-  /// and shear as first guess, and adds the impulses to the motion. `penalty` is the normal stiffness [Pa/m].
+  /// Sets pressure, shear, closing and slip speed of the points for a step of length dt [s] from their gap,
+  /// motion and shear before it, and adds the impulses to the motion. `penalty`: normal stiffness [Pa/m].
   void solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
              const BodyFrame& wheel, const NodeMotion& motion, double dt);
 

@@ -7,43 +7,55 @@
 
 namespace tread {
 
+namespace {
+
+/// A vector without structure and of unit mass; any one that is not orthogonal to the wanted one will do.
+void fill_without_structure(const AlignedVector<double>& inverse_mass, AlignedVector<double>& p) {
+  const auto n = static_cast<std::int64_t>(p.size());
+  const double size = std::sqrt(sum_chunks(n, [&](std::int64_t first, std::int64_t last) {
+    double sum = 0;
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+      const auto hash = (static_cast<std::uint64_t>(i) + 1) * 0x9E3779B97F4A7C15ULL;
+      const double q = inverse_mass[i] > 0 ? static_cast<double>(hash >> 11) / 9007199254740992.0 - 0.5 : 0.0;
+      p[i] = std::sqrt(inverse_mass[i]) * q;
+      sum += q * q;
+    }
+    return sum;
+  }));
+  if (size == 0) return;
+  for (double& value : p) value /= size;
+}
+
+}  // namespace
+
 HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double>& inverse_mass,
                                    int max_iterations) {
   const auto n = static_cast<std::int64_t>(inverse_mass.size());
-  AlignedVector<double> root(inverse_mass.size());
-  AlignedVector<double> q(inverse_mass.size(), 0.0);
+  // Of Lanczos' vectors q on M^-1/2 A M^-1/2 the p = M^-1/2 q are kept, which A takes as they are.
+  AlignedVector<double> p(inverse_mass.size());
   AlignedVector<double> previous(inverse_mass.size(), 0.0);
-  AlignedVector<double> x(inverse_mass.size());
   AlignedVector<double> y(inverse_mass.size());
-  for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-      root[i] = std::sqrt(inverse_mass[i]);
-      // A start without structure; any one that is not orthogonal to the wanted vector will do.
-      const auto hash = (static_cast<std::uint64_t>(i) + 1) * 0x9E3779B97F4A7C15ULL;
-      q[i] = root[i] > 0 ? static_cast<double>(hash >> 11) / 9007199254740992.0 - 0.5 : 0.0;
-    }
-  });
-  const double start = std::sqrt(dot(n, q.data(), q.data()));
-  HighestFrequency best;
-  if (start == 0) return best;
-  for (double& value : q) value /= start;
+  fill_without_structure(inverse_mass, p);
 
+  HighestFrequency best;
   Eigen::VectorXd diagonal(max_iterations);
   Eigen::VectorXd beside(max_iterations);
   double beta = 0;
   for (int k = 0; k < max_iterations; ++k) {
-    for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        x[i] = root[i] * q[i];
-    });
-    a(x.data(), y.data());
-    for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        y[i] = root[i] * y[i] - beta * previous[i];
-    });
-    diagonal[k] = dot(n, q.data(), y.data());
-    add_scaled(n, -diagonal[k], q.data(), y.data());
-    beta = std::sqrt(dot(n, y.data(), y.data()));
+    a(p.data(), y.data());
+    diagonal[k] = dot(n, p.data(), y.data());
+    if (diagonal[k] == 0) return best;
+    const double alpha = diagonal[k];
+    const double before = beta;
+    // The next p, not yet of unit mass, takes the place of the one before.
+    beta = std::sqrt(sum_chunks(n, [&](std::int64_t first, std::int64_t last) {
+      double sum = 0;
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+        previous[i] = inverse_mass[i] * y[i] - alpha * p[i] - before * previous[i];
+        if (inverse_mass[i] > 0) sum += previous[i] * previous[i] / inverse_mass[i];
+      }
+      return sum;
+    }));
     beside[k] = beta;
 
     const bool last_one = k + 1 == max_iterations || beta < 1e-14 * diagonal[0];
@@ -55,11 +67,9 @@ HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double
       best = {std::sqrt(theta + residual), residual / theta, k + 1};
       if (best.residual < 1e-3 || last_one) return best;
     }
+    p.swap(previous);
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-        previous[i] = q[i];
-        q[i] = y[i] / beta;
-      }
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) p[i] /= beta;
     });
   }
   return best;

@@ -313,9 +313,10 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
 std::vector<TiedSlot> Ties::tied_slots() const {
   std::vector<TiedSlot> slots;
   for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-    if (slots.empty() || slots.back().secondary != secondary) slots.push_back({secondary, {}});
-    slots.back().primaries.push_back(primary);
+    slots.push_back({secondary, primary});
   });
+  std::stable_sort(slots.begin(), slots.end(),
+                   [](const TiedSlot& a, const TiedSlot& b) { return a.secondary < b.secondary; });
   return slots;
 }
 
@@ -337,8 +338,14 @@ void Ties::hand_over(NodeField force) const {
 
 void Ties::gather(double* force) const {
   hand_over(force);
-  for (const std::int64_t slot : secondary_)
-    for (int c = 0; c < 3; ++c) force[dof(slot, c)] = 0;
+  clear(force);
+}
+
+void Ties::clear(double* field) const {
+  parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      for (int c = 0; c < 3; ++c) field[dof(secondary_[index(i)], c)] = 0;
+  });
 }
 
 void Ties::gather_diagonal(double* diagonal) const {

@@ -11,7 +11,7 @@
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tie_sum.hpp"
-#include "kernels/solver/coarse_solver.hpp"
+#include "kernels/solver/linear_operator.hpp"
 
 namespace tread {
 
@@ -57,7 +57,7 @@ class Ties {
   /// Bytes of the links.
   std::int64_t bytes() const;
 
-  /// Who follows whom, for the solver's coarse level.
+  /// Who follows whom, by secondary node, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
   /// Secondary values from the primary ones; vector fields of 3 * slots values.
@@ -67,6 +67,8 @@ class Ties {
   void hand_over(NodeField force) const;
   /// hand_over, and the secondary values become zero.
   void gather(double* force) const;
+  /// The secondary values become zero.
+  void clear(double* field) const;
 
   /// Diagonal of T^T D T for a diagonal D given as a vector field (its turn between the bases left out).
   void gather_diagonal(double* diagonal) const;

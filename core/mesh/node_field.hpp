@@ -2,6 +2,7 @@
 // A vector field over the nodes of a mesh, stored in double or in single precision, for those that read or
 // change few of its values: they compute in double whatever the field is stored in.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -9,6 +10,9 @@
 #include "core/vec.hpp"
 
 namespace tread {
+
+/// The components of kLanes nodes, [component][lane].
+using NodeLanes = std::array<std::array<double, kLanes>, 3>;
 
 /// A view to read; values in the order of dof(). False: there is no field.
 class ConstNodeField {
@@ -26,6 +30,20 @@ class ConstNodeField {
     const std::int64_t first = dof(slot, 0);
     if (single_ != nullptr) return {single_[first], single_[first + kLanes], single_[first + 2 * kLanes]};
     return {double_[first], double_[first + kLanes], double_[first + 2 * kLanes]};
+  }
+
+  /// At the nodes of the slots [slot, slot + kLanes), slot a multiple of kLanes.
+  NodeLanes lanes(std::int64_t slot) const {
+    NodeLanes out;
+    const auto read = [&](const auto* from) {
+      for (std::array<double, kLanes>& component : out)
+        for (double& value : component) value = *from++;
+    };
+    if (single_ != nullptr)
+      read(single_ + dof(slot, 0));
+    else
+      read(double_ + dof(slot, 0));
+    return out;
   }
 
  private:

@@ -97,8 +97,8 @@ std::string NaturalMode::name() const {
 
 std::vector<NaturalMode> natural_modes(const Model& model, int count, const ProgressText& progress) {
   const StaticSystem system(model);
-  AlignedVector<double> mass(system.diagonal().size(), 0.0);
   AlignedVector<double> diagonal = system.diagonal();
+  AlignedVector<double> mass(diagonal.size(), 0.0);
   for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
     for (int c = 0; c < 3; ++c) {
       const auto unknown = static_cast<std::size_t>(dof(slot, c));
@@ -106,8 +106,8 @@ std::vector<NaturalMode> natural_modes(const Model& model, int count, const Prog
       mass[unknown] = model.mass[static_cast<std::size_t>(slot)];
       diagonal[unknown] += kShift * kShift * mass[unknown];
     }
-  const Operator elastic = [&](const double* x, double* y) { system.apply(x, y); };
-  const Operator shifted = [&](const double* x, double* y) {
+  const Operator elastic = [&](double* x, double* y) { system.apply(x, y); };
+  const Operator shifted = [&](double* x, double* y) {
     system.apply(x, y);
     for (std::size_t i = 0; i < mass.size(); ++i) y[i] += kShift * kShift * mass[i] * x[i];
   };

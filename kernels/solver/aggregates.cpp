@@ -121,83 +121,111 @@ std::vector<int> station_runs(const SweptBlock& block, double radius, const Aggr
 }  // namespace
 
 Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options)
-    : of_slot_(static_cast<std::size_t>(mesh.slots), -1) {
-  for (const SweptBlock& block : mesh.blocks)
-    for (const auto& part : section_parts(block.section, options)) {
-      double radius = 1;
-      if (block.sweep == Sweep::revolved) {
-        radius = 0;
-        for (const int node : part) radius += block.section.q[static_cast<std::size_t>(node)];
-        radius /= static_cast<double>(part.size());
-      }
-      int first = 0;
-      for (const int last : station_runs(block, radius, options)) {
-        add_patch(block, part, first, last, free);
-        first = last;
-      }
+    : mesh_(&mesh), free_(static_cast<std::size_t>(mesh.slots), 0), part_of_node_(mesh.blocks.size()) {
+  for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
+    for (int c = 0; c < 3; ++c)
+      if (free[static_cast<std::size_t>(dof(slot, c))] != 0)
+        free_[static_cast<std::size_t>(slot)] |= static_cast<std::uint8_t>(1 << c);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const SweptBlock& block = mesh.blocks[b];
+    part_of_node_[b].resize(block.section.p.size());
+    for (auto& nodes : section_parts(block.section, options)) {
+      for (const int node : nodes)
+        part_of_node_[b][static_cast<std::size_t>(node)] = static_cast<int>(parts_.size());
+      add_part(block, std::move(nodes), options);
+    }
+  }
+  sums_.resize(slices_.size());
+}
+
+void Aggregates::add_part(const SweptBlock& block, std::vector<int> nodes, const AggregateOptions& options) {
+  double radius = 1;
+  if (block.sweep == Sweep::revolved) {
+    radius = 0;
+    for (const int node : nodes) radius += block.section.q[static_cast<std::size_t>(node)];
+    radius /= static_cast<double>(nodes.size());
+  }
+  const int part = static_cast<int>(parts_.size());
+  parts_.push_back({&block, std::move(nodes), slices_.size()});
+  for (int station = 0; station < block.station_count(); ++station)
+    slices_.push_back({StationPlace(block, station)});
+  for (int tile = 0; tile < static_cast<int>(block.tiles.size()); ++tile) items_.push_back({part, tile});
+  int first = 0;
+  for (const int last : station_runs(block, radius, options)) {
+    add_patch(part, first, last);
+    first = last;
+  }
+}
+
+/// visit(place of the station, section node, free components)
+template <class Visit>
+void Aggregates::for_each_node(const Patch& patch, const Visit& visit) const {
+  const Part& part = parts_[static_cast<std::size_t>(patch.part)];
+  for (int station = patch.first_station; station < patch.last_station; ++station)
+    for (const int node : part.nodes) {
+      const std::int64_t slot = part.block->base + part.block->slot(node, station);
+      const int bits = free_[static_cast<std::size_t>(slot)];
+      if (bits != 0) visit(slice(part, station).place, node, bits);
     }
 }
 
-void Aggregates::add_patch(const SweptBlock& block, const std::vector<int>& part, int first_station,
-                           int last_station, const AlignedVector<double>& free) {
+void Aggregates::add_patch(int part, int first_station, int last_station) {
   Patch patch;
-  patch.first_node = static_cast<std::int64_t>(nodes_.size());
-  Vec3 centre;
-  for (int station = first_station; station < last_station; ++station) {
-    const bool revolved = block.sweep == Sweep::revolved;
-    const double angle = revolved ? block.stations[static_cast<std::size_t>(station)] : 0;
-    for (const int section_node : part) {
-      const std::int64_t slot = block.base + block.slot(section_node, station);
-      int bits = 0;
-      for (int c = 0; c < 3; ++c)
-        if (free[static_cast<std::size_t>(dof(slot, c))] != 0) bits |= 1 << c;
-      if (bits == 0) continue;
-      const Vec3 at = position(block, section_node, station);
-      centre += at;
-      nodes_.push_back({{at.x, at.y, at.z},
-                        std::cos(angle),
-                        std::sin(angle),
-                        static_cast<std::int32_t>(slot),
-                        static_cast<std::int16_t>(bits),
-                        static_cast<std::int16_t>(revolved)});
-      of_slot_[static_cast<std::size_t>(slot)] = count();
-    }
-  }
-  patch.last_node = static_cast<std::int64_t>(nodes_.size());
-  if (patch.first_node == patch.last_node) return;
-  centre = (1.0 / static_cast<double>(patch.last_node - patch.first_node)) * centre;
-  for (std::int64_t i = patch.first_node; i < patch.last_node; ++i)
-    for (int c = 0; c < 3; ++c) nodes_[static_cast<std::size_t>(i)].offset[c] -= centre[c];
+  patch.part = part;
+  patch.first_station = first_station;
+  patch.last_station = last_station;
+  const Section& section = parts_[static_cast<std::size_t>(part)].block->section;
+  int nodes = 0;
+  for_each_node(patch, [&](const StationPlace& place, int node, int /*free*/) {
+    patch.centre +=
+        place.position(section.p[static_cast<std::size_t>(node)], section.q[static_cast<std::size_t>(node)]);
+    ++nodes;
+  });
+  if (nodes == 0) return;
+  patch.centre = (1.0 / nodes) * patch.centre;
   orthonormalise(patch);
+  patch.first_mode = modes_;
+  modes_ += patch.mode_count;
+  for (int station = first_station; station < last_station; ++station)
+    slices_[parts_[static_cast<std::size_t>(part)].first_slice + static_cast<std::size_t>(station)].patch =
+        count();
   patches_.push_back(patch);
 }
 
-/// Displacement of each local component under the six rigid motions; zero rows where it is not free.
-std::array<Aggregates::Rigid, 3> Aggregates::rigid_rows(const Node& node) {
-  const double c = node.cosine, s = node.sine;
-  const Vec3 offset{node.offset[0], node.offset[1], node.offset[2]};
-  const std::array<Vec3, 3> axes = node.revolved ? std::array<Vec3, 3>{{{-c, 0, s}, {0, 1, 0}, {-s, 0, -c}}}
-                                                 : std::array<Vec3, 3>{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  std::array<Rigid, 3> rows = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!(node.free >> i & 1)) continue;
-    const Vec3 turn = cross(offset, axes[i]);  // axis . (omega x offset) = omega . (offset x axis)
-    rows[i] = {axes[i].x, axes[i].y, axes[i].z, turn.x, turn.y, turn.z};
+namespace {
+
+constexpr std::array<RigidMotion, 6> kUnitMotions = {
+    {{{1, 0, 0}, {}}, {{0, 1, 0}, {}}, {{0, 0, 1}, {}}, {{}, {1, 0, 0}}, {{}, {0, 1, 0}}, {{}, {0, 0, 1}}}};
+
+/// Displacement of each local component of a node under the six unit motions about `centre`.
+std::array<std::array<double, 6>, 3> rigid_rows(const StationPlace& place, double p, double q,
+                                                const Vec3& centre) {
+  std::array<std::array<double, 6>, 3> rows;
+  for (std::size_t m = 0; m < 6; ++m) {
+    const StationValues values = place.displacement(kUnitMotions[m], centre);
+    const Vec3 at = values.constant + p * values.along_p + q * values.along_q;
+    for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(c)][m] = at[c];
   }
   return rows;
 }
 
-void Aggregates::orthonormalise(Patch& patch) {
+}  // namespace
+
+void Aggregates::orthonormalise(Patch& patch) const {
+  const Section& section = parts_[static_cast<std::size_t>(patch.part)].block->section;
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
   double extent = 0;
-  for (std::int64_t i = patch.first_node; i < patch.last_node; ++i) {
-    const Node& node = nodes_[static_cast<std::size_t>(i)];
-    for (const double value : node.offset) extent = std::max(extent, std::abs(value));
-    for (const Rigid& row : rigid_rows(node)) {
-      const Eigen::Map<const Eigen::Matrix<double, 6, 1>> v(row.data());
-      gram += v * v.transpose();
+  for_each_node(patch, [&](const StationPlace& place, int node, int free) {
+    const double p = section.p[static_cast<std::size_t>(node)];
+    const double q = section.q[static_cast<std::size_t>(node)];
+    extent = std::max(extent, norm(place.position(p, q) - patch.centre));
+    const auto rows = rigid_rows(place, p, q, patch.centre);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (!(free >> c & 1)) continue;
+      const Eigen::Map<const Eigen::Matrix<double, 6, 1>> row(rows[c].data());
+      gram += row * row.transpose();
     }
-  }
+  });
   // Rotations in units of the aggregate's extent, so that one threshold judges all motions.
   const double unit = extent > 0 ? 1 / extent : 1;
   Eigen::Matrix<double, 6, 1> scale;
@@ -205,75 +233,109 @@ void Aggregates::orthonormalise(Patch& patch) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scale.asDiagonal() * gram *
                                                                          scale.asDiagonal());
   constexpr double kSmallest = 1e-7;  // a motion below it is one of the others up to rounding
-  patch.first_mode = modes_;
   for (int k = 5; k >= 0; --k) {
     const double value = eigen.eigenvalues()[k];
     if (value <= kSmallest * eigen.eigenvalues()[5]) break;
-    auto& row = patch.basis[static_cast<std::size_t>(patch.mode_count++)];
-    for (int i = 0; i < 6; ++i)
-      row[static_cast<std::size_t>(i)] = scale[i] * eigen.eigenvectors()(i, k) / std::sqrt(value);
+    RigidMotion& mode = patch.basis[static_cast<std::size_t>(patch.mode_count++)];
+    for (std::size_t i = 0; i < 6; ++i)
+      mode += (scale[static_cast<Eigen::Index>(i)] * eigen.eigenvectors()(static_cast<Eigen::Index>(i), k) /
+               std::sqrt(value)) *
+              kUnitMotions[i];
   }
-  modes_ += patch.mode_count;
+}
+
+int Aggregates::of_slot(std::int64_t slot) const {
+  if (free_[static_cast<std::size_t>(slot)] == 0) return -1;
+  std::size_t b = 0;
+  while (slot >= mesh_->blocks[b].base + mesh_->blocks[b].slots()) ++b;
+  const SweptBlock& block = mesh_->blocks[b];
+  const std::int64_t group = (slot - block.base) / kLanes;
+  const auto tile = static_cast<std::size_t>(group / block.section.nodes());
+  const auto node = static_cast<std::size_t>(group % block.section.nodes());
+  const int station = block.tiles[tile].first_station + static_cast<int>(slot % kLanes);
+  return slice(parts_[static_cast<std::size_t>(part_of_node_[b][node])], station).patch;
 }
 
 std::array<double, 6> Aggregates::mode_row(std::int64_t unknown) const {
   const std::int64_t slot = unknown / (3 * kLanes) * kLanes + unknown % kLanes;
-  const auto component = static_cast<std::size_t>(unknown / kLanes % 3);
-  const Patch& patch = patches_[static_cast<std::size_t>(of_slot(slot))];
-  const auto node = std::find_if(nodes_.begin() + patch.first_node, nodes_.begin() + patch.last_node,
-                                 [&](const Node& n) { return n.slot == slot; });
-  const Rigid row = rigid_rows(*node)[component];
+  const auto component = static_cast<int>(unknown / kLanes % 3);
   std::array<double, 6> values = {};
-  for (std::size_t k = 0; k < 6; ++k)
-    for (std::size_t i = 0; i < 6; ++i) values[k] += patch.basis[k][i] * row[i];
+  if (!(free_[static_cast<std::size_t>(slot)] >> component & 1)) return values;
+  const Patch& patch = patches_[static_cast<std::size_t>(of_slot(slot))];
+  const Part& part = parts_[static_cast<std::size_t>(patch.part)];
+  const std::int64_t group = (slot - part.block->base) / kLanes;
+  const auto node = static_cast<std::size_t>(group % part.block->section.nodes());
+  const int station =
+      part.block->tiles[static_cast<std::size_t>(group / part.block->section.nodes())].first_station +
+      static_cast<int>(slot % kLanes);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const StationValues mode = slice(part, station).place.displacement(patch.basis[k], patch.centre);
+    values[k] = (mode.constant + part.block->section.p[node] * mode.along_p +
+                 part.block->section.q[node] * mode.along_q)[component];
+  }
   return values;
 }
 
 void Aggregates::restrict_to_modes(const double* fine, double* coarse) const {
+  parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const Part& part = parts_[static_cast<std::size_t>(items_[static_cast<std::size_t>(i)].part)];
+      const SweptBlock& block = *part.block;
+      const int t = items_[static_cast<std::size_t>(i)].tile;
+      const std::int64_t first_slot = block.base + std::int64_t{t} * block.section.nodes() * kLanes;
+      TileValues sums;
+      for (const int node : part.nodes) {
+        const std::int64_t slot = first_slot + std::int64_t{kLanes} * node;
+        sums.add(block.section.p[static_cast<std::size_t>(node)],
+                 block.section.q[static_cast<std::size_t>(node)], fine + dof(slot, 0), where_free(slot));
+      }
+      const Tile& tile = block.tiles[static_cast<std::size_t>(t)];
+      for (int lane = 0; lane < tile.stations; ++lane)
+        sums_[part.first_slice + static_cast<std::size_t>(tile.first_station + lane)] = sums.at(lane);
+    }
+  });
   parallel_ranges(count(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t a = first; a < last; ++a) {
-      const Patch& patch = patches_[static_cast<std::size_t>(a)];
-      Rigid sum = {};
-      for (std::int64_t i = patch.first_node; i < patch.last_node; ++i) {
-        const Node& node = nodes_[static_cast<std::size_t>(i)];
-        double local[3];
-        for (int c = 0; c < 3; ++c) local[c] = node.free >> c & 1 ? fine[dof(node.slot, c)] : 0;
-        const double f[3] = {node.revolved ? -node.cosine * local[0] - node.sine * local[2] : local[0],
-                             local[1],
-                             node.revolved ? node.sine * local[0] - node.cosine * local[2] : local[2]};
-        const double* x = node.offset;
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += f[c];
-        sum[3] += x[1] * f[2] - x[2] * f[1];
-        sum[4] += x[2] * f[0] - x[0] * f[2];
-        sum[5] += x[0] * f[1] - x[1] * f[0];
-      }
-      for (int k = 0; k < patch.mode_count; ++k) {
-        const Rigid& row = patch.basis[static_cast<std::size_t>(k)];
-        double value = 0;
-        for (std::size_t i = 0; i < 6; ++i) value += row[i] * sum[i];
-        coarse[patch.first_mode + k] = value;
-      }
+    for (auto a = static_cast<std::size_t>(first); a < static_cast<std::size_t>(last); ++a) {
+      const Patch& patch = patches_[a];
+      const Part& part = parts_[static_cast<std::size_t>(patch.part)];
+      RigidMotion sum;
+      for (int station = patch.first_station; station < patch.last_station; ++station)
+        sum +=
+            slice(part, station)
+                .place.resultant(sums_[part.first_slice + static_cast<std::size_t>(station)], patch.centre);
+      for (int k = 0; k < patch.mode_count; ++k)
+        coarse[patch.first_mode + k] = dot(patch.basis[static_cast<std::size_t>(k)], sum);
     }
   });
 }
 
+RigidMotion Aggregates::motion(const Patch& patch, const double* coarse) const {
+  RigidMotion sum;
+  for (int k = 0; k < patch.mode_count; ++k)
+    sum += coarse[patch.first_mode + k] * patch.basis[static_cast<std::size_t>(k)];
+  return sum;
+}
+
 void Aggregates::prolongate_add(const double* coarse, double* fine) const {
-  parallel_ranges(count(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t a = first; a < last; ++a) {
-      const Patch& patch = patches_[static_cast<std::size_t>(a)];
-      Rigid m = {};
-      for (int k = 0; k < patch.mode_count; ++k)
-        for (std::size_t i = 0; i < 6; ++i)
-          m[i] += coarse[patch.first_mode + k] * patch.basis[static_cast<std::size_t>(k)][i];
-      for (std::int64_t i = patch.first_node; i < patch.last_node; ++i) {
-        const Node& node = nodes_[static_cast<std::size_t>(i)];
-        const double* x = node.offset;
-        const double u[3] = {m[0] + m[4] * x[2] - m[5] * x[1], m[1] + m[5] * x[0] - m[3] * x[2],
-                             m[2] + m[3] * x[1] - m[4] * x[0]};
-        const double local[3] = {node.revolved ? -node.cosine * u[0] + node.sine * u[2] : u[0], u[1],
-                                 node.revolved ? -node.sine * u[0] - node.cosine * u[2] : u[2]};
-        for (int c = 0; c < 3; ++c)
-          if (node.free >> c & 1) fine[dof(node.slot, c)] += local[c];
+  parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const Part& part = parts_[static_cast<std::size_t>(items_[static_cast<std::size_t>(i)].part)];
+      const SweptBlock& block = *part.block;
+      const int t = items_[static_cast<std::size_t>(i)].tile;
+      const Tile& tile = block.tiles[static_cast<std::size_t>(t)];
+      TileValues motions;
+      for (int lane = 0; lane < tile.stations; ++lane) {
+        const Slice& at = slice(part, tile.first_station + lane);
+        if (at.patch < 0) continue;
+        const Patch& patch = patches_[static_cast<std::size_t>(at.patch)];
+        motions.set(lane, at.place.displacement(motion(patch, coarse), patch.centre));
+      }
+      const std::int64_t first_slot = block.base + std::int64_t{t} * block.section.nodes() * kLanes;
+      for (const int node : part.nodes) {
+        const std::int64_t slot = first_slot + std::int64_t{kLanes} * node;
+        motions.add_to(block.section.p[static_cast<std::size_t>(node)],
+                       block.section.q[static_cast<std::size_t>(node)], fine + dof(slot, 0),
+                       where_free(slot));
       }
     }
   });

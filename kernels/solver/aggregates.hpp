@@ -7,22 +7,26 @@
 
 #include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/solver/rigid_motion.hpp"
 
 namespace tread {
 
 struct AggregateOptions {
-  double size = 0.04;    ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 8;  ///< most nodes along one direction, roughly
-  int least_across = 3;  ///< nodes along one direction that `size` does not part
+  double size = 0.05;     ///< largest extent of an aggregate, roughly [m]
+  int nodes_across = 16;  ///< most nodes along one direction, roughly
+  int least_across = 3;   ///< nodes along one direction that `size` does not part
 };
 
 /// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations.
 /// An aggregate has up to six modes: its rigid motions on the free unknowns, orthonormal in the plain
 /// product; motions that these unknowns cannot tell apart (a line of nodes, vertical motion only) are left
-/// out. Together the modes are the columns of Z, numbered aggregate after aggregate.
+/// out. Together the modes are the columns of Z, numbered aggregate after aggregate. Shifts of single nodes
+/// are left out: they are small beside an aggregate. One object serves one caller at a time: restricting uses
+/// a buffer of its own.
 class Aggregates {
  public:
-  /// `free` has 3 * mesh.slots values: not 0 where the unknown is free, 0 elsewhere and in unused lanes.
+  /// Keeps a reference to the mesh. `free` has 3 * mesh.slots values: not 0 where the unknown is free, 0
+  /// elsewhere and in unused lanes.
   Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options);
 
   int count() const { return static_cast<int>(patches_.size()); }
@@ -31,45 +35,67 @@ class Aggregates {
   int mode_count(int aggregate) const { return patches_[static_cast<std::size_t>(aggregate)].mode_count; }
 
   /// Aggregate of a node slot; -1 if the node has no free unknown.
-  int of_slot(std::int64_t slot) const { return of_slot_[static_cast<std::size_t>(slot)]; }
+  int of_slot(std::int64_t slot) const;
 
   /// Row of Z at an unknown of a free node: its values on the modes of the node's aggregate.
   std::array<double, 6> mode_row(std::int64_t unknown) const;
 
-  /// coarse = Z^T fine; `coarse` has modes() values, `fine` 3 * mesh.slots.
+  /// coarse = Z^T fine; `coarse` has modes() values, `fine` 3 * mesh.slots, read where it is free.
   void restrict_to_modes(const double* fine, double* coarse) const;
 
-  /// fine += Z coarse
+  /// fine += Z coarse, where it is free
   void prolongate_add(const double* coarse, double* fine) const;
 
  private:
-  struct Node {
-    double offset[3];  ///< from the aggregate's centre, Cartesian [m]
-    double cosine;     ///< of the station's angle; 1 with sine 0 stands for an extruded block's basis
-    double sine;
-    std::int32_t slot;
-    std::int16_t free;      ///< bit c: component c is free
-    std::int16_t revolved;  ///< local basis (t, y, r) instead of (x, y, z)
+  /// A part of a block's section, along all stations of the block.
+  struct Part {
+    const SweptBlock* block;
+    std::vector<int> nodes;
+    std::size_t first_slice;
+  };
+  /// A part at a station.
+  struct Slice {
+    StationPlace place;
+    int patch = -1;
   };
   struct Patch {
-    std::int64_t first_node = 0;
-    std::int64_t last_node = 0;
+    int part = 0;
+    int first_station = 0;
+    int last_station = 0;
     int first_mode = 0;
     int mode_count = 0;
-    /// Row k: the six rigid motions (translations [m], rotations about the centre [rad]) of mode k.
-    std::array<std::array<double, 6>, 6> basis = {};
+    Vec3 centre;
+    std::array<RigidMotion, 6> basis = {};  ///< of the modes, about the centre
+  };
+  /// A part's nodes in a tile.
+  struct Item {
+    int part;
+    int tile;
   };
 
-  using Rigid = std::array<double, 6>;
-  static std::array<Rigid, 3> rigid_rows(const Node& node);
-  void add_patch(const SweptBlock& block, const std::vector<int>& part, int first_station, int last_station,
-                 const AlignedVector<double>& free);
-  void orthonormalise(Patch& patch);
+  void add_part(const SweptBlock& block, std::vector<int> nodes, const AggregateOptions& options);
+  void add_patch(int part, int first_station, int last_station);
+  void orthonormalise(Patch& patch) const;
+  template <class Visit>
+  void for_each_node(const Patch& patch, const Visit& visit) const;
+  const Slice& slice(const Part& part, int station) const {
+    return slices_[part.first_slice + static_cast<std::size_t>(station)];
+  }
+  RigidMotion motion(const Patch& patch, const double* coarse) const;
+  /// 1 or 0 by component and lane of a group of slots.
+  auto where_free(std::int64_t first_slot) const {
+    return [free = free_.data() + first_slot](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; };
+  }
 
-  std::vector<Node> nodes_;
+  const Mesh* mesh_;
+  std::vector<std::uint8_t> free_;  ///< by slot; bit c: component c is free
+  std::vector<Part> parts_;
+  std::vector<std::vector<int>> part_of_node_;  ///< by block and section node
+  std::vector<Slice> slices_;
   std::vector<Patch> patches_;
-  std::vector<std::int32_t> of_slot_;
+  std::vector<Item> items_;
   int modes_ = 0;
+  mutable std::vector<StationValues> sums_;  ///< by slice
 };
 
 }  // namespace tread

@@ -5,7 +5,6 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "core/error.hpp"
@@ -20,8 +19,9 @@ using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrder
 /// Pairs of coupled aggregates, collected element by element.
 class Couplings {
  public:
-  Couplings(const Aggregates& aggregates, const std::vector<TiedSlot>& ties) : aggregates_(aggregates) {
-    for (const TiedSlot& tie : ties) primaries_[tie.secondary] = &tie.primaries;
+  Couplings(const Mesh& mesh, const Aggregates& aggregates, const std::vector<TiedSlot>& ties)
+      : aggregates_(aggregates), ties_(ties), tied_(static_cast<std::size_t>(mesh.slots), false) {
+    for (const TiedSlot& tie : ties) tied_[static_cast<std::size_t>(tie.secondary)] = true;
   }
 
   /// All nodes of one element act on one another.
@@ -29,9 +29,11 @@ class Couplings {
     members_.clear();
     for (const std::int64_t slot : slots) {
       add(slot);
-      const auto tie = primaries_.find(slot);
-      if (tie != primaries_.end())
-        for (const std::int64_t primary : *tie->second) add(primary);
+      if (!tied_[static_cast<std::size_t>(slot)]) continue;
+      for (auto tie = std::lower_bound(ties_.begin(), ties_.end(), slot,
+                                       [](const TiedSlot&t, std::int64_t at) { return t.secondary < at; });
+           tie != ties_.end() && tie->secondary == slot; ++tie)
+        add(tie->primary);
     }
     for (const int a : members_)
       for (const int b : members_)
@@ -59,7 +61,8 @@ class Couplings {
   }
 
   const Aggregates& aggregates_;
-  std::unordered_map<std::int64_t, const std::vector<std::int64_t>*> primaries_;
+  const std::vector<TiedSlot>& ties_;
+  std::vector<bool> tied_;  ///< by slot
   std::unordered_set<std::uint64_t> pairs_;
   std::vector<int> members_;
 };
@@ -68,7 +71,7 @@ class Couplings {
 
 std::vector<std::vector<int>> aggregate_graph(const Mesh& mesh, const Aggregates& aggregates,
                                               const std::vector<TiedSlot>& ties) {
-  Couplings couplings(aggregates, ties);
+  Couplings couplings(mesh, aggregates, ties);
   for (const SweptBlock& block : mesh.blocks) {
     const int elements = block.closed ? block.station_count() : block.station_count() - 1;
     for (int near = 0; near < elements; ++near) {

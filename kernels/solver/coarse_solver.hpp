@@ -10,14 +10,9 @@
 
 namespace tread {
 
-/// A secondary node that a tie eliminates: it follows its primary nodes, which are not secondary themselves.
-struct TiedSlot {
-  std::int64_t secondary = -1;
-  std::vector<std::int64_t> primaries;
-};
-
 /// For each aggregate the aggregates that A may couple with it (itself included, ascending): those of nodes
-/// that share an element, a secondary node standing for its primaries.
+/// that share an element, a secondary node standing for its primaries. `ties` in ascending order of
+/// secondaries.
 std::vector<std::vector<int>> aggregate_graph(const Mesh& mesh, const Aggregates& aggregates,
                                               const std::vector<TiedSlot>& ties);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "kernels/solver/held_motions.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
 namespace tread {
@@ -27,48 +28,23 @@ class JacobiPreconditioner : public Preconditioner {
   AlignedVector<double> inverse_;
 };
 
-/// Motions R_i along which the mean <W_j, x> of the solution is zero, and the forces W_j lambda_j that hold
-/// them: A x = b - W lambda with W^T x = 0. For the mass-weighted mean pass W = M R, for the plain mean W =
-/// R.
-class HeldMotions {
- public:
-  /// Both lists hold as many fields of 3 * mesh.slots values, zero outside the free unknowns. Throws
-  /// NumericalError if some mean does not see its motion (W^T R singular).
-  HeldMotions(std::vector<AlignedVector<double>> motions, std::vector<AlignedVector<double>> means);
-
-  std::size_t count() const { return motions_.size(); }
-
-  /// r -= W (R^T W)^-1 R^T r: what is left does no work on the motions.
-  void balance(double* r) const;
-  /// x -= R (W^T R)^-1 W^T x: what is left has zero means.
-  void remove_mean(double* x) const;
-  /// Work of r on each unit motion R_i; for r = b - A x the holding forces [N or N m, as R is scaled].
-  std::vector<double> work(const double* r) const;
-
- private:
-  std::vector<AlignedVector<double>> motions_;
-  std::vector<AlignedVector<double>> means_;  ///< combined so that <motions_[i], means_[j]> = delta_ij
-};
-
 struct CgOptions {
-  double relative_tolerance = 1e-9;  ///< of the balanced residual's 2-norm against the balanced right side's
+  double tolerance = 0;  ///< of the balanced residual's 2-norm [N]
   int max_iterations = 2000;
 };
 
 struct CgResult {
   bool converged = false;  ///< by the recurrence's residual, which rounding may leave below the true
   int iterations = 0;
-  double relative_residual = 0;          ///< recomputed from the solution
-  std::vector<double> residual_history;  ///< relative, entry k after k iterations
-  std::vector<double> reactions;         ///< HeldMotions::work(b - A x)
+  std::vector<double> residual_history;  ///< 2-norm of the balanced residual, entry k after k iterations [N]
 };
 
-/// Solves A x = b from the given x. `a` must be positive definite on the free unknowns less the held motions.
-/// `preconditioner` and `held` may be null. Without convergence in max_iterations (an unrestrained body, for
-/// example) it returns what it has: the caller judges. Throws NumericalError where a search direction has no
-/// stiffness.
+/// Moves x towards the solution of A x = b. `r`: b - A x on entry, on return what the recurrence leaves of
+/// it, balanced. `a` must be positive definite on the free unknowns less the held motions; x keeps the means
+/// that it has. `preconditioner` and `held` may be null. Without convergence in max_iterations (an
+/// unrestrained body, for example) it returns what it has: the caller judges. Throws NumericalError where a
+/// search direction has no stiffness.
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
-                             const AlignedVector<double>& b, AlignedVector<double>& x,
-                             const CgOptions& options);
+                             AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options);
 
 }  // namespace tread

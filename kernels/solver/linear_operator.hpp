@@ -8,14 +8,22 @@
 namespace tread {
 
 /// y = A x on vector fields of 3 * mesh.slots values (layout: dof()). A is symmetric and positive
-/// semidefinite; it reads and writes zero outside the free unknowns. x and y do not overlap.
-using Operator = std::function<void(const double* x, double* y)>;
+/// semidefinite; x and y are zero outside the free unknowns and do not overlap. x is lent: it is on return
+/// what it was.
+using Operator = std::function<void(double* x, double* y)>;
 
 /// The energy stiffness / 2 (sum_i weights[i] x[dofs[i]])^2: a spring between bodies or one contact point.
 struct Spring {
   double stiffness = 0;            ///< [N/m]
   std::vector<std::int64_t> dofs;  ///< free unknowns, each once
   std::vector<double> weights;     ///< of the displacements in the spring's elongation [-], as many as dofs
+};
+
+/// A secondary node that a tie eliminates follows this primary node and perhaps others; a primary is not
+/// secondary itself.
+struct TiedSlot {
+  std::int64_t secondary = -1;
+  std::int64_t primary = -1;
 };
 
 /// y += K x for all springs, in their order.

@@ -1,6 +1,7 @@
 #include "kernels/solver/two_level_preconditioner.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "kernels/solver/chunks.hpp"
@@ -13,33 +14,37 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
                                                const std::vector<TiedSlot>& ties,
                                                const TwoLevelOptions& options)
     : options_(options),
-      diagonal_(std::move(diagonal)),
-      aggregates_(mesh, diagonal_, options.aggregates),
+      aggregates_(mesh, diagonal, options.aggregates),
       coarse_(aggregates_, aggregate_graph(mesh, aggregates_, ties), elastic,
-              static_cast<std::int64_t>(diagonal_.size())),
-      inverse_(diagonal_.size()),
-      residual_(diagonal_.size()),
-      step_(diagonal_.size()),
-      a_step_(diagonal_.size()),
-      coarse_values_(static_cast<std::size_t>(aggregates_.modes())) {}
+              static_cast<std::int64_t>(diagonal.size())),
+      coarse_values_(static_cast<std::size_t>(aggregates_.modes())) {
+  for (double& value : diagonal) value = value > 0 ? 1 / value : 0;
+  constexpr int kSteps = 20;
+  constexpr double kRounding = 1e-6;  // of what is kept of the diagonal
+  lambda_max_ = (1 + kRounding) * std::pow(highest_frequency(elastic, diagonal, kSteps).omega, 2);
+  inverse_.assign(diagonal.begin(), diagonal.end());
+  AlignedVector<double>().swap(diagonal);
+  a_z_.resize(inverse_.size());
+}
 
 void TwoLevelPreconditioner::update(Operator a, const std::vector<Spring>& springs) {
   a_ = std::move(a);
-  inverse_ = diagonal_;
-  // Row sums of |k g g^T| instead of its diagonal: a stiff spring over many nodes then leaves lambda_max
-  // alone.
+  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
+    inverse_[change->first] = change->second;
+  changes_.clear();
+  // Row sums of |k g g^T| instead of its diagonal: D^-1 A then has no eigenvalue above that without springs.
   for (const Spring& spring : springs) {
     double sum = 0;
     for (const double weight : spring.weights) sum += std::abs(weight);
     for (std::size_t i = 0; i < spring.dofs.size(); ++i) {
       const auto at = static_cast<std::size_t>(spring.dofs[i]);
-      if (diagonal_[at] > 0) inverse_[at] += spring.stiffness * sum * std::abs(spring.weights[i]);
+      if (inverse_[at] == 0) continue;
+      changes_.emplace_back(at, inverse_[at]);
+      const double added = spring.stiffness * sum * std::abs(spring.weights[i]);
+      inverse_[at] = static_cast<float>(1 / (1.0 / inverse_[at] + added));
     }
   }
-  for (double& value : inverse_) value = value > 0 ? 1 / value : 0;
   coarse_.factorise(aggregates_, springs);
-  constexpr int kSteps = 20;
-  lambda_max_ = std::pow(highest_frequency(a_, inverse_, kSteps).omega, 2);
 }
 
 void TwoLevelPreconditioner::apply(const double* r, double* z) const {
@@ -49,31 +54,18 @@ void TwoLevelPreconditioner::apply(const double* r, double* z) const {
   aggregates_.prolongate_add(coarse_values_.data(), z);
 }
 
-/// Chebyshev iteration for A z = r from z = 0. [Saad, Iterative Methods for Sparse Linear Systems, alg. 12.1]
+/// The polynomial of Chebyshev's iteration for A z = r from z = 0, one root after the other: no step has to
+/// be kept. [Saad, Iterative Methods for Sparse Linear Systems, 12.3]
 void TwoLevelPreconditioner::smooth(const double* r, double* z) const {
   const double centre = 0.5 * lambda_max_ * (1 + 1 / options_.spread);
   const double half_width = 0.5 * lambda_max_ * (1 - 1 / options_.spread);
   const auto n = static_cast<std::int64_t>(inverse_.size());
-  for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-      residual_[i] = r[i];
-      step_[i] = inverse_[i] * r[i] / centre;
-      z[i] = step_[i];
-    }
-  });
-  double rho = half_width / centre;
-  for (int k = 1; k < options_.degree; ++k) {
-    const double next = 1 / (2 * centre / half_width - rho);
-    const double keep = next * rho;
-    const double gain = 2 * next / half_width;
-    rho = next;
-    a_(step_.data(), a_step_.data());
+  for (int k = 0; k < options_.degree; ++k) {
+    const double gain = 1 / (centre + half_width * std::cos(std::numbers::pi * (k + 0.5) / options_.degree));
+    if (k > 0) a_(z, a_z_.data());
     for_chunks(n, [&](std::int64_t first, std::int64_t last) {
-      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
-        residual_[i] -= a_step_[i];
-        step_[i] = keep * step_[i] + gain * inverse_[i] * residual_[i];
-        z[i] += step_[i];
-      }
+      for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
+        z[i] = k == 0 ? gain * inverse_[i] * r[i] : z[i] + gain * inverse_[i] * (r[i] - a_z_[i]);
     });
   }
 }

@@ -184,9 +184,8 @@ TEST(Inventory, SmoothRailMovesNoNodesForACorrugation) {
 TEST(Inventory, StaticTyreHasNoStep) {
   const Model model(scene_of(kTyre));
   EXPECT_EQ(phase_names(model), Names{"preload"});
-  EXPECT_EQ(field_names(model),
-            (Names{"coefficients", "mass", "restrained unknowns", "journal nodes", "contact points",
-                   "wheel frame", "displacement", "solver", "held motions"}));
+  EXPECT_EQ(field_names(model), (Names{"coefficients", "mass", "restrained unknowns", "journal nodes",
+                                       "contact points", "wheel frame", "displacement", "solver"}));
 }
 
 TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
@@ -195,7 +194,7 @@ TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   const Names names = field_names(model);
   for (const char* absent :
        {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes", "contact points",
-        "surface fields", "wheel frame", "sprung mass", "held motions", "restrained unknowns"})
+        "surface fields", "wheel frame", "sprung mass", "restrained unknowns"})
     EXPECT_EQ(names.count(absent), 0U) << absent;
   EXPECT_TRUE(model.journal.empty());
   EXPECT_TRUE(model.torque.empty());

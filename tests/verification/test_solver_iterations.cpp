@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "kernels/internal_force.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
+#include "tests/solved_system.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
@@ -58,11 +59,11 @@ Iterations solve(const Problem& problem, bool with_jacobi) {
   Field diagonal(problem.load.size(), 0.0);
   force.diagonal(diagonal.data());
   for (const std::int64_t unknown : problem.fixed) diagonal[static_cast<std::size_t>(unknown)] = 0;
-  const Operator elastic = [&](const double* x, double* y) {
+  const Operator elastic = [&](double* x, double* y) {
     force.apply(x, y);
     for (const std::int64_t unknown : problem.fixed) y[unknown] = 0;
   };
-  const Operator full = [&](const double* x, double* y) {
+  const Operator full = [&](double* x, double* y) {
     elastic(x, y);
     add_springs(problem.springs, x, y);
   };
@@ -72,8 +73,8 @@ Iterations solve(const Problem& problem, bool with_jacobi) {
   preconditioner.update(full, problem.springs);
   Field x(problem.load.size(), 0.0);
   const auto result =
-      conjugate_gradients(full, &preconditioner, nullptr, problem.load, x, {kTolerance, 2000});
-  EXPECT_TRUE(result.converged);
+      samples::solve_system(full, &preconditioner, nullptr, problem.load, x, {kTolerance, 2000});
+  EXPECT_TRUE(result.result.converged);
   EXPECT_LT(result.relative_residual, 2 * kTolerance);
   iterations.two_level = result.iterations;
   if (with_jacobi) {
@@ -84,7 +85,7 @@ Iterations solve(const Problem& problem, bool with_jacobi) {
     const JacobiPreconditioner jacobi(diagonal);
     std::fill(x.begin(), x.end(), 0.0);
     iterations.jacobi =
-        conjugate_gradients(full, &jacobi, nullptr, problem.load, x, {kTolerance, 20 * result.iterations})
+        samples::solve_system(full, &jacobi, nullptr, problem.load, x, {kTolerance, 20 * result.iterations})
             .iterations;
   }
   return iterations;
