@@ -29,4 +29,8 @@ SealedContent read_sealed(const std::filesystem::path& path, const std::string& 
 template <class T>
 const T& sealed_entry(const SealedContent& content, const std::string& name);
 
+/// The only value of the entry of this name. InputError where there is none, or more than one.
+template <class T>
+T sealed_value(const SealedContent& content, const std::string& name);
+
 }  // namespace tread
