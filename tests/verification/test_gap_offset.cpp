@@ -70,11 +70,12 @@ TEST(GapOffset, IsTheSlopeThatPushesTheWheelWithoutFriction) {
   measured("gap against nodes, F_L over its range",
            largest_difference(gap, nodes, kLongitudinal) / range(nodes, kLongitudinal));
   measured("energy error, gap", gap.energy_error);
-  EXPECT_GT(range(gap, share), 0.5 * 2 * slope);
-  EXPECT_LT(range(gap, share), 1.2 * 2 * slope);
-  EXPECT_LT(largest_difference(gap, nodes, kNormal), 0.02 * range(nodes, kNormal));
-  EXPECT_LT(largest_difference(gap, nodes, kLongitudinal), 0.03 * range(nodes, kLongitudinal));
-  EXPECT_LT(gap.energy_error, 0.01);
+  // The patch averages over a third of the wave.
+  EXPECT_GT(range(gap, share), 0.8 * 2 * slope);
+  EXPECT_LT(range(gap, share), 2 * slope);
+  EXPECT_LT(largest_difference(gap, nodes, kNormal), 0.002 * range(nodes, kNormal));
+  EXPECT_LT(largest_difference(gap, nodes, kLongitudinal), 0.01 * range(nodes, kLongitudinal));
+  EXPECT_LT(gap.energy_error, 0.005);
   EXPECT_LT(gap.momentum_error, 1e-4);
 }
 
@@ -92,10 +93,10 @@ TEST(GapOffset, UnderTractionAsWithMovedNodes) {
            work(gap.samples.back()) / work(nodes.samples.back()) - 1);
   measured("energy error, gap", gap.energy_error);
   measured("energy error, nodes", nodes.energy_error);
-  EXPECT_LT(largest_difference(gap, nodes, kNormal), 0.02 * range(nodes, kNormal));
-  EXPECT_LT(largest_difference(gap, nodes, kLongitudinal), 0.03 * range(nodes, kLongitudinal));
-  EXPECT_NEAR(work(gap.samples.back()), work(nodes.samples.back()), 0.02 * work(nodes.samples.back()));
-  EXPECT_LT(gap.energy_error, 0.01);
+  EXPECT_LT(largest_difference(gap, nodes, kNormal), 0.002 * range(nodes, kNormal));
+  EXPECT_LT(largest_difference(gap, nodes, kLongitudinal), 0.01 * range(nodes, kLongitudinal));
+  EXPECT_NEAR(work(gap.samples.back()), work(nodes.samples.back()), 0.003 * work(nodes.samples.back()));
+  EXPECT_LT(gap.energy_error, 0.005);
 }
 
 }  // namespace
