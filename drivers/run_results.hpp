@@ -51,6 +51,9 @@ struct RunResults {
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
   std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
 
+  /// Steps that this run took itself.
+  std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
+
   /// What a run that goes on cannot find again, the samples apart.
   void list_state(StateList& list) {
     list.add_part("preload", preload);
@@ -64,9 +67,6 @@ struct RunResults {
 
   Statistics vertical_force;      ///< over evaluated() [N]
   Statistics longitudinal_force;  ///< [N]
-  /// That this run took itself.
-  std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
-
   double traction_coefficient =
       0;                ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
   double creepage = 0;  ///< mean of 28 nodes there [-]
