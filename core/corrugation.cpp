@@ -1,7 +1,10 @@
 #include "core/corrugation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -56,6 +59,24 @@ double Corrugation::depth(double x, double y) const {
   const double across = (y - centre_) / width_;
   if (x <= first_ || x >= last_ || std::abs(across) >= 1) return 0;
   return profile(x) * (1 - across * across);
+}
+
+std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
+                                       double tolerance) {
+  constexpr double kStep = 5e-5;  // [m]
+  // Where both depths along the rail agree, other widths or centres show halfway out.
+  const std::array<double, 4> across = {a.centre(), b.centre(), a.centre() + 0.5 * a.width(),
+                                        b.centre() + 0.5 * b.width()};
+  const auto start = [](const Corrugation& c) {
+    return c.smooth() ? std::numeric_limits<double>::infinity() : c.first();
+  };
+  const double first = std::min(start(a), start(b));
+  for (std::int64_t i = 0; first + static_cast<double>(i) * kStep <= end; ++i) {
+    const double x = first + static_cast<double>(i) * kStep;
+    for (const double y : across)
+      if (std::abs(a.depth(x, y) - b.depth(x, y)) > tolerance) return x;
+  }
+  return std::nullopt;
 }
 
 }  // namespace tread

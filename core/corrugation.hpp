@@ -1,6 +1,7 @@
 #pragma once
 // Depth of the corrugated running surface. [paper, eqs. (6) and (7)]
 
+#include <optional>
 #include <vector>
 
 namespace tread {
@@ -32,6 +33,7 @@ class Corrugation {
   double deepest() const { return deepest_; }
   double steepest() const { return steepest_; }  ///< no slope along the rail exceeds it [-]
   double centre() const { return centre_; }
+  double width() const { return width_; }  ///< [m]
 
  private:
   double profile(double x) const;
@@ -40,5 +42,10 @@ class Corrugation {
   double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0, steepest_ = 0;
   std::vector<double> x_, depth_, slope_;
 };
+
+/// The first place [m] up to `end` where the depths differ by more than `tolerance` [m] anywhere across the
+/// rail; looked for every 0.05 mm.
+std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
+                                       double tolerance);
 
 }  // namespace tread

@@ -88,6 +88,8 @@ struct ContactSpec {
   /// Penetration / Hertz approach under the static wheel load; absent: the stiffest penalty that the mesh
   /// bears. [-]
   std::optional<double> penetration_ratio;
+  /// Corrugation depth that the searched surface has room for; absent: what the scene itself needs. [m]
+  std::optional<double> depth_room;
   std::string surface = "exact";  ///< "exact" (profile curves) or "facets"
   int points = 3;                 ///< integration points per face and direction
 };
@@ -156,6 +158,12 @@ struct HammerSpec {
   }
 };
 
+/// [forks]: a state is kept that other runs begin with
+struct ForkSpec {
+  /// Absent: 20 mm before the patch meets the corrugation, or the solution zone of a smooth rail. [s]
+  std::optional<double> at;
+};
+
 /// [output]
 struct OutputSpec {
   double history_interval = 1e-5;    ///< [s]
@@ -198,6 +206,7 @@ struct Scene {
   std::optional<CorrugationSpec> corrugation;
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
+  std::optional<ForkSpec> forks;
   OutputSpec output;
   StopSpec stop;
 

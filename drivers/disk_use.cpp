@@ -29,8 +29,10 @@ DiskUse disk_use(const Model& model, double dt) {
   const double values = rows * static_cast<double>(history_channels(model).size());
   use.results += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)) + patch);
   constexpr int kAtOnce = 3;
-  use.checkpoints =
-      kAtOnce * (checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch));
+  const std::int64_t state =
+      checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch);
+  use.checkpoints = kAtOnce * state;
+  if (model.scene.forks) use.results += state;
   return use;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "drivers/bench_command.hpp"
+#include "drivers/cache_command.hpp"
 #include "drivers/check_command.hpp"
 #include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
@@ -80,6 +81,14 @@ void add_thread_options(CLI::App& command, tread::ThreadOptions& options) {
                      "library that runs them, openmp (default) or tbb; same bits");
 }
 
+void add_cache_option(CLI::App& command, std::string& place) {
+  place.clear();
+  command.add_option(
+      "--cache", place,
+      "folder of the preload cache, or off (default: TREAD_CACHE, else tread/ in XDG_CACHE_HOME "
+      "or ~/.cache)");
+}
+
 /// Returns the option of the scene itself.
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
   command.add_option("-q,--quality", arguments.quality, "draft, standard or paper; overrides scene.quality");
@@ -116,6 +125,10 @@ void add_run(CLI::App& app, const std::string& command_line) {
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
   command.add_flag("--overwrite", state->options.overwrite,
                    "throw away an unfinished run that the output directory holds");
+  command.add_option(
+      "--from", state->options.from,
+      "begin with the state of another run over another corrugation, DIR or DIR@TIME: out@10ms");
+  add_cache_option(command, state->options.cache);
 }
 
 void add_resume(CLI::App& app) {
@@ -129,6 +142,7 @@ void add_resume(CLI::App& app) {
   add_thread_options(command, options->threads);
   command.add_flag("--json", options->json, "summary on stdout");
   command.add_flag("--quiet", options->quiet, "no progress on stderr");
+  add_cache_option(command, options->cache);
   command.callback([options] { report_problems(options->json, [&] { tread::resume_run(*options); }); });
 }
 
@@ -142,6 +156,17 @@ void add_ctl(CLI::App& app) {
   command.add_option("--wait", options->patience, "longest time to wait for an answer [s]")
       ->check(CLI::NonNegativeNumber);
   command.callback([options] { tread::control_run(*options); });
+}
+
+void add_cache(CLI::App& app) {
+  auto options = std::make_shared<tread::CacheOptions>();
+  CLI::App& command = *app.add_subcommand("cache", "preloads that earlier runs have found");
+  command.add_option("action", options->action, "show or clear")
+      ->required()
+      ->check(CLI::IsMember({"show", "clear"}));
+  add_cache_option(command, options->place);
+  command.add_flag("--json", options->json, "JSON on stdout");
+  command.callback([options] { tread::tend_cache(*options); });
 }
 
 void add_check(CLI::App& app) {
@@ -309,6 +334,7 @@ int run(int argc, char** argv) {
   add_run(app, command_line);
   add_resume(app);
   add_ctl(app);
+  add_cache(app);
   add_check(app);
   add_mesh(app);
   add_multibody(app, command_line);

@@ -370,6 +370,7 @@ void Model::build_contact() {
   const double line_load = scene.plane_strain ? wheel_load() / scene.rail->width : 0;
   const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
+  options.depth_room = depth_room(scene);
   contact = std::make_unique<Contact>(mesh, options, Corrugation{});
 }
 

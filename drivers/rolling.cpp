@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/fork.hpp"
 #include "drivers/plain_text.hpp"
 
 namespace tread {
@@ -24,6 +25,8 @@ std::string instant(double time, std::int64_t steps) {
 Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
     : session_(&session), model_(&model), results_(&results) {
   end_ = step_count(model.scene, results.dt);
+  fork_step_ = fork_step(model, results.dt);
+  if (results.origin && results.origin->steps == fork_step_) fork_step_.reset();  // the other run has it
 }
 
 void Rolling::begin() {
@@ -68,6 +71,7 @@ void Rolling::step_to_the_end() {
   const int most = model_->scene.stop.steps;
   while (simulation_->steps() < end_) {
     if (most > 0 && simulation_->steps() >= most) end<ResourceError>(fmt::format("stop.steps = {}", most));
+    if (simulation_->steps() == fork_step_) keep_for_forks();
     simulation_->step();
     if (simulation_->sampled()) {
       results_->samples.push_back(simulation_->sample());
@@ -135,6 +139,17 @@ void Rolling::write_checkpoint() {
   being_written_ = mark;
   checkpoint_at_ = session_->progress.seconds();
   if (!Hdf5File::thread_safe()) wait_for_checkpoint();
+}
+
+void Rolling::keep_for_forks() {
+  wait_for_checkpoint();
+  results_->seconds_rolling = seconds();
+  const CheckpointFolder folder(session_->folder / kForkFolder);
+  folder.keep(simulation_->steps(),
+              pack_run(session_->order, *results_, *model_, *simulation_, files_->patch_bytes()));
+  session_->progress.say(
+      fmt::format("[fork] {} is kept: `tread run OTHER.toml --from {} -o OTHER` begins there",
+                  instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
 }
 
 void Rolling::wait_for_checkpoint() {

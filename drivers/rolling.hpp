@@ -36,6 +36,7 @@ class Rolling {
   void look();
   void check_penetration();
   void check_disk();
+  void keep_for_forks();
   void write_checkpoint();
   void wait_for_checkpoint();
   void leave(const std::string& why);
@@ -56,8 +57,9 @@ class Rolling {
   RunResults* results_;
   std::optional<Simulation> simulation_;
   std::optional<GrowingFiles> files_;
-  std::int64_t end_ = 0;  ///< steps of the whole run
-  double started_ = 0;    ///< on the session's clock [s]
+  std::int64_t end_ = 0;                   ///< steps of the whole run
+  std::optional<std::int64_t> fork_step_;  ///< whose state is kept for other runs
+  double started_ = 0;                     ///< on the session's clock [s]
   std::int64_t started_steps_ = 0;
   double seconds_before_ = 0;    ///< rolled by earlier processes [s]
   double looked_at_ = 0;         ///< on the session's clock [s]

@@ -12,12 +12,6 @@ namespace tread {
 
 namespace {
 
-std::int64_t integer(const SealedContent& content, const std::string& name) {
-  const auto& values = sealed_entry<std::vector<std::int64_t>>(content, name);
-  if (values.size() != 1) throw InputError(fmt::format("'{}' is not one number", name));
-  return values[0];
-}
-
 void pack_texts(const std::string& group, const std::vector<std::string>& texts, SealedContent& content) {
   content[group + "/count"] = std::vector<std::int64_t>{static_cast<std::int64_t>(texts.size())};
   for (std::size_t i = 0; i < texts.size(); ++i) content[fmt::format("{}/{}", group, i)] = texts[i];
@@ -25,7 +19,7 @@ void pack_texts(const std::string& group, const std::vector<std::string>& texts,
 
 std::vector<std::string> unpack_texts(const SealedContent& content, const std::string& group) {
   std::vector<std::string> texts;
-  const std::int64_t count = integer(content, group + "/count");
+  const std::int64_t count = sealed_value<std::int64_t>(content, group + "/count");
   for (std::int64_t i = 0; i < count; ++i)
     texts.push_back(sealed_entry<std::string>(content, fmt::format("{}/{}", group, i)));
   return texts;
@@ -74,6 +68,11 @@ SealedContent pack_order(const RunOrder& order) {
   pack_texts("order/later", order.later, content);
   content["order/resolved"] = order.resolved;
   content["order/command"] = order.command;
+  if (order.origin) {
+    content["order/origin/folder"] = order.origin->folder;
+    content["order/origin/time"] = std::vector<double>{order.origin->time};
+    content["order/origin/steps"] = std::vector<std::int64_t>{order.origin->steps};
+  }
   return content;
 }
 
@@ -91,7 +90,20 @@ RunOrder unpack_order(const SealedContent& content) {
   order.later = unpack_texts(content, "order/later");
   order.resolved = text("order/resolved");
   order.command = text("order/command");
+  if (content.contains("order/origin/folder"))
+    order.origin = {text("order/origin/folder"), sealed_value<double>(content, "order/origin/time"),
+                    sealed_value<std::int64_t>(content, "order/origin/steps")};
   return order;
+}
+
+ResolvedScene resolve_order(const RunOrder& order, const std::filesystem::path& folder) {
+  ResolvedScene resolved = resolve_scene(order.scene, order.overrides);
+  if (resolved_toml(resolved) != order.resolved)
+    throw InputError(
+        fmt::format("{}: this program reads other values from the scene than the one that began "
+                    "the run; go on with that one",
+                    folder.string()));
+  return resolved;
 }
 
 void pack(const StateList& list, const std::string& group, SealedContent& content) {
@@ -156,7 +168,7 @@ void unpack_results(const SealedContent& content, RunResults& results) {
 }
 
 void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation) {
-  const std::int64_t lanes = integer(content, "made/lanes");
+  const std::int64_t lanes = sealed_value<std::int64_t>(content, "made/lanes");
   if (lanes != kLanes)
     throw InputError(
         fmt::format("it was made with {} lanes, this program has {}; go on with the program that "
@@ -164,7 +176,7 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
                     lanes, kLanes));
   check_mesh(content, model);
   unpack(content, "state", simulation.state());
-  const auto hash = static_cast<std::uint64_t>(integer(content, "made/state_hash"));
+  const auto hash = static_cast<std::uint64_t>(sealed_value<std::int64_t>(content, "made/state_hash"));
   if (hash != simulation.state_hash()) throw InputError("its state hash differs");
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // What a checkpoint of a run holds, and the way back.
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +21,16 @@ struct RunOrder {
   std::vector<std::string> later;      ///< of `tread resume`
   std::string resolved;                ///< what scene and overrides came to
   std::string command;                 ///< as typed
+  std::optional<ForkOrigin> origin;    ///< of a fork
 };
 
 SealedContent pack_order(const RunOrder& order);
 /// InputError where something is missing.
 RunOrder unpack_order(const SealedContent& content);
+
+/// The scene that the model is made of. InputError where this program reads other values from it than the one
+/// that began the run in `folder`.
+ResolvedScene resolve_order(const RunOrder& order, const std::filesystem::path& folder);
 
 /// Copies the fields into entries "<group>/<name>".
 void pack(const StateList& list, const std::string& group, SealedContent& content);

@@ -9,8 +9,10 @@
 
 #include "core/error.hpp"
 #include "drivers/disk_use.hpp"
+#include "drivers/fork.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/plain_text.hpp"
+#include "drivers/preload_cache.hpp"
 #include "drivers/rolling.hpp"
 #include "drivers/run_report.hpp"
 #include "drivers/run_results.hpp"
@@ -54,20 +56,33 @@ void adopt_later_values(Model& model, const Scene& later) {
 }
 
 void solve_statics(const RunSession& session, Model& model, RunResults& results) {
-  const double started = session.progress.seconds();
   results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
     session.enter("preload", text);
     if (session.folder.take_request() == RunRequest::stop)
       throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
   });
+}
+
+/// From the cache, where that has it. `resolved`: what the model was made of.
+void find_statics(const RunSession& session, const ResolvedScene& resolved, Model& model,
+                  RunResults& results) {
+  const double started = session.progress.seconds();
+  const auto say = [&](const std::string& text) { session.enter("preload", text); };
+  const std::optional<ContentCache> cache = preload_cache(session.options.cache);
+  const std::string key = cache ? preload_key(resolved, model) : "";
+  std::optional<Preload> known = cache ? recall_preload(*cache, key, model, say) : std::nullopt;
+  if (known) {
+    results.preload = std::move(*known);
+    results.preload_cached = 1;
+    say(fmt::format("found by an earlier run, kept in {}", cache->folder().string()));
+  } else {
+    solve_statics(session, model, results);
+    if (cache) keep_preload(*cache, key, results.preload, say);
+  }
   results.seconds_preload = session.progress.seconds() - started;
 }
 
-void choose_step(const RunSession& session, const Model& model, RunResults& results) {
-  results.limit = step_limit(model);
-  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
-  session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
-                                    step_count(model.scene, results.dt), results.limit.reason));
+void require_disk(const Model& model, const RunResults& results) {
   const std::optional<double>& limit = model.scene.output.disk_limit;
   const std::int64_t needed = disk_use(model, results.dt).total();
   if (limit && static_cast<double>(needed) > *limit)
@@ -75,6 +90,14 @@ void choose_step(const RunSession& session, const Model& model, RunResults& resu
         fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
                     "output.history_interval",
                     bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
+}
+
+void choose_step(const RunSession& session, const Model& model, RunResults& results) {
+  results.limit = step_limit(model);
+  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
+  session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
+                                    step_count(model.scene, results.dt), results.limit.reason));
+  require_disk(model, results);
 }
 
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
@@ -86,23 +109,42 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
   if (session.options.json) fmt::print("{}", summary);
 }
 
-/// From the mesh to the report; from `checkpoint` on where there is one.
-void carry_out(RunSession& session, const SealedContent* checkpoint) {
+/// The other run's state becomes the first checkpoint of this one.
+void begin_fork(const RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
+  require_same_past(fork, model);
+  require_disk(model, results);
+  results.seconds_mesh = session.progress.seconds();
+  const ForkOrigin& origin = *fork.order.origin;
+  session.checkpoints.write(origin.steps, fork.content);
+  session.progress.say(
+      fmt::format("[fork] from {} at t = {:.6e} s (step {}); the histories up to there are copies",
+                  origin.folder, origin.time, origin.steps));
+}
+
+/// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
+/// included.
+void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
   write_text_file(session.folder / "scene.resolved.toml", resolved_toml(session.resolved));
   session.enter("mesh", "begins");
-  Model model(resolve_scene(session.order.scene, session.order.overrides).scene);
+  const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
+  Model model(made.scene);
   adopt_later_values(model, session.resolved.scene);
   RunResults results;
+  results.origin = session.order.origin;
   results.seconds_mesh = session.progress.seconds();
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                                     model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
   const Scene& scene = model.scene;
-  if (checkpoint)
+  if (checkpoint) {
     unpack_results(*checkpoint, results);
-  else
-    solve_statics(session, model, results);
+    if (const std::string other = other_origin(*checkpoint, model); !other.empty())
+      session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
+  } else {
+    find_statics(session, made, model, results);
+  }
   if (scene.corrugation)
     model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
+  if (fork) begin_fork(session, *fork, model, results);
   if (scene.motion) {
     if (!checkpoint) choose_step(session, model, results);
     Rolling rolling(session, model, results);
@@ -125,6 +167,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint) {
 
 /// Of an earlier run: what only a finished run has must not stand beside one that is not.
 void remove_results(const std::filesystem::path& directory) {
+  CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
   for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv"})
     std::filesystem::remove(directory / name, ignored);
@@ -170,35 +213,50 @@ std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session
   return found;
 }
 
+ResolvedScene resolve_with_later(const RunOrder& order) {
+  std::vector<std::string> all = order.overrides;
+  all.insert(all.end(), order.later.begin(), order.later.end());
+  return resolve_scene(order.scene, all);
+}
+
+/// The run that options.from names must not be the one that is thrown away for the new one.
+Fork read_other(const RunOptions& options, const RunOrder& wanted) {
+  Fork fork = fork_from(options.from, wanted, Progress(options.quiet));
+  std::error_code ignored;
+  if (std::filesystem::equivalent(fork.order.origin->folder, options.output, ignored))
+    throw InputError(
+        fmt::format("--from {}: a fork needs a folder of its own; choose another one than {} with -o",
+                    options.from, options.output.string()));
+  return fork;
+}
+
 /// What the run was asked for, and what is asked now.
 void read_order(RunSession& session, const std::optional<CheckpointFolder::Found>& found) {
   RunOrder& order = session.order;
   order = unpack_order(found ? found->content : session.checkpoints.read_order());
   const std::vector<std::string>& now = session.options.overrides;
   refuse_other_keys(now);
-  if (resolved_toml(resolve_scene(order.scene, order.overrides)) != order.resolved)
-    throw InputError(
-        fmt::format("{}: this program reads other values from the scene than the one that began "
-                    "the run; go on with that one",
-                    session.folder.path().string()));
+  resolve_order(order, session.folder.path());
   order.later.insert(order.later.end(), now.begin(), now.end());
-  std::vector<std::string> all = order.overrides;
-  all.insert(all.end(), order.later.begin(), order.later.end());
-  session.resolved = resolve_scene(order.scene, all);
+  session.resolved = resolve_with_later(order);
 }
 
 }  // namespace
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
   use_threads(options.threads);
+  const RunOrder wanted{resolved.source,         resolved.overrides, {},
+                        resolved_toml(resolved), options.command,    {}};
+  std::optional<Fork> fork;
+  if (!options.from.empty()) fork = read_other(options, wanted);
   RunSession session(options);
   refuse_unfinished(session);
-  session.resolved = resolved;
-  session.order = {resolved.source, resolved.overrides, {}, resolved_toml(resolved), options.command};
+  session.order = fork ? fork->order : wanted;
+  session.resolved = fork ? resolve_with_later(session.order) : resolved;
   session.checkpoints.clear();
   remove_results(session.folder.path());
-  session.checkpoints.write_order(pack_order(session.order));
-  carry_out(session, nullptr);
+  if (!fork) session.checkpoints.write_order(pack_order(session.order));
+  carry_out(session, fork ? &fork->content : nullptr, fork ? &*fork : nullptr);
 }
 
 void resume_run(const RunOptions& options) {

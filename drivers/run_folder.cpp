@@ -1,12 +1,7 @@
 #include "drivers/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -23,23 +18,20 @@ namespace {
 constexpr const char* kRequest = "request";
 constexpr const char* kStatus = "status.json";
 
-/// The lock is on the folder itself, and the system lets it go with the process. -1 and errno: taken.
-int take(const fs::path& folder) {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock < 0) throw ResourceError(fmt::format("cannot open {}: {}", folder.string(), std::strerror(errno)));
-  if (::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
-  const int error = errno;
-  ::close(lock);
-  errno = error;
-  return -1;
+/// ResourceError where another process owns the folder.
+FolderLock take(const fs::path& folder) {
+  std::optional<FolderLock> lock = FolderLock::try_take(folder);
+  if (lock) return std::move(*lock);
+  throw ResourceError(fmt::format(
+      "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
+      "choose another folder",
+      folder.string(), folder.string(), folder.string()));
 }
 
 }  // namespace
 
 bool is_taken(const fs::path& folder) {
-  const int lock = take(folder);
-  if (lock >= 0) ::close(lock);
-  return lock < 0;
+  return !FolderLock::try_take(folder);
 }
 
 void leave_request(const fs::path& folder, RunRequest request) {
@@ -51,21 +43,8 @@ bool is_pending(const fs::path& folder) {
 }
 
 RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_)) {
-  if (lock_ < 0)
-    throw ResourceError(
-        errno == EWOULDBLOCK
-            ? fmt::format(
-                  "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends "
-                  "it; or choose another folder",
-                  path_.string(), path_.string(), path_.string())
-            : fmt::format("cannot lock {}: {}; choose a folder on another file system", path_.string(),
-                          std::strerror(errno)));
   std::error_code ignored;
   fs::remove(path_ / kRequest, ignored);
-}
-
-RunFolder::~RunFolder() {
-  ::close(lock_);
 }
 
 std::optional<RunRequest> RunFolder::take_request() const {

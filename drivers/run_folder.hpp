@@ -6,7 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "io/folder_lock.hpp"
+
 namespace tread {
+
+inline constexpr const char* kCheckpointFolder = "checkpoint";  ///< of a run's folder
 
 /// Whether a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
@@ -24,9 +28,6 @@ class RunFolder {
  public:
   /// ResourceError where another process owns the folder.
   explicit RunFolder(std::filesystem::path path);
-  ~RunFolder();
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const char* name) const { return path_ / name; }
@@ -42,7 +43,7 @@ class RunFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_;
+  FolderLock lock_;
 };
 
 }  // namespace tread

@@ -284,17 +284,22 @@ Chapter cost_chapter(const Run& run) {
   q.add_text("Elements", grouped(run.model.elements()));
   q.add_text("Nodes", grouped(run.model.nodes()));
   if (r.steps > 0) {
-    q.add_text("Steps", grouped(r.steps));
+    q.add_text("Steps", grouped(r.steps), "",
+               r.origin
+                   ? fmt::format("the first {} are those of {}", grouped(r.origin->steps), r.origin->folder)
+                   : "");
     q.add("Time step", r.dt, "s", r.limit.reason);
   }
   q.add("Mesh and coefficients", r.seconds_mesh, "s");
-  q.add("Preload", r.seconds_preload, "s");
+  q.add("Preload", r.seconds_preload, "s",
+        r.origin                ? "of the other run"
+        : r.preload_cached != 0 ? "found by an earlier run"
+                                : "");
   if (r.steps > 0) {
+    const double element_steps = elements * static_cast<double>(r.own_steps());
     q.add("Rolling", r.seconds_rolling, "s");
-    q.add("Million element-steps per second",
-          1e-6 * elements * static_cast<double>(r.steps) / r.seconds_rolling, "");
-    q.add("Time of an element-step", 1e9 * r.seconds_rolling / (elements * static_cast<double>(r.steps)),
-          "ns");
+    q.add("Million element-steps per second", 1e-6 * element_steps / r.seconds_rolling, "");
+    q.add("Time of an element-step", 1e9 * r.seconds_rolling / element_steps, "ns");
   }
   q.add_text("Threads", std::to_string(threads()), "",
              fmt::format("instruction set {}", run.model.internal->instruction_set()));
@@ -325,6 +330,8 @@ std::string subtitle(const Run& run) {
   if (scene.contact) text += fmt::format(" · f {:g}", scene.contact->friction);
   text += fmt::format(" · quality {}, contact elements {} mm", scene.quality,
                       readable(1e3 * run.model.sizes.contact, 3));
+  if (const std::optional<ForkOrigin>& origin = run.results.origin)
+    text += fmt::format(" · fork of {} at {} ms", origin->folder, readable(1e3 * origin->time, 6));
   return text;
 }
 

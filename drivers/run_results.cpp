@@ -224,15 +224,22 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json.member("elements", model.elements());
   json.member("nodes", model.nodes());
   json.member("steps", r.steps);
+  if (r.origin) {
+    json.key("fork").begin_object();
+    json.member("from", std::string_view(r.origin->folder));
+    json.member("time_s", r.origin->time).member("step", r.origin->steps).end_object();
+  }
   json.member("dt_s", r.dt);
   json.member("dt_reason", std::string_view(r.limit.reason));
   json.member("threads", threads());
   json.member("mesh_s", r.seconds_mesh);
   json.member("preload_s", r.seconds_preload);
+  json.member("preload_cached", r.preload_cached != 0);
   json.member("rolling_s", r.seconds_rolling);
-  json.member("element_steps_per_s", r.seconds_rolling > 0
-                                         ? static_cast<double>(model.elements() * r.steps) / r.seconds_rolling
-                                         : 0.0);
+  json.member("element_steps_per_s",
+              r.seconds_rolling > 0
+                  ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling
+                  : 0.0);
   json.member("preload_residual", r.preload.residual);
   if (model.contact) {
     json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);

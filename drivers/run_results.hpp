@@ -26,14 +26,23 @@ std::vector<double> history_row(const Model& model, const Sample& sample);
 std::int64_t step_count(const Scene& scene, double dt);
 std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
 
+/// Where a run comes from that begins with another one's state.
+struct ForkOrigin {
+  std::string folder;  ///< of the other run
+  double time = 0;     ///< of the state [s]
+  std::int64_t steps = 0;
+};
+
 /// Everything that summary.json and the report state, in SI.
 struct RunResults {
   Preload preload;
   StepLimit limit;
   std::vector<Sample> samples;
   std::int64_t steps = 0;
+  std::optional<ForkOrigin> origin;  ///< of a fork; its times count from there
   double dt = 0;
   double seconds_mesh = 0, seconds_preload = 0, seconds_rolling = 0;
+  std::int64_t preload_cached = 0;  ///< 1: an earlier run had found it
   std::uint64_t state_hash = 0;
   MomentumCheck momentum;
   std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
@@ -41,6 +50,9 @@ struct RunResults {
   SurfaceResults surface;                       ///< from surface_fields
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
   std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
+
+  /// Steps that this run took itself.
+  std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
 
   /// What a run that goes on cannot find again, the samples apart.
   void list_state(StateList& list) {
@@ -50,6 +62,7 @@ struct RunResults {
     list.add("seconds_mesh", seconds_mesh);
     list.add("seconds_preload", seconds_preload);
     list.add("seconds_rolling", seconds_rolling);
+    list.add("preload_cached", preload_cached);
   }
 
   Statistics vertical_force;      ///< over evaluated() [N]

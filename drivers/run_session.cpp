@@ -26,12 +26,12 @@ std::string resumption(const std::filesystem::path& directory) {
 RunSession::RunSession(const RunOptions& given)
     : options(given),
       folder(made(given.output)),
-      checkpoints(given.output / "checkpoint"),
+      checkpoints(given.output / kCheckpointFolder),
       progress(given.quiet),
-      interruption(
-          fmt::format("tread: stopped before the first step; {} starts again", resumption(given.output)),
-          fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
-                      resumption(given.output))) {}
+      interruption(fmt::format("tread: stopped before the first step; {} starts again",
+                               given.from.empty() ? resumption(given.output) : "the same command"),
+                   fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
+                               resumption(given.output))) {}
 
 std::string RunSession::way_on() const {
   return resumption(folder.path());

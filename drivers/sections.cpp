@@ -125,6 +125,12 @@ Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
   return Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
 }
 
+double depth_room(const Scene& scene) {
+  constexpr double kOfForks = 0.2e-3;
+  if (!scene.contact) return 0;
+  return scene.contact->depth_room.value_or(scene.forks ? kOfForks : 0.0);
+}
+
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade) {
   const Section& section = block.section;
   // Depth of every section node below the running surface, by the surface edge over it.

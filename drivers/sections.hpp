@@ -28,6 +28,10 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
 /// The corrugation whose deepest line lies at y = `centre` [m].
 Corrugation corrugation_of(const CorrugationSpec& spec, double centre);
 
+/// Corrugation depth that the scene wants the searched surface to have room for at least, whatever its own
+/// [m].
+double depth_room(const Scene& scene);
+
 /// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that
 /// fades to nothing over `fade` [m] (node_shift).
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);

@@ -389,7 +389,7 @@ Vec3 Simulation::vehicle_momentum() const {
 
 void Simulation::watch(double excess) {
   if (!energy_watch_.started())
-    energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy(*model_, v_.data()));
+    energy_watch_.start(sample_.energy, excess, fixed_kinetic_energy(*model_, v_));
   if (!energy_watch_.sound(sample_.energy, excess)) stop();
 }
 
@@ -433,7 +433,7 @@ void Simulation::begin_sample() {
 
 void Simulation::end_sample() {
   EnergyLedger& energy = sample_.energy;
-  const double excess = half_step_excess(*model_, held_, force_.data(), dt_);
+  const double excess = half_step_excess(*model_, held_, force_, dt_);
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy()) - excess;
   energy.torque_work = torque_work_;
   energy.guide_work = guide_work_;

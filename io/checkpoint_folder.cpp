@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kKind = "checkpoint";
 /// To be raised whenever a name or meaning in a checkpoint changes.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::size_t kKept = 2;
 constexpr const char* kPrefix = "step-";
 constexpr const char* kSuffix = ".h5";
@@ -51,6 +51,16 @@ void remove_parts(const fs::path& folder) {
   remove_all(paths);
 }
 
+void create(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+}
+
+fs::path state_path(const fs::path& folder, std::int64_t steps) {
+  return folder / fmt::format("{}{:012}{}", kPrefix, steps, kSuffix);
+}
+
 void write_verified(const fs::path& path, SealedContent content, const CheckpointObserver& observer) {
   const auto digests = digests_of(content);
   const auto reached = [&](CheckpointStage stage) {
@@ -75,9 +85,7 @@ void write_verified(const fs::path& path, SealedContent content, const Checkpoin
 }  // namespace
 
 void CheckpointFolder::write_order(SealedContent order) const {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+  create(folder_);
   write_verified(folder_ / "order.h5", std::move(order), {});
 }
 
@@ -87,14 +95,21 @@ SealedContent CheckpointFolder::read_order() const {
 
 void CheckpointFolder::write(std::int64_t steps, SealedContent content,
                              const CheckpointObserver& observer) const {
+  create(folder_);
   remove_parts(folder_);
-  write_verified(folder_ / fmt::format("{}{:012}{}", kPrefix, steps, kSuffix), std::move(content), observer);
+  write_verified(state_path(folder_, steps), std::move(content), observer);
   std::vector<fs::path> old = states();
   std::size_t kept = 0;
   // States beyond this one were no good, or the run would have gone on from them.
   std::erase_if(old, [&](const fs::path& path) { return *steps_of(path) <= steps && ++kept <= kKept; });
   remove_all(old);
   if (observer) observer(CheckpointStage::old_removed);
+}
+
+void CheckpointFolder::keep(std::int64_t steps, const SealedContent& content) const {
+  create(folder_);
+  remove_parts(folder_);
+  write_verified(state_path(folder_, steps), content, {});
 }
 
 std::vector<fs::path> CheckpointFolder::states() const {
@@ -111,8 +126,10 @@ bool CheckpointFolder::has_order() const {
   return fs::exists(fs::symlink_status(folder_ / "order.h5"));
 }
 
-std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused) const {
+std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused,
+                                                                std::int64_t last) const {
   for (const fs::path& path : states()) {
+    if (*steps_of(path) > last) continue;
     try {
       return Found{path, *steps_of(path), read_sealed(path, kKind, kVersion)};
     } catch (const InputError& error) {

@@ -1,9 +1,10 @@
 #pragma once
-// The checkpoints of a run: the last two, each whole or not there at all.
+// The checkpoints of a run: the last two, or those that are to be kept, each whole or not there at all.
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,13 +33,18 @@ class CheckpointFolder {
   /// its name and removes all others but the newest. Throws ResourceError; the others then stay as they were.
   void write(std::int64_t steps, SealedContent content, const CheckpointObserver& observer = {}) const;
 
+  /// The same, but creates the folder where it is missing and removes nothing.
+  void keep(std::int64_t steps, const SealedContent& content) const;
+
   struct Found {
     std::filesystem::path path;
     std::int64_t steps;
     SealedContent content;
   };
-  /// The newest that is sound; why newer ones are not goes to `refused`, a sentence each.
-  std::optional<Found> newest(std::vector<std::string>& refused) const;
+  /// The newest that is sound, of those after at most `last` steps; why newer ones are not goes to `refused`,
+  /// a sentence each.
+  std::optional<Found> newest(std::vector<std::string>& refused,
+                              std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
 
   /// Of states, the newest first.
   std::vector<std::filesystem::path> states() const;

@@ -79,6 +79,7 @@ class Checker {
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
     require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
     require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
+    require(!s.forks || (s.motion && s.contact), {"forks"}, "forks need [motion] and [contact]");
     require(!s.motion || s.pulse || s.wheel || (s.hammer && s.rail), {"motion"},
             "motion needs [wheel], or [pulse] on a bar, or [rail] and [hammer]");
     require(!s.motion || !s.wheel || s.rail || (!s.load && !s.vehicle), {"motion", "rail"},
@@ -189,6 +190,8 @@ class Checker {
             "state the traction by mu or by torque, not both");
     require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},
             "a wheel that stands has no creepage; state motion.speed");
+    require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
+            "the state for forks is kept after the run's end");
     if (scene_.wheel && !scene_.steel.name.empty()) check_rim(motion, scene_.steel);
     if (!motion.traction_mu || !scene_.contact) return;
     require(

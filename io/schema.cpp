@@ -287,6 +287,10 @@ void add_contact(Keys& keys) {
       number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
              "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "
              "size, but at most 2 %"));
+  keys.push_back(quantity("contact.depth_room", at(&Scene::contact, &ContactSpec::depth_room), kLength, "mm",
+                          from(0, 0.01),
+                          "Corrugation depth that the searched surface has room for: the deepest that a fork "
+                          "of the run may have; absent: the scene's own, with [forks] at least 0.2 mm"));
   keys.push_back(choice("contact.surface", at(&Scene::contact, &ContactSpec::surface), {"exact", "facets"},
                         "Surface that the gap is measured to: the profile's curves or the element faces"));
   keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 4},
@@ -370,6 +374,9 @@ void add_impacts_and_output(Keys& keys) {
                                    {-1e6, 1e6}, "Largest force of the blow, downwards")));
   keys.push_back(required(quantity("hammer.duration", at(&Scene::hammer, &HammerSpec::duration), kTime, "ms",
                                    above(0, 1), "Duration of the blow, a half sine from t = 0 on")));
+  keys.push_back(quantity("forks.at", at(&Scene::forks, &ForkSpec::at), kTime, "ms", from(0, 100),
+                          "Time of the state; absent: 20 mm before the patch meets the corrugation, or the "
+                          "solution zone of a smooth rail"));
   keys.push_back(quantity("output.history_interval", at(&Scene::output, &OutputSpec::history_interval), kTime,
                           "s", above(0, 100), "Simulated time between samples of the histories"));
   keys.push_back(quantity("output.progress_interval", at(&Scene::output, &OutputSpec::progress_interval),
@@ -473,6 +480,9 @@ std::vector<SceneTable> make_tables() {
       component("hammer", &Scene::hammer,
                 "A blow on the rail head; the histories hold its force and the struck point's "
                 "displacement."),
+      component("forks", &Scene::forks,
+                "A state that the run keeps for good, from which runs over other corrugations begin. "
+                "[reliability.md](reliability.md)"),
       always("output", "How often results are sampled, progress shown and checkpoints written."),
       always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
   };

@@ -204,6 +204,15 @@ const T& sealed_entry(const SealedContent& content, const std::string& name) {
   return *values;
 }
 
+template <class T>
+T sealed_value(const SealedContent& content, const std::string& name) {
+  const auto& values = sealed_entry<std::vector<T>>(content, name);
+  if (values.size() != 1) throw InputError(fmt::format("'{}' is not one number", name));
+  return values.front();
+}
+
+template double sealed_value(const SealedContent&, const std::string&);
+template std::int64_t sealed_value(const SealedContent&, const std::string&);
 template const std::vector<double>& sealed_entry(const SealedContent&, const std::string&);
 template const std::vector<float>& sealed_entry(const SealedContent&, const std::string&);
 template const std::vector<std::int64_t>& sealed_entry(const SealedContent&, const std::string&);

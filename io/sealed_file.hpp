@@ -34,4 +34,8 @@ std::map<std::string, std::uint64_t> digests_of(const SealedContent& content);
 template <class T>
 const T& sealed_entry(const SealedContent& content, const std::string& name);
 
+/// The only value of the entry of this name. InputError where there is none, or more than one.
+template <class T>
+T sealed_value(const SealedContent& content, const std::string& name);
+
 }  // namespace tread

@@ -90,7 +90,8 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       rail_stations_(*rail_),
       wheel_stations_(*wheel_),
       friction_{options.friction, options.penalty},
-      points_per_face_(options.points * options.points) {
+      points_per_face_(options.points * options.points),
+      deepest_(std::max(options.depth_room, corrugation_.deepest())) {
   gauss_ = gauss(options.points);
   const std::vector<double> factors = box_factors(gauss_);
   for (std::size_t i = 0; i < gauss_.size(); ++i)
@@ -119,7 +120,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
     closest = std::min(closest, gap[static_cast<std::size_t>(edge)]);
   }
   touching_height_ = -closest;
-  const double lateral_reach = 1.5 * options_.reach_gap + corrugation_.deepest();
+  const double lateral_reach = 1.5 * options_.reach_gap + deepest_;
   first_edge_ = rail_profile_.edges();
   for (int edge = 0; edge < rail_profile_.edges(); ++edge)
     if (gap[static_cast<std::size_t>(edge)] < closest + lateral_reach) {
@@ -147,7 +148,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
 
 /// A circle of the wheel's radius lies reach_gap and the corrugation's depth above its lowest point there.
 double Contact::reach() const {
-  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + corrugation_.deepest()));
+  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest_));
 }
 
 void Contact::update_window(const BodyFrame& wheel) {

@@ -29,6 +29,7 @@ struct ContactOptions {
   double penalty = 0;       ///< normal penalty stiffness per area [Pa/m]
   double friction = 0;      ///< coefficient of friction f [-]
   double wheel_radius = 0;  ///< of the nominal rolling circle [m]
+  double depth_room = 0;    ///< deepest corrugation that is searched for, if deeper than the present one [m]
   double reach_gap = 4e-4;  ///< gap of the undeformed surfaces up to which points are searched [m]
 };
 
@@ -151,6 +152,7 @@ class Contact {
   /// Along, across, weight on the unit face, factor in the mean over a box.
   std::vector<std::array<double, 4>> quadrature_;
   std::vector<double> across_;  ///< arc length across the rail up to each integration point of a row [m]
+  double deepest_ = 0;          ///< corrugation that the searched surface has room for [m]
   double width_ = 0;            ///< of the rail's surface along its arc [m]
   int first_edge_ = 0, last_edge_ = 0;  ///< edges that the wheel's profile can reach, [first, last)
 

@@ -3,8 +3,10 @@
 // fastenings leaves them that a rigid wheel has run over. [theory.md, Start]
 
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "core/state_list.hpp"
 #include "drivers/beam/track_beam.hpp"
 #include "drivers/model.hpp"
 
@@ -58,6 +60,19 @@ struct RunIn {
 
   double left = 0, pitch = 0;     ///< of the sections [m]
   std::vector<Section> sections;  ///< at least two
+
+  void list_state(StateList& list) {
+    list.add("force", force);
+    list.add("wheel_speed", wheel_speed);
+    list.add("bending_speed", bending_speed);
+    list.add("journal_force", journal_force);
+    list.add("inertia_force", inertia_force);
+    list.add("stretch", stretch);
+    list.add("sprung_speed", sprung_speed);
+    list.add("left", left);
+    list.add("pitch", pitch);
+    list.add_records("sections", std::span(sections));
+  }
 };
 
 /// From the running wheel.

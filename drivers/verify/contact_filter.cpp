@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/half_space.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 struct Waves {
   double wavelength, depth, width;  ///< L, d_m, W of the paper's eqs. (6), (7) [m]
+  bool by_gap;                      ///< added to the contact gap, not by moved nodes
 };
 
 struct Rest {
@@ -31,8 +33,9 @@ Rest rest(TyreOnBlock bodies, const Waves& waves, bool trough, const ProgressTex
   bodies.fine = {-half - 2 * bodies.element_size, half + 2 * bodies.element_size};
   bodies.more = fmt::format(
       "[corrugation]\nwavelength = \"{} m\"\ndepth = \"{} m\"\nwidth = \"{} m\"\nstart = \"{} m\"\n"
-      "length = \"{} m\"\ncentre = \"0 m\"\n",
-      waves.wavelength, waves.depth, waves.width, -half, 2 * half * (1 + 1e-9));
+      "length = \"{} m\"\ncentre = \"0 m\"\napply = \"{}\"\n",
+      waves.wavelength, waves.depth, waves.width, -half, 2 * half * (1 + 1e-9),
+      waves.by_gap ? "gap" : "nodes");
   Model model(bodies.scene());
   model.apply_corrugation(0);
   progress(fmt::format("{} elements of {:.3g} mm, {} at {:.3g} mm", model.elements(),
@@ -78,12 +81,9 @@ CaseResult contact_filter(const VerifyInputs& inputs, const ProgressText& progre
                                half_crest.max_pressure / half_trough.max_pressure, 0.03 * bodies.fineness()});
   };
   const double wanted = inputs["wavelength"];
-  if (wanted > 0) {
-    compare({wanted, inputs["depth"], inputs["width"]});
-  } else {
-    for (const double wavelength : {0.065, 0.080, 0.095})
-      compare({wavelength, inputs["depth"], inputs["width"]});
-  }
+  for (const double wavelength :
+       wanted > 0 ? std::vector<double>{wanted} : std::vector<double>{0.065, 0.080, 0.095})
+    compare({wavelength, inputs["depth"], inputs["width"], inputs["gap"] > 0});
   return result;
 }
 
@@ -94,6 +94,7 @@ VerifyCase contact_filter_case() {
   inputs.push_back({"wavelength", &kLength, "mm", 0, {0, 1}, "the wavelength L; 0: 65, 80 and 95 mm"});
   inputs.push_back({"depth", &kLength, "mm", 0.14e-3, {1e-6, 1e-3}, "the depth d_m from crest to trough"});
   inputs.push_back({"width", &kLength, "mm", 30e-3, {1e-3, 0.1}, "the half width W"});
+  inputs.push_back({"gap", nullptr, "", 0, {0, 1}, "1: the corrugation is added to the gap; 0: moved nodes"});
   return {"contact_filter", "a wheel at rest on crests and in troughs, against the half-space",
           std::move(inputs), contact_filter};
 }

@@ -12,7 +12,7 @@ if [[ ${FULL_DISK_INSIDE:-} != yes ]]; then
   FULL_DISK_INSIDE=yes exec unshare --map-root-user --mount "$0" "$@"
 fi
 shift 2
-export OMP_WAIT_POLICY=passive
+export OMP_WAIT_POLICY=passive TREAD_CACHE=off
 work=$(mktemp -d)
 trap 'umount "$work/disk" 2>/dev/null || true; rm -rf "$work"' EXIT
 mkdir "$work/disk"

@@ -5,7 +5,7 @@
 set -euo pipefail
 tread=$1 scene=$2 kills=$3
 shift 3
-export OMP_WAIT_POLICY=passive
+export OMP_WAIT_POLICY=passive TREAD_CACHE=off
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -1,118 +1,39 @@
 // Runs that are stopped, killed, resumed: nothing is lost, and the files are those of an uninterrupted run.
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "drivers/run_command.hpp"
 #include "io/checkpoint_folder.hpp"
-#include "io/hdf5_file.hpp"
+#include "tests/program_test.hpp"
 
 namespace tread {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace samples;
 
-std::string content_of(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-bool wait_until(const std::function<bool()>& condition) {
-  for (int i = 0; i < 6000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
-/// The exit status; that of a signal is 1000 + its number.
-int wait_for(pid_t process) {
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
-}
-
-/// A child process that calls `action`.
-pid_t child(const std::function<void()>& action) {
-  const pid_t process = ::fork();
-  if (process != 0) return process;
-  action();
-  ::_exit(0);
-}
-
-/// What the summary states besides times.
-std::string figures(const fs::path& folder) {
-  std::istringstream lines(content_of(folder / "summary.json"));
-  std::string kept;
-  for (std::string line; std::getline(lines, line);)
-    if (!has(line, "_s\": ") || has(line, "dt_s"))
-      if (!has(line, "\"threads\"")) kept += line + "\n";
-  return kept;
-}
-
-void expect_same_file(const fs::path& a, const fs::path& b) {
-  const Hdf5File one = Hdf5File::open_to_read(a);
-  const Hdf5File other = Hdf5File::open_to_read(b);
-  ASSERT_EQ(one.datasets(), other.datasets());
-  for (const std::string& name : one.datasets()) {
-    ASSERT_EQ(one.shape(name), other.shape(name)) << name;
-    EXPECT_EQ(one.read<double>(name), other.read<double>(name)) << name;
-  }
-}
-
-void expect_same_run(const fs::path& a, const fs::path& b) {
-  for (const char* name : {"histories.csv", "surface_axis.csv"})
-    EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
-  for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
-  EXPECT_EQ(figures(a), figures(b));
-  EXPECT_FALSE(fs::exists(b / "checkpoint"));
-}
-
-class Resume : public testing::Test {
+class Resume : public ProgramTest {
  protected:
   static void SetUpTestSuite() {
-    fs::create_directories(root_);
+    make_root();
     ASSERT_EQ(call(run(root_ / "whole")), 0) << errors();
   }
-  static void TearDownTestSuite() { fs::remove_all(root_); }
   void TearDown() override { fs::remove_all(folder_); }
 
   /// Arguments of `tread run`.
   static std::string run(const fs::path& folder, const std::string& more = "") {
-    return fmt::format("run {} -t 1 -o {} {} {}", scene(), folder.string(), kScene, more);
+    return fmt::format("run {} -t 1 -o {} {} {}", kTyre, folder.string(), kScene, more);
   }
   std::string resume(const std::string& more = "") const {
     return fmt::format("resume {} -t 1 {}", folder_.string(), more);
-  }
-  static std::string scene() { return fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml"; }
-  static std::string errors() { return content_of(root_ / "errors"); }
-
-  /// Starts the program; what it prints goes to files.
-  static pid_t start(const std::string& arguments, const std::string& before = "") {
-    const std::string command = fmt::format("{} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
-                                            arguments, root_.string(), root_.string());
-    return child([&] { ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr); });
-  }
-  static int call(const std::string& arguments, const std::string& before = "") {
-    return wait_for(start(arguments, before));
   }
   /// Starts a run and waits until it rolls.
   pid_t start_rolling() {
@@ -126,7 +47,6 @@ class Resume : public testing::Test {
   }
 
   static constexpr const char* kScene = "--set \"scene.element_size=8 mm\"";
-  static inline fs::path root_ = fs::path(testing::TempDir()) / fmt::format("tread_resume_{}", ::getpid());
   fs::path folder_ = root_ / "part";
 };
 
@@ -230,7 +150,7 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
   fs::create_directories(source);
   std::ofstream(source / "depth.txt") << "# x [mm]  d [mm]\n0 0\n10 0.02\n20 0\n";
   std::ofstream(source / "scene.toml")
-      << content_of(scene())
+      << content_of(kTyre)
       << "[corrugation]\nkind = \"table\"\nfile = \"depth.txt\"\nwidth = \"20 "
          "mm\"\nstart = \"10 mm\"\napply = \"gap\"\n";
   const auto table_run = [&](const fs::path& folder, const char* more) {
@@ -252,14 +172,14 @@ TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   options.threads.number = 1;
   options.quiet = true;
   options.output = root_ / "short";
-  ASSERT_EQ(wait_for(child([&] { run_scene(resolve_scene(fs::path(scene()), values), options); })), 0);
+  ASSERT_EQ(wait_for(child([&] { run_scene(resolve_scene(fs::path(kTyre), values), options); })), 0);
   options.output = folder_;
   for (int stage = 0; stage < kCheckpointStages; ++stage) {
     int seen = 0;
     options.observer = [&](CheckpointStage reached) {
       if (static_cast<int>(reached) == stage && ++seen == 2) ::kill(::getpid(), SIGKILL);
     };
-    const pid_t process = child([&] { run_scene(resolve_scene(fs::path(scene()), values), options); });
+    const pid_t process = child([&] { run_scene(resolve_scene(fs::path(kTyre), values), options); });
     ASSERT_EQ(wait_for(process), 1000 + SIGKILL) << "stage " << stage;
     EXPECT_EQ(call(resume()), 0) << errors();
     expect_same_run(root_ / "short", folder_);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/corrugation.hpp"
@@ -73,6 +74,25 @@ TEST(Corrugation, TableIsMetAndDoesNotOvershoot) {
   }
   EXPECT_EQ(table.depth(1.49, 0), 0);
   EXPECT_NEAR(table.depth(1.55, 15e-3), 0.75 * 2e-4, 1e-18);
+}
+
+TEST(Corrugation, TheFirstDifferenceIsFoundWhereverItLies) {
+  const auto differ = [](const Corrugation& a, const Corrugation& b, double end) {
+    const std::optional<double> one = first_difference(a, b, end, 1e-9);
+    EXPECT_EQ(one, first_difference(b, a, end, 1e-9));
+    return one;
+  };
+  EXPECT_FALSE(differ(kSine, kSine, 10));
+  EXPECT_FALSE(differ(Corrugation(), Corrugation(), 10));
+  EXPECT_FALSE(differ(Corrugation(), kSine, 2.4));
+  EXPECT_NEAR(differ(Corrugation(), kSine, 10).value(), 2.4, 2e-4);
+  // Of sines of the same start the longer goes on; another width, centre or depth shows at once.
+  const Corrugation longer({0.08, 0.14e-3}, 2.4, 0.7, 1e-3, 30e-3);
+  EXPECT_FALSE(differ(kSine, longer, 2.4 + 7 * 0.08));
+  EXPECT_NEAR(differ(kSine, longer, 10).value(), 2.4 + 7 * 0.08, 2e-4);
+  EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.14e-3}, 2.4, 0.6, 1e-3, 29e-3), 10).value(), 2.4, 2e-3);
+  EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.14e-3}, 2.4, 0.6, 1.1e-3, 30e-3), 10).value(), 2.4, 2e-3);
+  EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.13e-3}, 2.4, 0.6, 1e-3, 30e-3), 10).value(), 2.4, 2e-3);
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+#pragma once
+// Preloads that earlier runs have found. [reliability.md, Preload cache]
+
+#include <optional>
+#include <string>
+
+#include "drivers/preload.hpp"
+#include "io/content_cache.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+/// The cache at `place`: a folder, "off", or "", which leaves it to TREAD_CACHE (likewise a folder or "off")
+/// or else is tread/ in XDG_CACHE_HOME or ~/.cache. TREAD_CACHE_LIMIT, "4 GB", bounds it. Nothing where it is
+/// off. Throws InputError.
+std::optional<ContentCache> preload_cache(const std::string& place);
+
+/// Everything that the preload's bits depend on: the program, the instruction set, and all values of the
+/// scene but those that act on rolling alone.
+std::string preload_key(const ResolvedScene& resolved, const Model& model);
+
+/// The preload that the cache has under the key, and the model as solve_preload() leaves it; nothing where it
+/// has none. Why an entry is of no use goes to `say`.
+std::optional<Preload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
+                                      const ProgressText& say);
+
+/// Keeps the preload; why it cannot goes to `say`.
+void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,
+                  const ProgressText& say);
+
+}  // namespace tread

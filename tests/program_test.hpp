@@ -1,0 +1,113 @@
+#pragma once
+// Tests that run the program as users do, and compare what its runs leave.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "io/hdf5_file.hpp"
+
+namespace tread::samples {
+
+namespace fs = std::filesystem;
+
+inline std::string content_of(const fs::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+inline bool wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// The exit status; that of a signal is 1000 + its number.
+inline int wait_for(pid_t process) {
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+/// A child process that calls `action`.
+inline pid_t child(const std::function<void()>& action) {
+  const pid_t process = ::fork();
+  if (process != 0) return process;
+  action();
+  ::_exit(0);
+}
+
+/// What the summary states besides times and where the start came from.
+inline std::string figures(const fs::path& folder) {
+  std::istringstream lines(content_of(folder / "summary.json"));
+  std::string kept;
+  bool origin = false;
+  for (std::string line; std::getline(lines, line);) {
+    origin = has(line, "\"fork\": {") || (origin && !has(line, "}"));
+    const bool of_start = origin || line == "  }," || has(line, "\"preload_cached\"");
+    const bool of_process = (has(line, "_s\": ") && !has(line, "dt_s")) || has(line, "\"threads\"");
+    if (!of_start && !of_process) kept += line + "\n";
+  }
+  return kept;
+}
+
+inline void expect_same_file(const fs::path& a, const fs::path& b) {
+  const Hdf5File one = Hdf5File::open_to_read(a);
+  const Hdf5File other = Hdf5File::open_to_read(b);
+  ASSERT_EQ(one.datasets(), other.datasets());
+  for (const std::string& name : one.datasets()) {
+    ASSERT_EQ(one.shape(name), other.shape(name)) << name;
+    EXPECT_EQ(one.read<double>(name), other.read<double>(name)) << name;
+  }
+}
+
+inline void expect_same_run(const fs::path& a, const fs::path& b) {
+  for (const char* name : {"histories.csv", "surface_axis.csv"})
+    EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
+  for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
+  EXPECT_EQ(figures(a), figures(b));
+  EXPECT_FALSE(fs::exists(b / "checkpoint"));
+}
+
+inline const std::string kTyre = fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml";
+
+/// A folder for the runs of a test suite, and the program.
+class ProgramTest : public testing::Test {
+ protected:
+  static void TearDownTestSuite() { fs::remove_all(root_); }
+  static void make_root() { fs::create_directories(root_); }
+  static std::string errors() { return content_of(root_ / "errors"); }
+  static std::string output() { return content_of(root_ / "out"); }
+
+  /// Starts the program; what it prints goes to files.
+  static pid_t start(const std::string& arguments, const std::string& before = "") {
+    const std::string command =
+        fmt::format("export TREAD_CACHE=off; {} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
+                    arguments, root_.string(), root_.string());
+    return child([&] { ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr); });
+  }
+  static int call(const std::string& arguments, const std::string& before = "") {
+    return wait_for(start(arguments, before));
+  }
+
+  static inline fs::path root_ = fs::path(testing::TempDir()) / fmt::format("tread_{}", ::getpid());
+};
+
+}  // namespace tread::samples

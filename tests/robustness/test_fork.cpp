@@ -1,0 +1,137 @@
+// A run that begins with the state of another one is the run that its scene makes from the start.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "io/checkpoint_folder.hpp"
+#include "tests/program_test.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+
+class Fork : public ProgramTest {
+ protected:
+  static void SetUpTestSuite() {
+    make_root();
+    write_scene("smooth.toml", "");
+    write_scene("sine.toml",
+                "[corrugation]\nwavelength = \"20 mm\"\ndepth = \"0.02 mm\"\nstart = \"0.13 m\"\n"
+                "length = \"60 mm\"\napply = \"gap\"\n");
+    write_scene(
+        "table.toml",
+        "[corrugation]\nkind = \"table\"\nfile = \"depth.txt\"\nstart = \"0.12 m\"\napply = \"gap\"\n");
+    std::ofstream(root_ / "depth.txt") << "# x [mm]  d [mm]\n0 0\n4 0\n20 0.03\n32 0.01\n50 0.04\n60 0\n";
+    ASSERT_EQ(call(run("smooth.toml", root_ / "smooth")), 0) << errors();
+    ASSERT_EQ(call(run("sine.toml", root_ / "sine")), 0) << errors();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static void write_scene(const char* name, const char* more) {
+    std::ofstream(root_ / name) << content_of(kTyre) << more << "[forks]\n";
+  }
+  /// Arguments of `tread run`.
+  static std::string run(const std::string& scene, const fs::path& folder, const std::string& more = "",
+                         int threads = 1) {
+    return fmt::format(
+        "run {} -t {} -o {} --set \"scene.element_size=8 mm\" --set \"motion.duration=2.2 ms\" {}",
+        (root_ / scene).string(), threads, folder.string(), more);
+  }
+  std::string from(const std::string& scene, const std::string& other, const std::string& more = "",
+                   int threads = 1) const {
+    return run(scene, folder_, fmt::format("--from {} {}", (root_ / other).string(), more), threads);
+  }
+  void expect_refused(const std::string& arguments, const std::string& reason) const {
+    EXPECT_EQ(call(arguments), 2) << arguments;
+    EXPECT_TRUE(has(errors(), reason)) << reason << " is not in: " << errors();
+  }
+
+  fs::path folder_ = root_ / "fork";
+};
+
+TEST_F(Fork, OfTheSameSceneIsTheSameRunOnOtherThreads) {
+  ASSERT_EQ(call(from("sine.toml", "sine", "", 2)), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[fork] from")) << errors();
+  expect_same_run(root_ / "sine", folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "forks"));
+  EXPECT_TRUE(
+      has(content_of(folder_ / "summary.json"), fmt::format("\"from\": \"{}/sine\"", root_.string())));
+  EXPECT_TRUE(has(content_of(folder_ / "report.html"), "fork of"));
+}
+
+TEST_F(Fork, OverAnotherCorrugationIsTheRunFromTheStart) {
+  // The state of a smooth rail lies 20 mm before the solution zone, x = 0.1 m.
+  for (const char* scene : {"sine", "table"}) {
+    const std::string file = fmt::format("{}.toml", scene);
+    if (!fs::exists(root_ / scene)) {
+      ASSERT_EQ(call(run(file, root_ / scene)), 0) << errors();
+    }
+    ASSERT_EQ(call(from(file, "smooth")), 0) << errors();
+    expect_same_run(root_ / scene, folder_);
+    fs::remove_all(folder_);
+  }
+  EXPECT_FALSE(content_of(root_ / "smooth/histories.csv") == content_of(root_ / "sine/histories.csv"));
+  EXPECT_FALSE(content_of(root_ / "table/histories.csv") == content_of(root_ / "sine/histories.csv"));
+}
+
+TEST_F(Fork, CanBeKilledAndResumedWithoutTheOtherRun) {
+  fs::copy(root_ / "smooth", root_ / "copy", fs::copy_options::recursive);
+  EXPECT_EQ(call(from("sine.toml", "copy", "--set stop.steps=1200")), 4) << errors();
+  fs::remove_all(root_ / "copy");
+  EXPECT_EQ(call(fmt::format("resume {} -t 2 --set stop.steps=0", folder_.string())), 0) << errors();
+  expect_same_run(root_ / "sine", folder_);
+}
+
+TEST_F(Fork, EndsEarlierWhereItsSceneSaysSo) {
+  EXPECT_EQ(call(from("sine.toml", "smooth", "--set \"motion.duration=1.6 ms\"")), 0) << errors();
+  const std::string histories = content_of(folder_ / "histories.csv");
+  EXPECT_TRUE(content_of(root_ / "sine/histories.csv").starts_with(histories));
+  EXPECT_TRUE(has(content_of(folder_ / "scene.resolved.toml"), "duration = \"0.0016 s\""));
+}
+
+TEST_F(Fork, TakesTheLastStateUpToTheTime) {
+  // An unfinished run has checkpoints, too.
+  const fs::path other = root_ / "unfinished";
+  EXPECT_EQ(call(run("smooth.toml", other, "--set stop.steps=1000")), 4) << errors();
+  ASSERT_EQ(CheckpointFolder(other / "forks").states().size(), 1U);
+  const fs::path kept = CheckpointFolder(other / "forks").states().front();
+  EXPECT_EQ(call(from("sine.toml", "unfinished@5ms", "--set stop.steps=1010")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "(step 1000)")) << errors();
+  fs::remove_all(folder_);
+  EXPECT_EQ(call(from("sine.toml", "unfinished@0.8ms", "--set stop.steps=1010")), 4) << errors();
+  EXPECT_TRUE(has(errors(), fmt::format("(step {})", std::stoi(kept.stem().string().substr(5))))) << errors();
+  fs::remove_all(folder_);
+  expect_refused(from("sine.toml", "smooth@0.1ms"), "no state up to 0.1 ms");
+  expect_refused(from("sine.toml", "smooth@often"), "such as out@10ms");
+  expect_refused(from("sine.toml", "absent"), "has no state to begin with");
+  fs::resize_file(kept, 4000);
+  EXPECT_EQ(call(from("sine.toml", "unfinished@0.8ms", "--set stop.steps=1010")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "it has 4000 of") && has(errors(), "(step 0)")) << errors();
+}
+
+TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
+  expect_refused(from("sine.toml", "smooth", "--set contact.friction=0.3 --set \"motion.speed=250 km/h\""),
+                 "contact.friction (0.5 there, 0.3 here), motion.speed (300 km/h there, 250 km/h here)");
+  expect_refused(from("sine.toml", "smooth", "--set corrugation.apply=nodes"), "corrugation.apply");
+  expect_refused(from("sine.toml", "smooth", "--set \"corrugation.depth=0.3 mm\""), "contact.depth_room");
+  expect_refused(from("sine.toml", "smooth", "--set \"contact.depth_room=0.3 mm\""), "leave it out");
+  expect_refused(from("sine.toml", "smooth", "--set \"motion.duration=2.3 ms\""), "motion.duration = 2.3 ms");
+  expect_refused(from("sine.toml", "sine", "--set \"corrugation.start=0.1 m\""), "the corrugations differ");
+  EXPECT_FALSE(fs::exists(folder_ / "checkpoint"));
+  expect_refused(run("sine.toml", root_ / "smooth", fmt::format("--from {}/smooth", root_.string())),
+                 "a folder of its own");
+  expect_refused(run("sine.toml", folder_, "--set \"forks.at=3 ms\""), "forks.at");
+  expect_refused(
+      run("sine.toml", folder_, "--set \"solution_zone.start=0.03 m\" --set \"corrugation.start=0.03 m\""),
+      "state forks.at");
+}
+
+}  // namespace
+}  // namespace tread
