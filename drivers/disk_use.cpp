@@ -1,5 +1,6 @@
 #include "drivers/disk_use.hpp"
 
+#include "drivers/frame_files.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/run_results.hpp"
 
@@ -31,6 +32,10 @@ DiskUse disk_use(const Model& model, double dt) {
   constexpr int kAtOnce = 3;
   use.checkpoints =
       kAtOnce * (checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch));
+  if (const auto frames = static_cast<std::int64_t>(frame_steps(model.scene.output.frames, steps).size())) {
+    const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
+    use.frames = bytes.mesh + frames * bytes.frame;
+  }
   return use;
 }
 

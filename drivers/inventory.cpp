@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/frame_files.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/simulation.hpp"
 
@@ -58,6 +59,14 @@ class Phases {
  private:
   std::vector<PhaseInfo> list_;
 };
+
+/// Displacement and velocity; grid, arrays, file and its image.
+std::int64_t frame_memory(const Model& model) {
+  const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
+  constexpr int kTimes = 3;
+  return 2 * 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double)) + bytes.mesh +
+         kTimes * bytes.frame;
+}
 
 void add_preload(const Model& model, Phases& list) {
   const bool wheel = model.wheelset.has_value();
@@ -126,6 +135,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                   "a copy of the state, on the wall clock",
                   {"displacement", "velocity", "samples"},
                   {"checkpoint"}});
+  list.add(model.scene.output.frames > 0, {"frame",
+                                           "a copy of the motion, evenly over the duration",
+                                           {"displacement", "velocity", "coefficients"},
+                                           {"frame"}});
   return list.take();
 }
 
@@ -164,6 +177,8 @@ std::vector<FieldInfo> fields(const Model& model) {
                       : 0});
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
+  add(motion && model.scene.output.frames > 0,
+      {"frame", "m, m/s", "node, a copy; its file", frame_memory(model)});
   add(true, {"solver", "N, m", "node and aggregate, during the preload", kSolverVectors * vector});
   add(wheel, {"held motions", "-", "node, during the preload", kHeldVectors * vector});
   return list;
@@ -202,7 +217,7 @@ std::int64_t peak_bytes(const Model& model) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
     else if (field.name == "velocity" || field.name == "force" || field.name == "surface fields" ||
-             field.name == "samples" || field.name == "checkpoint")
+             field.name == "samples" || field.name == "checkpoint" || field.name == "frame")
       rolling += field.bytes;
     else
       always += field.bytes;

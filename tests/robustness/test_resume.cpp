@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -78,10 +79,20 @@ void expect_same_file(const fs::path& a, const fs::path& b) {
   }
 }
 
+std::vector<std::string> frames_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames"))
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 void expect_same_run(const fs::path& a, const fs::path& b) {
-  for (const char* name : {"histories.csv", "surface_axis.csv"})
+  for (const char* name : {"histories.csv", "surface_axis.csv", "frames.hdf.series"})
     EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
   for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
+  EXPECT_EQ(frames_in(a), frames_in(b));
+  for (const std::string& name : frames_in(a)) expect_same_file(a / "frames" / name, b / "frames" / name);
   EXPECT_EQ(figures(a), figures(b));
   EXPECT_FALSE(fs::exists(b / "checkpoint"));
 }
@@ -97,7 +108,7 @@ class Resume : public testing::Test {
 
   /// Arguments of `tread run`.
   static std::string run(const fs::path& folder, const std::string& more = "") {
-    return fmt::format("run {} -t 1 -o {} {} {}", scene(), folder.string(), kScene, more);
+    return fmt::format("run {} -t 1 -o {} {} {} {}", scene(), folder.string(), kScene, kFrames, more);
   }
   std::string resume(const std::string& more = "") const {
     return fmt::format("resume {} -t 1 {}", folder_.string(), more);
@@ -125,6 +136,7 @@ class Resume : public testing::Test {
     expect_same_run(root_ / "whole", folder_);
   }
 
+  static constexpr const char* kFrames = "--set output.frames=6";
   static constexpr const char* kScene = "--set \"scene.element_size=8 mm\"";
   static inline fs::path root_ = fs::path(testing::TempDir()) / fmt::format("tread_resume_{}", ::getpid());
   fs::path folder_ = root_ / "part";
@@ -187,6 +199,26 @@ TEST_F(Resume, ControlledFromOutside) {
   expect_finishes_as_if_never_stopped();
 }
 
+TEST_F(Resume, AFrameOnRequestStays) {
+  const pid_t process = start_rolling();
+  EXPECT_EQ(call("ctl " + folder_.string() + " frame"), 0) << errors();
+  ASSERT_TRUE(wait_until([&] {
+    const auto names = fs::exists(folder_ / "frames") ? frames_in(folder_) : std::vector<std::string>{};
+    return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+      return name.ends_with(".hdf") && !fs::exists(root_ / "whole/frames" / name);
+    });
+  }));
+  ::kill(process, SIGKILL);
+  wait_for(process);
+  EXPECT_EQ(call(resume()), 0) << errors();
+  const auto names = frames_in(folder_);
+  EXPECT_EQ(names.size(), frames_in(root_ / "whole").size() + 1);
+  const std::string series = content_of(folder_ / "frames.hdf.series");
+  for (const std::string& name : names)
+    if (name.starts_with("step-")) EXPECT_TRUE(has(series, name)) << name;
+  EXPECT_TRUE(has(content_of(folder_ / "status.json"), "\"done\""));
+}
+
 TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
   for (const char* wrong :
@@ -226,7 +258,8 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
          "mm\"\nstart = \"10 mm\"\napply = \"gap\"\n";
   const auto table_run = [&](const fs::path& folder, const char* more) {
     return fmt::format(
-        "run {} -t 1 -o {} {} --set \"motion.duration=0.6 ms\" --set \"solution_zone.start=5 mm\" {}",
+        "run {} -t 1 -o {} {} --set output.frames=3 --set \"motion.duration=0.6 ms\" --set "
+        "\"solution_zone.start=5 mm\" {}",
         (source / "scene.toml").string(), folder.string(), kScene, more);
   };
   ASSERT_EQ(call(table_run(root_ / "table", "")), 0) << errors();
@@ -238,7 +271,7 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
 
 TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=1 ms",
-                                           "output.checkpoint_interval=1 ms"};
+                                           "output.checkpoint_interval=1 ms", "output.frames=3"};
   RunOptions options;
   options.threads.number = 1;
   options.quiet = true;
