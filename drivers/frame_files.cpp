@@ -80,7 +80,7 @@ std::vector<std::int64_t> frame_steps(int count, std::int64_t steps) {
   std::vector<std::int64_t> due;
   for (int i = 1; i <= count; ++i) {
     const std::int64_t step = i == count ? steps : 1 + (steps - 1) * (i - 1) / (count - 1);
-    if (step >= 1 && (due.empty() || step > due.back())) due.push_back(step);
+    if (step >= 1 && step <= steps && (due.empty() || step > due.back())) due.push_back(step);
   }
   return due;
 }

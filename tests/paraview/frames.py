@@ -22,6 +22,16 @@ def near(value, expected, share, text):
     require(abs(value - expected) <= share * abs(expected), f"{text}: {value:g}, expected {expected:g}")
 
 
+def points_of_blocks(data):
+    """Numbers of the points by block."""
+    block = data.GetCellData().GetArray("block")
+    found = {}
+    for i in range(data.GetNumberOfCells()):
+        corners = data.GetCell(i).GetPointIds()
+        found.setdefault(block.GetValue(i), set()).update(corners.GetId(k) for k in range(corners.GetNumberOfIds()))
+    return found
+
+
 with open(os.path.join(folder, "frames.hdf.series")) as file:
     listed = json.load(file)["files"]
 with open(os.path.join(folder, "histories.csv")) as file:
@@ -34,7 +44,6 @@ require(reader is not None, "no reader takes frames.hdf.series")
 times = list(reader.TimestepValues)
 require(len(times) == 5 == len(listed), f"{len(times)} instants, {len(listed)} listed")
 
-first_displacement = None
 for time, entry in zip(times, listed):
     near(time, entry["time"], 1e-12, "time of " + entry["name"])
     reader.UpdatePipeline(time)
@@ -58,21 +67,18 @@ for time, entry in zip(times, listed):
     stress = values.GetArray("von Mises stress [Pa]").GetRange()
     require(0 <= stress[0] and 1e8 < stress[1] < 2e9, f"stress from {stress[0]:g} to {stress[1]:g} Pa")
 
-    # The wheel is the block that is higher than 0.8 m; its box's middle is the axle.
-    blocks = int(values.GetArray("block").GetRange()[1]) + 1
     axles = []
-    for block in range(blocks):
-        part = simple.Threshold(Input=reader, Scalars=["CELLS", "block"], LowerThreshold=block, UpperThreshold=block)
-        part.UpdatePipeline(time)
-        box = part.GetDataInformation().GetBounds()
-        if box[5] - box[4] > 0.8:
-            axles.append((box[0] + box[1]) / 2)
-            speed = part.GetPointDataInformation().GetArray("velocity [m s-1]")
-            near(speed.GetRange(-1)[1], 2 * row["wheel_speed [m/s]"], 0.02, "speed of the wheel's top")
+    for ids in points_of_blocks(data).values():
+        places = [data.GetPoint(i) for i in ids]
+        if max(p[2] for p in places) - min(p[2] for p in places) < 0.8:
+            continue  # not the wheel
+        axles.append((max(p[0] for p in places) + min(p[0] for p in places)) / 2)
+        speed = max(math.hypot(*points.GetArray("velocity [m s-1]").GetTuple3(i)) for i in ids)
+        near(speed, 2 * row["wheel_speed [m/s]"], 0.02, "speed of the wheel's top")
     require(len(axles) == 1, f"{len(axles)} wheels")
     require(abs(axles[0] - row["wheel_x [m]"]) < 2e-3, f"axle at {axles[0]:g} m, histories: {row['wheel_x [m]']:g} m")
     displacement = points.GetArray("displacement [m]").GetRange(-1)[1]
-    require(1e-6 < displacement < 1e-3, f"largest displacement {displacement:g} m")
+    require(1e-6 < displacement < 5e-3, f"largest displacement {displacement:g} m")
 
 mesh = simple.OpenDataFile(os.path.join(folder, f"frames/mesh-{cells}.hdf"))
 mesh.UpdatePipeline()

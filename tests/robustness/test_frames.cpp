@@ -41,7 +41,7 @@ TEST(FrameSteps, AreEvenFromTheFirstStepToTheLast) {
 class Frames : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    simulation_.emplace(model_, solve_preload(model_, steady_motion(model_)), dt_);
+    simulation_.emplace(model_, solve_preload(model_, steady_motion(model_), [](const std::string&) {}), dt_);
     while (simulation_->steps() < kSteps) simulation_->step();
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -138,7 +138,7 @@ TEST_P(Frames, TakeWhatWasProjected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Frames, testing::Values("faces", "elements"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
 }  // namespace tread

@@ -134,7 +134,7 @@ TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzTargets,
                          testing::Values("scene", "table", "roughness", "checkpoint", "run_folder"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
 }  // namespace tread

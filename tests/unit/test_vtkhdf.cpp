@@ -180,10 +180,12 @@ TEST_F(VtkhdfTest, ABodyIsPlacedTurnedAndLifted) {
   const VtkGrid grid = make_vtk_grid(mesh_, VtkCells::elements);
   write_vtk_mesh(path_, mesh_, grid, {Placement{}, lifted});
   const std::vector<double> xyz = Hdf5File::open_to_read(path_).read<double>("/VTKHDF/Points");
-  for (std::size_t i = 0; i < grid.points.size(); ++i)
-    if (grid.points[i].block == 1 && grid.points[i].station == 0 && grid.points[i].node == 0)
-      // phi = 0 points down; turned by a quarter about +y it points backwards, along -x.
-      EXPECT_NEAR(norm(point(xyz, static_cast<std::int64_t>(i)) - Vec3{1.0 - 0.4, -0.01, 0.43}), 0, 1e-12);
+  const auto first = std::find_if(grid.points.begin(), grid.points.end(), [](const VtkGrid::Point& at) {
+    return at.block == 1 && at.station == 0 && at.node == 0;
+  });
+  ASSERT_NE(first, grid.points.end());
+  // phi = 0 points down; turned by a quarter about +y it points backwards, along -x.
+  EXPECT_NEAR(norm(point(xyz, first - grid.points.begin()) - Vec3{1.0 - 0.4, -0.01, 0.43}), 0, 1e-12);
   EXPECT_THROW(write_vtk_mesh(path_, mesh_, grid, {Placement{}}), std::logic_error);
 }
 
