@@ -62,7 +62,7 @@ class FrameFiles {
   bool begun_ = false;
 };
 
-/// Of each frame, and of the mesh that they share [B].
+/// Of each frame before compression, and of the mesh that they share [B].
 struct FrameBytes {
   std::int64_t frame = 0;
   std::int64_t mesh = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 
 #include "io/hdf5_file.hpp"
@@ -104,13 +105,20 @@ void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
   file.write_attribute("/VTKHDF/CellData/pitch [m]", "unit", "m");
 }
 
+/// In one chunk: coordinates repeat along the sweep, and most of a surface is out of contact.
+void write_compressed(Hdf5File& file, const std::string& name, std::span<const float> values,
+                      int components) {
+  const auto width = static_cast<std::uint64_t>(components);
+  const std::uint64_t rows = std::max<std::uint64_t>(1, values.size() / width);
+  file.make_extendible<float>(name, rows, width > 1 ? std::vector{width} : std::vector<std::uint64_t>{},
+                              Hdf5File::Storage::compressed);
+  file.append<float>(name, values);
+}
+
 void write_array(Hdf5File& file, const VtkArray& array) {
   const std::string name =
       fmt::format("/VTKHDF/{}/{}", array.of_cells ? "CellData" : "PointData", array.name);
-  const auto width = static_cast<std::uint64_t>(array.components);
-  std::vector<std::uint64_t> shape = {array.values.size() / width};
-  if (width > 1) shape.push_back(width);
-  file.write<float>(name, array.values, shape);
+  write_compressed(file, name, array.values, array.components);
   file.write_attribute(name, "unit", array.unit);
   file.write_attribute(name, "description", array.description);
 }
@@ -137,7 +145,7 @@ void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame) {
   for (const VtkArray& array : frame.arrays) values += array.values.size();
   Hdf5File file = begin(values * sizeof(float));
   for (const std::string name : kShared) file.link_external("/VTKHDF/" + name, frame.mesh, "/VTKHDF/" + name);
-  file.write<float>("/VTKHDF/Points", frame.points, {frame.points.size() / 3, 3});
+  write_compressed(file, "/VTKHDF/Points", frame.points, 3);
   for (const VtkArray& array : frame.arrays) write_array(file, array);
   const std::array<double, 1> time = {frame.time};
   file.write<double>("/VTKHDF/FieldData/time [s]", time);
