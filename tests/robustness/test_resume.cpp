@@ -307,6 +307,16 @@ TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
   EXPECT_TRUE(has(errors(), "the run needs about")) << errors();
 }
 
+TEST_F(Resume, AFrameThatDoesNotFitEndsTheRunAndComesLater) {
+  // [512 B]: a checkpoint fits, the mesh of all elements does not.
+  EXPECT_EQ(call(run(folder_, "--set output.frame_cells=elements"), "ulimit -f 2200;"), 4);
+  EXPECT_TRUE(has(errors(), "mesh-elements.hdf") && has(errors(), "File too large")) << errors();
+  EXPECT_FALSE(fs::exists(folder_ / "frames.hdf.series"));
+  EXPECT_EQ(call(resume()), 0) << errors();
+  EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"));
+  EXPECT_EQ(frames_in(folder_).size(), frames_in(root_ / "whole").size());
+}
+
 TEST_F(Resume, AFullDiskLosesNothingThatWasWritten) {
   // Files cannot grow beyond the limit [512 B]. All kinds of writes: full_disk.sh.
   for (const int limit : {1, 40, 1900}) {
