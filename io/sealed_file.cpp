@@ -177,10 +177,12 @@ class SealedReader {
     if (index_ < kHeader || index_ > size_) refuse(path_, "its list of entries lies outside of it");
     std::istringstream lines(values<std::string>(size_ - index_, index_, 1));
     SealedContent all;
+    int number = 0;
     for (std::string text; std::getline(lines, text);) {
+      ++number;
       const std::optional<IndexLine> line = parse_line(text);
       if (!line || !all.emplace(line->name, entry(*line)).second)
-        refuse(path_, fmt::format("its list of entries holds '{}'", text.substr(0, 80)));
+        refuse(path_, fmt::format("line {} of its list of entries is broken", number));
     }
     return all;
   }

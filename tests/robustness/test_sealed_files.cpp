@@ -150,7 +150,7 @@ TEST_F(SealedFiles, WhatAForgedListStatesIsNotBelieved) {
     expect_refused(line, "does not fit into its");
   for (const char* line : {"f32 1 512 a\n", "f64 -1 512 a\n", "f64 1 512\n", "f64 01 512 a\n", "\n",
                            "byte 1 512 a\nbyte 1 512 a\n", "byte 1 512 a b\n"})
-    expect_refused(line, "its list of entries holds");
+    expect_refused(line, "of its list of entries is broken");
 }
 
 class Checkpoints : public SealedFiles {
