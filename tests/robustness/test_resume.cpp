@@ -214,8 +214,7 @@ TEST_F(Resume, AFrameOnRequestStays) {
   const auto names = frames_in(folder_);
   EXPECT_EQ(names.size(), frames_in(root_ / "whole").size() + 1);
   const std::string series = content_of(folder_ / "frames.hdf.series");
-  for (const std::string& name : names)
-    EXPECT_EQ(has(series, name), name.starts_with("step-")) << name;
+  for (const std::string& name : names) EXPECT_EQ(has(series, name), name.starts_with("step-")) << name;
   EXPECT_TRUE(has(content_of(folder_ / "status.json"), "\"done\""));
 }
 
