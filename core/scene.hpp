@@ -166,10 +166,12 @@ struct ForkSpec {
 
 /// [output]
 struct OutputSpec {
-  double history_interval = 1e-5;    ///< [s]
-  double progress_interval = 2;      ///< wall clock [s]
-  double checkpoint_interval = 600;  ///< wall clock [s]
-  std::optional<double> disk_limit;  ///< of the run's folder [B]
+  double history_interval = 1e-5;     ///< [s]
+  double progress_interval = 2;       ///< wall clock [s]
+  double checkpoint_interval = 600;   ///< wall clock [s]
+  int frames = 40;                    ///< for ParaView; 0: none
+  std::string frame_cells = "faces";  ///< "faces" or "elements"
+  std::optional<double> disk_limit;   ///< of the run's folder [B]
 };
 
 /// [stop]: what ends a run before its duration, besides errors

@@ -68,6 +68,18 @@ Estimate estimate(const Model& model) {
   return e;
 }
 
+std::string disk_text(const Model& model, const DiskUse& disk) {
+  std::string text = fmt::format("about {}", bytes_text(disk.results + disk.frames));
+  if (disk.rows == 0) return text;
+  text +=
+      fmt::format(": {} rows of {} channels, {}report {}; ", grouped(disk.rows),
+                  history_channels(model).size(), model.contact ? "patch, " : "", bytes_text(disk.results));
+  if (disk.frames > 0)
+    text += fmt::format("{} frames of {} {}; ", model.scene.output.frames, model.scene.output.frame_cells,
+                        bytes_text(disk.frames));
+  return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
+}
+
 std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e) {
   std::string text = fmt::format("{}: no problems found\n\n", resolved.name);
   text += plain_text(count_table(measure_blocks(model))) + "\n";
@@ -80,13 +92,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
   }
   line("Memory", fmt::format("about {}", bytes_text(e.memory)));
-  line("Disk",
-       fmt::format("about {}", bytes_text(e.disk.results)) +
-           (e.disk.rows > 0 ? fmt::format(": {} rows of {} channels, {}report; {} more for checkpoints "
-                                          "while it runs",
-                                          grouped(e.disk.rows), history_channels(model).size(),
-                                          model.contact ? "patch, " : "", bytes_text(e.disk.checkpoints))
-                            : ""));
+  line("Disk", disk_text(model, e.disk));
   line("Time", fmt::format("about {} with {} thread{}: preload {}{}",
                            duration_text(e.preload_seconds + e.rolling_seconds), threads(),
                            threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
@@ -114,6 +120,7 @@ std::string check_json(const Model& model, const Estimate& e) {
         .member("steps", e.steps);
   json.member("memory_bytes", e.memory)
       .member("disk_bytes", e.disk.results)
+      .member("frame_bytes", e.disk.frames)
       .member("checkpoint_bytes", e.disk.checkpoints)
       .member("history_rows", e.disk.rows);
   json.member("threads", threads())

@@ -35,7 +35,8 @@ void print_status(const std::filesystem::path& folder) {
 void control_run(const CtlOptions& options) {
   const std::filesystem::path& folder = options.folder;
   if (!std::filesystem::is_directory(folder))
-    throw InputError(fmt::format("there is no folder {}", folder.string()));
+    throw InputError(
+        fmt::format("there is no folder {}: give the one that `tread run -o` was given", folder.string()));
   if (options.action == "status") {
     print_status(folder);
     return;
@@ -45,14 +46,17 @@ void control_run(const CtlOptions& options) {
         fmt::format("no process works on {}; `tread resume {}` goes on with a run that was stopped",
                     folder.string(), folder.string()));
   const bool stop = options.action == "stop";
-  leave_request(folder, stop ? RunRequest::stop : RunRequest::checkpoint);
+  leave_request(folder, stop                        ? RunRequest::stop
+                        : options.action == "frame" ? RunRequest::frame
+                                                    : RunRequest::checkpoint);
   const auto answered = [&] { return stop ? !is_taken(folder) : !is_pending(folder); };
   if (!wait_until(answered, options.patience))
-    throw ResourceError(
-        fmt::format("the run in {} has not answered for {:g} s; the request still lies there. In "
-                    "the preload it answers at the next iteration of Newton's method",
-                    folder.string(), options.patience));
-  fmt::print("{}: {}\n", folder.string(), stop ? "stopped" : "writes a checkpoint");
+    throw ResourceError(fmt::format(
+        "the run in {} has not answered for {:g} s; the request still lies there. In "
+        "the preload it stops at the next iteration of Newton's method and answers other requests "
+        "after the first steps",
+        folder.string(), options.patience));
+  fmt::print("{}: {}\n", folder.string(), stop ? "stopped" : "writes a " + options.action);
 }
 
 }  // namespace tread

@@ -8,7 +8,7 @@ namespace tread {
 
 struct CtlOptions {
   std::filesystem::path folder;
-  std::string action;    ///< "status", "checkpoint" or "stop"
+  std::string action;    ///< "status", "checkpoint", "frame" or "stop"
   double patience = 60;  ///< for an answer [s]
 };
 

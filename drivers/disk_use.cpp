@@ -1,5 +1,6 @@
 #include "drivers/disk_use.hpp"
 
+#include "drivers/frame_files.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/run_results.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 // Measured on runs of the scenes in scenes/.
 constexpr double kCsvBytes = 13.5;              ///< of a value in histories.csv
 constexpr double kPatchShare = 0.15;            ///< of a sample in patch.h5 that compression leaves
+constexpr double kFrameShare = 0.62;            ///< of a frame that compression leaves
 constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
 
 }  // namespace
@@ -33,6 +35,11 @@ DiskUse disk_use(const Model& model, double dt) {
       checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch);
   use.checkpoints = kAtOnce * state;
   if (model.scene.forks) use.results += state;
+  if (const auto frames = static_cast<std::int64_t>(frame_steps(model.scene.output.frames, steps).size())) {
+    const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
+    use.frames =
+        bytes.mesh + frames * static_cast<std::int64_t>(kFrameShare * static_cast<double>(bytes.frame));
+  }
   return use;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "drivers/frame_files.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/simulation.hpp"
 
@@ -63,6 +64,14 @@ class Phases {
  private:
   std::vector<PhaseInfo> list_;
 };
+
+/// Displacement and velocity; grid, arrays, file and its image.
+std::int64_t frame_memory(const Model& model) {
+  const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
+  constexpr int kTimes = 3;
+  return 2 * 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double)) + bytes.mesh +
+         kTimes * bytes.frame;
+}
 
 void add_preload(const Model& model, Phases& list) {
   const bool wheel = model.wheelset.has_value();
@@ -131,6 +140,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                   "a copy of the state, on the wall clock",
                   {"displacement", "velocity", "samples"},
                   {"checkpoint"}});
+  list.add(model.scene.output.frames > 0, {"frame",
+                                           "a copy of the motion, evenly over the duration",
+                                           {"displacement", "velocity", "coefficients"},
+                                           {"frame"}});
   return list.take();
 }
 
@@ -175,6 +188,8 @@ std::vector<FieldInfo> fields(const Model& model) {
                       : 0});
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
+  add(motion && model.scene.output.frames > 0,
+      {"frame", "m, m/s", "node, a copy; its file", frame_memory(model)});
   add(true, {"solver", "N, m", "node and aggregate, during the preload",
              static_cast<std::int64_t>(kSolverVectors * static_cast<double>(vector))});
   return list;
@@ -207,13 +222,14 @@ std::int64_t checkpoint_bytes(const Model& model) {
 }
 
 std::int64_t peak_bytes(const Model& model) {
-  constexpr std::array<std::string_view, 7> kInMotion = {"displacement in motion",
+  constexpr std::array<std::string_view, 8> kInMotion = {"displacement in motion",
                                                          "rounded coefficients and mass",
                                                          "velocity",
                                                          "force",
                                                          "surface fields",
                                                          "samples",
-                                                         "checkpoint"};
+                                                         "checkpoint",
+                                                         "frame"};
   std::int64_t always = 0;
   std::int64_t preload = 0;
   std::int64_t rolling = 0;

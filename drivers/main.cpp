@@ -148,11 +148,12 @@ void add_resume(CLI::App& app) {
 
 void add_ctl(CLI::App& app) {
   auto options = std::make_shared<tread::CtlOptions>();
-  CLI::App& command = *app.add_subcommand("ctl", "look at a run, or ask it for a checkpoint or to stop");
+  CLI::App& command =
+      *app.add_subcommand("ctl", "look at a run, or ask it for a checkpoint, for a frame, or to stop");
   command.add_option("folder", options->folder, "output directory of the run")->required();
-  command.add_option("action", options->action, "status, checkpoint or stop")
+  command.add_option("action", options->action, "status, checkpoint, frame or stop")
       ->required()
-      ->check(CLI::IsMember({"status", "checkpoint", "stop"}));
+      ->check(CLI::IsMember({"status", "checkpoint", "frame", "stop"}));
   command.add_option("--wait", options->patience, "longest time to wait for an answer [s]")
       ->check(CLI::NonNegativeNumber);
   command.callback([options] { tread::control_run(*options); });

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
+#include "drivers/frame_files.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/mesh_measures.hpp"
 #include "drivers/plain_text.hpp"
@@ -86,10 +87,8 @@ Table inertia_table(const SpinningBody& wheelset) {
 
 void write_mesh(const Model& model, const std::filesystem::path& directory) {
   make_directory(directory);
-  std::vector<Placement> placements(model.mesh.blocks.size());
-  const double height = model.contact ? model.contact->touching_height() : 0;
-  for (const int b : model.index.wheel()) placements[static_cast<std::size_t>(b)].origin = {0, 0, height};
-  write_vtkhdf(directory / "mesh.hdf", model.mesh, placements);
+  write_vtk_mesh(directory / "mesh.hdf", model.mesh, make_vtk_grid(model.mesh, VtkCells::elements),
+                 resting_places(model));
 }
 
 void write_extreme(JsonWriter& json, const char* name, const Extreme& extreme) {

@@ -33,6 +33,7 @@ void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has its own
   files_.emplace(*model_, session_->folder.path());
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
 }
 
 void Rolling::go_on(const SealedContent& checkpoint) {
@@ -41,6 +42,7 @@ void Rolling::go_on(const SealedContent& checkpoint) {
   const auto patch = checkpoint.find("patch.h5");
   files_.emplace(*model_, session_->folder.path(), results_->samples,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
   written_ = Mark{simulation_->steps(), simulation_->time()};
   seconds_before_ = results_->seconds_rolling;
   if (simulation_->steps() > end_)
@@ -57,7 +59,7 @@ void Rolling::to_the_end() {
   try {
     if (!written_) write_checkpoint();  // the preload is dear
     step_to_the_end();
-    wait_for_checkpoint();
+    wait_for_writer();
     files_->close();
   } catch (const NumericalError& error) {
     end_with_what_is_left<NumericalError>(error.what());
@@ -83,12 +85,13 @@ void Rolling::step_to_the_end() {
 
 /// Between two steps.
 void Rolling::look() {
+  if (frames_->due(simulation_->steps())) write_frame();
   if (const char* signal = Interruption::stop_wanted()) leave(signal);
   if (Interruption::take_checkpoint_wanted()) write_checkpoint();
   if (simulation_->sampled()) check_penetration();
   if (simulation_->steps() % kLookInterval != 0) return;
   const double now = session_->progress.seconds();
-  if (being_written_ && !writer_.running()) wait_for_checkpoint();
+  if (!writer_.running()) wait_for_writer();
   const bool sound = simulation_->energy_watch().share() <= 1;
   if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && sound)
     write_checkpoint();
@@ -100,6 +103,7 @@ void Rolling::look() {
   looked_at_ = now;
   const std::optional<RunRequest> request = session_->folder.take_request();
   if (request == RunRequest::checkpoint) write_checkpoint();
+  if (request == RunRequest::frame) write_frame();
   if (request == RunRequest::stop) leave("tread ctl");
   if (const auto limit = model_->scene.stop.wall_time; limit && now > *limit)
     leave(fmt::format("stop.wall_time = {}", duration_text(*limit)));
@@ -127,7 +131,7 @@ void Rolling::check_penetration() {
 
 /// A motion that is not finite is not kept; the energies' watch soon ends it.
 void Rolling::write_checkpoint() {
-  wait_for_checkpoint();
+  wait_for_writer();
   if (!simulation_->finite()) return;
   const Mark mark{simulation_->steps(), simulation_->time()};
   results_->seconds_rolling = seconds();
@@ -138,11 +142,11 @@ void Rolling::write_checkpoint() {
   });
   being_written_ = mark;
   checkpoint_at_ = session_->progress.seconds();
-  if (!Hdf5File::thread_safe()) wait_for_checkpoint();
+  if (!Hdf5File::thread_safe()) wait_for_writer();
 }
 
 void Rolling::keep_for_forks() {
-  wait_for_checkpoint();
+  wait_for_writer();
   results_->seconds_rolling = seconds();
   const CheckpointFolder folder(session_->folder / kForkFolder);
   folder.keep(simulation_->steps(),
@@ -152,19 +156,28 @@ void Rolling::keep_for_forks() {
                   instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
 }
 
-void Rolling::wait_for_checkpoint() {
-  if (!being_written_) return;
-  const Mark mark = *std::exchange(being_written_, std::nullopt);
+/// Of a motion that is finite.
+void Rolling::write_frame() {
+  wait_for_writer();
+  if (!simulation_->finite()) return;
+  frames_->copy(*simulation_);
+  writer_.start([this] { frames_->write(); });
+  if (!Hdf5File::thread_safe()) wait_for_writer();
+}
+
+void Rolling::wait_for_writer() {
+  const std::optional<Mark> mark = std::exchange(being_written_, std::nullopt);
   writer_.wait();
+  if (!mark) return;
   written_ = mark;
-  session_->progress.say(fmt::format("[checkpoint] {}", instant(mark.time, mark.steps)));
+  session_->progress.say(fmt::format("[checkpoint] {}", instant(mark->time, mark->steps)));
 }
 
 /// Leaves a checkpoint and the process, but for a motion that is not finite: that has its own end.
 void Rolling::leave(const std::string& why) {
   if (!simulation_->finite()) return;
   write_checkpoint();
-  wait_for_checkpoint();
+  wait_for_writer();
   files_->close();
   const std::string text =
       fmt::format("stopped at {} by {}; nothing is lost: {} goes on",
@@ -194,7 +207,7 @@ template <class E>
 void Rolling::end_with_what_is_left(const std::string& why) {
   std::string text = why;
   try {
-    wait_for_checkpoint();
+    wait_for_writer();
   } catch (const ResourceError& error) {
     text += fmt::format("; {}", error.what());
   }
@@ -251,6 +264,7 @@ std::string Rolling::status() const {
   json.member("energy_residual_J", sample.energy.residual);
   json.member("rolling_s", seconds());
   json.member("left_s", per_step * static_cast<double>(end_ - simulation_->steps()));
+  json.member("frames", frames_->count());
   json.member("folder_bytes", session_->folder.bytes());
   json.key("checkpoint_time_s");
   if (written_)

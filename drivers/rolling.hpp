@@ -1,11 +1,13 @@
 #pragma once
-// Step 2 as a process carries it out: stepping, samples, checkpoints, what others ask for, what ends it.
+// Step 2 as a process carries it out: stepping, samples, checkpoints, frames, what others ask for, what ends
+// it.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "core/background_task.hpp"
+#include "drivers/frame_files.hpp"
 #include "drivers/growing_files.hpp"
 #include "drivers/run_results.hpp"
 #include "drivers/run_session.hpp"
@@ -38,7 +40,8 @@ class Rolling {
   void check_disk();
   void keep_for_forks();
   void write_checkpoint();
-  void wait_for_checkpoint();
+  void write_frame();
+  void wait_for_writer();
   void leave(const std::string& why);
   template <class E>
   [[noreturn]] void end(const std::string& why);
@@ -57,6 +60,7 @@ class Rolling {
   RunResults* results_;
   std::optional<Simulation> simulation_;
   std::optional<GrowingFiles> files_;
+  std::optional<FrameFiles> frames_;
   std::int64_t end_ = 0;                   ///< steps of the whole run
   std::optional<std::int64_t> fork_step_;  ///< whose state is kept for other runs
   double started_ = 0;                     ///< on the session's clock [s]
@@ -66,7 +70,7 @@ class Rolling {
   double checkpoint_at_ = 0;     ///< the last one, on the session's clock [s]
   std::optional<Mark> written_;  ///< the last checkpoint that is safe
   std::optional<Mark> being_written_;
-  BackgroundTask writer_;
+  BackgroundTask writer_;  ///< of checkpoints and frames, one after another: a checkpoint's frames are safe
 };
 
 }  // namespace tread

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "drivers/disk_use.hpp"
 #include "drivers/fork.hpp"
+#include "drivers/frame_files.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/preload_cache.hpp"
@@ -58,7 +59,7 @@ void adopt_later_values(Model& model, const Scene& later) {
 void solve_statics(const RunSession& session, Model& model, RunResults& results) {
   results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
     session.enter("preload", text);
-    if (session.folder.take_request() == RunRequest::stop)
+    if (session.folder.take_stop())
       throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
   });
 }
@@ -88,7 +89,7 @@ void require_disk(const Model& model, const RunResults& results) {
   if (limit && static_cast<double>(needed) > *limit)
     throw InputError(
         fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
-                    "output.history_interval",
+                    "output.history_interval, or state less output.frames",
                     bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
 }
 
@@ -171,6 +172,7 @@ void remove_results(const std::filesystem::path& directory) {
   std::error_code ignored;
   for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv"})
     std::filesystem::remove(directory / name, ignored);
+  FrameFiles::remove(directory);
 }
 
 /// A run that could go on is not thrown away by mistake.
@@ -262,11 +264,13 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
 void resume_run(const RunOptions& options) {
   use_threads(options.threads);
   if (!std::filesystem::is_directory(options.output))
-    throw InputError(fmt::format("there is no folder {}", options.output.string()));
+    throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
+                                 options.output.string()));
   RunSession session(options);
   if (!session.checkpoints.has_order() && session.checkpoints.states().empty()) {
     if (!std::filesystem::exists(session.folder / "summary.json"))
-      throw InputError(fmt::format("{} holds no run", options.output.string()));
+      throw InputError(fmt::format("{} holds no run: start one with `tread run SCENE -o {}`",
+                                   options.output.string(), options.output.string()));
     session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
                                      (session.folder / "report.html").string()));
     return;

@@ -26,6 +26,32 @@ FolderLock take(const fs::path& folder) {
       "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
       "choose another folder",
       folder.string(), folder.string(), folder.string()));
+
+  const char* name_of(RunRequest request) {
+    switch (request) {
+      case RunRequest::checkpoint:
+        return "checkpoint";
+      case RunRequest::frame:
+        return "frame";
+      case RunRequest::stop:
+        break;
+    }
+    return "stop";
+  }
+
+  /// Nothing where it is not what leave_request() left.
+  std::optional<RunRequest> read_request(const fs::path& path) {
+    std::string text;
+    try {
+      constexpr std::size_t kLongest = 100;
+      text = read_text_file(path, kLongest);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+    for (const RunRequest request : {RunRequest::checkpoint, RunRequest::frame, RunRequest::stop})
+      if (text == fmt::format("{}\n", name_of(request))) return request;
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -35,7 +61,7 @@ bool is_taken(const fs::path& folder) {
 }
 
 void leave_request(const fs::path& folder, RunRequest request) {
-  write_text_file(folder / kRequest, request == RunRequest::stop ? "stop\n" : "checkpoint\n");
+  write_text_file(folder / kRequest, fmt::format("{}\n", name_of(request)));
 }
 
 bool is_pending(const fs::path& folder) {
@@ -51,16 +77,17 @@ std::optional<RunRequest> RunFolder::take_request() const {
   const fs::path path = path_ / kRequest;
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return std::nullopt;
-  std::string text;
-  try {
-    constexpr std::size_t kLongest = 100;
-    text = read_text_file(path, kLongest);
-  } catch (const InputError&) {  // not what leave_request() left
-  }
+  const std::optional<RunRequest> request = read_request(path);
   fs::remove(path, ignored);
-  if (text == "stop\n") return RunRequest::stop;
-  if (text == "checkpoint\n") return RunRequest::checkpoint;
-  return std::nullopt;
+  return request;
+}
+
+bool RunFolder::take_stop() const {
+  const fs::path path = path_ / kRequest;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored) || read_request(path) != RunRequest::stop) return false;
+  fs::remove(path, ignored);
+  return true;
 }
 
 void RunFolder::show_status(const std::string& json) const {

@@ -16,7 +16,7 @@ inline constexpr const char* kCheckpointFolder = "checkpoint";  ///< of a run's 
 bool is_taken(const std::filesystem::path& folder);
 
 /// What another process asks of the one that works on the folder.
-enum class RunRequest { checkpoint, stop };
+enum class RunRequest { checkpoint, frame, stop };
 
 /// Leaves the request for take_request(). ResourceError where it cannot be written.
 void leave_request(const std::filesystem::path& folder, RunRequest request);
@@ -34,6 +34,8 @@ class RunFolder {
 
   /// What another process asks for, once.
   std::optional<RunRequest> take_request() const;
+  /// Whether another process asks to stop, once; other requests stay where they are.
+  bool take_stop() const;
 
   /// Replaces status.json; a status that cannot be written is left out.
   void show_status(const std::string& json) const;

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/output_file.hpp"
+#include "io/step_files.hpp"
 
 namespace tread {
 
@@ -20,45 +20,24 @@ constexpr const char* kKind = "checkpoint";
 /// To be raised whenever a name or meaning in a checkpoint changes.
 constexpr int kVersion = 2;
 constexpr std::size_t kKept = 2;
-constexpr const char* kPrefix = "step-";
-constexpr const char* kSuffix = ".h5";
+constexpr std::string_view kSuffix = ".h5";
 
-/// Of "step-000000001200.h5"; nothing for any other name.
-std::optional<std::int64_t> steps_of(const fs::path& path) {
-  const std::string name = path.filename().string();
-  const std::string_view prefix = kPrefix;
-  const std::string_view suffix = kSuffix;
-  if (!name.starts_with(prefix) || !name.ends_with(suffix) || name.size() <= prefix.size() + suffix.size())
-    return std::nullopt;
-  std::int64_t steps = 0;
-  const char* last = name.data() + name.size() - suffix.size();
-  const auto [end, error] = std::from_chars(name.data() + prefix.size(), last, steps);
-  if (error != std::errc() || end != last) return std::nullopt;
-  return steps;
+/// Of the states, the newest first.
+std::vector<std::int64_t> newest_first(const fs::path& folder) {
+  std::vector<std::int64_t> found = steps_in(folder, kSuffix);
+  std::reverse(found.begin(), found.end());
+  return found;
 }
 
-void remove_all(const std::vector<fs::path>& paths) {
+void remove_states(const fs::path& folder, const std::vector<std::int64_t>& all) {
   std::error_code ignored;
-  for (const fs::path& path : paths) fs::remove(path, ignored);
-}
-
-/// What a process that was killed while it wrote has left.
-void remove_parts(const fs::path& folder) {
-  std::vector<fs::path> paths;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".part") paths.push_back(entry.path());
-  remove_all(paths);
+  for (const std::int64_t steps : all) fs::remove(step_file(folder, steps, kSuffix), ignored);
 }
 
 void create(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
-}
-
-fs::path state_path(const fs::path& folder, std::int64_t steps) {
-  return folder / fmt::format("{}{:012}{}", kPrefix, steps, kSuffix);
 }
 
 void write_verified(const fs::path& path, SealedContent content, const CheckpointObserver& observer) {
@@ -97,28 +76,24 @@ void CheckpointFolder::write(std::int64_t steps, SealedContent content,
                              const CheckpointObserver& observer) const {
   create(folder_);
   remove_parts(folder_);
-  write_verified(state_path(folder_, steps), std::move(content), observer);
-  std::vector<fs::path> old = states();
+  write_verified(step_file(folder_, steps, kSuffix), std::move(content), observer);
+  std::vector<std::int64_t> old = newest_first(folder_);
   std::size_t kept = 0;
   // States beyond this one were no good, or the run would have gone on from them.
-  std::erase_if(old, [&](const fs::path& path) { return *steps_of(path) <= steps && ++kept <= kKept; });
-  remove_all(old);
+  std::erase_if(old, [&](std::int64_t other) { return other <= steps && ++kept <= kKept; });
+  remove_states(folder_, old);
   if (observer) observer(CheckpointStage::old_removed);
 }
 
 void CheckpointFolder::keep(std::int64_t steps, const SealedContent& content) const {
   create(folder_);
   remove_parts(folder_);
-  write_verified(state_path(folder_, steps), content, {});
+  write_verified(step_file(folder_, steps, kSuffix), content, {});
 }
 
 std::vector<fs::path> CheckpointFolder::states() const {
   std::vector<fs::path> paths;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored))
-    if (steps_of(entry.path())) paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end(),
-            [](const fs::path& a, const fs::path& b) { return *steps_of(a) > *steps_of(b); });
+  for (const std::int64_t steps : newest_first(folder_)) paths.push_back(step_file(folder_, steps, kSuffix));
   return paths;
 }
 
@@ -128,10 +103,11 @@ bool CheckpointFolder::has_order() const {
 
 std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused,
                                                                 std::int64_t last) const {
-  for (const fs::path& path : states()) {
-    if (*steps_of(path) > last) continue;
+  for (const std::int64_t steps : newest_first(folder_)) {
+    if (steps > last) continue;
+    const fs::path path = step_file(folder_, steps, kSuffix);
     try {
-      return Found{path, *steps_of(path), read_sealed(path, kKind, kVersion)};
+      return Found{path, steps, read_sealed(path, kKind, kVersion)};
     } catch (const InputError& error) {
       refused.emplace_back(error.what());
     }
@@ -142,7 +118,7 @@ std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std:
 void CheckpointFolder::clear() const {
   std::error_code ignored;
   fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would begin anew
-  remove_all(states());
+  remove_states(folder_, newest_first(folder_));
   remove_parts(folder_);
   fs::remove(folder_, ignored);
 }

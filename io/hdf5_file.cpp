@@ -294,21 +294,12 @@ std::vector<std::string> Hdf5File::datasets() const {
   return names;
 }
 
-template <class T>
-bool Hdf5File::holds(const std::string& name) const {
+std::uint64_t Hdf5File::place(const std::string& name) const {
   const Check check{path_, name};
   const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  return H5Tequal(Id(H5Dget_type(data), H5Tclose), type_of<T>()) > 0;
-}
-
-bool Hdf5File::is_plain(const std::string& name) const {
-  const Check check{path_, name};
-  const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  const Id layout(H5Dget_create_plist(data), H5Pclose);
-  const Id type(H5Dget_type(data), H5Tclose);
-  const std::uint64_t bytes = count(extent(Id(H5Dget_space(data), H5Sclose))) * H5Tget_size(type);
-  return H5Pget_layout(layout) == H5D_CONTIGUOUS && H5Pget_external_count(layout) == 0 &&
-         H5Dget_storage_size(data) == bytes;
+  const haddr_t place = H5Dget_offset(data);
+  check.read(place == HADDR_UNDEF ? -1 : 0);
+  return place;
 }
 
 std::string Hdf5File::image() const {
@@ -394,7 +385,6 @@ void Hdf5File::close() {
   template void Hdf5File::make_extendible<T>(const std::string&, std::uint64_t, const Shape&, Storage); \
   template void Hdf5File::append(const std::string&, std::span<const T>);                               \
   template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>);  \
-  template bool Hdf5File::holds<T>(const std::string&) const;                                           \
   template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
   template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;               \
   template std::vector<T> Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;

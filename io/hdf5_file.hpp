@@ -56,11 +56,8 @@ class Hdf5File {
   bool contains(const std::string& name) const;
   /// Names of all datasets, "group/name", in alphabetic order; links to other files are left out.
   std::vector<std::string> datasets() const;
-  /// Whether the dataset is stored as T.
-  template <class T>
-  bool holds(const std::string& name) const;
-  /// Whether its values stand in one piece, uncompressed, in this file.
-  bool is_plain(const std::string& name) const;
+  /// Where the values of a dataset that write() made start in image() [B].
+  std::uint64_t place(const std::string& name) const;
   std::vector<std::uint64_t> shape(const std::string& name) const;
   template <class T>
   std::vector<T> read(const std::string& name) const;

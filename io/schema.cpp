@@ -383,6 +383,13 @@ void add_impacts_and_output(Keys& keys) {
                           kTime, "s", above(0, 1e5), "Wall-clock time between progress lines"));
   keys.push_back(quantity("output.checkpoint_interval", at(&Scene::output, &OutputSpec::checkpoint_interval),
                           kTime, "min", above(0, 1e7), "Wall-clock time between checkpoints"));
+  keys.push_back(
+      number("output.frames", at(&Scene::output, &OutputSpec::frames), {0, 1e6},
+             "Frames for ParaView, evenly over the duration from the first step to the last; 0: none",
+             Kind::integer));
+  keys.push_back(choice("output.frame_cells", at(&Scene::output, &OutputSpec::frame_cells),
+                        {"faces", "elements"},
+                        "What frames show: the outer faces of the bodies, or all elements"));
   keys.push_back(quantity("output.disk_limit", at(&Scene::output, &OutputSpec::disk_limit), kData, "GB",
                           above(0, 1e15), "What the run's folder may take; more than that ends the run"));
   keys.push_back(number("stop.steps", at(&Scene::stop, &StopSpec::steps), {0, 2e9},
@@ -483,7 +490,7 @@ std::vector<SceneTable> make_tables() {
       component("forks", &Scene::forks,
                 "A state that the run keeps for good, from which runs over other corrugations begin. "
                 "[reliability.md](reliability.md)"),
-      always("output", "How often results are sampled, progress shown and checkpoints written."),
+      always("output", "How often results are sampled, progress shown, checkpoints and frames written."),
       always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
   };
 }

@@ -10,7 +10,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -67,9 +69,16 @@ bool checksum(int file, std::uint64_t size, Hash& hash) {
   return true;
 }
 
-std::string header(const std::string& kind, int version, std::uint64_t size, std::uint64_t sum) {
-  std::string text =
-      fmt::format("tread {}\nversion {}\nbytes {}\nchecksum {:016x}\n", kind, version, size, sum);
+/// What the first bytes state beside kind and version.
+struct Seal {
+  std::uint64_t bytes = 0;  ///< of the file
+  std::uint64_t index = 0;  ///< where the list of its entries starts [B]
+  std::uint64_t sum = 0;    ///< of all that follows the header
+};
+
+std::string header(const std::string& kind, int version, const Seal& seal) {
+  std::string text = fmt::format("tread {}\nversion {}\nbytes {}\nindex {}\nchecksum {:016x}\n", kind,
+                                 version, seal.bytes, seal.index, seal.sum);
   text.resize(kHeader, '\0');
   return text;
 }
@@ -104,27 +113,112 @@ void check_header(const std::filesystem::path& path, const std::string& text, co
                        kind, found_version, version));
 }
 
+/// The number behind the word; 0: there is none.
+std::uint64_t number_after(const std::string& word, const std::string& text) {
+  const std::size_t at = text.find(word);
+  std::uint64_t number = 0;
+  if (at != std::string::npos)
+    std::from_chars(text.data() + at + word.size(), text.data() + text.size(), number);
+  return number;
+}
+
 /// Everything that can be wrong with the bytes.
-void check_bytes(const std::filesystem::path& path, const std::string& kind, int version) {
-  const Descriptor file(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
-  if (file < 0) refuse(path, errno == ELOOP ? "it is a symbolic link" : std::strerror(errno));
+Seal check_bytes(const std::filesystem::path& path, int file, const std::string& kind, int version) {
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "it is not a regular file");
   std::string found(kHeader, '\0');
   if (read_at(file, found.data(), kHeader, 0) != static_cast<ssize_t>(kHeader))
     refuse(path, fmt::format("it is not a {} of tread, or cut short", kind));
   check_header(path, found, kind, version);
-  const auto size = static_cast<std::uint64_t>(status.st_size);
-  const std::string mark = "bytes ";
-  const std::size_t at = found.find(mark);
-  std::uint64_t stated = 0;
-  if (at != std::string::npos)
-    std::from_chars(found.data() + at + mark.size(), found.data() + found.size(), stated);
-  if (stated != size) refuse(path, fmt::format("it has {} of {} bytes", size, stated));
+  Seal seal{static_cast<std::uint64_t>(status.st_size), number_after("index ", found), 0};
+  const std::uint64_t stated = number_after("bytes ", found);
+  if (stated != seal.bytes) refuse(path, fmt::format("it has {} of {} bytes", seal.bytes, stated));
   Hash hash;
-  if (!checksum(file, size, hash)) refuse(path, std::strerror(errno));
-  if (found != header(kind, version, size, hash.value())) refuse(path, "it is damaged: its checksum differs");
+  if (!checksum(file, seal.bytes, hash)) refuse(path, std::strerror(errno));
+  seal.sum = hash.value();
+  if (found != header(kind, version, seal)) refuse(path, "it is damaged: its checksum differs");
+  return seal;
 }
+
+constexpr std::array<std::string_view, 4> kTypes = {"f64", "f32", "i64", "byte"};  ///< as in SealedValues
+
+/// A line of the index.
+struct IndexLine {
+  std::size_t type = 0;     ///< in kTypes
+  std::uint64_t count = 0;  ///< values
+  std::uint64_t place = 0;  ///< of the first in the file [B]
+  std::string name;
+};
+
+std::string text_of(const IndexLine& line) {
+  return fmt::format("{} {} {} {}\n", kTypes[line.type], line.count, line.place, line.name);
+}
+
+/// Lines that are not what text_of() makes are nothing.
+std::optional<IndexLine> parse_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string type;
+  IndexLine line;
+  words >> type >> line.count >> line.place >> line.name;
+  const auto known = std::find(kTypes.begin(), kTypes.end(), type);
+  if (!words || known == kTypes.end()) return std::nullopt;
+  line.type = static_cast<std::size_t>(known - kTypes.begin());
+  return text_of(line) == text + "\n" ? std::optional(line) : std::nullopt;
+}
+
+/// Takes the values of the entries out of a file whose bytes are sound. Nothing that the index states is
+/// believed: all entries together take no more memory than the file has bytes.
+class SealedReader {
+ public:
+  SealedReader(const std::filesystem::path& path, int file, const Seal& seal)
+      : path_(path), file_(file), size_(seal.bytes), left_(seal.bytes), index_(seal.index) {}
+
+  SealedContent content() {
+    if (index_ < kHeader || index_ > size_) refuse(path_, "its list of entries lies outside of it");
+    std::istringstream lines(values<std::string>(size_ - index_, index_, 1));
+    SealedContent all;
+    int number = 0;
+    for (std::string text; std::getline(lines, text);) {
+      ++number;
+      const std::optional<IndexLine> line = parse_line(text);
+      if (!line || !all.emplace(line->name, entry(*line)).second)
+        refuse(path_, fmt::format("line {} of its list of entries is broken", number));
+    }
+    return all;
+  }
+
+ private:
+  SealedValues entry(const IndexLine& line) {
+    switch (line.type) {
+      case 0:
+        return values<std::vector<double>>(line.count, line.place, sizeof(double));
+      case 1:
+        return values<std::vector<float>>(line.count, line.place, sizeof(float));
+      case 2:
+        return values<std::vector<std::int64_t>>(line.count, line.place, sizeof(std::int64_t));
+      default:
+        return values<std::string>(line.count, line.place, 1);
+    }
+  }
+
+  template <class Values>
+  Values values(std::uint64_t count, std::uint64_t place, std::uint64_t width) {
+    if (count > left_ / width || place > size_ || count * width > size_ - place)
+      refuse(path_, fmt::format("an entry of {} values does not fit into its {} bytes", count, size_));
+    left_ -= count * width;
+    Values read(count, typename Values::value_type{});
+    if (read_at(file_, reinterpret_cast<char*>(read.data()), count * width, place) !=
+        static_cast<ssize_t>(count * width))
+      refuse(path_, "it ended early");
+    return read;
+  }
+
+  const std::filesystem::path& path_;
+  int file_;
+  std::uint64_t size_;
+  std::uint64_t left_;  ///< bytes that further entries may take
+  std::uint64_t index_;
+};
 
 struct WriteEntry {
   Hdf5File& file;
@@ -138,19 +232,16 @@ struct WriteEntry {
   }
 };
 
-SealedValues read_entry(const Hdf5File& file, const std::string& name) {
-  if (file.holds<double>(name)) return file.read<double>(name);
-  if (file.holds<float>(name)) return file.read<float>(name);
-  if (file.holds<std::int64_t>(name)) return file.read<std::int64_t>(name);
-  const std::vector<std::uint8_t> bytes = file.read<std::uint8_t>(name);
-  return std::string(bytes.begin(), bytes.end());
-}
-
-/// The HDF5 part of the file. HDF5 never sees the disk: of what that refuses it recovers badly.
-std::string image_of(SealedContent content) {
+/// The HDF5 part of the file, and in `index` where everything stands in a file in which it follows the
+/// header. HDF5 never sees the disk: of what that refuses it recovers badly.
+std::string image_of(SealedContent content, std::string& index) {
   Hdf5File file = Hdf5File::create_in_memory(size_of(content));
-  for (auto entry = content.begin(); entry != content.end(); entry = content.erase(entry))
-    std::visit(WriteEntry{file, entry->first}, entry->second);
+  for (auto entry = content.begin(); entry != content.end(); entry = content.erase(entry)) {
+    const auto& [name, values] = *entry;
+    std::visit(WriteEntry{file, name}, values);
+    const std::uint64_t count = std::visit([](const auto& v) { return v.size(); }, values);
+    index += text_of({values.index(), count, count == 0 ? kHeader : kHeader + file.place(name), name});
+  }
   return file.image();
 }
 
@@ -174,25 +265,27 @@ std::map<std::string, std::uint64_t> digests_of(const SealedContent& content) {
 
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
                   SealedContent content) {
-  const std::string image = image_of(std::move(content));
+  std::string index;
+  std::string image = image_of(std::move(content), index);
+  Seal seal;
+  seal.index = kHeader + image.size();
+  image += index;
+  seal.bytes = kHeader + image.size();
   Hash hash;
   hash.add(std::as_bytes(std::span(image)));
+  seal.sum = hash.value();
   GrowingFile out(path);
-  out.append(header(kind, version, kHeader + image.size(), hash.value()));
+  out.append(header(kind, version, seal));
   out.append(image);
   out.close();
   drop_from_memory(path);
 }
 
 SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version) {
-  check_bytes(path, kind, version);
-  const Hdf5File file = Hdf5File::open_to_read(path);
-  SealedContent content;
-  for (const std::string& name : file.datasets()) {
-    if (!file.is_plain(name)) refuse(path, fmt::format("'{}' is stored in a form that it never has", name));
-    content.emplace(name, read_entry(file, name));
-  }
-  return content;
+  const Descriptor file(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) refuse(path, errno == ELOOP ? "it is a symbolic link" : std::strerror(errno));
+  const Seal seal = check_bytes(path, file, kind, version);
+  return SealedReader(path, file, seal).content();
 }
 
 template <class T>

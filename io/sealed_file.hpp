@@ -16,15 +16,16 @@ using SealedValues =
 /// By name, "state/displacement". A text may hold any bytes.
 using SealedContent = std::map<std::string, SealedValues>;
 
-/// Writes an HDF5 file: a dataset per entry, texts as bytes. The 512 bytes before its HDF5 part are a text
-/// that states `kind`, `version`, the length of the file and a checksum of the rest, so that damage is seen
-/// before HDF5 reads anything. Forces the file to the disk. Lets go of the content as it is written: memory
-/// holds it twice at most. Throws ResourceError.
+/// Writes an HDF5 file: a dataset per entry, texts as bytes; names hold no blanks. The 512 bytes before its
+/// HDF5 part are a text that states `kind`, `version`, the length of the file and a checksum of the rest.
+/// Behind it stands a text that lists type, count, place and name of every entry. Forces the file to the
+/// disk. Lets go of the content as it is written: memory holds it twice at most. Throws ResourceError.
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
                   SealedContent content);
 
-/// Reads such a file back. InputError with the reason where it is absent, no regular file (a symbolic link is
-/// none), truncated, damaged, or of another kind or version.
+/// Reads such a file back, by that list: HDF5 reads nothing. InputError with the reason where it is absent,
+/// no regular file (a symbolic link is none), truncated, damaged, of another kind or version, or lists what
+/// it does not hold.
 SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version);
 
 /// A hash of each entry.

@@ -29,6 +29,48 @@ void refuse_long_lines(const std::string& text, const std::string& file) {
   }
 }
 
+/// Where the quoted text or the comment that starts at `at` ends; `at` itself where none starts there.
+std::size_t end_of_free_text(const std::string& text, std::size_t at) {
+  const auto end_of_line = [&] { return std::min(text.find('\n', at), text.size()); };
+  const char quote = text[at];
+  if (quote == '#') return end_of_line();
+  if (quote != '"' && quote != '\'') return at;
+  const std::string three(3, quote);
+  const bool long_text = text.compare(at, 3, three) == 0;
+  const std::size_t last = long_text ? text.size() : end_of_line();
+  for (std::size_t i = at + (long_text ? 3 : 1); i < last; ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (!long_text && text[i] == quote) {
+      return i + 1;
+    } else if (long_text && text.compare(i, 3, three) == 0) {
+      i += 3;
+      while (i < last && text[i] == quote) ++i;  // up to two belong to the text
+      return i;
+    }
+  }
+  return last;
+}
+
+/// First byte of a character outside of quotes and comments that is not ASCII: nothing in TOML, and where
+/// toml++ 3.3 lets the compiler assume that it never comes. A byte order mark may start the text.
+std::size_t foreign_character(const std::string& text) {
+  for (std::size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size();) {
+    const std::size_t end = end_of_free_text(text, i);
+    if (end == i && static_cast<unsigned char>(text[i]) >= 0x80) return i;
+    i = std::max(end, i + 1);
+  }
+  return std::string::npos;
+}
+
+void refuse_foreign_characters(const std::string& text, const std::string& file) {
+  const std::size_t at = foreign_character(text);
+  if (at == std::string::npos) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  throw ProblemsError({{file, static_cast<int>(line), 0, "",
+                        "a character that is not ASCII stands outside of quotes and comments"}});
+}
+
 /// Number of the line at which the parser's assertion fails: the shortest run of lines that makes it fail
 /// ends there.
 int faulty_line(const std::string& text) {
@@ -57,6 +99,7 @@ void throw_toml_fault() {
 
 toml::table parse_toml(const std::string& text, const std::string& file) {
   refuse_long_lines(text, file);
+  refuse_foreign_characters(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -71,7 +114,7 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
 std::unique_ptr<toml::node> parse_plain_value(const std::string& text, bool takes_string) {
   refuse_long_lines(text, "--set");
   const bool quoted = text.size() > 1 && text.front() == '"';
-  if (!takes_string || quoted) {
+  if ((!takes_string || quoted) && foreign_character(text) == std::string::npos) {
     try {
       const toml::table table = toml::parse("value = " + text);
       if (table.size() == 1) return clone(*table.get("value"));

@@ -37,7 +37,7 @@ struct CoulombFriction {
       after.along *= share;
       after.across *= share;
     }
-    return {after, size >= kSlipping * limit && limit > 0};
+    return {after, size > 0 && size >= kSlipping * limit};
   }
 
   /// Work of the mid-step traction on the slip of a step less the change of what the elastic stick stores:

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "io/hdf5_file.hpp"
 
@@ -78,10 +80,22 @@ inline void expect_same_file(const fs::path& a, const fs::path& b) {
   }
 }
 
+/// None where there is no folder of frames.
+inline std::vector<std::string> frames_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames", none))
+    names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 inline void expect_same_run(const fs::path& a, const fs::path& b) {
-  for (const char* name : {"histories.csv", "surface_axis.csv"})
+  for (const char* name : {"histories.csv", "surface_axis.csv", "frames.hdf.series"})
     EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
   for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
+  EXPECT_EQ(frames_in(a), frames_in(b));
+  for (const std::string& name : frames_in(a)) expect_same_file(a / "frames" / name, b / "frames" / name);
   EXPECT_EQ(figures(a), figures(b));
   EXPECT_FALSE(fs::exists(b / "checkpoint"));
 }

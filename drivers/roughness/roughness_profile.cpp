@@ -9,12 +9,31 @@
 
 namespace tread {
 
+namespace {
+
+/// What no instrument gives: where the units are wrong, work and sums would grow without bounds.
+void require_plausible(double spacing, const std::vector<double>& height, const std::string& name) {
+  constexpr double kLeast = 1e-5, kMost = 1;  // spacing [m]
+  constexpr double kHighest = 1;              // [m]
+  if (spacing < kLeast || spacing > kMost)
+    throw InputError(
+        fmt::format("{}: a row every {:.3g} mm, expected 0.01 to 1000 mm; mend the unit of the first column",
+                    name, 1e3 * spacing));
+  for (const double value : height)
+    if (std::abs(value) > kHighest)
+      throw InputError(fmt::format(
+          "{}: a height of {:.3g} m, expected at most 1 m; mend the unit of the second column", name, value));
+}
+
+}  // namespace
+
 RoughnessProfile even_profile(const TwoColumns& rows, const std::string& name) {
   constexpr double kEven = 0.01;  // of the spacing
   constexpr double kGap = 3.5;    // spacings
   const std::vector<double>& x = rows.first;
   RoughnessProfile profile;
   profile.spacing = (x.back() - x.front()) / static_cast<double>(x.size() - 1);
+  require_plausible(profile.spacing, rows.second, name);
   for (std::size_t i = 1; i < x.size(); ++i) {
     const double step = x[i] - x[i - 1];
     if (step > kGap * profile.spacing)

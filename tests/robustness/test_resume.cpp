@@ -30,7 +30,7 @@ class Resume : public ProgramTest {
 
   /// Arguments of `tread run`.
   static std::string run(const fs::path& folder, const std::string& more = "") {
-    return fmt::format("run {} -t 1 -o {} {} {}", kTyre, folder.string(), kScene, more);
+    return fmt::format("run {} -t 1 -o {} {} {} {}", kTyre, folder.string(), kScene, kFrames, more);
   }
   std::string resume(const std::string& more = "") const {
     return fmt::format("resume {} -t 1 {}", folder_.string(), more);
@@ -46,6 +46,7 @@ class Resume : public ProgramTest {
     expect_same_run(root_ / "whole", folder_);
   }
 
+  static constexpr const char* kFrames = "--set output.frames=6";
   static constexpr const char* kScene = "--set \"scene.element_size=8 mm\"";
   fs::path folder_ = root_ / "part";
 };
@@ -107,6 +108,25 @@ TEST_F(Resume, ControlledFromOutside) {
   expect_finishes_as_if_never_stopped();
 }
 
+TEST_F(Resume, AFrameOnRequestStays) {
+  const pid_t process = start_rolling();
+  EXPECT_EQ(call("ctl " + folder_.string() + " frame"), 0) << errors();
+  ASSERT_TRUE(wait_until([&] {
+    const auto names = fs::exists(folder_ / "frames") ? frames_in(folder_) : std::vector<std::string>{};
+    return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+      return name.ends_with(".hdf") && !fs::exists(root_ / "whole/frames" / name);
+    });
+  }));
+  ::kill(process, SIGKILL);
+  wait_for(process);
+  EXPECT_EQ(call(resume()), 0) << errors();
+  const auto names = frames_in(folder_);
+  EXPECT_EQ(names.size(), frames_in(root_ / "whole").size() + 1);
+  const std::string series = content_of(folder_ / "frames.hdf.series");
+  for (const std::string& name : names) EXPECT_EQ(has(series, name), name.starts_with("step-")) << name;
+  EXPECT_TRUE(has(content_of(folder_ / "status.json"), "\"done\""));
+}
+
 TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
   for (const char* wrong :
@@ -155,7 +175,8 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
          "mm\"\nstart = \"10 mm\"\napply = \"gap\"\n";
   const auto table_run = [&](const fs::path& folder, const char* more) {
     return fmt::format(
-        "run {} -t 1 -o {} {} --set \"motion.duration=0.6 ms\" --set \"solution_zone.start=5 mm\" {}",
+        "run {} -t 1 -o {} {} --set output.frames=3 --set \"motion.duration=0.6 ms\" --set "
+        "\"solution_zone.start=5 mm\" {}",
         (source / "scene.toml").string(), folder.string(), kScene, more);
   };
   ASSERT_EQ(call(table_run(root_ / "table", "")), 0) << errors();
@@ -167,7 +188,7 @@ TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
 
 TEST_F(Resume, KilledInEveryStageOfACheckpoint) {
   const std::vector<std::string> values = {"scene.element_size=8 mm", "motion.duration=1 ms",
-                                           "output.checkpoint_interval=1 ms"};
+                                           "output.checkpoint_interval=1 ms", "output.frames=3"};
   RunOptions options;
   options.threads.number = 1;
   options.quiet = true;
@@ -201,6 +222,16 @@ TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
   EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"));
   EXPECT_EQ(call(run(folder_, "--set \"output.disk_limit=1 kB\"")), 2);
   EXPECT_TRUE(has(errors(), "the run needs about")) << errors();
+}
+
+TEST_F(Resume, AFrameThatDoesNotFitEndsTheRunAndComesLater) {
+  // [512 B]: a checkpoint fits, the mesh of all elements does not.
+  EXPECT_EQ(call(run(folder_, "--set output.frame_cells=elements"), "ulimit -f 2200;"), 4);
+  EXPECT_TRUE(has(errors(), "mesh-elements.hdf") && has(errors(), "File too large")) << errors();
+  EXPECT_FALSE(fs::exists(folder_ / "frames.hdf.series"));
+  EXPECT_EQ(call(resume()), 0) << errors();
+  EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"));
+  EXPECT_EQ(frames_in(folder_).size(), frames_in(root_ / "whole").size());
 }
 
 TEST_F(Resume, AFullDiskLosesNothingThatWasWritten) {

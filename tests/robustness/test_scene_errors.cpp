@@ -271,6 +271,14 @@ TEST(SceneErrors, Syntax) {
   EXPECT_EQ(error_of("a" + std::string(400000, '.')), "x.toml:1: the line has more than 2000 bytes");
   expect_part(error_of("a = " + std::string(1000, '[')), "x.toml:1:");
   EXPECT_EQ(error_of("[scene]\n[\\x]\n[rail]\n"), "x.toml:2: the line is not valid TOML");
+  const std::string foreign = "a character that is not ASCII stands outside of quotes and comments";
+  for (const char* text :
+       {"[scene]\n[mat\xC3\xA9riau]\n", "[scene]  # \xC3\xA9\ntitle = \"\xC3\xA9\" \xC2\xA0\n",
+        "scene.title = \"\\\"\xC3\xA9\"\n\xC3\xA9 = 1\n", "scene.title = '\\'\n\xC3\xA9 = 1\n",
+        "scene.title = \"\"\"a\"\"\"\"\n\xC3\xA9 = '''\xC3\xA9'''\n"})
+    EXPECT_EQ(error_of(text), "x.toml:2: " + foreign) << text;
+  EXPECT_EQ(error_of("scene.title = '''\xC3\xA9\n''\xC3\xA9'''\n[\\x]\n"),
+            "x.toml:3: the line is not valid TOML");
   expect_part(error_of("[rail]\nlength = \"\xff\xfe\"\n"), "x.toml:2:");
 }
 

@@ -18,6 +18,7 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/sealed_file.hpp"
+#include "tests/fuzz/targets.hpp"
 
 namespace tread {
 namespace {
@@ -127,6 +128,29 @@ TEST_F(SealedFiles, EnormousSizesAreRefused) {
   write_sealed(path_, "checkpoint", 1, {{"a", std::vector{1.0}}});
   fs::resize_file(path_, std::uintmax_t{1} << 43);
   EXPECT_NE(refusal(path_).find(" bytes"), std::string::npos);
+}
+
+/// A sealed file whose list of entries is `index`, with a checksum that is right.
+std::string sealed_with(const std::string& index) {
+  const std::string head = fmt::format("tread checkpoint\nversion 1\nbytes 0\nindex {}\n", 512 + 16);
+  return fuzz::resealed(head + std::string(512 - head.size(), '\0') + std::string(16, 'x') + index);
+}
+
+TEST_F(SealedFiles, WhatAForgedListStatesIsNotBelieved) {
+  const auto expect_refused = [&](const std::string& index, const std::string& part) {
+    overwrite(path_, sealed_with(index));
+    const std::string reason = refusal(path_);
+    EXPECT_NE(reason.find(part), std::string::npos) << index << ": " << reason;
+  };
+  overwrite(path_, sealed_with("byte 4 512 a\n"));
+  EXPECT_EQ(read_sealed(path_, "checkpoint", 1), (SealedContent{{"a", std::string("xxxx")}}));
+  for (const char* line : {"f64 2305843009213693952 512 a\n", "f64 2305843009213693951 512 a\n",
+                           "byte 18446744073709551615 512 a\n", "i64 1 18446744073709551608 a\n",
+                           "f64 1 560 a\n", "byte 500 512 a\nbyte 500 512 b\n"})
+    expect_refused(line, "does not fit into its");
+  for (const char* line : {"f32 1 512 a\n", "f64 -1 512 a\n", "f64 1 512\n", "f64 01 512 a\n", "\n",
+                           "byte 1 512 a\nbyte 1 512 a\n", "byte 1 512 a b\n"})
+    expect_refused(line, "of its list of entries is broken");
 }
 
 class Checkpoints : public SealedFiles {

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <stdexcept>
 
-#include "core/aligned.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -54,7 +54,7 @@ class VtkhdfTest : public testing::Test {
 };
 
 TEST_F(VtkhdfTest, HoldsWhatTheReaderAsksFor) {
-  write_vtkhdf(path_, mesh_);
+  write_vtk_mesh(path_, mesh_, make_vtk_grid(mesh_, VtkCells::elements));
   const Hdf5File file = Hdf5File::open_to_read(path_);
   EXPECT_EQ(file.read_text_attribute("/VTKHDF", "Type"), "UnstructuredGrid");
   EXPECT_EQ(file.read_attribute<std::int64_t>("/VTKHDF", "Version"), (Integers{1, 0}));
@@ -74,7 +74,7 @@ TEST_F(VtkhdfTest, HoldsWhatTheReaderAsksFor) {
 }
 
 TEST_F(VtkhdfTest, HexahedraArePositiveAndFillTheVolume) {
-  write_vtkhdf(path_, mesh_);
+  write_vtk_mesh(path_, mesh_, make_vtk_grid(mesh_, VtkCells::elements));
   const Hdf5File file = Hdf5File::open_to_read(path_);
   const std::vector<double> xyz = file.read<double>("/VTKHDF/Points");
   const Integers ids = file.read<std::int64_t>("/VTKHDF/Connectivity");
@@ -97,12 +97,12 @@ TEST_F(VtkhdfTest, HexahedraArePositiveAndFillTheVolume) {
 }
 
 TEST_F(VtkhdfTest, CellArraysNameBlockMaterialAndLength) {
-  write_vtkhdf(path_, mesh_);
+  write_vtk_mesh(path_, mesh_, make_vtk_grid(mesh_, VtkCells::elements));
   const Hdf5File file = Hdf5File::open_to_read(path_);
   EXPECT_EQ(file.read_text_attribute("/VTKHDF/CellData/block", "names"), "bar,ring");
   EXPECT_EQ(file.read_text_attribute("/VTKHDF/CellData/material", "names"), "steel,filler");
   const std::vector<std::int32_t> material = file.read<std::int32_t>("/VTKHDF/CellData/material");
-  const std::vector<double> pitch = file.read<double>("/VTKHDF/CellData/pitch");
+  const std::vector<double> pitch = file.read<double>("/VTKHDF/CellData/pitch [m]");
   EXPECT_EQ(material[0], 0);
   EXPECT_EQ(material[1], 1);
   EXPECT_EQ(material[22], 1);  // the ring's first quad is of filler
@@ -111,36 +111,82 @@ TEST_F(VtkhdfTest, CellArraysNameBlockMaterialAndLength) {
   EXPECT_DOUBLE_EQ(pitch[22], std::numbers::pi / 6 * 0.415);
 }
 
-TEST_F(VtkhdfTest, FieldsTurnWithTheirBody) {
-  // A radial unit vector at every node of the ring, whose frame is turned by a quarter and lifted.
-  AlignedVector<double> radial(static_cast<std::size_t>(3 * mesh_.slots), 0.0);
-  const SweptBlock& ring = mesh_.blocks[1];
-  for (int station = 0; station < ring.station_count(); ++station)
-    for (int node = 0; node < ring.section.nodes(); ++node)
-      radial[static_cast<std::size_t>(dof(ring.base + ring.slot(node, station), 2))] = 1;
-  const Placement lifted{{1.0, 0.0, 0.43}, std::numbers::pi / 2};
-  write_vtkhdf(path_, mesh_, {Placement{}, lifted}, {{"displacement", "m", radial}});
-
+TEST_F(VtkhdfTest, FacesPointOutwardsAndEncloseTheVolume) {
+  const VtkGrid grid = make_vtk_grid(mesh_, VtkCells::faces);
+  write_vtk_mesh(path_, mesh_, grid);
   const Hdf5File file = Hdf5File::open_to_read(path_);
   const std::vector<double> xyz = file.read<double>("/VTKHDF/Points");
-  const std::vector<double> field = file.read<double>("/VTKHDF/PointData/displacement");
-  EXPECT_EQ(file.read_text_attribute("/VTKHDF/PointData/displacement", "unit"), "m");
-  for (std::int64_t i = mesh_.blocks[0].nodes(); i < mesh_.blocks[0].nodes() + ring.nodes(); ++i) {
-    Vec3 arm = point(xyz, i) - lifted.origin;
-    arm.y = 0;
-    const Vec3 outwards = 1 / norm(arm) * arm;
-    EXPECT_NEAR(norm(outwards - point(field, i)), 0, 1e-12);
+  const Integers ids = file.read<std::int64_t>("/VTKHDF/Connectivity");
+  const std::vector<std::int32_t> block = file.read<std::int32_t>("/VTKHDF/CellData/block");
+  // Bar: 6 edges around, 11 elements along, 2 ends of 2 quads. Ring: 6 edges around, no ends.
+  ASSERT_EQ(block.size(), 6U * 11 + 2 * 2 + 6 * 12);
+  EXPECT_EQ(file.read<std::uint8_t>("/VTKHDF/Types"), std::vector<std::uint8_t>(block.size(), 9));
+  EXPECT_EQ(grid.points.size(), 6U * 12 + 6 * 12);  // every node of these sections lies on the outside
+  double volume[2] = {0, 0};
+  Vec3 sum[2];
+  for (std::size_t cell = 0; cell < block.size(); ++cell) {
+    const auto corner = [&](std::size_t i) { return point(xyz, ids[4 * cell + i]); };
+    for (const std::array<std::size_t, 3>& t : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
+      const Vec3 area = 0.5 * cross(corner(t[1]) - corner(t[0]), corner(t[2]) - corner(t[0]));
+      sum[block[cell]] += area;
+      volume[block[cell]] += dot(area, corner(t[0])) / 3;
+    }
   }
-  // phi = 0 points down; turned by a quarter about +y it points backwards, along -x.
-  EXPECT_NEAR(point(xyz, mesh_.blocks[0].nodes()).x, 1.0 - 0.4, 1e-12);
+  EXPECT_NEAR(norm(sum[0]) + norm(sum[1]), 0, 1e-12);
+  EXPECT_NEAR(volume[0], 0.02 * 0.02 * 0.13, 1e-12);
+  EXPECT_NEAR(volume[1], 0.02 * 6 * std::sin(std::numbers::pi / 6) * (0.43 * 0.43 - 0.40 * 0.40), 1e-12);
 }
 
-TEST_F(VtkhdfTest, RefusesFieldsOfAnotherMesh) {
-  const std::vector<double> values(7);
-  EXPECT_THROW(write_vtkhdf(path_, mesh_, {}, {{"u", "m", values}}), std::logic_error);
-  EXPECT_THROW(write_vtkhdf(path_, mesh_, {Placement{}}), std::logic_error);
-  EXPECT_FALSE(fs::exists(path_));
-  EXPECT_FALSE(fs::exists(path_.string() + ".part"));
+TEST_F(VtkhdfTest, TheElementBehindAFaceHoldsItsCorners) {
+  const VtkGrid grid = make_vtk_grid(mesh_, VtkCells::faces);
+  for (std::size_t cell = 0; cell < grid.cells.size(); ++cell) {
+    const VtkGrid::Cell& element = grid.cells[cell];
+    const SweptBlock& block = mesh_.blocks[static_cast<std::size_t>(element.block)];
+    const std::array<int, 4>& quad = block.section.quads[static_cast<std::size_t>(element.quad)];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const VtkGrid::Point& corner = grid.points[static_cast<std::size_t>(grid.connectivity[4 * cell + i])];
+      EXPECT_EQ(corner.block, element.block);
+      EXPECT_NE(std::find(quad.begin(), quad.end(), corner.node), quad.end());
+      EXPECT_TRUE(corner.station == element.station ||
+                  corner.station == (element.station + 1) % block.station_count());
+    }
+  }
+}
+
+TEST_F(VtkhdfTest, AFrameShowsTheCellsOfItsMesh) {
+  const VtkGrid grid = make_vtk_grid(mesh_, VtkCells::faces);
+  write_vtk_mesh(path_, mesh_, grid);
+  const fs::path frame = path_.parent_path() / fmt::format("tread_frame_{}.hdf", ::getpid());
+  const std::vector<float> points(3 * grid.points.size(), 1.5F);
+  const std::vector<float> stress(grid.cells.size(), 2.5F);
+  write_vtk_frame(frame,
+                  {path_.filename(), 0.25, points, {{"stress [Pa]", "Pa", "made up", 1, true, stress}}});
+  {
+    const Hdf5File file = Hdf5File::open_to_read(frame);
+    EXPECT_EQ(file.read<std::int64_t>("/VTKHDF/Connectivity"), grid.connectivity);
+    EXPECT_EQ(file.read<std::int64_t>("/VTKHDF/NumberOfCells"),
+              Integers{static_cast<std::int64_t>(grid.cells.size())});
+    EXPECT_EQ(file.read<std::int32_t>("/VTKHDF/CellData/block").size(), grid.cells.size());
+    EXPECT_EQ(file.read<float>("/VTKHDF/Points"), points);
+    EXPECT_EQ(file.read<float>("/VTKHDF/CellData/stress [Pa]"), stress);
+    EXPECT_EQ(file.read_text_attribute("/VTKHDF/CellData/stress [Pa]", "unit"), "Pa");
+    EXPECT_EQ(file.read<double>("/VTKHDF/FieldData/time [s]"), std::vector{0.25});
+  }
+  fs::remove(frame);
+}
+
+TEST_F(VtkhdfTest, ABodyIsPlacedTurnedAndLifted) {
+  const Placement lifted{{1.0, 0.0, 0.43}, std::numbers::pi / 2};
+  const VtkGrid grid = make_vtk_grid(mesh_, VtkCells::elements);
+  write_vtk_mesh(path_, mesh_, grid, {Placement{}, lifted});
+  const std::vector<double> xyz = Hdf5File::open_to_read(path_).read<double>("/VTKHDF/Points");
+  const auto first = std::find_if(grid.points.begin(), grid.points.end(), [](const VtkGrid::Point& at) {
+    return at.block == 1 && at.station == 0 && at.node == 0;
+  });
+  ASSERT_NE(first, grid.points.end());
+  // phi = 0 points down; turned by a quarter about +y it points backwards, along -x.
+  EXPECT_NEAR(norm(point(xyz, first - grid.points.begin()) - Vec3{1.0 - 0.4, -0.01, 0.43}), 0, 1e-12);
+  EXPECT_THROW(write_vtk_mesh(path_, mesh_, grid, {Placement{}}), std::logic_error);
 }
 
 }  // namespace
