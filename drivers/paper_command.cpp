@@ -18,19 +18,16 @@ namespace tread {
 
 namespace {
 
-std::string padded(const std::string& id) {
-  return id.find_first_not_of("0123456789") == 1 || id.size() == 1 ? "0" + id : id;
-}
-
 std::vector<PaperFigure> chosen_figures(const std::vector<std::string>& ids) {
   if (ids.empty()) return paper_figures();
   std::vector<PaperFigure> chosen;
   for (const std::string& id : ids) {
-    const auto found = std::find_if(paper_figures().begin(), paper_figures().end(),
-                                    [&](const PaperFigure& figure) { return figure.id == padded(id); });
+    const auto found =
+        std::find_if(paper_figures().begin(), paper_figures().end(),
+                     [&](const PaperFigure& figure) { return shown_id(figure.id) == shown_id(id); });
     if (found == paper_figures().end()) {
       std::vector<std::string> known;
-      for (const PaperFigure& figure : paper_figures()) known.push_back(figure.id);
+      for (const PaperFigure& figure : paper_figures()) known.push_back(shown_id(figure.id));
       throw InputError(
           fmt::format("--fig {}: not among the figures {}; 14 is made by `tread roughness`, 16 and 17 "
                       "stand in every run's report",
@@ -54,7 +51,7 @@ std::map<std::string, Passage> passages_of(const std::vector<PaperFigure>& figur
 void print_figures(const std::vector<PaperFigure>& figures) {
   Table table{"", {{"Figure"}, {"What"}, {"Passages", Align::right}}, {}};
   for (const PaperFigure& figure : figures)
-    table.rows.push_back({figure.id, figure.title, std::to_string(figure.passages.size())});
+    table.rows.push_back({shown_id(figure.id), figure.title, std::to_string(figure.passages.size())});
   fmt::print("{}\n", plain_text(table));
 }
 
@@ -74,7 +71,7 @@ Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& 
   report.chapters.push_back({"Conclusions", {verdict_table(runs)}});
   report.chapters.push_back({"Numbers", {number_table(runs)}});
   for (const PaperFigure& figure : figures) {
-    Chapter chapter{fmt::format("Fig. {}", figure.id), {}};
+    Chapter chapter{fmt::format("Fig. {}", shown_id(figure.id)), {}};
     chapter.blocks.emplace_back(draw(figure, runs));
     chapter.blocks.emplace_back(missing_passages(figure, runs));
     report.chapters.push_back(std::move(chapter));
@@ -111,7 +108,7 @@ std::optional<Error> reproduce_paper(const PaperOptions& options) {
     if (common.json)
       fmt::print("{}", sweep_json(plan, finished));
     else
-      fmt::print("{}\n{}", plain_text(number_table(runs)), plain_text(verdict_table(runs)));
+      fmt::print("{}\n{}", plain_text(number_table(runs)), plain_text(short_verdict_table(runs)));
   });
 }
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -29,23 +29,28 @@ constexpr int kMostJobs = 4096;
 
 /// All values that a key takes in a grid.
 struct Axis {
-  std::string key;
+  int line;
   std::vector<StudySetting> values;
 };
+
+std::string nested_value(const toml::node& node);
 
 /// The text that --set takes for the value.
 std::string plain_value(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
-  std::ostringstream text;
-  node.visit([&](const auto& typed) {
-    if constexpr (toml::is_table<decltype(typed)>)
-      text << toml::toml_formatter{toml::table{{"value", typed}}};
-    else
-      text << typed;
-  });
-  const std::string written = text.str();
-  constexpr std::string_view kName = "value = ";
-  return written.starts_with(kName) ? written.substr(kName.size()) : written;
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  const auto* table = node.as_table();
+  if (!table) return describe_node(node);  // no key takes it
+  std::string members;
+  for (const auto& [name, member] : *table)
+    members += fmt::format("{} {} = {}", members.empty() ? "" : ",", name.str(), nested_value(member));
+  return fmt::format("{{{} }}", members);
+}
+
+std::string nested_value(const toml::node& node) {
+  return node.is_string() ? fmt::format("\"{}\"", plain_value(node)) : plain_value(node);
 }
 
 class StudyReader {
@@ -58,6 +63,7 @@ class StudyReader {
     for (const auto& [name, node] : file) read_part(std::string(name.str()), name.source(), node);
     if (study_.scene.empty() && problems_.empty())
       report({}, "study.scene", "missing: the path of the scene that is varied");
+    in_order(study_.common);
     make_points();
     if (!problems_.empty()) throw ProblemsError(std::move(problems_));
     return std::move(study_);
@@ -121,6 +127,13 @@ class StudyReader {
     }
   }
 
+  /// As they stand in the file; its tables come sorted by name.
+  static void in_order(std::vector<StudySetting>& settings) {
+    std::stable_sort(settings.begin(), settings.end(), [](const StudySetting& a, const StudySetting& b) {
+      return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+  }
+
   static StudySetting setting(const std::string& key, const toml::source_region& at, const toml::node& node) {
     return {key, plain_value(node), static_cast<int>(at.begin.line), static_cast<int>(at.begin.column)};
   }
@@ -149,7 +162,7 @@ class StudyReader {
                fmt::format("expected an array of values, such as [\"100 km/h\", \"300 km/h\"], got {}",
                            values ? "an empty one" : describe_node(node)));
       } else {
-        Axis axis{key, {}};
+        Axis axis{static_cast<int>(name.source().begin.line), {}};
         for (const toml::node& value : *values) axis.values.push_back(setting(key, value.source(), value));
         axes_.push_back(std::move(axis));
       }
@@ -175,6 +188,7 @@ class StudyReader {
         values.erase("name");
       }
       add_settings(values, "", point.varied);
+      in_order(point.varied);
       if (point.varied.empty())
         report(item.source(), "point", "it varies nothing: state a key and its value");
       study_.points.push_back(std::move(point));
@@ -209,6 +223,8 @@ class StudyReader {
 
   /// Every combination, the last key running fastest.
   void combine_axes() {
+    std::stable_sort(axes_.begin(), axes_.end(),
+                     [](const Axis& a, const Axis& b) { return a.line < b.line; });
     std::size_t count = axes_.empty() ? 0 : 1;
     for (const Axis& axis : axes_) count = std::min(count * axis.values.size(), kMostPoints + 1);
     if (count > kMostPoints) {
@@ -218,11 +234,12 @@ class StudyReader {
     for (std::size_t i = 0; i < count; ++i) {
       StudyPoint point;
       std::size_t rest = i;
-      for (auto axis = axes_.rbegin(); axis != axes_.rend(); ++axis) {
-        point.varied.push_back(axis->values[rest % axis->values.size()]);
-        rest /= axis->values.size();
+      std::size_t block = count;
+      for (const Axis& axis : axes_) {
+        block /= axis.values.size();
+        point.varied.push_back(axis.values[rest / block]);
+        rest %= block;
       }
-      std::reverse(point.varied.begin(), point.varied.end());
       study_.points.push_back(std::move(point));
       lines_.push_back(static_cast<int>(grid_at_.begin.line));
     }

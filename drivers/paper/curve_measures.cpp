@@ -152,6 +152,18 @@ std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRu
   return most / load;
 }
 
+std::optional<double> creepage_ratio(const FinishedRun& run, const char* column) {
+  const CurvePoints curve = history_over_way(run, column, "-");
+  const double first = run.number("evaluated_x_m.0").value_or(0);
+  const double last = run.number("evaluated_x_m.1").value_or(0);
+  const double steady = 1e-2 * run.number("creepage_percent").value_or(0);
+  double most = 0;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (curve.x[i] >= first && curve.x[i] <= last) most = std::max(most, curve.y[i]);
+  if (steady <= 0 || vertical_peaks(run).empty()) return std::nullopt;
+  return most / steady;
+}
+
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit) {
   return read_curve(run, {.y = {column, unit}});
 }

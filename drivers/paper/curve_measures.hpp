@@ -42,6 +42,10 @@ std::optional<double> residual_oscillation(const FinishedRun& run, double x);
 /// Largest difference of the runs' F_N from `time` [s] on, over the static load.
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time);
 
+/// Largest value of the column of creepages over the evaluated stretch, over the steady creepage of the
+/// summary; nothing where the run has not come to a crest.
+std::optional<double> creepage_ratio(const FinishedRun& run, const char* column);
+
 /// Curves of the histories and of the axis, SI.
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit);
 CurvePoints history_over_time(const FinishedRun& run, const char* column, const char* unit);

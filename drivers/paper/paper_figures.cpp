@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "drivers/figure_parts.hpp"
@@ -48,6 +50,7 @@ CurvePanel longitudinal() {
 }
 CurvePanel longitudinal_with_limit() {
   CurvePanel panel = longitudinal();
+  panel.y_label = "Force [kN]";
   panel.limit = true;
   return panel;
 }
@@ -284,6 +287,10 @@ const std::vector<PaperFigure>& paper_figures() {
   return figures;
 }
 
+std::string shown_id(const std::string& id) {
+  return id.substr(std::min(id.find_first_not_of('0'), id.size()));
+}
+
 Figure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   std::vector<FinishedRun> found;
   std::vector<double> places;
@@ -293,7 +300,7 @@ Figure draw(const PaperFigure& wanted, const PassageRuns& runs) {
       found.back().label = wanted.label(passage);
       places.push_back(wanted.x ? wanted.x(passage) : 0);
     }
-  const std::string title = fmt::format("Fig. {}: {}", wanted.id, wanted.title);
+  const std::string title = fmt::format("Fig. {}: {}", shown_id(wanted.id), wanted.title);
   if (!wanted.trends.empty()) {
     std::vector<TrendRun> trend;
     for (std::size_t i = 0; i < found.size(); ++i) trend.push_back({&found[i], places[i], ""});

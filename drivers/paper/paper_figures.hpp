@@ -27,6 +27,9 @@ struct PaperFigure {
 /// In the paper's order.
 const std::vector<PaperFigure>& paper_figures();
 
+/// The id without zeros before it: "8".
+std::string shown_id(const std::string& id);
+
 /// From those of its passages that have been run. InputError where a table does not read.
 Figure draw(const PaperFigure& figure, const PassageRuns& runs);
 

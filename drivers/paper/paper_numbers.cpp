@@ -9,6 +9,7 @@
 
 #include "drivers/multibody/multibody_run.hpp"
 #include "drivers/paper/curve_measures.hpp"
+#include "drivers/paper/paper_figures.hpp"
 
 namespace tread {
 
@@ -46,18 +47,6 @@ Ours over_the_corrugation(const Passage& passage, std::string path, double scale
 std::optional<double> first_shift(const FinishedRun& run) {
   const std::vector<CrestPeak> peaks = vertical_peaks(run);
   return peaks.empty() ? std::nullopt : std::optional(peaks.front().shift / std::numbers::pi);
-}
-
-std::optional<double> creepage_ratio(const FinishedRun& run, const char* column) {
-  const CurvePoints curve = history_over_way(run, column, "-");
-  const double first = run.number("evaluated_x_m.0").value_or(0);
-  const double last = run.number("evaluated_x_m.1").value_or(0);
-  const double steady = 1e-2 * run.number("creepage_percent").value_or(0);
-  double most = 0;
-  for (std::size_t i = 0; i < curve.x.size(); ++i)
-    if (curve.x[i] >= first && curve.x[i] <= last) most = std::max(most, curve.y[i]);
-  if (steady <= 0 || vertical_peaks(run).empty()) return std::nullopt;
-  return most / steady;
 }
 
 std::optional<double> smallest_by_multibody(const FinishedRun& run) {
@@ -162,7 +151,7 @@ Table number_table(const PassageRuns& runs) {
   std::vector<Comparison> rows;
   for (const PaperNumber& number : paper_numbers())
     rows.push_back({number.quantity, number.unit, number.value, number.ours(runs),
-                    number.place + (number.figure.empty() ? "" : ", Fig. " + number.figure) +
+                    number.place + (number.figure.empty() ? "" : ", Fig. " + shown_id(number.figure)) +
                         (number.remark.empty() ? "" : "; " + number.remark)});
   return comparison_table("", "Paper", rows);
 }

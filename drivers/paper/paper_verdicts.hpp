@@ -31,4 +31,7 @@ const std::vector<Conclusion>& paper_conclusions();
 /// Columns: number, conclusion, decided by, verdict, our numbers.
 Table verdict_table(const PassageRuns& runs);
 
+/// Columns: number, verdict, our numbers.
+Table short_verdict_table(const PassageRuns& runs);
+
 }  // namespace tread

@@ -45,11 +45,11 @@ void mind_memory(StudyPlan& plan, const StudyOptions& options) {
 
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
   return fmt::format(
-      "{} runs at once with {} thread{} each: about {} ({} one after the other), {} on the disk, {} of "
+      "{} run{} at once, {} thread{} each: about {} ({} one after the other), {} on the disk, {} of "
       "memory "
       "(the machine has {})",
-      plan.jobs, plan.threads, plan.threads == 1 ? "" : "s", duration_text(cost.wall),
-      duration_text(cost.seconds), bytes_text(cost.disk), bytes_text(cost.memory),
+      plan.jobs, plan.jobs == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s",
+      duration_text(cost.wall), duration_text(cost.seconds), bytes_text(cost.disk), bytes_text(cost.memory),
       bytes_text(machine_memory()));
 }
 

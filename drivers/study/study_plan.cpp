@@ -21,6 +21,11 @@ namespace tread {
 
 namespace {
 
+/// Whether a key's path is another's or leads into its table.
+bool lies_in(const std::string& path, const std::string& table) {
+  return path == table || path.starts_with(table + ".");
+}
+
 /// Problems of many points, each told once: with the first point that has it unless all have it.
 class PointProblems {
  public:
@@ -30,7 +35,7 @@ class PointProblems {
     Problem placed = problem;
     const auto place = [&](const std::vector<StudySetting>& settings) {
       for (const StudySetting& s : settings)
-        if (s.line > 0 && (s.key == problem.key || problem.key.starts_with(s.key + ".")))
+        if (s.line > 0 && (lies_in(s.key, problem.key) || lies_in(problem.key, s.key)))
           std::tie(placed.file, placed.line, placed.column) = std::tie(study_.name, s.line, s.column);
     };
     if (problem.file == "--set") {

@@ -85,6 +85,7 @@ TEST_F(StudyReader, TablesCanBeValues) {
       "s\" }, { kind = \"high_frequency_fraction\", value = 1e-4 }]\n");
   ASSERT_EQ(study.points.size(), 2U);
   EXPECT_EQ(study.points[1].varied[0].value, "{ kind = \"high_frequency_fraction\", value = 0.0001 }");
+  EXPECT_EQ(study.points[0].name, "damping=_kind_rayleigh_beta_value_1e-8s_");
 }
 
 TEST_F(StudyReader, RefusesWithPlaceAndReason) {
