@@ -29,9 +29,9 @@ bool has_sine(const FinishedRun& run) {
 std::vector<double> evaluated(const FinishedRun& run, const CurvePoints& curve) {
   const Span stretch = evaluated_stretch(run.scene, run.corrugation());
   if (curve.x.size() < 2 || curve.x.front() > stretch.first || curve.x.back() < stretch.last) return {};
-  std::vector<double> values;
-  for (int i = 0; i < kPlaces; ++i)
-    values.push_back(at(curve, stretch.first + (stretch.last - stretch.first) * i / kPlaces));
+  std::vector<double> values(kPlaces);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = at(curve, stretch.first + (stretch.last - stretch.first) * static_cast<double>(i) / kPlaces);
   return values;
 }
 

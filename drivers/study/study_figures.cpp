@@ -118,7 +118,8 @@ Figure curves_figure(const CurvesSpec& spec, const std::vector<FinishedRun>& all
   std::optional<Range> way;
   for (const CurvePanel& wanted : spec.panels) {
     std::vector<Series> curves;
-    for (const FinishedRun& run : runs) curves.push_back(series_of(run, wanted));
+    std::transform(runs.begin(), runs.end(), std::back_inserter(curves),
+                   [&](const FinishedRun& run) { return series_of(run, wanted); });
     for (const Series& curve : curves)
       if (!curve.x.empty()) {
         const Range range = {curve.x.front(), curve.x.back()};
@@ -150,8 +151,8 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
     for (const auto& [name, group] : groups)
       for (const auto& [label, path] : wanted.curves) {
         const bool inner = label.find("mean") != std::string::npos;
-        Series series{
-            name.empty() ? label : label + ", " + name, {}, {}, inner ? Stroke::solid : Stroke::dashed};
+        Series series{label, {}, {}, inner ? Stroke::solid : Stroke::dashed};
+        if (!name.empty()) series.label += fmt::format(", {}", name);
         for (const TrendRun& run : group)
           if (const auto value = run.run->number(path)) {
             series.x.push_back(run.x);

@@ -56,8 +56,9 @@ StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& pro
     : plan_(&plan), folder_(&folder), progress_(&progress) {}
 
 std::string StudyRunner::run(bool retry) {
-  for (auto point = plan_->points.rbegin(); point != plan_->points.rend(); ++point)
-    if (point->to_run(retry)) queue_.push_back(&*point);
+  for (PlannedPoint& point : plan_->points)
+    if (point.to_run(retry)) queue_.push_back(&point);
+  std::reverse(queue_.begin(), queue_.end());
   for (;;) {
     obey();
     while (stopped_by_.empty() && !queue_.empty() &&
