@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -105,6 +106,35 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
   }
 }
 
+/// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
+/// wheel goes its way.
+SceneContent model_content(const PlannedPoint& point) {
+  SceneContent content = point.content;
+  std::erase_if(content, [](const auto& entry) {
+    return entry.first == "motion.speed" || entry.first == "motion.duration" ||
+           entry.first.starts_with("motion.traction.");
+  });
+  if (const auto& motion = point.resolved.scene.motion)
+    content["way"] = fmt::format("{:.3f} m", motion->speed * motion->duration);
+  return content;
+}
+
+double duration_of(const PlannedPoint& point) {
+  return point.resolved.scene.motion ? point.resolved.scene.motion->duration : 0;
+}
+
+/// Of the same model over `ratio` times the duration.
+Estimate prolonged(Estimate cost, double ratio) {
+  const auto times = [ratio](std::int64_t number) {
+    return std::llround(static_cast<double>(number) * ratio);
+  };
+  cost.steps = times(cost.steps);
+  cost.rolling_seconds *= ratio;
+  cost.disk.rows = times(cost.disk.rows);
+  cost.disk.results = times(cost.disk.results);
+  return cost;
+}
+
 }  // namespace
 
 int machine_cores() {
@@ -156,10 +186,17 @@ void look_into_folders(StudyPlan& plan) {
 void project_cost(StudyPlan& plan, bool retry) {
   use_threads({plan.threads, ""});
   PointProblems problems(plan.study);
+  std::map<SceneContent, const PlannedPoint*> built;
   for_each_point(plan, problems, [&](PlannedPoint& point) {
     if (!point.to_run(retry)) return;
-    Model model(point.resolved.scene);
-    point.cost = estimate(model);
+    const auto [first, is_new] = built.try_emplace(model_content(point), &point);
+    if (is_new) {
+      Model model(point.resolved.scene);
+      point.cost = estimate(model);
+    } else if (const PlannedPoint& same = *first->second; same.cost) {
+      const bool rolls = duration_of(same) > 0;
+      point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
+    }
   });
   problems.throw_if_any();
 }
