@@ -31,7 +31,7 @@ class Sweep : public testing::Test {
   fs::path tyres() const {
     return study("tyre.toml", R"([set]
 scene.element_size = "8 mm"
-motion.duration = "2 ms"
+motion.duration = "1.5 ms"
 output.progress_interval = "10 ms"
 [grid]
 motion.traction.mu = [0.1, 0.3]
@@ -154,7 +154,7 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
 /// The paper's passages on a mesh that is fast rather than good, for an instant.
 TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
   const std::string coarse =
-      "--set \"scene.element_size=10 mm\" --set \"motion.duration=20 us\" --set \"solution_zone.length=0.1 "
+      "--set \"scene.element_size=10 mm\" --set \"motion.duration=20 us\" --set \"solution_zone.length=0.15 "
       "m\" "
       "--set \"corrugation.length=0.1 m\" --set \"corrugation.start=2.41 m\"";
   const std::string call = fmt::format("paper --fig 15 --fig 22 -o {} {} ", runs_.string(), coarse);
