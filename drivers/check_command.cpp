@@ -2,71 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cmath>
-#include <functional>
-
 #include "core/parallel.hpp"
-#include "drivers/disk_use.hpp"
+#include "drivers/estimate.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/mesh_measures.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/progress.hpp"
 #include "drivers/run_results.hpp"
-#include "drivers/static_system.hpp"
 #include "io/json_writer.hpp"
 
 namespace tread {
 
 namespace {
-
-// Measured on runs of the scenes in scenes/: 1.3 ... 1.45 and 2900 (tyre) ... 5400 (wheelset).
-constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
-constexpr double kPreloadApplications =
-    5000;  ///< time of a preload over that of one application of the stiffness
-
-struct Estimate {
-  StepLimit limit;
-  double dt = 0;  ///< [s]
-  std::int64_t steps = 0;
-  std::int64_t memory = 0;  ///< [B]
-  DiskUse disk;
-  double force_seconds = 0;    ///< of one internal force [s]
-  double preload_seconds = 0;  ///< [s]
-  double rolling_seconds = 0;  ///< [s]
-};
-
-double seconds_of(const std::function<void()>& force) {
-  constexpr int kTimes = 5;
-  force();
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < kTimes; ++i) force();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTimes;
-}
-
-/// In double.
-double seconds_of_one_force(const Model& model) {
-  const AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
-  AlignedVector<double> f(u.size(), 0.0);
-  return seconds_of([&] { model.internal->internal_force(u.data(), u.data(), f.data()); });
-}
-
-Estimate estimate(const Model& model) {
-  Estimate e;
-  e.memory = peak_bytes(model);
-  e.force_seconds = seconds_of_one_force(model);
-  e.preload_seconds = kPreloadApplications * e.force_seconds;
-  e.disk = disk_use(model, 0);
-  if (!model.scene.motion) return e;
-  e.limit = step_limit(model);
-  e.dt = model.scene.motion->step_safety * e.limit.stable_step;
-  e.steps = step_count(model.scene, e.dt);
-  e.disk = disk_use(model, e.dt);
-  const auto fields = make_node_fields(model);
-  e.rolling_seconds = kStepOverhead * seconds_of([&] { fields->deform(); }) * static_cast<double>(e.steps);
-  return e;
-}
 
 std::string disk_text(const Model& model, const DiskUse& disk) {
   std::string text = fmt::format("about {}", bytes_text(disk.results + disk.frames));
@@ -93,8 +41,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   }
   line("Memory", fmt::format("about {}", bytes_text(e.memory)));
   line("Disk", disk_text(model, e.disk));
-  line("Time", fmt::format("about {} with {} thread{}: preload {}{}",
-                           duration_text(e.preload_seconds + e.rolling_seconds), threads(),
+  line("Time", fmt::format("about {} with {} thread{}: preload {}{}", duration_text(e.seconds()), threads(),
                            threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
                            e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
   text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
@@ -152,9 +99,6 @@ std::string check_json(const Model& model, const Estimate& e) {
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
   Model model(resolved.scene);
-  // A run puts the corrugation where the preload finds the largest pressure; its place matters to no figure
-  // here.
-  if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
   const Estimate e = estimate(model);
   fmt::print("{}", options.json ? check_json(model, e) : check_text(model, resolved, e));
 }

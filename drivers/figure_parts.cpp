@@ -37,8 +37,10 @@ Series running_surface(const Corrugation& corrugation, const Range& range) {
 }
 
 Range stretch_in_sight(const Model& model, const Range& way) {
-  const Scene& scene = model.scene;
-  const Corrugation& corrugation = model.contact->corrugation();
+  return stretch_in_sight(model.scene, model.contact->corrugation(), way);
+}
+
+Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way) {
   const Range range = corrugation.smooth() ? Range{scene.zone_start, scene.zone_start + scene.zone_length}
                                            : Range{corrugation.first() - 0.12, corrugation.last() + 0.08};
   return {std::max(range[0], way[0]), std::min(range[1], way[1])};

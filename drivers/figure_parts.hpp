@@ -19,6 +19,7 @@ void mark_track(const Model& model, const Range& range, Figure& figure);
 Series running_surface(const Corrugation& corrugation, const Range& range);
 
 /// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
+Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);
 Range stretch_in_sight(const Model& model, const Range& way);
 
 }  // namespace tread

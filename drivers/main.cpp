@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@
 #include "drivers/ctl_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/multibody_command.hpp"
+#include "drivers/paper_command.hpp"
 #include "drivers/roughness_command.hpp"
 #include "drivers/run_command.hpp"
+#include "drivers/sweep_command.hpp"
 #include "drivers/verify_command.hpp"
 #include "drivers/version_command.hpp"
 #include "io/json_writer.hpp"
@@ -227,6 +230,51 @@ void add_roughness(CLI::App& app, const std::string& command_line) {
   command.callback([options] { report_problems(options->json, [&] { tread::roughness(*options); }); });
 }
 
+void add_study_options(CLI::App& command, tread::StudyOptions& options) {
+  command.add_option("-o,--output", options.output, "directory for a folder a run and the comparison");
+  command.add_option("-q,--quality", options.quality, "draft, standard or paper, of all points");
+  command
+      .add_option("--set", options.overrides,
+                  "key=value for all points, e.g. --set \"motion.duration=20 ms\"")
+      ->allow_extra_args(false);
+  command.add_option("-j,--jobs", options.jobs, "runs at once (default: as many as cores and memory allow)")
+      ->check(CLI::PositiveNumber);
+  command.add_option("-t,--threads", options.threads, "threads of one run (default: 1)")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--retry", options.retry, "points that failed, too");
+  command.add_flag("--list", options.list, "the points and what they will cost, without running them");
+  command.add_flag("--json", options.json, "JSON on stdout");
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
+}
+
+void add_sweep(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<tread::SweepOptions>();
+  options->common.command = command_line;
+  CLI::App& command = *app.add_subcommand(
+      "sweep", "a scene with some keys varied: a run for each point; goes on where it was stopped");
+  command.add_option("study", options->study, "study file (TOML)")->required();
+  add_study_options(command, options->common);
+  command.callback([options] {
+    std::optional<tread::Error> shortfall;
+    report_problems(options->common.json, [&] { shortfall = tread::sweep(*options); });
+    if (shortfall) throw tread::Error(*shortfall);
+  });
+}
+
+void add_paper(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<tread::PaperOptions>();
+  options->common.command = command_line;
+  CLI::App& command = *app.add_subcommand(
+      "paper", "the figures of the paper: runs what they need, ours beside theirs, a verdict each");
+  command.add_option("--fig", options->figures, "numbers of figures (default: all; --list names them)");
+  add_study_options(command, options->common);
+  command.callback([options] {
+    std::optional<tread::Error> shortfall;
+    report_problems(options->common.json, [&] { shortfall = tread::reproduce_paper(*options); });
+    if (shortfall) throw tread::Error(*shortfall);
+  });
+}
+
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<tread::VerifyOptions>();
   CLI::App& command =
@@ -340,6 +388,8 @@ int run(int argc, char** argv) {
   add_mesh(app);
   add_multibody(app, command_line);
   add_roughness(app, command_line);
+  add_sweep(app, command_line);
+  add_paper(app, command_line);
   add_verify(app);
   add_bench(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);

@@ -85,16 +85,10 @@ KeyFigures static_figures(const Run& run) {
 }
 
 std::string slip_sentence(const Run& run) {
-  const RunResults& r = run.results;
-  int total = 0;
-  int sliding = 0;
-  for (const Sample& s : r.samples) {
-    if (s.wheel_x < r.evaluated_first || s.wheel_x > r.evaluated_last || s.patch_area <= 0) continue;
-    ++total;
-    if (s.slip_area > 0.98 * s.patch_area) ++sliding;
-  }
-  return total == 0 ? ""
-                    : fmt::format(" The whole patch slides during {:.1f} % of it.", 100.0 * sliding / total);
+  return run.results.evaluated_last > run.results.evaluated_first
+             ? fmt::format(" The whole patch slides during {:.1f} % of it.",
+                           100 * run.results.full_slip_share)
+             : "";
 }
 
 Chapter result_chapter(const Run& run) {

@@ -140,6 +140,12 @@ void evaluate(const Model& model, RunResults& r) {
     r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
     r.longitudinal_force =
         statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
+    r.creepage_max = statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; }).max;
+    constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
+    r.full_slip_share = statistics(
+                            r.samples, [&](const Sample& s) { return evaluated(s) && s.patch_area > 0; },
+                            [](const Sample& s) { return s.slip_area > kWhole * s.patch_area ? 1.0 : 0.0; })
+                            .mean;
 
     // Steady values: the last whole fastening span in the solution zone, or before the patch meets the
     // corrugation.
@@ -259,6 +265,8 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json.member("vertical_force_steady_N", r.vertical_force_steady);
     json.member("traction_coefficient", r.traction_coefficient);
     json.member("creepage_percent", 100 * r.creepage);
+    json.member("creepage_max_percent", 100 * r.creepage_max);
+    json.member("full_slip_share", r.full_slip_share);
     json.member("max_pressure_Pa", r.max_pressure);
     json.member("max_shear_Pa", r.max_shear);
     json.member("patch_area_m2", r.patch_area);

@@ -1,0 +1,115 @@
+#include "drivers/paper_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/paper/paper_figures.hpp"
+#include "drivers/paper/paper_numbers.hpp"
+#include "drivers/paper/paper_verdicts.hpp"
+#include "drivers/plain_text.hpp"
+#include "drivers/study/study_report.hpp"
+#include "io/output_file.hpp"
+
+namespace tread {
+
+namespace {
+
+std::vector<PaperFigure> chosen_figures(const std::vector<std::string>& ids) {
+  if (ids.empty()) return paper_figures();
+  std::vector<PaperFigure> chosen;
+  for (const std::string& id : ids) {
+    const auto found =
+        std::find_if(paper_figures().begin(), paper_figures().end(),
+                     [&](const PaperFigure& figure) { return shown_id(figure.id) == shown_id(id); });
+    if (found == paper_figures().end()) {
+      std::vector<std::string> known;
+      for (const PaperFigure& figure : paper_figures()) known.push_back(shown_id(figure.id));
+      throw InputError(
+          fmt::format("--fig {}: not among the figures {}; 14 is made by `tread roughness`, 16 and 17 "
+                      "stand in every run's report",
+                      id, fmt::join(known, ", ")));
+    }
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+/// Every passage of the figures once.
+std::map<std::string, Passage> passages_of(const std::vector<PaperFigure>& figures, Study& study) {
+  std::map<std::string, Passage> passages;
+  for (const PaperFigure& figure : figures)
+    for (const Passage& passage : figure.passages)
+      if (passages.try_emplace(name_of(passage), passage).second)
+        study.points.push_back(study_point(passage));
+  return passages;
+}
+
+void print_figures(const std::vector<PaperFigure>& figures) {
+  Table table{"", {{"Figure"}, {"What"}, {"Passages", Align::right}}, {}};
+  for (const PaperFigure& figure : figures)
+    table.rows.push_back({shown_id(figure.id), figure.title, std::to_string(figure.passages.size())});
+  fmt::print("{}\n", plain_text(table));
+}
+
+Text missing_passages(const PaperFigure& figure, const PassageRuns& runs) {
+  std::string names;
+  for (const Passage& passage : figure.passages)
+    if (!runs.find(passage)) names += (names.empty() ? "" : "; ") + name_of(passage);
+  return {names.empty() ? "All its passages have been run." : "Not run: " + names + "."};
+}
+
+Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& runs, const StudyPlan& plan,
+                    const std::vector<FinishedRun>& finished, const std::string& command) {
+  Report report;
+  report.title = "The paper's figures";
+  report.subtitle = fmt::format("{} of {} passages done", finished.size(), plan.points.size());
+  report.footer = command;
+  report.chapters.push_back({"Conclusions", {verdict_table(runs)}});
+  report.chapters.push_back({"Numbers", {number_table(runs)}});
+  for (const PaperFigure& figure : figures) {
+    Chapter chapter{fmt::format("Fig. {}", shown_id(figure.id)), {}};
+    chapter.blocks.emplace_back(draw(figure, runs));
+    chapter.blocks.emplace_back(missing_passages(figure, runs));
+    report.chapters.push_back(std::move(chapter));
+  }
+  report.chapters.push_back({"Passages", {result_table(finished)}});
+  return report;
+}
+
+}  // namespace
+
+std::optional<Error> reproduce_paper(const PaperOptions& options) {
+  const StudyOptions& common = options.common;
+  const std::vector<PaperFigure> figures = chosen_figures(options.figures);
+  Study study;
+  study.name = "tread paper";
+  study.title = "The paper's figures";
+  study.scene = common.output / "scene.toml";
+  study.scene_text = paper_scene();
+  const std::map<std::string, Passage> passages = passages_of(figures, study);
+  add_overrides(study, common);
+  if (common.list && !common.json) print_figures(figures);
+  return run_study(study, common, [&](const StudyPlan& plan) {
+    const std::vector<FinishedRun> finished = finished_runs(plan);
+    PassageRuns runs;
+    for (const FinishedRun& run : finished) runs.add(passages.at(run.label), run);
+    for (const PaperFigure& figure : figures) {
+      const Figure drawn = draw(figure, runs);
+      write_text_file(plan.folder / fmt::format("fig{}.csv", figure.id), figure_csv(drawn));
+      write_text_file(plan.folder / fmt::format("fig{}.svg", figure.id), figure_svg(drawn));
+    }
+    write_text_file(plan.folder / "numbers.csv", number_csv(runs));
+    write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, finished));
+    write_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.command));
+    if (common.json)
+      fmt::print("{}", sweep_json(plan, finished));
+    else
+      fmt::print("{}\n{}", plain_text(number_table(runs)), plain_text(short_verdict_table(runs)));
+  });
+}
+
+}  // namespace tread

@@ -1,0 +1,132 @@
+#include "drivers/study/point_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <optional>
+#include <system_error>
+
+#include "io/checkpoint_folder.hpp"
+#include "io/json_reader.hpp"
+#include "io/json_writer.hpp"
+#include "io/output_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFailure = "failed.json";
+
+/// What the last process said at its end.
+std::string last_words(const fs::path& log) {
+  constexpr std::streamoff kEnd = 4000;  // [B]
+  std::ifstream stream(log, std::ios::binary | std::ios::ate);
+  if (!stream) return "";
+  const std::streamoff size = stream.tellg();
+  stream.seekg(std::max<std::streamoff>(0, size - kEnd));
+  std::string text(static_cast<std::size_t>(std::min(size, kEnd)), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const auto begin = text.rfind("tread: ");
+  if (begin == std::string::npos) return "";
+  text.erase(0, begin + std::strlen("tread: "));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+/// Resources may be there the next time; the same computation comes to the same end.
+bool leads_to_the_same_end(const ProcessEnd& end) {
+  return end.signal == 0 && end.code != static_cast<int>(ExitCode::resources);
+}
+
+std::string reason(const fs::path& folder, const ProcessEnd& end) {
+  if (end.signal != 0)
+    return fmt::format("signal {} ({}) ended it; the system ends processes when memory is short", end.signal,
+                       ::strsignal(end.signal));
+  const std::string words = last_words(log_of(folder));
+  return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
+}
+
+/// Of a process that failed; any code that is not the program's own counts as the machine's.
+ExitCode exit_code(std::optional<double> code) {
+  for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
+    if (code && *code == static_cast<double>(known)) return known;
+  return ExitCode::resources;
+}
+
+/// Why the run in the folder is not that of the scene; empty where it is.
+std::string foreign_run(const fs::path& folder, const SceneContent& scene) {
+  const fs::path there = folder / "scene.resolved.toml";
+  try {
+    return difference(scene, scene_content(resolve_scene(there)));
+  } catch (const InputError& error) {
+    return fmt::format("its scene does not read: {}", error.what());
+  }
+}
+
+}  // namespace
+
+const char* name_of(PointState state) {
+  switch (state) {
+    case PointState::interrupted:
+      return "interrupted";
+    case PointState::running:
+      return "running";
+    case PointState::done:
+      return "done";
+    case PointState::failed:
+      return "failed";
+    default:
+      return "waiting";
+  }
+}
+
+PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
+  PointStatus status;
+  const CheckpointFolder checkpoints(folder / "checkpoint");
+  const bool begun = checkpoints.has_order() || !checkpoints.states().empty();
+  const bool finished = !begun && fs::exists(folder / "summary.json");
+  const bool stated = fs::exists(folder / "scene.resolved.toml");
+  if (stated && (begun || finished)) {
+    status.why = foreign_run(folder, scene);
+    status.foreign = !status.why.empty();
+  }
+  if (finished) {
+    status.state = PointState::done;
+  } else if (fs::exists(folder / kFailure)) {
+    const JsonRecord failure = read_json(folder / kFailure);
+    status.state = PointState::failed;
+    if (!status.foreign) status.why = text_in(failure, "why");
+    status.code = exit_code(number_in(failure, "exit"));
+    status.anew = !begun || truth_in(failure, "anew");
+  } else if (begun) {
+    status.state = PointState::interrupted;
+  }
+  return status;
+}
+
+void note_end(const fs::path& folder, const ProcessEnd& end) {
+  const bool stopped = end.signal == 0 && end.code == static_cast<int>(ExitCode::resumable);
+  const bool done = end.signal == 0 && end.code == static_cast<int>(ExitCode::done);
+  if (done || stopped) {
+    std::error_code ignored;
+    fs::remove(folder / kFailure, ignored);
+    return;
+  }
+  JsonWriter json;
+  json.begin_object().member("exit", end.code).member("signal", end.signal);
+  json.member("why", std::string_view(reason(folder, end))).member("anew", leads_to_the_same_end(end));
+  write_text_file(folder / kFailure, json.end_object().text());
+}
+
+fs::path log_of(const fs::path& folder) {
+  return folder / "log.txt";
+}
+
+}  // namespace tread

@@ -1,0 +1,22 @@
+#pragma once
+// What makes a run of a scene the run that it is.
+
+#include <map>
+#include <string>
+
+#include "io/scene_reader.hpp"
+
+namespace tread {
+
+/// Values by key, and texts of files by their place, of everything that the results depend on: titles, and
+/// what concerns the process that runs the scene alone ([stop], intervals of progress and checkpoints), are
+/// left out.
+using SceneContent = std::map<std::string, std::string>;
+
+SceneContent scene_content(const ResolvedScene& resolved);
+
+/// The first thing that differs, "motion.speed is 83.3333 m/s here and 27.7778 m/s there"; empty where
+/// nothing does.
+std::string difference(const SceneContent& here, const SceneContent& there);
+
+}  // namespace tread

@@ -1,0 +1,252 @@
+#include "drivers/study/study_plan.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "drivers/machine.hpp"
+#include "drivers/plain_text.hpp"
+#include "drivers/progress.hpp"
+#include "io/problems.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Whether a key's path is another's or leads into its table.
+bool lies_in(const std::string& path, const std::string& table) {
+  return path == table || path.starts_with(table + ".");
+}
+
+/// Problems of many points, each told once: with the first point that has it unless all have it.
+class PointProblems {
+ public:
+  explicit PointProblems(const Study& study) : study_(study) {}
+
+  void add(const PlannedPoint& point, const Problem& problem) {
+    Problem placed = problem;
+    const auto place = [&](const std::vector<StudySetting>& settings) {
+      for (const StudySetting& s : settings)
+        if (s.line > 0 && (lies_in(s.key, problem.key) || lies_in(problem.key, s.key)))
+          std::tie(placed.file, placed.line, placed.column) = std::tie(study_.name, s.line, s.column);
+    };
+    if (problem.file == "--set") {
+      place(study_.common);
+      place(point.varied);
+    }
+    const auto identity =
+        std::make_tuple(placed.file, placed.line, placed.column, placed.key, placed.message);
+    Told& told = told_[identity];
+    if (told.count++ == 0) std::tie(told.problem, told.point) = std::tie(placed, point.name);
+  }
+
+  void throw_if_any() const {
+    std::vector<Problem> problems;
+    for (const auto& [identity, told] : told_) {
+      problems.push_back(told.problem);
+      const bool placed = told.problem.file == study_.name;
+      if (!placed && told.count < static_cast<int>(study_.points.size()))
+        problems.back().message += fmt::format(" (point {})", told.point);
+    }
+    if (!problems.empty()) throw ProblemsError(std::move(problems));
+  }
+
+ private:
+  struct Told {
+    Problem problem;
+    std::string point;
+    int count = 0;
+  };
+  const Study& study_;
+  std::map<std::tuple<std::string, int, int, std::string, std::string>, Told> told_;
+};
+
+PlannedPoint planned(const Study& study, const StudyPoint& point, const std::filesystem::path& folder) {
+  PlannedPoint p;
+  p.name = point.name;
+  p.varied = point.varied;
+  for (const StudySetting& s : point.own) p.overrides.push_back(s.as_override());
+  for (const StudySetting& s : study.common) p.overrides.push_back(s.as_override());
+  for (const StudySetting& s : point.varied) p.overrides.push_back(s.as_override());
+  p.folder = folder / point.name;
+  return p;
+}
+
+void refuse_doubles(const StudyPlan& plan, PointProblems& problems) {
+  std::map<SceneContent, std::string> known;
+  for (const PlannedPoint& point : plan.points) {
+    const auto [first, is_new] = known.try_emplace(point.content, point.name);
+    const int line = point.varied.empty() ? 0 : point.varied.back().line;
+    if (!is_new)
+      problems.add(point, {plan.study.name, line, 0, "",
+                           fmt::format("the points {} and {} are the same scene: leave one of them out",
+                                       first->second, point.name)});
+  }
+}
+
+/// With `act(point)` for each; what it refuses is collected.
+void for_each_point(StudyPlan& plan, PointProblems& problems, const std::function<void(PlannedPoint&)>& act) {
+  for (PlannedPoint& point : plan.points) {
+    try {
+      act(point);
+    } catch (const ProblemsError& error) {
+      for (const Problem& problem : error.problems) problems.add(point, problem);
+    } catch (const InputError& error) {
+      problems.add(point, {plan.study.scene.string(), 0, 0, "", error.what()});
+    }
+  }
+}
+
+/// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
+/// wheel goes its way.
+SceneContent model_content(const PlannedPoint& point) {
+  SceneContent content = point.content;
+  std::erase_if(content, [](const auto& entry) {
+    return entry.first == "motion.speed" || entry.first == "motion.duration" ||
+           entry.first.starts_with("motion.traction.");
+  });
+  if (const auto& motion = point.resolved.scene.motion)
+    content["way"] = fmt::format("{:.3f} m", motion->speed * motion->duration);
+  return content;
+}
+
+double duration_of(const PlannedPoint& point) {
+  return point.resolved.scene.motion ? point.resolved.scene.motion->duration : 0;
+}
+
+/// Of the same model over `ratio` times the duration.
+Estimate prolonged(Estimate cost, double ratio) {
+  const auto times = [ratio](std::int64_t number) {
+    return std::llround(static_cast<double>(number) * ratio);
+  };
+  cost.steps = times(cost.steps);
+  cost.rolling_seconds *= ratio;
+  cost.disk.rows = times(cost.disk.rows);
+  cost.disk.results = times(cost.disk.results);
+  return cost;
+}
+
+}  // namespace
+
+int machine_cores() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::int64_t machine_memory() {
+  return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
+}
+
+ExitCode StudyPlan::failure_code() const {
+  for (const PlannedPoint& point : points)
+    if (point.status.state == PointState::failed) return point.status.code;
+  return ExitCode::done;
+}
+
+StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
+  StudyPlan plan;
+  plan.study = study;
+  plan.folder = folder;
+  PointProblems problems(study);
+  const SceneSource source = study.scene_text.empty()
+                                 ? load_scene_source(study.scene)
+                                 : SceneSource{study.scene.string(), study.scene_text, folder};
+  for (const StudyPoint& point : study.points) plan.points.push_back(planned(study, point, folder));
+  for_each_point(plan, problems, [&](PlannedPoint& point) {
+    point.resolved = resolve_scene(source, point.overrides);
+    point.content = scene_content(point.resolved);
+  });
+  problems.throw_if_any();
+  refuse_doubles(plan, problems);
+  problems.throw_if_any();
+  return plan;
+}
+
+void look_into_folders(StudyPlan& plan) {
+  std::string foreign;
+  for (PlannedPoint& point : plan.points) {
+    point.status = look_into(point.folder, point.content);
+    if (point.status.foreign) foreign += fmt::format("\n{}: {}", point.folder.string(), point.status.why);
+  }
+  if (!foreign.empty())
+    throw InputError(
+        fmt::format("{} holds runs of other scenes; choose another folder with -o, or remove theirs (here: "
+                    "this study, there: the folder):{}",
+                    plan.folder.string(), foreign));
+}
+
+void project_cost(StudyPlan& plan, bool retry) {
+  use_threads({plan.threads, ""});
+  PointProblems problems(plan.study);
+  std::map<SceneContent, const PlannedPoint*> built;
+  for_each_point(plan, problems, [&](PlannedPoint& point) {
+    if (!point.to_run(retry)) return;
+    const auto [first, is_new] = built.try_emplace(model_content(point), &point);
+    if (is_new) {
+      Model model(point.resolved.scene);
+      point.cost = estimate(model);
+    } else if (const PlannedPoint& same = *first->second; same.cost) {
+      const bool rolls = duration_of(same) > 0;
+      point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
+    }
+  });
+  problems.throw_if_any();
+}
+
+StudyCost total_cost(const StudyPlan& plan) {
+  StudyCost cost;
+  double longest = 0;
+  std::vector<std::int64_t> memory;
+  std::vector<std::int64_t> checkpoints;
+  for (const PlannedPoint& point : plan.points) {
+    if (!point.cost) continue;
+    cost.seconds += point.cost->seconds();
+    longest = std::max(longest, point.cost->seconds());
+    cost.disk += point.cost->disk.results;
+    memory.push_back(point.cost->memory);
+    checkpoints.push_back(point.cost->disk.checkpoints);
+  }
+  const auto of_the_largest = [&](std::vector<std::int64_t>& values) {
+    std::sort(values.rbegin(), values.rend());
+    const auto count = std::min(values.size(), static_cast<std::size_t>(plan.jobs));
+    return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
+                           std::int64_t{0});
+  };
+  cost.wall = std::max(longest, cost.seconds / plan.jobs);
+  cost.disk += of_the_largest(checkpoints);
+  cost.memory = of_the_largest(memory);
+  return cost;
+}
+
+Table plan_table(const StudyPlan& plan) {
+  Table table{"",
+              {{"Point"},
+               {"State"},
+               {"Elements", Align::right},
+               {"Steps", Align::right},
+               {"Time", Align::right},
+               {"Disk", Align::right}},
+              {}};
+  for (const PlannedPoint& point : plan.points) {
+    std::vector<std::string> row = {point.name, name_of(point.status.state), "", "", "", ""};
+    if (point.cost)
+      row = {row[0],
+             row[1],
+             grouped(point.cost->elements),
+             grouped(point.cost->steps),
+             duration_text(point.cost->seconds()),
+             bytes_text(point.cost->disk.results)};
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace tread

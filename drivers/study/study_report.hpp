@@ -1,0 +1,34 @@
+#pragma once
+// What a study leaves: sweep.csv and report.html.
+
+#include <string>
+#include <vector>
+
+#include "drivers/study/finished_run.hpp"
+#include "drivers/study/study_plan.hpp"
+#include "io/report.hpp"
+
+namespace tread {
+
+/// Of the points that are done, in their order. InputError where a summary does not read.
+std::vector<FinishedRun> finished_runs(const StudyPlan& plan);
+
+/// The key's value in a point's scene in the key's unit of documentation, "300"; a text as it is.
+std::string value_text(const PlannedPoint& point, const std::string& key);
+
+/// Keys that any point varies, in order of appearance.
+std::vector<std::string> varied_keys(const StudyPlan& plan);
+
+/// A row a point: name, state, varied keys in their units, results in SI; the results of points that are not
+/// done are empty.
+std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
+
+/// The same as JSON.
+std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
+
+/// Headline results of the runs for readers.
+Table result_table(const std::vector<FinishedRun>& runs);
+
+Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command);
+
+}  // namespace tread

@@ -1,0 +1,180 @@
+#include "drivers/study/study_runner.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <thread>
+
+#include "core/error.hpp"
+#include "drivers/interruption.hpp"
+#include "drivers/machine.hpp"
+#include "io/json_reader.hpp"
+#include "io/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kShowInterval = 5;                    ///< [s]
+constexpr auto kLook = std::chrono::milliseconds(50);  ///< between looks at the children
+
+/// What the run shows of itself; nothing before its first status.
+JsonRecord status_of(const PlannedPoint& point) {
+  try {
+    return read_json(point.folder / "status.json");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+int count(const StudyPlan& plan, PointState state) {
+  return static_cast<int>(
+      std::count_if(plan.points.begin(), plan.points.end(),
+                    [state](const PlannedPoint& point) { return point.status.state == state; }));
+}
+
+}  // namespace
+
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point) {
+  const PointStatus& status = point.status;
+  const std::string threads = std::to_string(plan.threads);
+  const bool failed = status.state == PointState::failed;
+  if (status.state == PointState::interrupted || (failed && !status.anew))
+    return {"resume", point.folder.string(), "-t", threads};
+  std::vector<std::string> arguments = {"run", plan.study.scene.string()};
+  for (const std::string& text : point.overrides) arguments.insert(arguments.end(), {"--set", text});
+  arguments.insert(arguments.end(), {"-o", point.folder.string(), "-t", threads});
+  if (failed) arguments.emplace_back("--overwrite");
+  return arguments;
+}
+
+StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress)
+    : plan_(&plan), folder_(&folder), progress_(&progress) {}
+
+std::string StudyRunner::run(bool retry) {
+  for (PlannedPoint& point : plan_->points)
+    if (point.to_run(retry)) queue_.push_back(&point);
+  std::reverse(queue_.begin(), queue_.end());
+  for (;;) {
+    obey();
+    while (stopped_by_.empty() && !queue_.empty() &&
+           running_.size() < static_cast<std::size_t>(plan_->jobs)) {
+      PlannedPoint* point = queue_.back();
+      queue_.pop_back();
+      start(*point);
+    }
+    if (progress_->due(kShowInterval)) show();
+    if (running_.empty() && (queue_.empty() || !stopped_by_.empty())) break;
+    std::this_thread::sleep_for(kLook);
+    collect_ended();
+  }
+  show();
+  return stopped_by_;
+}
+
+void StudyRunner::start(PlannedPoint& point) {
+  make_directory(point.folder);
+  if (is_taken(point.folder)) {
+    point.status = {PointState::running, "another process works on its folder"};
+    progress_->say(fmt::format("[{}] left alone: {}", point.name, point.status.why));
+    return;
+  }
+  const std::vector<std::string> arguments = point_arguments(*plan_, point);
+  progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder)), progress_->seconds()});
+  point.status = {PointState::running, ""};
+}
+
+void StudyRunner::collect_ended() {
+  for (std::size_t i = 0; i < running_.size();) {
+    ProcessEnd end;
+    if (!running_[i].process.ended(end)) {
+      ++i;
+      continue;
+    }
+    note_ended(running_[i], end);
+    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
+  PlannedPoint& point = *running.point;
+  const bool told_to_stop = !stopped_by_.empty() && end.signal == SIGTERM;
+  note_end(point.folder, told_to_stop ? ProcessEnd{static_cast<int>(ExitCode::resumable), 0} : end);
+  point.status = look_into(point.folder, point.content);
+  if (point.status.foreign)
+    point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};
+  const std::string time = duration_text(progress_->seconds() - running.started);
+  const std::string why = point.status.why.empty() ? "" : ": " + point.status.why;
+  progress_->say(fmt::format("[{}] {} after {}{}", point.name, name_of(point.status.state), time, why));
+}
+
+void StudyRunner::obey() {
+  if (!stopped_by_.empty()) return;
+  if (const char* signal = Interruption::stop_wanted()) stop(signal);
+  bool checkpoint = Interruption::take_checkpoint_wanted();
+  const std::optional<RunRequest> request = folder_->take_request();
+  if (request == RunRequest::stop) stop("tread ctl");
+  checkpoint = checkpoint || request == RunRequest::checkpoint;
+  if (checkpoint)
+    for (const Running& running : running_) running.process.send(SIGUSR1);
+}
+
+void StudyRunner::stop(const std::string& why) {
+  stopped_by_ = why;
+  progress_->say(
+      fmt::format("[sweep] {}: waiting until {} runs have left a checkpoint", why, running_.size()));
+  for (const Running& running : running_) running.process.send(SIGTERM);
+}
+
+double StudyRunner::seconds_left() const {
+  double sum = 0;
+  double longest = 0;
+  const auto add = [&](double seconds) {
+    sum += seconds;
+    longest = std::max(longest, seconds);
+  };
+  for (const PlannedPoint* point : queue_) add(point->cost ? point->cost->seconds() : 0);
+  for (const Running& running : running_) {
+    const double whole = running.point->cost ? running.point->cost->seconds() : 0;
+    const double guess = std::max(0.0, whole - (progress_->seconds() - running.started));
+    add(number_in(status_of(*running.point), "left_s").value_or(guess));
+  }
+  return std::max(longest, sum / plan_->jobs);
+}
+
+void StudyRunner::show() {
+  const StudyPlan& plan = *plan_;
+  const double left = seconds_left();
+  std::string line = fmt::format("[sweep] {} of {} done", count(plan, PointState::done), plan.points.size());
+  if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
+  JsonWriter json;
+  json.begin_object().member("stage", running_.empty() ? "ended" : "sweep").member("process", ::getpid());
+  for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
+                                 PointState::done, PointState::failed})
+    json.member(name_of(state), count(plan, state));
+  json.member("left_s", left).key("points").begin_array();
+  for (const PlannedPoint& point : plan.points) {
+    json.begin_object().member("name", std::string_view(point.name));
+    json.member("state", name_of(point.status.state));
+    if (!point.status.why.empty()) json.member("why", std::string_view(point.status.why));
+    json.end_object();
+  }
+  folder_->show_status(json.end_array().end_object().text());
+  for (const Running& running : running_) {
+    const JsonRecord status = status_of(*running.point);
+    const auto time = number_in(status, "time_s");
+    const auto duration = number_in(status, "duration_s");
+    line += fmt::format(
+        "  {}: {}", running.point->name,
+        time && duration ? fmt::format("{:.1f} %", 100 * *time / *duration) : text_in(status, "stage"));
+  }
+  if (!running_.empty()) line += fmt::format("  ETA {}", duration_text(left));
+  progress_->say(line);
+}
+
+}  // namespace tread

@@ -1,0 +1,76 @@
+#pragma once
+// The program as a user starts it.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+
+namespace tread::samples {
+
+inline std::string content_of(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// Asks for a minute.
+inline bool wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 6000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// A folder that goes with the test, in which the program's output lands.
+class Program {
+ public:
+  explicit Program(const std::string& name)
+      : folder(std::filesystem::path(testing::TempDir()) / fmt::format("tread_{}_{}", name, ::getpid())) {
+    std::filesystem::create_directories(folder);
+  }
+  ~Program() { std::filesystem::remove_all(folder); }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  pid_t start(const std::string& arguments) const {
+    const std::string command = fmt::format("exec {} {} >{}/out 2>{}/errors", TREAD_EXECUTABLE, arguments,
+                                            folder.string(), folder.string());
+    const pid_t process = ::fork();
+    if (process == 0) {
+      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    }
+    return process;
+  }
+  static int wait(pid_t process) {
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
+  }
+  int call(const std::string& arguments) const { return wait(start(arguments)); }
+
+  std::string out() const { return content_of(folder / "out"); }
+  std::string errors() const { return content_of(folder / "errors"); }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name) << text;
+    return folder / name;
+  }
+
+  const std::filesystem::path folder;
+};
+
+}  // namespace tread::samples

@@ -1,0 +1,180 @@
+// `tread sweep` as a user calls it: points, refusals, failures, interruptions.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "io/json_reader.hpp"
+#include "tests/program.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using samples::content_of;
+using samples::has;
+
+class Sweep : public testing::Test {
+ protected:
+  std::string scene(const char* name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
+  fs::path study(const char* scene_name, const std::string& rest) const {
+    return program_.write("study.toml", fmt::format("[study]\nscene = \"{}\"\n{}", scene(scene_name), rest));
+  }
+  /// A wave in a bar of a few elements.
+  fs::path bars(const std::string& grid) const {
+    return study("bar-wave.toml", "[set]\nmotion.duration = \"20 us\"\n" + grid);
+  }
+  /// Tyres that roll for some seconds.
+  fs::path tyres() const {
+    return study("tyre.toml", R"([set]
+scene.element_size = "8 mm"
+motion.duration = "1.5 ms"
+output.progress_interval = "10 ms"
+[grid]
+motion.traction.mu = [0.1, 0.3]
+)");
+  }
+  int sweep(const fs::path& file, const std::string& more = "") const {
+    return program_.call(fmt::format("sweep {} -o {} {}", file.string(), runs_.string(), more));
+  }
+  std::string errors() const { return program_.errors(); }
+  JsonRecord status() const { return read_json(runs_ / "status.json"); }
+
+  samples::Program program_{"sweep"};
+  fs::path runs_ = program_.folder / "runs";
+};
+
+TEST_F(Sweep, RunsEveryPointOnce) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\npulse.length = [\"0.1 m\"]\n");
+  ASSERT_EQ(sweep(file), 0) << errors();
+  for (const char* point : {"velocity=1m_s,length=0.1m", "velocity=2m_s,length=0.1m"})
+    EXPECT_TRUE(fs::exists(runs_ / point / "report.html")) << point;
+  EXPECT_EQ(number_in(status(), "done"), 2);
+  EXPECT_EQ(text_in(status(), "stage"), "ended");
+  const std::string csv = content_of(runs_ / "sweep.csv");
+  EXPECT_TRUE(has(csv, "point,state,pulse.velocity [m/s],pulse.length [m],")) << csv;
+  EXPECT_TRUE(has(csv, "\"velocity=2m_s,length=0.1m\",done,2,0.1,")) << csv;
+  EXPECT_TRUE(has(content_of(runs_ / "report.html"), "velocity=2m_s,length=0.1m"));
+
+  const auto written = fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json");
+  ASSERT_EQ(sweep(file), 0) << errors();
+  EXPECT_EQ(fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json"), written);
+  EXPECT_EQ(content_of(runs_ / "sweep.csv"), csv);
+}
+
+TEST_F(Sweep, RefusesBeforeAnythingRuns) {
+  for (const auto& [grid, part] : std::vector<std::pair<std::string, std::string>>{
+           {"[grid]\npulse.velocity = [\"1 m/s\", \"2 kg\"]\n", "study.toml:6:28: pulse.velocity: "},
+           {"[grid]\npulse.velocty = [\"1 m/s\"]\n", "did you mean pulse.velocity?"},
+           {"[grid]\nwheel.diameter = [\"1 m\"]\n", "study.toml:6:19: wheel: "},
+           {"[grid]\npulse.velocity = [\"1 m/s\", \"1000 mm/s\"]\n", "are the same scene"},
+           {"[grid]\npulse.velocity = [\"1 m/s\"]\nmaterial.steel.damping = [{ kind = \"rayleigh_beta\", "
+            "value "
+            "= \"1 s\" }]\n",
+            "bar-wave.toml: material damping: "},
+       }) {
+    EXPECT_EQ(sweep(bars(grid)), 2) << grid;
+    EXPECT_TRUE(has(errors(), part)) << errors();
+  }
+  EXPECT_EQ(program_.call("sweep " + bars("[grid]\npulse.velocity = [\"1 m/s\"]\n").string()), 2);
+  EXPECT_TRUE(has(errors(), "-o is missing")) << errors();
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--jobs 1000"), 2);
+  EXPECT_TRUE(has(errors(), "lower --jobs")) << errors();
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"pulse.velocity=2 m/s\""), 2);
+  EXPECT_TRUE(has(errors(), "differ in pulse.velocity")) << errors();
+  EXPECT_FALSE(fs::exists(runs_ / "velocity=1m_s"));
+}
+
+TEST_F(Sweep, ListsCostWithoutRunning) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
+  EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json", file.string())), 0) << errors();
+  const JsonRecord list = *parse_json(program_.out(), JsonShape::nested);
+  EXPECT_EQ(text_in(list, "points.1.name"), "velocity=2m_s");
+  EXPECT_EQ(text_in(list, "points.1.state"), "waiting");
+  EXPECT_GT(number_in(list, "points.1.steps"), 1);
+  EXPECT_GT(number_in(list, "disk_bytes"), 1);
+}
+
+TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {
+  // stop.steps alone does not make another scene: the velocity tells the points apart.
+  const fs::path file = bars(
+      "[[point]]\nname = \"ends\"\nstop.steps = 3\npulse.velocity = \"1 m/s\"\n[[point]]\nname = "
+      "\"whole\"\npulse.velocity = \"2 m/s\"\n");
+  EXPECT_EQ(sweep(file), 4) << errors();
+  EXPECT_TRUE(has(errors(), "1 of 2 points failed")) << errors();
+  EXPECT_TRUE(has(errors(), "ends: exit 4: stopped at")) << errors();
+  EXPECT_TRUE(fs::exists(runs_ / "whole/report.html"));
+  EXPECT_TRUE(has(content_of(runs_ / "sweep.csv"), "ends,failed,3,1,")) << content_of(runs_ / "sweep.csv");
+  EXPECT_EQ(number_in(status(), "failed"), 1);
+
+  EXPECT_EQ(sweep(file), 4);
+  EXPECT_FALSE(has(errors(), "[ends] goes on")) << errors();
+  EXPECT_EQ(sweep(file, "--retry"), 4);
+  EXPECT_TRUE(has(errors(), "[ends] goes on")) << errors();
+}
+
+TEST_F(Sweep, AnotherSceneInAFolderIsNotTouched) {
+  ASSERT_EQ(sweep(bars("[[point]]\nname = \"a\"\npulse.velocity = \"1 m/s\"\n")), 0) << errors();
+  EXPECT_EQ(sweep(bars("[[point]]\nname = \"a\"\npulse.velocity = \"2 m/s\"\n")), 2);
+  EXPECT_TRUE(has(errors(), "pulse.velocity is 2 m/s here and 1 m/s there")) << errors();
+}
+
+TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
+  const fs::path file = tyres();
+  const fs::path whole = program_.folder / "whole";
+  ASSERT_EQ(program_.call(fmt::format("sweep {} -o {} --jobs 1", file.string(), whole.string())), 0)
+      << errors();
+
+  const fs::path first = runs_ / "mu=0.1";
+  const pid_t process = program_.start(fmt::format("sweep {} -o {} --jobs 1", file.string(), runs_.string()));
+  ASSERT_TRUE(samples::wait_until([&] { return has(content_of(first / "status.json"), "\"rolling\""); }));
+  EXPECT_EQ(program_.call(fmt::format("sweep {} -o {}", file.string(), runs_.string())), 4);
+  EXPECT_TRUE(has(errors(), "another process works on")) << errors();
+  ::kill(process, SIGTERM);
+  EXPECT_EQ(samples::Program::wait(process), 75);
+  EXPECT_TRUE(fs::exists(first / "checkpoint"));
+  EXPECT_FALSE(fs::exists(runs_ / "mu=0.3"));
+
+  ASSERT_EQ(sweep(file, "--jobs 1"), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[mu=0.1] goes on")) << errors();
+  for (const char* point : {"mu=0.1", "mu=0.3"})
+    for (const char* name : {"histories.csv", "surface_axis.csv"})
+      EXPECT_TRUE(content_of(runs_ / point / name) == content_of(whole / point / name)) << point << name;
+  const std::string report = content_of(runs_ / "report.html");
+  for (const char* part : {"F_L, mu=0.3", "Contact forces", "Trends"}) {
+    const std::string shown = part;
+    const auto subscript = shown.find("F_L");
+    EXPECT_TRUE(has(report, subscript == 0 ? "F<sub>L</sub>, mu=0.3" : shown)) << part;
+  }
+}
+
+/// The paper's passages on a mesh that is fast rather than good, for an instant.
+TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
+  const std::string coarse =
+      "--set \"scene.element_size=10 mm\" --set \"motion.duration=20 us\" --set \"solution_zone.length=0.15 "
+      "m\" "
+      "--set \"corrugation.length=0.1 m\" --set \"corrugation.start=2.41 m\"";
+  ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 22 --list --json {}", coarse)), 0) << errors();
+  const JsonRecord list = *parse_json(program_.out(), JsonShape::nested);
+  EXPECT_EQ(text_in(list, "points.0.name"), "80mm,0.14mm,300km_h,mu=0.3");
+  EXPECT_EQ(text_in(list, "points.2.name"), "95mm,0.14mm,300km_h,mu=0.3");
+  EXPECT_EQ(list.count("points.3.name"), 0U);
+
+  ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 18 -o {} {}", runs_.string(), coarse)), 0)
+      << errors();
+  for (const char* name : {"fig15.csv", "fig15.svg", "fig18.csv", "fig18.svg", "report.html"})
+    EXPECT_TRUE(fs::exists(runs_ / name)) << name;
+  EXPECT_TRUE(has(program_.out(), "not run: corrugation D")) << program_.out();
+  const std::string numbers = content_of(runs_ / "numbers.csv");
+  EXPECT_TRUE(has(numbers, "\"Largest F_N over corrugation D\",kN,193.19,,")) << numbers;
+  EXPECT_TRUE(has(numbers, "\"Creepage before the corrugation\",%,0.276,,")) << numbers;
+
+  EXPECT_EQ(program_.call("paper --fig 3 --list"), 2);
+  EXPECT_TRUE(has(errors(), "--fig 3: not among the figures 8, 9")) << errors();
+}
+
+}  // namespace
+}  // namespace tread

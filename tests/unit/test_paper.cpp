@@ -1,0 +1,179 @@
+// The paper's figures as data, and how curves are measured.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "drivers/paper/curve_measures.hpp"
+#include "drivers/paper/paper_figures.hpp"
+#include "drivers/paper/paper_numbers.hpp"
+#include "drivers/paper/paper_verdicts.hpp"
+#include "drivers/study/study_plan.hpp"
+#include "drivers/study/study_report.hpp"
+#include "tests/program.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// A finished run whose curves are formulas.
+class MadeUpRun : public testing::Test {
+ protected:
+  using Formula = std::function<double(double)>;
+
+  /// Histories over 0 ... 3.05 m at 300 km/h, a row a millimetre.
+  void write_histories(const Formula& vertical, const Formula& longitudinal) const {
+    std::string text = "time [s],wheel_x [m],vertical_force [N],longitudinal_force [N]\n";
+    for (int i = 0; i <= 3050; ++i) {
+      const double x = 1e-3 * i;
+      text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", x / kSpeed, x, vertical(x), longitudinal(x));
+    }
+    program_.write("histories.csv", text);
+  }
+  FinishedRun run(const Passage& passage) const {
+    Study study;
+    study.name = "test";
+    study.scene = program_.folder / "scene.toml";
+    study.scene_text = paper_scene();
+    study.points = {study_point(passage)};
+    program_.write("summary.json", fmt::format("{{\"static_wheel_load_N\": {}}}", kLoad));
+    const StudyPlan plan = plan_study(study, program_.folder);
+    return read_finished_run(program_.folder, plan.points.front().resolved.scene, "made up");
+  }
+  static Formula constant(double value) {
+    return [value](double) { return value; };
+  }
+  /// With its peaks `shift` [rad] before the crests.
+  static Formula wave(double shift) {
+    return [shift](double x) { return kLoad + 5e4 * std::cos(2 * kPi * (x - 2.4) / 0.08 + shift); };
+  }
+
+  static constexpr double kSpeed = 300 / 3.6;  ///< [m/s]
+  static constexpr double kLoad = 87564;       ///< [N]
+  samples::Program program_{"paper"};
+};
+
+TEST_F(MadeUpRun, APatternHasItsShareAndShift) {
+  write_histories(wave(0.4), constant(0));
+  const FinishedRun d = run(corrugated());
+  const auto pattern = wave_pattern(d, history_over_way(d, "vertical_force", "N"));
+  ASSERT_TRUE(pattern);
+  EXPECT_NEAR(pattern->share, 1, 1e-3);
+  EXPECT_NEAR(pattern->shift, 0.4, 1e-3);
+  EXPECT_TRUE(pattern->larger_at_crests());
+  const std::vector<CrestPeak> peaks = vertical_peaks(d);
+  ASSERT_EQ(peaks.size(), 6U);
+  EXPECT_NEAR(peaks.front().shift, 0.4, 2 * kPi / 80);
+}
+
+TEST_F(MadeUpRun, CurvesThatDoNotCoverTheStretchHaveNoPattern) {
+  write_histories(wave(0), constant(0));
+  const FinishedRun d = run(corrugated());
+  CurvePoints curve = history_over_way(d, "vertical_force", "N");
+  curve.x.resize(2800);
+  curve.y.resize(2800);
+  EXPECT_FALSE(wave_pattern(d, curve));
+  EXPECT_FALSE(wave_pattern(run(smooth_rail()), history_over_way(d, "vertical_force", "N")));
+}
+
+TEST_F(MadeUpRun, CorrelationIsThatOfTheCurves) {
+  write_histories(wave(0.3), wave(0.3 + kPi / 3));
+  const FinishedRun d = run(corrugated());
+  const auto value = correlation(d, history_over_way(d, "vertical_force", "N"),
+                                 history_over_way(d, "longitudinal_force", "N"));
+  ASSERT_TRUE(value);
+  EXPECT_NEAR(*value, std::cos(kPi / 3), 1e-3);
+}
+
+TEST_F(MadeUpRun, PeaksOverFasteningsAreToldFromThoseBetween) {
+  // Fastenings at 2.475 and 3.125 m.
+  write_histories(
+      [](double x) { return kLoad + (1e4 + (x < 2.6 ? 4e3 : 0)) * std::cos(2 * kPi * (x - 2.4) / 0.08); },
+      constant(0));
+  const auto effect = fastening_effect(run(corrugated()));
+  ASSERT_TRUE(effect);
+  EXPECT_NEAR(*effect, 4e3 / kLoad, 1e-3);
+}
+
+TEST_F(MadeUpRun, DelayIsCountedFromTheEndOfTheRamp) {
+  write_histories(constant(kLoad), [](double x) { return 26e3 * std::min(1.0, x / kSpeed / 9e-3); });
+  const auto delay = longitudinal_delay(run(smooth_rail()), 0.028);
+  ASSERT_TRUE(delay);
+  EXPECT_NEAR(*delay, 0.98 * 9e-3 - 5e-3, 0.1e-3);
+  EXPECT_FALSE(longitudinal_delay(run(smooth_rail()), 0.036));
+}
+
+TEST_F(MadeUpRun, ForcesAreComparedWithTheStaticLoadAndWithOneAnother) {
+  write_histories([](double x) { return kLoad * (x < 2.5 ? 1.5 : 1.03); }, constant(0));
+  const FinishedRun smooth = run(smooth_rail());
+  const auto residual = residual_oscillation(smooth, 2.6);
+  ASSERT_TRUE(residual);
+  EXPECT_NEAR(*residual, 0.03, 1e-9);
+  EXPECT_FALSE(residual_oscillation(smooth, 4));
+  const auto difference = vertical_difference(smooth, smooth, 0.028);
+  ASSERT_TRUE(difference);
+  EXPECT_NEAR(*difference, 0, 1e-9);
+}
+
+TEST_F(MadeUpRun, AFigureBecomesColumns) {
+  write_histories(wave(0), constant(1e3));
+  const FinishedRun d = run(corrugated());
+  PassageRuns runs;
+  runs.add(corrugated(), d);
+  const auto figure = std::find_if(paper_figures().begin(), paper_figures().end(),
+                                   [](const PaperFigure& f) { return f.id == "20"; });
+  const Figure drawn = draw(*figure, runs);
+  EXPECT_EQ(drawn.panels.size(), 3U);
+  const std::string csv = figure_csv(drawn);
+  EXPECT_TRUE(csv.starts_with("Position of the wheel [m],\"F_N, 80 mm: F_N [kN]\",\"F_L, 80 mm: F_L [kN]\","))
+      << csv.substr(0, 200);
+  EXPECT_TRUE(samples::has(csv, "\n2.48,137.56,1,")) << csv.substr(0, 4000);
+  EXPECT_LT(csv.size(), 100000U);
+}
+
+TEST(PaperFigures, EveryPassageIsAScene) {
+  Study study;
+  study.name = "test";
+  study.scene = "scene.toml";
+  study.scene_text = paper_scene();
+  std::set<std::string> names;
+  for (const PaperFigure& figure : paper_figures())
+    for (const Passage& passage : figure.passages)
+      if (names.insert(name_of(passage)).second) study.points.push_back(study_point(passage));
+  EXPECT_EQ(names.size(), 31U);
+  const StudyPlan plan = plan_study(study, "out");
+  for (const PlannedPoint& point : plan.points) {
+    const Scene& scene = point.resolved.scene;
+    EXPECT_NEAR(scene.motion->speed * scene.motion->duration, 3.05, 1e-2) << point.name;
+    EXPECT_EQ(scene.quality, "draft");
+  }
+}
+
+TEST(PaperFigures, EveryNumberBelongsToAFigureOrToNone) {
+  for (const PaperNumber& number : paper_numbers()) {
+    const bool known = std::any_of(paper_figures().begin(), paper_figures().end(),
+                                   [&](const PaperFigure& f) { return f.id == number.figure; });
+    EXPECT_TRUE(known || number.figure.empty()) << number.quantity;
+    EXPECT_FALSE(number.ours(PassageRuns())) << number.quantity;
+  }
+}
+
+TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
+  const PassageRuns none;
+  for (const Conclusion& conclusion : paper_conclusions())
+    EXPECT_EQ(conclusion.judge(none).verdict, Verdict::not_run) << conclusion.number;
+  for (const PaperFigure& figure : paper_figures()) {
+    const Figure drawn = draw(figure, none);
+    EXPECT_FALSE(figure_svg(drawn).empty()) << figure.id;
+    EXPECT_FALSE(figure_csv(drawn).empty()) << figure.id;
+  }
+}
+
+}  // namespace
+}  // namespace tread
