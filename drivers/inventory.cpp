@@ -135,10 +135,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                   "a copy of the state, on the wall clock",
                   {"displacement", "velocity", "samples"},
                   {"checkpoint"}});
-  list.add(model.scene.output.frames > 0, {"frame",
+  list.add(model.scene.output.frames > 0, {"frames",
                                            "a copy of the motion, evenly over the duration",
                                            {"displacement", "velocity", "coefficients"},
-                                           {"frame"}});
+                                           {"frames"}});
   return list.take();
 }
 
@@ -178,7 +178,7 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
   add(motion && model.scene.output.frames > 0,
-      {"frame", "m, m/s", "node, a copy; its file", frame_memory(model)});
+      {"frames", "m, m/s", "node, a copy; its file", frame_memory(model)});
   add(true, {"solver", "N, m", "node and aggregate, during the preload", kSolverVectors * vector});
   add(wheel, {"held motions", "-", "node, during the preload", kHeldVectors * vector});
   return list;
@@ -217,7 +217,7 @@ std::int64_t peak_bytes(const Model& model) {
     if (field.name == "solver" || field.name == "held motions")
       preload += field.bytes;
     else if (field.name == "velocity" || field.name == "force" || field.name == "surface fields" ||
-             field.name == "samples" || field.name == "checkpoint" || field.name == "frame")
+             field.name == "samples" || field.name == "checkpoint" || field.name == "frames")
       rolling += field.bytes;
     else
       always += field.bytes;
