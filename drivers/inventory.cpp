@@ -140,10 +140,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
                   "a copy of the state, on the wall clock",
                   {"displacement", "velocity", "samples"},
                   {"checkpoint"}});
-  list.add(model.scene.output.frames > 0, {"frame",
+  list.add(model.scene.output.frames > 0, {"frames",
                                            "a copy of the motion, evenly over the duration",
                                            {"displacement", "velocity", "coefficients"},
-                                           {"frame"}});
+                                           {"frames"}});
   return list.take();
 }
 
@@ -189,7 +189,7 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(motion,
       {"checkpoint", "all", "copy that is being written, and read back", 2 * checkpoint_bytes(model)});
   add(motion && model.scene.output.frames > 0,
-      {"frame", "m, m/s", "node, a copy; its file", frame_memory(model)});
+      {"frames", "m, m/s", "node, a copy; its file", frame_memory(model)});
   add(true, {"solver", "N, m", "node and aggregate, during the preload",
              static_cast<std::int64_t>(kSolverVectors * static_cast<double>(vector))});
   return list;
@@ -229,7 +229,7 @@ std::int64_t peak_bytes(const Model& model) {
                                                          "surface fields",
                                                          "samples",
                                                          "checkpoint",
-                                                         "frame"};
+                                                         "frames"};
   std::int64_t always = 0;
   std::int64_t preload = 0;
   std::int64_t rolling = 0;

@@ -190,7 +190,9 @@ TEST(Inventory, StaticTyreHasNoStep) {
 
 TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   const Model model(scene_of(kBar));
-  EXPECT_EQ(phase_names(model), (Names{"preload", "internal force", "update", "samples", "checkpoint"}));
+  const Names expected = {"preload", "internal force", "update", "samples", "checkpoint", "frames"};
+  EXPECT_EQ(phase_names(model), expected);
+  EXPECT_EQ(missing(expected, phase_names(Model(scene_of(kBar, {"output.frames=0"})))), Names{"frames"});
   const Names names = field_names(model);
   for (const char* absent :
        {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes", "contact points",
