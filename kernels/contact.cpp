@@ -47,25 +47,6 @@ std::array<double, 2> nearer_end(double at) {
   return at < 0.5 ? std::array{1.0, 0.0} : std::array{0.0, 1.0};
 }
 
-/// What the points of a line count for in the mean over the half elements to both sides of a node, over their
-/// quadrature weights: x the distance from the node, a + b x^2 such that means of third degree are exact.
-/// Less than three points cannot. [theory.md, eq. 15]
-std::vector<double> box_factors(const std::vector<std::array<double, 2>>& points) {
-  if (points.size() < 3) return std::vector<double>(points.size(), 1.0);
-  const auto distance2 = [](double at) { return std::min(at * at, (1 - at) * (1 - at)); };
-  double second = 0;  // moments over half an element, 0.5 * the sum over a whole one
-  double fourth = 0;
-  for (const auto& [at, weight] : points) {
-    second += 0.5 * weight * distance2(at);
-    fourth += 0.5 * weight * distance2(at) * distance2(at);
-  }
-  const double b = (1.0 / 24 - second) / (fourth - 2 * second * second);
-  const double a = 1 - 2 * b * second;
-  std::vector<double> factors;
-  for (const auto& point : points) factors.push_back(a + b * distance2(point[0]));
-  return factors;
-}
-
 /// Tangents of the point and the bases of the wheel's nodes about it.
 void set_bases(ContactPoint& point) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -93,11 +74,8 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       points_per_face_(options.points * options.points),
       deepest_(std::max(options.depth_room, corrugation_.deepest())) {
   gauss_ = gauss(options.points);
-  const std::vector<double> factors = box_factors(gauss_);
-  for (std::size_t i = 0; i < gauss_.size(); ++i)
-    for (std::size_t j = 0; j < gauss_.size(); ++j)
-      quadrature_.push_back(
-          {gauss_[i][0], gauss_[j][0], gauss_[i][1] * gauss_[j][1], factors[i] * factors[j]});
+  for (const auto& along : gauss_)
+    for (const auto& across : gauss_) quadrature_.push_back({along[0], across[0], along[1] * across[1]});
   double arc = 0;
   for (int edge = 0; edge < rail_profile_.edges(); ++edge) {
     const auto middle = rail_profile_.evaluate(edge, 0.5, options_.surface);
@@ -172,7 +150,7 @@ void Contact::update_window(const BodyFrame& wheel) {
 }
 
 double Contact::probe(const ContactState& state, const Candidate& where, ContactPoint& point) const {
-  const auto& [along, across, weight, box_factor] = quadrature_[static_cast<std::size_t>(where.point)];
+  const auto& [along, across, weight] = quadrature_[static_cast<std::size_t>(where.point)];
   const ConstNodeField u = state.displacement;
   const bool exact = options_.surface == SurfaceKind::exact;
 
@@ -202,7 +180,6 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
   const auto [here, ahead] = nearer_end(along);
   const auto [left, right] = nearer_end(across);
   point.face_share = {here * left, here * right, ahead * left, ahead * right};
-  point.box_factor = box_factor;
   point.area = weight * rail_cell.length * std::hypot(profile.dp, profile.dq);
 
   // The wheel point whose deformed position is closest.

@@ -148,9 +148,8 @@ class Contact {
   StationFinder wheel_stations_;
   CoulombFriction friction_;
   int points_per_face_;
-  std::vector<std::array<double, 2>> gauss_;  ///< points and weights on [0, 1]
-  /// Along, across, weight on the unit face, factor in the mean over a box.
-  std::vector<std::array<double, 4>> quadrature_;
+  std::vector<std::array<double, 2>> gauss_;       ///< points and weights on [0, 1]
+  std::vector<std::array<double, 3>> quadrature_;  ///< along, across, weight on the unit face
   std::vector<double> across_;  ///< arc length across the rail up to each integration point of a row [m]
   double deepest_ = 0;          ///< corrugation that the searched surface has room for [m]
   double width_ = 0;            ///< of the rail's surface along its arc [m]

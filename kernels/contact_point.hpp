@@ -21,7 +21,6 @@ struct ContactPoint {
   std::array<double, 4> wheel_angle;               ///< space angle of the four wheel stations [rad]
   std::array<double, 4> wheel_cosine, wheel_sine;  ///< of it
   std::array<double, 4> face_share;  ///< of the rail face's corners in the point (for nodal averages)
-  double box_factor;        ///< that its tractions' share is multiplied by in means over a node's box [-]
   std::array<int, 2> face;  ///< rail station and surface edge
   Vec3 normal;              ///< out of the wheel, into the rail; Cartesian
   Vec3 along, across;       ///< tangents: along the rolling direction; across, to the field side

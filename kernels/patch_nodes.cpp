@@ -54,9 +54,9 @@ void PatchNodes::add(const ContactPoint& point) {
         point.area * point.face_share[static_cast<std::size_t>(corner)] / grid_.area(station, row);
     node.frictional_work += share * point.frictional_work;
     if (point.pressure <= 0) continue;
-    node.pressure += share * point.box_factor * point.pressure;
-    node.shear.along += share * point.box_factor * point.shear.along;
-    node.shear.across += share * point.box_factor * point.shear.across;
+    node.pressure += share * point.pressure;
+    node.shear.along += share * point.shear.along;
+    node.shear.across += share * point.shear.across;
     node.slip_speed.along += share * point.slip_speed.along;
     node.slip_speed.across += share * point.slip_speed.across;
     node.frictional_power += share * point.frictional_power();

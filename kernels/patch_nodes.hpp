@@ -44,7 +44,7 @@ struct SurfaceGrid {
 SurfaceGrid make_surface_grid(const SweptBlock& rail, const SurfaceProfile& profile, SurfaceKind kind,
                               std::array<int, 2> edges);
 
-/// Means over the box of a node; tractions are those of the middle of a step, zero outside of contact.
+/// Lumped averages at a node; tractions are those of the middle of a step, zero outside of contact.
 struct NodalContact {
   double pressure = 0;          ///< [Pa]
   Traction shear;               ///< on the rail [Pa]

@@ -39,7 +39,6 @@ SweptBlock rail() {
 ContactPoint point_on(const SweptBlock& block, std::array<int, 2> face, double along, double across) {
   ContactPoint point{};
   point.face = face;
-  point.box_factor = 1;
   point.face_share[static_cast<std::size_t>(2 * (along > 0.5) + (across > 0.5))] = 1;
   const auto e = static_cast<std::size_t>(face[1]);
   const double width = block.section.p[e + 6] - block.section.p[e + 5];

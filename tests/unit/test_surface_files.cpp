@@ -32,7 +32,6 @@ SurfaceGrid plane() {
 ContactPoint point_on(std::array<int, 2> face, double pressure) {
   ContactPoint point{};
   point.face = face;
-  point.box_factor = 1;
   point.face_share = {0.25, 0.25, 0.25, 0.25};
   point.area = 6e-6;
   point.pressure = pressure;
