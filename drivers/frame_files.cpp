@@ -112,8 +112,13 @@ std::size_t FrameFiles::count() const {
 void FrameFiles::copy(const Simulation& simulation) {
   at_.steps = simulation.steps();
   at_.time = simulation.time();
-  at_.displacement = simulation.displacement();
-  at_.velocity = simulation.velocity();
+  const auto copy_field = [this](ConstNodeField from, AlignedVector<double>& to) {
+    to.resize(static_cast<std::size_t>(3 * model_->mesh.slots));
+    std::int64_t i = 0;
+    for (double& value : to) value = from[i++];
+  };
+  copy_field(simulation.displacement(), at_.displacement);
+  copy_field(simulation.velocity(), at_.velocity);
   at_.wheel = simulation.wheel();
   if (model_->contact) at_.patch = model_->contact->nodes();
 }

@@ -26,32 +26,32 @@ FolderLock take(const fs::path& folder) {
       "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
       "choose another folder",
       folder.string(), folder.string(), folder.string()));
+}
 
-  const char* name_of(RunRequest request) {
-    switch (request) {
-      case RunRequest::checkpoint:
-        return "checkpoint";
-      case RunRequest::frame:
-        return "frame";
-      case RunRequest::stop:
-        break;
-    }
-    return "stop";
+const char* name_of(RunRequest request) {
+  switch (request) {
+    case RunRequest::checkpoint:
+      return "checkpoint";
+    case RunRequest::frame:
+      return "frame";
+    case RunRequest::stop:
+      break;
   }
+  return "stop";
+}
 
-  /// Nothing where it is not what leave_request() left.
-  std::optional<RunRequest> read_request(const fs::path& path) {
-    std::string text;
-    try {
-      constexpr std::size_t kLongest = 100;
-      text = read_text_file(path, kLongest);
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
-    for (const RunRequest request : {RunRequest::checkpoint, RunRequest::frame, RunRequest::stop})
-      if (text == fmt::format("{}\n", name_of(request))) return request;
+/// Nothing where it is not what leave_request() left.
+std::optional<RunRequest> read_request(const fs::path& path) {
+  std::string text;
+  try {
+    constexpr std::size_t kLongest = 100;
+    text = read_text_file(path, kLongest);
+  } catch (const InputError&) {
     return std::nullopt;
   }
+  for (const RunRequest request : {RunRequest::checkpoint, RunRequest::frame, RunRequest::stop})
+    if (text == fmt::format("{}\n", name_of(request))) return request;
+  return std::nullopt;
 }
 
 }  // namespace

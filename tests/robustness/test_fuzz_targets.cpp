@@ -98,7 +98,7 @@ TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
   RunResults results;
   results.samples.resize(2);
   SealedContent content = pack_order(
-      {{"scene.toml", "[scene]\n", ".", {{"/depth.txt", "0 0\n"}}}, {"a=1"}, {"b=2"}, "", "tread run"});
+      {{"scene.toml", "[scene]\n", ".", {{"/depth.txt", "0 0\n"}}}, {"a=1"}, {"b=2"}, "", "tread run", {}});
   StateList list;
   results.list_state(list);
   pack(list, "results", content);
