@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/error.hpp"
 #include "drivers/machine.hpp"
 #include "io/json_writer.hpp"
 #include "io/output_file.hpp"
@@ -214,6 +215,26 @@ VtkArray FrameFiles::von_mises_stress() const {
     array.values.push_back(static_cast<float>(
         von_mises(model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data()))));
   return array;
+}
+
+void FrameFiles::take_over(const fs::path& from, const fs::path& to, std::int64_t steps) {
+  const std::vector<std::int64_t> there = steps_in(from / kFolder, kSuffix);
+  if (there.empty() || there.front() > steps) return;
+  make_directory(to / kFolder);
+  const auto copy = [&](const fs::path& file) {
+    const fs::path target = to / kFolder / file.filename();
+    const fs::path part = target.string() + ".part";
+    std::error_code error;
+    fs::copy_file(file, part, fs::copy_options::overwrite_existing, error);
+    if (!error) fs::rename(part, target, error);
+    if (error)
+      throw ResourceError(fmt::format("cannot copy {} to {}: {}; --set output.frames=0 leaves frames out",
+                                      file.string(), target.string(), error.message()));
+  };
+  for (const VtkCells kind : {VtkCells::faces, VtkCells::elements})
+    if (fs::exists(from / kFolder / mesh_name(kind))) copy(from / kFolder / mesh_name(kind));
+  for (const std::int64_t step : there)
+    if (step <= steps) copy(step_file(from / kFolder, step, kSuffix));
 }
 
 void FrameFiles::remove(const fs::path& directory) {

@@ -31,6 +31,10 @@ class FrameFiles {
   /// That lie in the folder.
   std::size_t count() const;
 
+  /// Copies what the run in another folder has left up to a step. ResourceError.
+  static void take_over(const std::filesystem::path& from, const std::filesystem::path& to,
+                        std::int64_t steps);
+
   /// Removes all that an earlier run has left in the folder.
   static void remove(const std::filesystem::path& directory);
 

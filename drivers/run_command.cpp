@@ -116,9 +116,11 @@ void begin_fork(const RunSession& session, const Fork& fork, const Model& model,
   require_disk(model, results);
   results.seconds_mesh = session.progress.seconds();
   const ForkOrigin& origin = *fork.order.origin;
+  if (model.scene.output.frames > 0)
+    FrameFiles::take_over(origin.folder, session.folder.path(), origin.steps);
   session.checkpoints.write(origin.steps, fork.content);
   session.progress.say(
-      fmt::format("[fork] from {} at t = {:.6e} s (step {}); the histories up to there are copies",
+      fmt::format("[fork] from {} at t = {:.6e} s (step {}); histories and frames up to there are copies",
                   origin.folder, origin.time, origin.steps));
 }
 

@@ -148,7 +148,7 @@ TEST_F(SealedFiles, WhatAForgedListStatesIsNotBelieved) {
                            "byte 18446744073709551615 512 a\n", "i64 1 18446744073709551608 a\n",
                            "f64 1 560 a\n", "byte 500 512 a\nbyte 500 512 b\n"})
     expect_refused(line, "does not fit into its");
-  for (const char* line : {"f32 1 512 a\n", "f64 -1 512 a\n", "f64 1 512\n", "f64 01 512 a\n", "\n",
+  for (const char* line : {"f16 1 512 a\n", "f64 -1 512 a\n", "f64 1 512\n", "f64 01 512 a\n", "\n",
                            "byte 1 512 a\nbyte 1 512 a\n", "byte 1 512 a b\n"})
     expect_refused(line, "of its list of entries is broken");
 }
