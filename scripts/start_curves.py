@@ -78,7 +78,8 @@ def drawing(curves):
         scale = max(4.0, max(abs(rest) for _, rest in points))
         def level(rest):
             return (low + high) / 2 - rest / scale * (high - low) / 2
-        for mark in (-2, 0, 2):
+        step = 2 if scale < 20 else 50 if scale < 100 else 200
+        for mark in (-step, 0, step):
             out.append(f'<line x1="{left}" x2="{width - 20}" y1="{level(mark):.1f}" y2="{level(mark):.1f}" '
                        f'stroke="#ccc"/><text x="{left - 6}" y="{level(mark) + 4:.1f}" text-anchor="end">{mark} %</text>')
         way = " ".join(f"{at(x):.1f},{level(rest):.1f}" for x, rest in points[::2])
