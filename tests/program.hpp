@@ -35,6 +35,33 @@ inline bool wait_until(const std::function<bool()>& condition) {
   return false;
 }
 
+/// The exit status; that of a signal is 1000 + its number.
+inline int wait_for(pid_t process) {
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+/// A child process that calls `action`.
+inline pid_t child(const std::function<void()>& action) {
+  const pid_t process = ::fork();
+  if (process != 0) return process;
+  action();
+  ::_exit(0);
+}
+
+/// The program in a shell, its words in `folder`/out and `folder`/errors; `before`: what the shell does
+/// first.
+inline pid_t start_program(const std::string& arguments, const std::filesystem::path& folder,
+                           const std::string& before = "") {
+  const std::string command = fmt::format("{} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
+                                          arguments, folder.string(), folder.string());
+  return child([&] {
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  });
+}
+
 /// A folder that goes with the test, in which the program's output lands.
 class Program {
  public:
@@ -46,22 +73,8 @@ class Program {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  pid_t start(const std::string& arguments) const {
-    const std::string command = fmt::format("exec {} {} >{}/out 2>{}/errors", TREAD_EXECUTABLE, arguments,
-                                            folder.string(), folder.string());
-    const pid_t process = ::fork();
-    if (process == 0) {
-      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      ::_exit(127);
-    }
-    return process;
-  }
-  static int wait(pid_t process) {
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
-  }
-  int call(const std::string& arguments) const { return wait(start(arguments)); }
+  pid_t start(const std::string& arguments) const { return start_program(arguments, folder); }
+  int call(const std::string& arguments) const { return wait_for(start(arguments)); }
 
   std::string out() const { return content_of(folder / "out"); }
   std::string errors() const { return content_of(folder / "errors"); }

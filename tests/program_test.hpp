@@ -3,58 +3,20 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/hdf5_file.hpp"
+#include "tests/program.hpp"
 
 namespace tread::samples {
 
 namespace fs = std::filesystem;
-
-inline std::string content_of(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-inline bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-inline bool wait_until(const std::function<bool()>& condition) {
-  for (int i = 0; i < 6000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
-
-/// The exit status; that of a signal is 1000 + its number.
-inline int wait_for(pid_t process) {
-  int status = 0;
-  ::waitpid(process, &status, 0);
-  return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
-}
-
-/// A child process that calls `action`.
-inline pid_t child(const std::function<void()>& action) {
-  const pid_t process = ::fork();
-  if (process != 0) return process;
-  action();
-  ::_exit(0);
-}
 
 /// What the summary states besides times and where the start came from.
 inline std::string figures(const fs::path& folder) {
@@ -112,10 +74,7 @@ class ProgramTest : public testing::Test {
 
   /// Starts the program; what it prints goes to files.
   static pid_t start(const std::string& arguments, const std::string& before = "") {
-    const std::string command =
-        fmt::format("export TREAD_CACHE=off; {} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
-                    arguments, root_.string(), root_.string());
-    return child([&] { ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr); });
+    return start_program(arguments, root_, "export TREAD_CACHE=off; " + before);
   }
   static int call(const std::string& arguments, const std::string& before = "") {
     return wait_for(start(arguments, before));

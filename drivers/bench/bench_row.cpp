@@ -32,33 +32,39 @@ std::string json_line(const BenchRow& row) {
   return json.text();
 }
 
+std::vector<Column> key_columns() {
+  return {{"Kernel"},
+          {"Path"},
+          {"Precision"},
+          {"Backend"},
+          {"Lanes"},
+          {"Threads", Align::right},
+          {"Units", Align::right}};
+}
+
+std::vector<std::string> key_cells(const BenchKey& key) {
+  return {key.kernel,           key.path, key.precision, key.backend, key.lanes, std::to_string(key.threads),
+          grouped(key.elements)};
+}
+
 Table bench_table(const std::vector<BenchRow>& rows) {
-  Table table{"",
-              {{"Kernel"},
-               {"Path"},
-               {"Precision"},
-               {"Backend"},
-               {"Lanes"},
-               {"Threads", Align::right},
-               {"Units", Align::right},
-               {""},
-               {"ns/unit", Align::right},
-               {"GB/s", Align::right},
-               {"GFLOP/s", Align::right},
-               {"Of limit", Align::right},
-               {""},
-               {"Spread", Align::right}},
-              {}};
+  Table table{"", key_columns(), {}};
+  table.columns.insert(table.columns.end(), {{""},
+                                             {"ns/unit", Align::right},
+                                             {"GB/s", Align::right},
+                                             {"GFLOP/s", Align::right},
+                                             {"Of limit", Align::right},
+                                             {""},
+                                             {"Spread", Align::right}});
   for (const BenchRow& row : rows) {
     const bool counted = row.limit.seconds > 0;
-    table.rows.push_back({row.key.kernel, row.key.path, row.key.precision, row.key.backend, row.key.lanes,
-                          std::to_string(row.key.threads), grouped(row.key.elements), row.unit,
-                          fmt::format("{:.3g}", 1e9 / row.rate()),
-                          row.work.bytes > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.bytes) : "",
-                          row.work.flops > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.flops) : "",
-                          counted ? fmt::format("{:.2f}", row.fraction_of_limit()) : "",
-                          counted ? row.limit.name() : "",
-                          fmt::format("{:.0f} %", 100 * row.measured.spread)});
+    std::vector<std::string>& cells = table.rows.emplace_back(key_cells(row.key));
+    cells.insert(cells.end(),
+                 {row.unit, fmt::format("{:.3g}", 1e9 / row.rate()),
+                  row.work.bytes > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.bytes) : "",
+                  row.work.flops > 0 ? fmt::format("{:.3g}", 1e-9 * row.rate() * row.work.flops) : "",
+                  counted ? fmt::format("{:.2f}", row.fraction_of_limit()) : "",
+                  counted ? row.limit.name() : "", fmt::format("{:.0f} %", 100 * row.measured.spread)});
   }
   return table;
 }

@@ -31,6 +31,10 @@ struct BenchKey {
   }
 };
 
+/// Of a table's first columns, and a row's cells in them.
+std::vector<Column> key_columns();
+std::vector<std::string> key_cells(const BenchKey& key);
+
 struct BenchRow {
   BenchKey key;
   std::string unit;  ///< what `elements` counts: "element", "node", ...

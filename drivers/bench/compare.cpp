@@ -51,20 +51,12 @@ std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path) {
 bool compare_benchmarks(const std::filesystem::path& before_path, const std::filesystem::path& after_path) {
   const auto before = read_rows(before_path);
   const auto after = read_rows(after_path);
-  Table table{"",
-              {{"Kernel"},
-               {"Path"},
-               {"Precision"},
-               {"Backend"},
-               {"Lanes"},
-               {"Threads", Align::right},
-               {"Units", Align::right},
-               {"Before, 1e6/s", Align::right},
-               {"After, 1e6/s", Align::right},
-               {"Change", Align::right},
-               {"Spread", Align::right},
-               {""}},
-              {}};
+  Table table{"", key_columns(), {}};
+  table.columns.insert(table.columns.end(), {{"Before, 1e6/s", Align::right},
+                                             {"After, 1e6/s", Align::right},
+                                             {"Change", Align::right},
+                                             {"Spread", Align::right},
+                                             {""}});
   int regressions = 0;
   for (const auto& [key, now] : after) {
     const auto then = before.find(key);
@@ -73,11 +65,11 @@ bool compare_benchmarks(const std::filesystem::path& before_path, const std::fil
     const double spread = std::max(now.spread, then->second.spread);
     const bool slower = change < -spread;
     regressions += slower;
-    table.rows.push_back(
-        {key.kernel, key.path, key.precision, key.backend, key.lanes, std::to_string(key.threads),
-         grouped(key.elements), fmt::format("{:.4g}", 1e-6 * then->second.rate),
-         fmt::format("{:.4g}", 1e-6 * now.rate), fmt::format("{:+.1f} %", 100 * change),
-         fmt::format("{:.1f} %", 100 * spread), slower ? "SLOWER" : (change > spread ? "faster" : "")});
+    std::vector<std::string>& cells = table.rows.emplace_back(key_cells(key));
+    cells.insert(cells.end(),
+                 {fmt::format("{:.4g}", 1e-6 * then->second.rate), fmt::format("{:.4g}", 1e-6 * now.rate),
+                  fmt::format("{:+.1f} %", 100 * change), fmt::format("{:.1f} %", 100 * spread),
+                  slower ? "SLOWER" : (change > spread ? "faster" : "")});
   }
   if (table.rows.empty())
     throw InputError(fmt::format(

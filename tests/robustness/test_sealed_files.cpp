@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -11,7 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "core/error.hpp"
@@ -19,17 +17,14 @@
 #include "io/hdf5_file.hpp"
 #include "io/sealed_file.hpp"
 #include "tests/fuzz/targets.hpp"
+#include "tests/program.hpp"
 
 namespace tread {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
+using samples::content_of;
 
 void overwrite(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
@@ -194,16 +189,12 @@ TEST_F(Checkpoints, AKillAtAnyStageLeavesASoundOne) {
     checkpoints_.clear();
     fs::create_directories(folder_);
     checkpoints_.write(1, sample(1));
-    const pid_t child = ::fork();
-    if (child == 0) {
+    const pid_t process = samples::child([&] {
       checkpoints_.write(2, sample(2), [&](CheckpointStage reached) {
         if (static_cast<int>(reached) == stage) ::kill(::getpid(), SIGKILL);
       });
-      ::_exit(0);
-    }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFSIGNALED(status)) << "stage " << stage;
+    });
+    ASSERT_EQ(samples::wait_for(process), 1000 + SIGKILL) << "stage " << stage;
     const auto found = checkpoints_.newest(refused_);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->content, sample(static_cast<double>(found->steps)));

@@ -134,7 +134,7 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
   EXPECT_EQ(program_.call(fmt::format("sweep {} -o {}", file.string(), runs_.string())), 4);
   EXPECT_TRUE(has(errors(), "another process works on")) << errors();
   ::kill(process, SIGTERM);
-  EXPECT_EQ(samples::Program::wait(process), 75);
+  EXPECT_EQ(samples::wait_for(process), 75);
   EXPECT_TRUE(fs::exists(first / "checkpoint"));
   EXPECT_FALSE(fs::exists(runs_ / "mu=0.3"));
 

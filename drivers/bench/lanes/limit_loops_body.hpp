@@ -2,45 +2,29 @@
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
 #include "drivers/bench/lanes/limit_loops.hpp"
+#include "kernels/lanes/registers.hpp"
 
 namespace tread {
 namespace {
-
-#if defined(__AVX512F__)
-constexpr int kRegisterBytes = 64;
-#elif defined(__AVX__)
-constexpr int kRegisterBytes = 32;
-#else
-constexpr int kRegisterBytes = 16;
-#endif
 
 /// Chains that do not wait for one another: latency times operations per cycle of the processors at hand,
 /// within their registers.
 constexpr int kChains = kRegisterBytes == 64 ? 24 : 12;
 
 template <class Real>
-struct Vector {
-  typedef Real type __attribute__((vector_size(kRegisterBytes)));
-};
+using FullRegister = typename Vector<Real, kFitting<Real>>::type;
 
 void triad(double* a, const double* b, const double* c, double factor, std::int64_t n) {
-  using Register = Vector<double>::type;
-  constexpr std::int64_t kWidth = kRegisterBytes / static_cast<int>(sizeof(double));
+  using Register = FullRegister<double>;
+  constexpr std::int64_t kWidth = kFitting<double>;
   std::int64_t i = 0;
-  for (; i + kWidth <= n; i += kWidth) {
-    Register x;
-    Register y;
-    __builtin_memcpy(&x, b + i, sizeof x);
-    __builtin_memcpy(&y, c + i, sizeof y);
-    x += factor * y;
-    __builtin_memcpy(a + i, &x, sizeof x);
-  }
+  for (; i + kWidth <= n; i += kWidth) store(a + i, load<Register>(b + i) + factor * load<Register>(c + i));
   for (; i < n; ++i) a[i] = b[i] + factor * c[i];
 }
 
 template <class Real>
 double multiply_add(std::int64_t rounds) {
-  using Register = typename Vector<Real>::type;
+  using Register = FullRegister<Real>;
   Register x[kChains];
   for (int k = 0; k < kChains; ++k) x[k] = Register{} + static_cast<Real>(k);
   // Not known to the compiler; the sequence tends to 1.
@@ -57,7 +41,7 @@ double multiply_add(std::int64_t rounds) {
 
 template <class Real>
 constexpr int flops_per_round() {
-  return 2 * kChains * kRegisterBytes / static_cast<int>(sizeof(Real));
+  return 2 * kChains * kFitting<Real>;
 }
 
 constexpr LimitLoops loops(const char* name) {
