@@ -133,8 +133,12 @@ void evaluate(const Model& model, RunResults& r) {
     r.evaluated_first = stretch.first;
     r.evaluated_last = std::min(reached, stretch.last);
     if (r.evaluated_first > reached) r.evaluated_first = 0;
+    // The first sample lies at x = 0 but for rounding: whether it counts must not hang on that.
+    constexpr double kRounding = 1e-9;  // [m]
     const auto between = [](double first, double last) {
-      return [first, last](const Sample& s) { return s.wheel_x >= first && s.wheel_x <= last; };
+      return [first, last](const Sample& s) {
+        return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
+      };
     };
     const auto evaluated = between(r.evaluated_first, r.evaluated_last);
     r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
