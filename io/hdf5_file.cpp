@@ -136,9 +136,10 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   return {id, path};
 }
 
-Hdf5File Hdf5File::create_in_memory(std::size_t bytes) {
+Hdf5File Hdf5File::create_in_memory() {
+  constexpr std::size_t kGrowth = 1 << 20;  // [B]
   const Id list = access();
-  H5Pset_fapl_core(list, bytes, 0);
+  H5Pset_fapl_core(list, kGrowth, 0);
   const std::filesystem::path name = "memory";
   const hid_t id = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, list);
   if (id < 0) fail<ResourceError>("create", name, "");
@@ -302,13 +303,14 @@ std::uint64_t Hdf5File::place(const std::string& name) const {
   return place;
 }
 
-std::string Hdf5File::image() const {
+std::string_view Hdf5File::image() const {
   const std::string all;
   const Check check{path_, all};
   check.written(H5Fflush(id_, H5F_SCOPE_GLOBAL));
-  std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(0, H5Fget_file_image(id_, nullptr, 0))), '\0');
-  check.written(H5Fget_file_image(id_, bytes.data(), bytes.size()) < 0 ? -1 : 0);
-  return bytes;
+  const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
+  void* place = nullptr;  // of the pointer to the bytes
+  check.written(size < 0 ? -1 : H5Fget_vfd_handle(id_, H5P_DEFAULT, &place));
+  return {*static_cast<const char* const*>(place), static_cast<std::size_t>(size)};
 }
 
 bool Hdf5File::thread_safe() {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tread {
@@ -19,8 +20,8 @@ class Hdf5File {
 
   /// Starts an empty file in place of whatever stood there.
   static Hdf5File create(const std::filesystem::path& path);
-  /// Starts an empty file that lives in memory only; `bytes`: what it will about hold.
-  static Hdf5File create_in_memory(std::size_t bytes);
+  /// Starts an empty file that lives in memory only and takes what it holds.
+  static Hdf5File create_in_memory();
   static Hdf5File open_to_read(const std::filesystem::path& path);
   static Hdf5File open_to_extend(const std::filesystem::path& path);
 
@@ -71,8 +72,8 @@ class Hdf5File {
   /// Whether several threads may use files at the same time, each its own.
   static bool thread_safe();
 
-  /// What the file would be on the disk.
-  std::string image() const;
+  /// What a file of create_in_memory() would be on the disk: its own bytes, until it is written to or closed.
+  std::string_view image() const;
 
   /// Hands everything written so far to the operating system; the file can be read from here on.
   void flush();

@@ -83,14 +83,6 @@ std::string header(const std::string& kind, int version, const Seal& seal) {
   return text;
 }
 
-/// About, of the file.
-std::size_t size_of(const SealedContent& content) {
-  std::size_t bytes = 1 << 20;
-  for (const auto& [name, values] : content)
-    bytes += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, values);
-  return bytes;
-}
-
 /// Forces the file to the disk; what is read of it next comes from there.
 void drop_from_memory(const std::filesystem::path& path) {
   const Descriptor file(path, O_RDONLY);
@@ -234,15 +226,15 @@ struct WriteEntry {
 
 /// The HDF5 part of the file, and in `index` where everything stands in a file in which it follows the
 /// header. HDF5 never sees the disk: of what that refuses it recovers badly.
-std::string image_of(SealedContent content, std::string& index) {
-  Hdf5File file = Hdf5File::create_in_memory(size_of(content));
+Hdf5File hdf5_part(SealedContent content, std::string& index) {
+  Hdf5File file = Hdf5File::create_in_memory();
   for (auto entry = content.begin(); entry != content.end(); entry = content.erase(entry)) {
     const auto& [name, values] = *entry;
     std::visit(WriteEntry{file, name}, values);
     const std::uint64_t count = std::visit([](const auto& v) { return v.size(); }, values);
     index += text_of({values.index(), count, count == 0 ? kHeader : kHeader + file.place(name), name});
   }
-  return file.image();
+  return file;
 }
 
 }  // namespace
@@ -266,17 +258,21 @@ std::map<std::string, std::uint64_t> digests_of(const SealedContent& content) {
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
                   SealedContent content) {
   std::string index;
-  std::string image = image_of(std::move(content), index);
+  const Hdf5File file = hdf5_part(std::move(content), index);
+  const std::string_view image = file.image();
+  constexpr std::size_t kWord = 8;  // sums go over whole words [B]
+  const std::string filler((kWord - image.size() % kWord) % kWord, '\0');
   Seal seal;
-  seal.index = kHeader + image.size();
-  image += index;
-  seal.bytes = kHeader + image.size();
+  seal.index = kHeader + image.size() + filler.size();
+  seal.bytes = seal.index + index.size();
   Hash hash;
-  hash.add(std::as_bytes(std::span(image)));
+  hash.add(std::as_bytes(std::span(image)));  // as if the filler followed
+  hash.add(std::as_bytes(std::span(index)));
   seal.sum = hash.value();
   GrowingFile out(path);
   out.append(header(kind, version, seal));
-  out.append(image);
+  for (const std::string_view piece : {image, std::string_view(filler), std::string_view(index)})
+    out.append(piece);
   out.close();
   drop_from_memory(path);
 }

@@ -19,7 +19,8 @@ using SealedContent = std::map<std::string, SealedValues>;
 /// Writes an HDF5 file: a dataset per entry, texts as bytes; names hold no blanks. The 512 bytes before its
 /// HDF5 part are a text that states `kind`, `version`, the length of the file and a checksum of the rest.
 /// Behind it stands a text that lists type, count, place and name of every entry. Forces the file to the
-/// disk. Lets go of the content as it is written: memory holds it twice at most. Throws ResourceError.
+/// disk. Lets go of the content as it is written: memory holds it once, one entry at a time twice. Throws
+/// ResourceError.
 void write_sealed(const std::filesystem::path& path, const std::string& kind, int version,
                   SealedContent content);
 

@@ -40,8 +40,8 @@ double mean_radius(const Section& section, int quad) {
 }
 
 /// Starts the file in memory: of a disk that is full HDF5 recovers badly.
-Hdf5File begin(std::size_t bytes) {
-  Hdf5File file = Hdf5File::create_in_memory(bytes + (std::size_t{1} << 16));
+Hdf5File begin() {
+  Hdf5File file = Hdf5File::create_in_memory();
   for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/FieldData"})
     file.make_group(group);
   const std::array<std::int64_t, 2> version = {1, 0};
@@ -131,9 +131,7 @@ void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const V
     throw std::logic_error("write_vtk_mesh: one placement per block");
   const std::vector<Placement> places =
       placements.empty() ? std::vector<Placement>(mesh.blocks.size()) : placements;
-  constexpr std::size_t kOfPoint = 24, kOfCell = 25;  // beside the corners [B]
-  Hdf5File file = begin(grid.points.size() * kOfPoint + grid.cells.size() * kOfCell +
-                        grid.connectivity.size() * sizeof(std::int64_t));
+  Hdf5File file = begin();
   write_points(file, mesh, grid, places);
   write_topology(file, grid);
   write_cell_arrays(file, mesh, grid);
@@ -141,9 +139,7 @@ void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const V
 }
 
 void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame) {
-  std::size_t values = frame.points.size();
-  for (const VtkArray& array : frame.arrays) values += array.values.size();
-  Hdf5File file = begin(values * sizeof(float));
+  Hdf5File file = begin();
   for (const std::string name : kShared) file.link_external("/VTKHDF/" + name, frame.mesh, "/VTKHDF/" + name);
   write_compressed(file, "/VTKHDF/Points", frame.points, 3);
   for (const VtkArray& array : frame.arrays) write_array(file, array);
