@@ -222,14 +222,18 @@ void require_same_past(const Fork& fork, const Model& model) {
                   fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs));
 }
 
+double way_before(const Model& model, double x) {
+  constexpr double kMargin = 0.02;  // [m]
+  return x - model.contact->reach() - kMargin;
+}
+
 std::optional<std::int64_t> fork_step(const Model& model, double dt) {
   const Scene& scene = model.scene;
   if (!scene.forks || !model.contact) return std::nullopt;
   if (scene.forks->at) return steps_until(*scene.forks->at, dt);
-  constexpr double kMargin = 0.02;  // [m]
   const Corrugation& corrugation = model.contact->corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
-  const double way = start - model.contact->reach() - kMargin;
+  const double way = way_before(model, start);
   const double speed = scene.motion->speed;
   if (way < 0 || speed <= 0)
     throw InputError(fmt::format(

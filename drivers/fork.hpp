@@ -30,6 +30,10 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
 /// that begins, corrugated.
 void require_same_past(const Fork& fork, const Model& model);
 
+/// How far the wheel of a run with [forks] may have come when the state is kept for corrugations that differ
+/// from x [m] on [m]; may be negative. `model`: before the corrugation is applied, or with the deepest one.
+double way_before(const Model& model, double x);
+
 /// Steps of length `dt` [s] after which the run keeps the state for its forks; nothing where the scene wants
 /// none. InputError where the corrugation begins too near for ForkSpec::at to be left out.
 std::optional<std::int64_t> fork_step(const Model& model, double dt);

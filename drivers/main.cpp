@@ -242,6 +242,8 @@ void add_study_options(CLI::App& command, tread::StudyOptions& options) {
   command.add_option("-t,--threads", options.threads, "threads of one run (default: 1)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--retry", options.retry, "points that failed, too");
+  command.add_flag("--no-share", options.no_share,
+                   "each run begins at the start, also where corrugations by gap could share the rolling");
   command.add_flag("--list", options.list, "the points and what they will cost, without running them");
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");

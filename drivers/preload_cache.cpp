@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <span>
-#include <string_view>
+#include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
@@ -46,15 +48,6 @@ std::int64_t limit() {
   } catch (const InputError& error) {
     throw InputError(fmt::format("TREAD_CACHE_LIMIT: {}", error.what()));
   }
-}
-
-/// A preload is frictionless and smooth, and nothing rolls yet.
-bool acts_on_rolling_alone(std::string_view path) {
-  constexpr std::array<std::string_view, 9> kBeginnings = {
-      "scene.title",      "corrugation.",       "output.",           "stop.", "forks.", "contact.friction",
-      "motion.traction.", "motion.step_safety", "contact.depth_room"};
-  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                     [&](std::string_view beginning) { return path.starts_with(beginning); });
 }
 
 /// Of the running program's own bytes: another build may find other bits.
@@ -95,6 +88,14 @@ std::optional<ContentCache> preload_cache(const std::string& place) {
   return ContentCache(folder, limit());
 }
 
+bool acts_on_rolling_alone(std::string_view path) {
+  constexpr std::array<std::string_view, 9> kBeginnings = {
+      "scene.title",      "corrugation.",       "output.",           "stop.", "forks.", "contact.friction",
+      "motion.traction.", "motion.step_safety", "contact.depth_room"};
+  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
+                     [&](std::string_view beginning) { return path.starts_with(beginning); });
+}
+
 std::string preload_key(const ResolvedScene& resolved, const Model& model) {
   std::string key = fmt::format("program {:016x}\nlibrary {}\ninstruction set {}\n", program_hash(),
                                 gnu_get_libc_version(), model.internal->instruction_set());
@@ -121,6 +122,27 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
     say(fmt::format("{}; solved again", error.what()));
     return std::nullopt;
   }
+}
+
+std::optional<FileRangeLock> claim_preload(const ContentCache& cache, const std::string& key,
+                                           const ProgressText& say, const std::function<void()>& wait) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kLongest = std::chrono::minutes(30);
+  constexpr auto kLook = std::chrono::milliseconds(100);
+  const Clock::time_point started = Clock::now();
+  bool told = false;
+  try {
+    while (Clock::now() - started < kLongest) {
+      if (std::optional<FileRangeLock> claim = cache.claim(key)) return claim;
+      if (!std::exchange(told, true)) say("another process solves it; waiting for that");
+      wait();
+      std::this_thread::sleep_for(kLook);
+    }
+    say("the other process has not solved it in half an hour; solved here");
+  } catch (const ResourceError&) {
+    // keep_preload() tells of a folder that cannot be written.
+  }
+  return std::nullopt;
 }
 
 void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,

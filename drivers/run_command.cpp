@@ -56,22 +56,32 @@ void adopt_later_values(Model& model, const Scene& later) {
   model.scene.motion->duration = later.motion->duration;
 }
 
+void obey_before_first_step(const RunSession& session) {
+  if (session.folder.take_stop())
+    throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
+}
+
 void solve_statics(const RunSession& session, Model& model, RunResults& results) {
   results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
     session.enter("preload", text);
-    if (session.folder.take_stop())
-      throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
+    obey_before_first_step(session);
   });
 }
 
-/// From the cache, where that has it. `resolved`: what the model was made of.
+/// From the cache, where that has it or another process is about to put it there. `resolved`: what the model
+/// was made of.
 void find_statics(const RunSession& session, const ResolvedScene& resolved, Model& model,
                   RunResults& results) {
   const double started = session.progress.seconds();
   const auto say = [&](const std::string& text) { session.enter("preload", text); };
   const std::optional<ContentCache> cache = preload_cache(session.options.cache);
   const std::string key = cache ? preload_key(resolved, model) : "";
-  std::optional<Preload> known = cache ? recall_preload(*cache, key, model, say) : std::nullopt;
+  const auto quietly = [](const std::string&) {};
+  std::optional<Preload> known = cache ? recall_preload(*cache, key, model, quietly) : std::nullopt;
+  const auto wait = [&] { obey_before_first_step(session); };
+  const std::optional<FileRangeLock> claim =
+      cache && !known ? claim_preload(*cache, key, say, wait) : std::nullopt;
+  if (cache && !known) known = recall_preload(*cache, key, model, say);
   if (known) {
     results.preload = std::move(*known);
     results.preload_cached = 1;

@@ -24,12 +24,23 @@ constexpr const char* kKind = "cached";
 constexpr int kVersion = 1;
 constexpr const char* kKey = "key";
 constexpr const char* kSuffix = ".h5";
+constexpr const char* kClaims = "claims.lock";  ///< stays, empty
 constexpr std::size_t kDigits = 16;
 
-fs::path path_of(const fs::path& folder, const std::string& key) {
+std::uint64_t hash_of(const std::string& key) {
   Hash hash;
   hash.add(std::as_bytes(std::span(key)));
-  return folder / fmt::format("{:016x}{}", hash.value(), kSuffix);
+  return hash.value();
+}
+
+fs::path path_of(const fs::path& folder, const std::string& key) {
+  return folder / fmt::format("{:016x}{}", hash_of(key), kSuffix);
+}
+
+void create(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
 }
 
 /// Whether path_of() gives such names: nothing else in the folder is touched.
@@ -76,15 +87,18 @@ std::optional<SealedContent> ContentCache::find(const std::string& key, std::str
 }
 
 void ContentCache::store(const std::string& key, SealedContent content) const {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder_.string(), error.message()));
+  create(folder_);
   content[kKey] = key;
   const FolderLock lock = take(folder_);
   remove_parts(folder_);
   replace_file(path_of(folder_, key),
                [&](const fs::path& part) { write_sealed(part, kKind, kVersion, content); });
   trim();
+}
+
+std::optional<FileRangeLock> ContentCache::claim(const std::string& key) const {
+  create(folder_);
+  return FileRangeLock::try_take(folder_ / kClaims, hash_of(key));
 }
 
 std::vector<ContentCache::Entry> ContentCache::entries() const {

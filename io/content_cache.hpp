@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_range_lock.hpp"
 #include "io/sealed_file.hpp"
 
 namespace tread {
@@ -25,6 +26,10 @@ class ContentCache {
   /// Keeps the content, then removes what has not been used for longest until the limit is kept. Throws
   /// ResourceError; what was there then stays.
   void store(const std::string& key, SealedContent content) const;
+
+  /// Of who is finding out what belongs under the key; nothing where another process is. Needs no entry, and
+  /// hinders nobody to find or store. ResourceError where the folder cannot be written.
+  std::optional<FileRangeLock> claim(const std::string& key) const;
 
   struct Entry {
     std::filesystem::path path;

@@ -99,7 +99,7 @@ class StudyReader {
   }
 
   void read_head(const toml::table& head) {
-    static const std::vector<std::string> kKeys = {"title", "scene", "jobs", "threads"};
+    static const std::vector<std::string> kKeys = {"title", "scene", "jobs", "threads", "share"};
     for (const auto& [name, node] : head) {
       const std::string key = std::string(name.str());
       const std::string path = "study." + key;
@@ -118,10 +118,16 @@ class StudyReader {
                  fmt::format("expected a whole number from 1 to {}, got {}", kMostJobs, describe_node(node)));
         else
           (key == "jobs" ? study_.jobs : study_.threads) = static_cast<int>(*number);
+      } else if (key == "share") {
+        const std::optional<bool> share = node.value_exact<bool>();
+        if (!share)
+          report(name.source(), path, fmt::format("expected true or false, got {}", describe_node(node)));
+        else
+          study_.share = *share;
       } else {
         const std::string near = similar_text(key, kKeys);
         report(name.source(), path,
-               fmt::format("unknown key ({})", near.empty() ? "known: title, scene, jobs, threads"
+               fmt::format("unknown key ({})", near.empty() ? "known: title, scene, jobs, threads, share"
                                                             : fmt::format("did you mean study.{}?", near)));
       }
     }

@@ -34,6 +34,7 @@ struct Study {
   std::vector<StudyPoint> points;    ///< one at least, names that differ
   int jobs = 0;                      ///< runs at once; 0: not stated
   int threads = 0;                   ///< of one run; 0: not stated
+  bool share = true;                 ///< points that are one run up to the corrugation roll there once
 };
 
 /// The most points of a study.

@@ -8,7 +8,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kWay = 3.05;     ///< past the corrugation's end at 2.96 m and the solution zone's at 3 m [m]
+constexpr double kWay = 3.02;     ///< past the corrugation's end at 2.96 m and the solution zone's at 3 m [m]
 constexpr double kUsualRamp = 5;  ///< [ms]
 
 std::string title_of(const Passage& p) {
@@ -45,6 +45,8 @@ StudyPoint study_point(const Passage& p) {
   if (p.wavelength > 0) {
     vary("corrugation.wavelength", p.wavelength, " mm");
     vary("corrugation.depth", p.depth, " mm");
+    point.own.push_back(
+        {"corrugation.apply", "gap"});  // passages that differ in nothing else share their rolling
   }
   point.own.push_back({"motion.duration", fmt::format("{:.4g} ms", 1e3 * kWay / (p.speed / 3.6))});
   point.own.push_back({"scene.title", title_of(p)});
@@ -52,9 +54,15 @@ StudyPoint study_point(const Passage& p) {
 }
 
 std::string paper_scene() {
-  return "# What all passages of the paper have in common; `tread paper` varies the rest.\n[scene]\nbased_on "
-         "= "
-         "\"highspeed-slab-2014\"\nquality = \"draft\"\n";
+  return R"(# What all passages of the paper have in common; `tread paper` varies the rest.
+[scene]
+based_on = "highspeed-slab-2014"
+quality = "draft"
+precision = "mixed"
+
+[output]
+frames = 0
+)";
 }
 
 const FinishedRun* PassageRuns::find(const Passage& passage) const {

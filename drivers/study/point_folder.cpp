@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "drivers/machine.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/json_reader.hpp"
 #include "io/json_writer.hpp"
@@ -60,14 +61,23 @@ ExitCode exit_code(std::optional<double> code) {
   return ExitCode::resources;
 }
 
-/// Why the run in the folder is not that of the scene; empty where it is.
-std::string foreign_run(const fs::path& folder, const SceneContent& scene) {
-  const fs::path there = folder / "scene.resolved.toml";
+/// Of the run in the folder: why it is not that of the scene, and what it keeps.
+void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
   try {
-    return difference(scene, scene_content(resolve_scene(there)));
+    const ResolvedScene there = resolve_scene(folder / "scene.resolved.toml");
+    status.why = difference(scene, scene_content(there));
+    if (there.scene.forks) status.keeps_at = there.scene.forks->at;
   } catch (const InputError& error) {
-    return fmt::format("its scene does not read: {}", error.what());
+    status.why = fmt::format("its scene does not read: {}", error.what());
   }
+  status.foreign = !status.why.empty();
+}
+
+void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
+  JsonWriter json;
+  json.begin_object().member("exit", end.code).member("signal", end.signal);
+  json.member("why", std::string_view(why)).member("anew", leads_to_the_same_end(end));
+  write_text_file(folder / kFailure, json.end_object().text());
 }
 
 }  // namespace
@@ -93,10 +103,7 @@ PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
   const bool begun = checkpoints.has_order() || !checkpoints.states().empty();
   const bool finished = !begun && fs::exists(folder / "summary.json");
   const bool stated = fs::exists(folder / "scene.resolved.toml");
-  if (stated && (begun || finished)) {
-    status.why = foreign_run(folder, scene);
-    status.foreign = !status.why.empty();
-  }
+  if (stated && (begun || finished)) look_at_scene(folder, scene, status);
   if (finished) {
     status.state = PointState::done;
   } else if (fs::exists(folder / kFailure)) {
@@ -119,10 +126,12 @@ void note_end(const fs::path& folder, const ProcessEnd& end) {
     fs::remove(folder / kFailure, ignored);
     return;
   }
-  JsonWriter json;
-  json.begin_object().member("exit", end.code).member("signal", end.signal);
-  json.member("why", std::string_view(reason(folder, end))).member("anew", leads_to_the_same_end(end));
-  write_text_file(folder / kFailure, json.end_object().text());
+  write_failure(folder, end, reason(folder, end));
+}
+
+void note_failure(const fs::path& folder, ExitCode code, const std::string& why) {
+  make_directory(folder);
+  write_failure(folder, {static_cast<int>(code), 0}, why);
 }
 
 fs::path log_of(const fs::path& folder) {

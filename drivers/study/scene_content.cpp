@@ -11,9 +11,11 @@ namespace tread {
 namespace {
 
 bool matters(std::string_view path) {
-  constexpr std::array<std::string_view, 4> kIdle = {"scene.title", "output.progress_interval",
-                                                     "output.checkpoint_interval", "output.disk_limit"};
-  return !path.starts_with("stop.") && std::find(kIdle.begin(), kIdle.end(), path) == kIdle.end();
+  constexpr std::array<std::string_view, 5> kIdle = {"scene.title", "output.progress_interval",
+                                                     "output.checkpoint_interval", "output.disk_limit",
+                                                     "contact.depth_room"};
+  return !path.starts_with("stop.") && !path.starts_with("forks") &&
+         std::find(kIdle.begin(), kIdle.end(), path) == kIdle.end();
 }
 
 }  // namespace

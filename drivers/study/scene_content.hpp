@@ -9,8 +9,8 @@
 namespace tread {
 
 /// Values by key, and texts of files by their place, of everything that the results depend on: titles, and
-/// what concerns the process that runs the scene alone ([stop], intervals of progress and checkpoints), are
-/// left out.
+/// what concerns the process that runs the scene alone ([stop], intervals of progress and checkpoints), or
+/// the runs that begin with its state ([forks], the room for their corrugations), are left out.
 using SceneContent = std::map<std::string, std::string>;
 
 SceneContent scene_content(const ResolvedScene& resolved);

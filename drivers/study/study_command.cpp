@@ -12,6 +12,7 @@
 #include "drivers/plain_text.hpp"
 #include "drivers/progress.hpp"
 #include "drivers/run_folder.hpp"
+#include "drivers/study/shared_rolling.hpp"
 #include "drivers/study/study_runner.hpp"
 #include "io/json_writer.hpp"
 #include "io/output_file.hpp"
@@ -44,19 +45,21 @@ void mind_memory(StudyPlan& plan, const StudyOptions& options) {
 }
 
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
+  const std::string saved =
+      cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
   return fmt::format(
-      "{} run{} at once, {} thread{} each: about {} ({} one after the other), {} on the disk, {} of "
+      "{} run{} at once, {} thread{} each: about {} ({} one after the other{}), {} on the disk, {} of "
       "memory "
       "(the machine has {})",
       plan.jobs, plan.jobs == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s",
-      duration_text(cost.wall), duration_text(cost.seconds), bytes_text(cost.disk), bytes_text(cost.memory),
-      bytes_text(machine_memory()));
+      duration_text(cost.wall), duration_text(cost.seconds), saved, bytes_text(cost.disk),
+      bytes_text(cost.memory), bytes_text(machine_memory()));
 }
 
 std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
   JsonWriter json;
   json.begin_object().member("jobs", plan.jobs).member("threads", plan.threads);
-  json.member("wall_s", cost.wall).member("seconds", cost.seconds);
+  json.member("wall_s", cost.wall).member("seconds", cost.seconds).member("saved_seconds", cost.saved);
   json.member("disk_bytes", cost.disk).member("memory_bytes", cost.memory);
   json.key("points").begin_array();
   for (const PlannedPoint& point : plan.points) {
@@ -66,7 +69,9 @@ std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
       json.member("elements", point.cost->elements)
           .member("steps", point.cost->steps)
           .member("seconds", point.cost->seconds())
-          .member("disk_bytes", point.cost->disk.results);
+          .member("disk_bytes", point.cost->disk.results + point.cost->disk.frames);
+    const std::string begins = beginning_text(plan, point);
+    if (!begins.empty()) json.member("begins", std::string_view(begins));
     json.end_object();
   }
   return json.end_array().end_object().text();
@@ -108,6 +113,7 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
 }  // namespace
 
 void add_overrides(Study& study, const StudyOptions& options) {
+  if (options.no_share) study.share = false;
   const auto refuse_varied = [&](const std::string& text) {
     const std::string key = text.substr(0, text.find_first_of(" \t="));
     for (const StudyPoint& point : study.points)

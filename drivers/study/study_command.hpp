@@ -18,13 +18,15 @@ struct StudyOptions {
   int jobs = 0;                        ///< runs at once; 0: the study's, or as many as cores and memory allow
   int threads = 0;                     ///< of one run; 0: the study's, or 1
   bool retry = false;                  ///< failed points, too
+  bool no_share = false;               ///< every point rolls from the start
   bool list = false;                   ///< points and cost alone
   bool json = false;                   ///< instead of a table
   bool quiet = false;
   std::string command;  ///< as typed, for the report
 };
 
-/// Adds the options' overrides to the study. InputError where a point varies the same key.
+/// Adds the options' overrides to the study, and that nothing is shared. InputError where a point varies the
+/// same key.
 void add_overrides(Study& study, const StudyOptions& options);
 
 /// Checks the whole study, prints what it will cost, runs the points that are not done and calls `leave` with

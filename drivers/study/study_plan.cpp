@@ -13,9 +13,12 @@
 #include <tuple>
 #include <utility>
 
+#include "drivers/fork.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/plain_text.hpp"
+#include "drivers/preload_cache.hpp"
 #include "drivers/progress.hpp"
+#include "drivers/study/shared_rolling.hpp"
 #include "io/problems.hpp"
 
 namespace tread {
@@ -107,15 +110,23 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
 }
 
 /// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
-/// wheel goes its way.
-SceneContent model_content(const PlannedPoint& point) {
+/// wheel goes its way, and over what corrugation by gap.
+SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
   SceneContent content = point.content;
-  std::erase_if(content, [](const auto& entry) {
+  std::erase_if(content, [&](const auto& entry) {
     return entry.first == "motion.speed" || entry.first == "motion.duration" ||
-           entry.first.starts_with("motion.traction.");
+           entry.first.starts_with("motion.traction.") ||
+           (point.shared && entry.first.starts_with("corrugation"));
   });
+  if (point.shared) content["room"] = fmt::format("{}", plan.shared[*point.shared].room.value_or(0));
   if (const auto& motion = point.resolved.scene.motion)
     content["way"] = fmt::format("{:.3f} m", motion->speed * motion->duration);
+  return content;
+}
+
+SceneContent preload_content(const PlannedPoint& point) {
+  SceneContent content = point.content;
+  std::erase_if(content, [](const auto& entry) { return acts_on_rolling_alone(entry.first); });
   return content;
 }
 
@@ -133,6 +144,21 @@ Estimate prolonged(Estimate cost, double ratio) {
   cost.disk.rows = times(cost.disk.rows);
   cost.disk.results = times(cost.disk.results);
   return cost;
+}
+
+/// Takes from the costs what others compute: preloads that the cache will have, the rolling before a state.
+void subtract_shared(StudyPlan& plan) {
+  const bool cached = preload_cache("").has_value();
+  std::set<SceneContent> solved;
+  for (PlannedPoint& point : plan.points) {
+    if (!point.cost) continue;
+    const double before = point.cost->seconds();
+    const bool from_state = begins_with_state(plan, point);
+    if (from_state) point.cost->rolling_seconds *= 1 - plan.shared[*point.shared].until / duration_of(point);
+    const bool known = cached && !solved.insert(preload_content(point)).second;
+    if (from_state || known) point.cost->preload_seconds = 0;
+    point.saved_seconds = before - point.cost->seconds();
+  }
 }
 
 }  // namespace
@@ -167,6 +193,7 @@ StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
   problems.throw_if_any();
   refuse_doubles(plan, problems);
   problems.throw_if_any();
+  if (study.share) find_shared_rolling(plan);
   return plan;
 }
 
@@ -186,19 +213,28 @@ void look_into_folders(StudyPlan& plan) {
 void project_cost(StudyPlan& plan, bool retry) {
   use_threads({plan.threads, ""});
   PointProblems problems(plan.study);
-  std::map<SceneContent, const PlannedPoint*> built;
+  struct Built {
+    const PlannedPoint* point;
+    double before_corrugation;  ///< that a state is kept [m]
+  };
+  std::map<SceneContent, Built> known;
   for_each_point(plan, problems, [&](PlannedPoint& point) {
     if (!point.to_run(retry)) return;
-    const auto [first, is_new] = built.try_emplace(model_content(point), &point);
+    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point, 0});
+    Built& built = first->second;
     if (is_new) {
-      Model model(point.resolved.scene);
+      Model model(keeping_scene(plan, point));
+      if (point.shared) built.before_corrugation = -way_before(model, 0);
       point.cost = estimate(model);
-    } else if (const PlannedPoint& same = *first->second; same.cost) {
+    } else if (const PlannedPoint& same = *built.point; same.cost) {
       const bool rolls = duration_of(same) > 0;
       point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
     }
+    place_state(plan, point, built.before_corrugation);
   });
   problems.throw_if_any();
+  choose_keepers(plan, retry);
+  subtract_shared(plan);
 }
 
 StudyCost total_cost(const StudyPlan& plan) {
@@ -209,8 +245,10 @@ StudyCost total_cost(const StudyPlan& plan) {
   for (const PlannedPoint& point : plan.points) {
     if (!point.cost) continue;
     cost.seconds += point.cost->seconds();
-    longest = std::max(longest, point.cost->seconds());
-    cost.disk += point.cost->disk.results;
+    cost.saved += point.saved_seconds;
+    longest = std::max(longest, begins_with_state(plan, point) ? point.cost->seconds() + point.saved_seconds
+                                                               : point.cost->seconds());
+    cost.disk += point.cost->disk.results + point.cost->disk.frames;
     memory.push_back(point.cost->memory);
     checkpoints.push_back(point.cost->disk.checkpoints);
   }
@@ -235,6 +273,7 @@ Table plan_table(const StudyPlan& plan) {
                {"Time", Align::right},
                {"Disk", Align::right}},
               {}};
+  if (!plan.shared.empty()) table.columns.push_back({"Begins"});
   for (const PlannedPoint& point : plan.points) {
     std::vector<std::string> row = {point.name, name_of(point.status.state), "", "", "", ""};
     if (point.cost)
@@ -243,7 +282,8 @@ Table plan_table(const StudyPlan& plan) {
              grouped(point.cost->elements),
              grouped(point.cost->steps),
              duration_text(point.cost->seconds()),
-             bytes_text(point.cost->disk.results)};
+             bytes_text(point.cost->disk.results + point.cost->disk.frames)};
+    if (!plan.shared.empty()) row.push_back(beginning_text(plan, point));
     table.rows.push_back(std::move(row));
   }
   return table;

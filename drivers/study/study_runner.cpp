@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "drivers/interruption.hpp"
 #include "drivers/machine.hpp"
+#include "drivers/study/shared_rolling.hpp"
 #include "io/json_reader.hpp"
 #include "io/json_writer.hpp"
 
@@ -49,6 +50,8 @@ std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoi
   for (const std::string& text : point.overrides) arguments.insert(arguments.end(), {"--set", text});
   arguments.insert(arguments.end(), {"-o", point.folder.string(), "-t", threads});
   if (failed) arguments.emplace_back("--overwrite");
+  const std::vector<std::string> sharing = sharing_arguments(plan, point);
+  arguments.insert(arguments.end(), sharing.begin(), sharing.end());
   return arguments;
 }
 
@@ -58,22 +61,31 @@ StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& pro
 std::string StudyRunner::run(bool retry) {
   for (PlannedPoint& point : plan_->points)
     if (point.to_run(retry)) queue_.push_back(&point);
-  std::reverse(queue_.begin(), queue_.end());
   for (;;) {
     obey();
-    while (stopped_by_.empty() && !queue_.empty() &&
-           running_.size() < static_cast<std::size_t>(plan_->jobs)) {
-      PlannedPoint* point = queue_.back();
-      queue_.pop_back();
+    while (stopped_by_.empty() && running_.size() < static_cast<std::size_t>(plan_->jobs)) {
+      PlannedPoint* point = take_next();
+      if (!point) break;
       start(*point);
     }
     if (progress_->due(kShowInterval)) show();
-    if (running_.empty() && (queue_.empty() || !stopped_by_.empty())) break;
+    if (running_.empty()) break;
     std::this_thread::sleep_for(kLook);
     collect_ended();
   }
   show();
   return stopped_by_;
+}
+
+/// The first that waits for nobody; nullptr: none, now.
+PlannedPoint* StudyRunner::take_next() {
+  const auto next = std::find_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
+    return !waits_for_state(*plan_, *point);
+  });
+  if (next == queue_.end()) return nullptr;
+  PlannedPoint* point = *next;
+  queue_.erase(next);
+  return point;
 }
 
 void StudyRunner::start(PlannedPoint& point) {
@@ -111,6 +123,19 @@ void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
   const std::string time = duration_text(progress_->seconds() - running.started);
   const std::string why = point.status.why.empty() ? "" : ": " + point.status.why;
   progress_->say(fmt::format("[{}] {} after {}{}", point.name, name_of(point.status.state), time, why));
+  for (PlannedPoint* other : replace_keeper(*plan_, point)) {
+    if (std::erase(queue_, other) == 0) continue;
+    fail_with(point, *other);
+  }
+}
+
+/// The point would come to the same end as `keeper`, whose state it was to begin with.
+void StudyRunner::fail_with(const PlannedPoint& keeper, PlannedPoint& point) {
+  note_failure(point.folder, keeper.status.code,
+               fmt::format("not begun: up to {:.6g} ms it is the run of {}, which failed before: {}",
+                           1e3 * plan_->shared[*point.shared].until, keeper.name, keeper.status.why));
+  point.status = look_into(point.folder, point.content);
+  progress_->say(fmt::format("[{}] {}", point.name, point.status.why));
 }
 
 void StudyRunner::obey() {

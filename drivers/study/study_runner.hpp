@@ -11,9 +11,9 @@
 
 namespace tread {
 
-/// Runs what is to run: a point begins with `tread run`, goes on with `tread resume`. Owns the study's folder
-/// by `folder` and shows status.json there; obeys `tread ctl`. A stop, by signal or request, is passed to the
-/// children, which leave a checkpoint each.
+/// Runs what is to run: a point begins with `tread run`, with another one's state where rolling is shared,
+/// and goes on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys
+/// `tread ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
 class StudyRunner {
  public:
   StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress);
@@ -28,9 +28,11 @@ class StudyRunner {
     ChildProcess process;
     double started;  ///< on the progress' clock [s]
   };
+  PlannedPoint* take_next();
   void start(PlannedPoint& point);
   void collect_ended();
   void note_ended(const Running& running, const ProcessEnd& end);
+  void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
   void obey();
   void stop(const std::string& why);
   void show();
@@ -39,7 +41,7 @@ class StudyRunner {
   StudyPlan* plan_;
   const RunFolder* folder_;
   Progress* progress_;
-  std::vector<PlannedPoint*> queue_;  ///< the next one last
+  std::vector<PlannedPoint*> queue_;  ///< the next one first
   std::vector<Running> running_;
   std::string stopped_by_;
 };

@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/run_folder.hpp"
 #include "io/content_cache.hpp"
+#include "io/file_range_lock.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {
@@ -117,7 +121,54 @@ TEST_F(PreloadCache, TwoProcessesAtOnce) {
   expect_same_run(root_ / "one", root_ / "other");
   EXPECT_EQ(entries().size(), 1U);
   for (const fs::directory_entry& file : fs::directory_iterator(cache_))
-    EXPECT_EQ(file.path().extension(), ".h5") << file.path();
+    EXPECT_NE(file.path().extension(), ".part") << file.path();
+  EXPECT_TRUE(has(content_of(root_ / "one/summary.json"), "\"preload_cached\": true") !=
+              has(content_of(root_ / "other/summary.json"), "\"preload_cached\": true"));
+}
+
+/// The key of another scene is another claim; one that was killed claims nothing any more.
+TEST_F(PreloadCache, AProcessWaitsForTheOneThatSolvesItsPreload) {
+  ASSERT_EQ(call(run("known")), 0) << errors();
+  // The entry's name is the key's hash, which is all that a claim is about.
+  const fs::path entry = entries().front().path;
+  const std::uint64_t number = std::stoull(entry.stem().string(), nullptr, 16);
+  const fs::path hidden = cache_ / "hidden";
+  fs::rename(entry, hidden);
+  const pid_t holder = child([&] {
+    const auto claim = FileRangeLock::try_take(cache_ / "claims.lock", number);
+    std::ofstream(root_ / "held") << "x";
+    if (claim) ::pause();
+  });
+  ASSERT_TRUE(wait_until([&] { return fs::exists(root_ / "held"); }));
+  EXPECT_FALSE(FileRangeLock::try_take(cache_ / "claims.lock", number));
+  EXPECT_TRUE(FileRangeLock::try_take(cache_ / "claims.lock", number + 1));
+  EXPECT_EQ(call(run("elsewhere", "--set \"load.wheel_load=87 kN\"")), 0) << errors();
+  EXPECT_FALSE(has(errors(), "another process solves it")) << errors();
+
+  const pid_t waiting = start(run("waiting"));
+  ASSERT_TRUE(wait_until([&] { return has(errors(), "another process solves it"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_FALSE(has(errors(), "[step]")) << errors();
+  fs::rename(hidden, entry);
+  ::kill(holder, SIGKILL);
+  wait_for(holder);
+  EXPECT_EQ(wait_for(waiting), 0);
+  EXPECT_TRUE(found()) << errors();
+  expect_same_run(root_ / "known", root_ / "waiting");
+}
+
+TEST_F(PreloadCache, AStopIsObeyedWhileAnotherProcessSolves) {
+  ASSERT_EQ(call(run("known")), 0) << errors();
+  const fs::path entry = entries().front().path;
+  const auto claim =
+      FileRangeLock::try_take(cache_ / "claims.lock", std::stoull(entry.stem().string(), nullptr, 16));
+  ASSERT_TRUE(claim);
+  fs::remove(entry);
+  const pid_t waiting = start(run("stopped"));
+  ASSERT_TRUE(wait_until([&] { return has(errors(), "another process solves it"); }));
+  leave_request(root_ / "stopped", RunRequest::stop);
+  EXPECT_EQ(wait_for(waiting), 75);
+  EXPECT_TRUE(has(errors(), "stopped before the first step")) << errors();
 }
 
 TEST_F(PreloadCache, IsShownAndCleared) {

@@ -150,9 +150,33 @@ TEST(PaperFigures, EveryPassageIsAScene) {
   const StudyPlan plan = plan_study(study, "out");
   for (const PlannedPoint& point : plan.points) {
     const Scene& scene = point.resolved.scene;
-    EXPECT_NEAR(scene.motion->speed * scene.motion->duration, 3.05, 1e-2) << point.name;
+    EXPECT_NEAR(scene.motion->speed * scene.motion->duration, 3.02, 1e-2) << point.name;
     EXPECT_EQ(scene.quality, "draft");
   }
+}
+
+TEST(PaperFigures, PassagesAtOneSpeedAndTractionShareTheirRolling) {
+  Study study;
+  study.name = "test";
+  study.scene = "scene.toml";
+  study.scene_text = paper_scene();
+  Passage slower = corrugated();
+  slower.speed = 250;
+  Passage braking = corrugated();
+  braking.mu = -0.3;
+  for (const Passage& passage :
+       {smooth_rail(), corrugated(), corrugated(65), smooth_rail(250), slower, braking})
+    study.points.push_back(study_point(passage));
+  const StudyPlan plan = plan_study(study, "out");
+  ASSERT_EQ(plan.shared.size(), 2U);
+  std::set<std::vector<std::size_t>> groups;
+  for (const SharedRolling& group : plan.shared) {
+    groups.insert(group.points);
+    EXPECT_EQ(group.from_x, 2.4);
+    EXPECT_FALSE(group.room);
+  }
+  EXPECT_EQ(groups, (std::set<std::vector<std::size_t>>{{0, 1, 2}, {3, 4}}));
+  EXPECT_FALSE(plan.points[5].shared);
 }
 
 TEST(PaperFigures, EveryNumberBelongsToAFigureOrToNone) {

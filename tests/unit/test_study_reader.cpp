@@ -69,6 +69,8 @@ name = "free"
 motion.traction = { mu = 0, ramp = "1 ms" }
 )");
   EXPECT_EQ(names(study), (std::vector<std::string>{"mu=-0.2", "free"}));
+  EXPECT_TRUE(study.share);
+  EXPECT_FALSE(read("[study]\nscene = \"s.toml\"\nshare = false\n[grid]\na = [1]\n").share);
   ASSERT_EQ(study.points[1].varied.size(), 2U);
   EXPECT_EQ(study.points[1].varied[1].as_override(), "motion.traction.ramp=1 ms");
 }
@@ -100,6 +102,7 @@ TEST_F(StudyReader, RefusesWithPlaceAndReason) {
            {"[study]\nscenes = \"s\"\n", ":2:1: study.scenes: unknown key (did you mean study.scene?)"},
            {"[study]\nscene = 3\n", "study.scene: expected a text, got the number 3"},
            {head + "jobs = 0\n[grid]\na = [1]\n", ":3:1: study.jobs: expected a whole number from 1"},
+           {head + "share = 1\n[grid]\na = [1]\n", ":3:1: study.share: expected true or false"},
            {head + "[set]\na = [1]\n[grid]\nb = [1]\n", ":4:1: a: expected one value, got an array"},
            {head + "[set]\na = 1\n[grid]\na = [1]\n", ":4:1: a: it stands in [set] and is varied on line 6"},
            {head + "[[point]]\nname = \"x\"\n", "point: it varies nothing"},
