@@ -34,7 +34,8 @@ DiskUse disk_use(const Model& model, double dt) {
   const std::int64_t state =
       checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch);
   use.checkpoints = kAtOnce * state;
-  if (model.scene.forks) use.results += state;
+  if (model.scene.forks) use.forks = state;
+  use.results += use.forks;
   if (const auto frames = static_cast<std::int64_t>(frame_steps(model.scene.output.frames, steps).size())) {
     const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
     use.frames =

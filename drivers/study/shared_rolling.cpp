@@ -30,12 +30,6 @@ double usual_room(const Scene& scene) {
   return depth_room(with_forks);
 }
 
-bool can_share(const Scene& scene) {
-  if (!scene.motion || scene.motion->speed <= 0 || !scene.contact) return false;
-  if (scene.corrugation && scene.corrugation->apply != "gap") return false;
-  return !scene.contact->depth_room || deepest(scene) <= *scene.contact->depth_room;
-}
-
 /// Equal for points whose rolling is the same until their corrugations differ.
 SceneContent content_before(const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
@@ -98,6 +92,12 @@ void choose_keeper(StudyPlan& plan, const SharedRolling& group, bool retry) {
 
 }  // namespace
 
+bool can_share(const Scene& scene) {
+  if (!scene.motion || scene.motion->speed <= 0 || !scene.contact) return false;
+  if (scene.corrugation && scene.corrugation->apply != "gap") return false;
+  return !scene.contact->depth_room || deepest(scene) <= *scene.contact->depth_room;
+}
+
 void find_shared_rolling(StudyPlan& plan) {
   std::map<SceneContent, std::vector<std::size_t>> alike;
   for (std::size_t i = 0; i < plan.points.size(); ++i)
@@ -109,12 +109,15 @@ void find_shared_rolling(StudyPlan& plan) {
   }
 }
 
+std::optional<double> room_of(const StudyPlan& plan, const PlannedPoint& point) {
+  return point.shared ? plan.shared[*point.shared].room : std::nullopt;
+}
+
 Scene keeping_scene(const StudyPlan& plan, const PlannedPoint& point) {
   Scene scene = point.resolved.scene;
-  const SharedRolling* group = group_of(plan, point);
-  if (!group) return scene;
+  if (!can_share(scene)) return scene;
   scene.forks.emplace();
-  if (group->room) scene.contact->depth_room = group->room;
+  if (const auto room = room_of(plan, point)) scene.contact->depth_room = room;
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Points of a study that roll as one until their corrugations differ. [sweep.md, Shared rolling]
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,13 @@ namespace tread {
 /// another rail, another interval of the histories begins with the state.
 void find_shared_rolling(StudyPlan& plan);
 
-/// The point's scene as that of the run that keeps the state.
+/// Whether runs of the scene can begin with the state of another one, or keep it, for another corrugation.
+bool can_share(const Scene& scene);
+
+/// SharedRolling::room of the point.
+std::optional<double> room_of(const StudyPlan& plan, const PlannedPoint& point);
+
+/// The point's scene as that of a run that keeps a state, where it can.
 Scene keeping_scene(const StudyPlan& plan, const PlannedPoint& point);
 
 /// Fills SharedRolling::until where it is not known: the wheel is then `before` [m] from what tells the

@@ -116,9 +116,9 @@ SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
   std::erase_if(content, [&](const auto& entry) {
     return entry.first == "motion.speed" || entry.first == "motion.duration" ||
            entry.first.starts_with("motion.traction.") ||
-           (point.shared && entry.first.starts_with("corrugation"));
+           (can_share(point.resolved.scene) && entry.first.starts_with("corrugation"));
   });
-  if (point.shared) content["room"] = fmt::format("{}", plan.shared[*point.shared].room.value_or(0));
+  if (const auto room = room_of(plan, point)) content["room"] = fmt::format("{}", *room);
   if (const auto& motion = point.resolved.scene.motion)
     content["way"] = fmt::format("{:.3f} m", motion->speed * motion->duration);
   return content;
@@ -143,6 +143,7 @@ Estimate prolonged(Estimate cost, double ratio) {
   cost.rolling_seconds *= ratio;
   cost.disk.rows = times(cost.disk.rows);
   cost.disk.results = times(cost.disk.results);
+  cost.disk.forks = times(cost.disk.forks);
   return cost;
 }
 
@@ -157,6 +158,8 @@ void subtract_shared(StudyPlan& plan) {
     if (from_state) point.cost->rolling_seconds *= 1 - plan.shared[*point.shared].until / duration_of(point);
     const bool known = cached && !solved.insert(preload_content(point)).second;
     if (from_state || known) point.cost->preload_seconds = 0;
+    if (!point.keeps_state && !point.resolved.scene.forks)
+      point.cost->disk.results -= std::exchange(point.cost->disk.forks, 0);
     point.saved_seconds = before - point.cost->seconds();
   }
 }
@@ -224,7 +227,7 @@ void project_cost(StudyPlan& plan, bool retry) {
     Built& built = first->second;
     if (is_new) {
       Model model(keeping_scene(plan, point));
-      if (point.shared) built.before_corrugation = -way_before(model, 0);
+      if (model.contact) built.before_corrugation = -way_before(model, 0);
       point.cost = estimate(model);
     } else if (const PlannedPoint& same = *built.point; same.cost) {
       const bool rolls = duration_of(same) > 0;
