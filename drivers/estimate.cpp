@@ -11,10 +11,8 @@ namespace tread {
 
 namespace {
 
-// Measured on runs of the scenes in scenes/: 1.3 ... 1.45 and 2900 (tyre) ... 5400 (wheelset).
+// Measured on runs of the scenes in scenes/: 1.3 ... 1.45.
 constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
-constexpr double kPreloadApplications =
-    5000;  ///< time of a preload over that of one application of the stiffness
 
 double seconds_of(const std::function<void()>& force) {
   constexpr int kTimes = 5;
@@ -31,6 +29,17 @@ double seconds_of_one_force(const Model& model) {
   return seconds_of([&] { model.internal->internal_force(u.data(), u.data(), f.data()); });
 }
 
+/// A preload of a draft takes 378 iterations of conjugate gradients, each three applications of the
+/// stiffness, vectors and a coarse solution; that of a tyre on a block 120. [docs/performance.md, Mesh,
+/// preload, memory]
+double seconds_of_preload(const Model& model) {
+  constexpr double kOnFastenings = 4300;  ///< over one application of the stiffness
+  constexpr double kOnRigidGround = 1200;
+  constexpr double kRunIn = 4.5;  ///< [s]
+  const double applications = model.scene.fastenings ? kOnFastenings : kOnRigidGround;
+  return applications * seconds_of_one_force(model) + (model.scene.start() == "rolling" ? kRunIn : 0.0);
+}
+
 }  // namespace
 
 Estimate estimate(Model& model) {
@@ -40,7 +49,7 @@ Estimate estimate(Model& model) {
   Estimate e;
   e.elements = model.elements();
   e.memory = peak_bytes(model);
-  e.preload_seconds = kPreloadApplications * seconds_of_one_force(model);
+  e.preload_seconds = seconds_of_preload(model);
   e.disk = disk_use(model, 0);
   if (!model.scene.motion) return e;
   e.limit = step_limit(model);
