@@ -72,23 +72,9 @@ TEST_F(SharedRollingStudy, LeavesTheFilesOfRunsOfTheirOwn) {
   for (const char* fork : {"shallow", "deep"})
     EXPECT_TRUE(has(content_of(runs_ / fork / "summary.json"), "/smooth\"")) << fork;
   EXPECT_FALSE(has(content_of(root_ / "apart/deep/summary.json"), "/smooth\""));
-  EXPECT_EQ(content_of(runs_ / "sweep.csv").substr(0, 200),
-            content_of(root_ / "apart/sweep.csv").substr(0, 200));
   ASSERT_EQ(call(sweep("all.toml", runs_)), 0) << errors();
   EXPECT_FALSE(has(errors(), "] begins")) << errors();
   EXPECT_TRUE(has(errors(), "3 of 3 done")) << errors();
-}
-
-TEST_F(SharedRollingStudy, ListsWhoBeginsWithWhom) {
-  ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json")), 0) << errors();
-  const JsonRecord list = *parse_json(output(), JsonShape::nested);
-  EXPECT_TRUE(has(text_in(list, "points.0.begins"), "keeps the state at 1."));
-  EXPECT_TRUE(has(text_in(list, "points.1.begins"), "from smooth"));
-  EXPECT_LT(*number_in(list, "points.2.seconds"), 0.8 * *number_in(list, "points.0.seconds"));
-  EXPECT_GT(*number_in(list, "saved_seconds"), 0);
-  ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json --no-share")), 0) << errors();
-  EXPECT_FALSE(has(output(), "begins"));
-  EXPECT_EQ(number_in(*parse_json(output(), JsonShape::nested), "saved_seconds"), 0);
 }
 
 TEST_F(SharedRollingStudy, AKilledSweepGoesOn) {
@@ -130,6 +116,27 @@ TEST_F(SharedRollingStudy, WhereTheRollingFailsTheOthersAreNotTried) {
   EXPECT_FALSE(has(errors(), "] begins")) << errors();
   EXPECT_EQ(call(sweep("all.toml", runs_, "--retry")), 0) << errors();
   expect_same_runs();
+}
+
+/// Without runs.
+class SharedRollingList : public SharedRollingStudy {
+ protected:
+  static void SetUpTestSuite() {
+    make_root();
+    study("all.toml", kPoints);
+  }
+};
+
+TEST_F(SharedRollingList, ShowsWhoBeginsWithWhom) {
+  ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json")), 0) << errors();
+  const JsonRecord list = *parse_json(output(), JsonShape::nested);
+  EXPECT_TRUE(has(text_in(list, "points.0.begins"), "keeps the state at 1."));
+  EXPECT_TRUE(has(text_in(list, "points.1.begins"), "from smooth"));
+  EXPECT_LT(*number_in(list, "points.2.seconds"), 0.8 * *number_in(list, "points.0.seconds"));
+  EXPECT_GT(*number_in(list, "saved_seconds"), 0);
+  ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json --no-share")), 0) << errors();
+  EXPECT_FALSE(has(output(), "begins"));
+  EXPECT_EQ(number_in(*parse_json(output(), JsonShape::nested), "saved_seconds"), 0);
 }
 
 /// Which points are one run up to where; nothing runs.
