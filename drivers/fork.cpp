@@ -222,9 +222,21 @@ void require_same_past(const Fork& fork, const Model& model) {
                   fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs));
 }
 
-double way_before(const Model& model, double x) {
+double Approach::time(const MotionSpec& motion, double x) const {
+  const double torque = motion.traction_torque.value_or(0);
+  const double traction = std::abs(motion.traction_mu ? *motion.traction_mu * force : torque / wheel_radius);
+  const double acceleration = guided ? 0 : traction / mass;
+  const double way = x - before;
+  if (way <= 0 || motion.speed <= 0) return 0;
+  return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
+}
+
+Approach approach_of(const Model& model) {
   constexpr double kMargin = 0.02;  // [m]
-  return x - model.contact->reach() - kMargin;
+  const auto& vehicle = model.scene.vehicle;
+  return {model.contact->reach() + kMargin, model.wheel_load(),
+          model.wheelset->mass() + (vehicle ? vehicle->unsprung_mass : 0.0), model.wheel_radius(),
+          model.guide.has_value()};
 }
 
 std::optional<std::int64_t> fork_step(const Model& model, double dt) {
@@ -233,14 +245,13 @@ std::optional<std::int64_t> fork_step(const Model& model, double dt) {
   if (scene.forks->at) return steps_until(*scene.forks->at, dt);
   const Corrugation& corrugation = model.contact->corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
-  const double way = way_before(model, start);
-  const double speed = scene.motion->speed;
-  if (way < 0 || speed <= 0)
+  const double time = approach_of(model).time(*scene.motion, start);
+  if (time <= 0)
     throw InputError(fmt::format(
         "[forks]: at the start the patch is less than 20 mm from x = {:.4f} m, where the corrugation or the "
         "solution zone begins, or the wheel stands; state forks.at",
         start));
-  return steps_until(way / speed, dt);
+  return steps_until(time, dt);
 }
 
 }  // namespace tread

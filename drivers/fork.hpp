@@ -30,9 +30,20 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
 /// that begins, corrugated.
 void require_same_past(const Fork& fork, const Model& model);
 
-/// How far the wheel of a run with [forks] may have come when the state is kept for corrugations that differ
-/// from x [m] on [m]; may be negative. `model`: before the corrugation is applied, or with the deepest one.
-double way_before(const Model& model, double x);
+/// What tells when the wheel of a run with [forks] comes near a place.
+struct Approach {
+  double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
+  double force = 0;   ///< static wheel load [N]
+  double mass = 1;    ///< that traction accelerates [kg]
+  double wheel_radius = 1;  ///< [m]
+  bool guided = false;      ///< at constant speed
+
+  /// By which the wheel is surely not nearer, traction included; not positive where it begins nearer. [s]
+  double time(const MotionSpec& motion, double x) const;
+};
+
+/// `model`: before the corrugation is applied, or with the deepest one.
+Approach approach_of(const Model& model);
 
 /// Steps of length `dt` [s] after which the run keeps the state for its forks; nothing where the scene wants
 /// none. InputError where the corrugation begins too near for ForkSpec::at to be left out.

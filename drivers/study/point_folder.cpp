@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "drivers/machine.hpp"
+#include "drivers/sections.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/json_reader.hpp"
 #include "io/json_writer.hpp"
@@ -67,6 +68,7 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatu
     const ResolvedScene there = resolve_scene(folder / "scene.resolved.toml");
     status.why = difference(scene, scene_content(there));
     if (there.scene.forks) status.keeps_at = there.scene.forks->at;
+    status.room = depth_room(there.scene);
   } catch (const InputError& error) {
     status.why = fmt::format("its scene does not read: {}", error.what());
   }

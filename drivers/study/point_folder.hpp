@@ -29,6 +29,7 @@ struct PointStatus {
   bool anew = false;                    ///< of one that failed: its checkpoint leads to the same end
   bool foreign = false;                 ///< a run of another scene: `why` says what differs
   std::optional<double> keeps_at = {};  ///< forks.at of the run that stands there [s]
+  double room = 0;                      ///< for a corrugation of its forks [m]
 };
 
 /// Looks into the folder, which need not exist. A run that stands in it counts whoever began it, if its scene

@@ -46,14 +46,13 @@ SharedRolling group_from(const StudyPlan& plan, const std::vector<std::size_t>& 
   SharedRolling group;
   group.points = points;
   group.from_x = std::numeric_limits<double>::max();
-  double depth = 0;
   for (const std::size_t i : points) {
     const Scene& scene = plan.points[i].resolved.scene;
     if (!scene.corrugation) continue;
     group.from_x = std::min(group.from_x, corrugation_of(*scene.corrugation, 0).first());
-    depth = std::max(depth, deepest(scene));
+    group.deepest = std::max(group.deepest, deepest(scene));
   }
-  if (depth > usual_room(plan.points[points.front()].resolved.scene)) group.room = depth;
+  if (group.deepest > usual_room(plan.points[points.front()].resolved.scene)) group.room = group.deepest;
   return group;
 }
 
@@ -67,12 +66,14 @@ bool will_keep(const PlannedPoint& point) {
   return point.keeps_state && state != PointState::failed && state != PointState::done;
 }
 
-/// A state that an earlier study left serves as well, if it is not too late.
+/// A state that an earlier study left serves as well, if it is not too late and has room.
 void recognise_keepers(StudyPlan& plan, const SharedRolling& group) {
   constexpr double kRounding = 1 + 1e-12;
   for (const std::size_t i : group.points) {
     PlannedPoint& point = plan.points[i];
-    if (point.status.keeps_at && *point.status.keeps_at <= group.until * kRounding) point.keeps_state = true;
+    const PointStatus& status = point.status;
+    if (status.keeps_at && *status.keeps_at <= group.until * kRounding && status.room >= group.deepest)
+      point.keeps_state = true;
   }
 }
 
@@ -121,11 +122,11 @@ Scene keeping_scene(const StudyPlan& plan, const PlannedPoint& point) {
   return scene;
 }
 
-void place_state(StudyPlan& plan, const PlannedPoint& point, double before) {
+void place_state(StudyPlan& plan, const PlannedPoint& point, const Approach& approach) {
   if (!point.shared || plan.shared[*point.shared].until > 0) return;
   SharedRolling& group = plan.shared[*point.shared];
   const MotionSpec& motion = *point.resolved.scene.motion;
-  group.until = std::min((group.from_x - before) / motion.speed, motion.duration);
+  group.until = std::min(approach.time(motion, group.from_x), motion.duration);
   if (group.until > 0) return;
   const std::vector<std::size_t> alone = std::exchange(group.points, {});
   for (const std::size_t i : alone) plan.points[i].shared.reset();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/fork.hpp"
 #include "drivers/study/study_plan.hpp"
 
 namespace tread {
@@ -23,9 +24,9 @@ std::optional<double> room_of(const StudyPlan& plan, const PlannedPoint& point);
 /// The point's scene as that of a run that keeps a state, where it can.
 Scene keeping_scene(const StudyPlan& plan, const PlannedPoint& point);
 
-/// Fills SharedRolling::until where it is not known: the wheel is then `before` [m] from what tells the
+/// Fills SharedRolling::until where it is not known: the wheel is then still before what tells the
 /// corrugations apart. Leaves every point alone where the wheel begins nearer.
-void place_state(StudyPlan& plan, const PlannedPoint& point, double before);
+void place_state(StudyPlan& plan, const PlannedPoint& point, const Approach& approach);
 
 /// For every group that lacks it, makes the first of the points that begin anew the one that keeps the state,
 /// if another one does, too.

@@ -118,15 +118,19 @@ Figure curves_figure(const CurvesSpec& spec, const std::vector<FinishedRun>& all
   std::optional<Range> way;
   for (const CurvePanel& wanted : spec.panels) {
     std::vector<Series> curves;
-    std::transform(runs.begin(), runs.end(), std::back_inserter(curves),
-                   [&](const FinishedRun& run) { return series_of(run, wanted); });
+    for (const FinishedRun& run : runs) {
+      curves.push_back(series_of(run, wanted));
+      if (runs.size() > 1) curves.back().colour = static_cast<int>(curves.size()) - 1;
+    }
     for (const Series& curve : curves)
       if (!curve.x.empty()) {
         const Range range = {curve.x.front(), curve.x.back()};
         way = way ? united(*way, range) : range;
       }
-    if (wanted.limit)
-      for (const FinishedRun& run : runs) curves.push_back(limit_of(run, wanted));
+    for (std::size_t i = 0; wanted.limit && i < runs.size(); ++i) {
+      curves.push_back(limit_of(runs[i], wanted));
+      curves.back().colour = curves[i].colour;
+    }
     figure.panels.push_back(panel(wanted.y_label, std::move(curves), {}, wanted.height));
   }
   if (!way) return figure;
@@ -158,6 +162,7 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
             series.x.push_back(run.x);
             series.y.push_back(wanted.scale * *value);
           }
+        series.colour = static_cast<int>(curves.size());
         if (!series.x.empty()) curves.push_back(std::move(series));
       }
     if (!curves.empty()) figure.panels.push_back(panel(wanted.y_label, std::move(curves), {}, 180));

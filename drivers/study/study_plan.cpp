@@ -218,22 +218,22 @@ void project_cost(StudyPlan& plan, bool retry) {
   PointProblems problems(plan.study);
   struct Built {
     const PlannedPoint* point;
-    double before_corrugation;  ///< that a state is kept [m]
+    std::optional<Approach> approach;
   };
   std::map<SceneContent, Built> known;
   for_each_point(plan, problems, [&](PlannedPoint& point) {
     if (!point.to_run(retry)) return;
-    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point, 0});
+    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point, std::nullopt});
     Built& built = first->second;
     if (is_new) {
       Model model(keeping_scene(plan, point));
-      if (model.contact) built.before_corrugation = -way_before(model, 0);
+      if (model.contact) built.approach = approach_of(model);
       point.cost = estimate(model);
     } else if (const PlannedPoint& same = *built.point; same.cost) {
       const bool rolls = duration_of(same) > 0;
       point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
     }
-    place_state(plan, point, built.before_corrugation);
+    if (built.approach) place_state(plan, point, *built.approach);
   });
   problems.throw_if_any();
   choose_keepers(plan, retry);

@@ -42,6 +42,7 @@ struct PlannedPoint {
 struct SharedRolling {
   std::vector<std::size_t> points;  ///< of StudyPlan::points, in their order
   double from_x = 0;                ///< corrugations differ from there on [m]
+  double deepest = 0;               ///< corrugation [m]
   std::optional<double> room;       ///< contact.depth_room where the usual one is not enough [m]
   double until = 0;                 ///< a state is kept then; 0: not known [s]
 };

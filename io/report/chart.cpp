@@ -155,8 +155,13 @@ struct Layout {
   Scale x;
   double top = 0;     ///< of the panel [px]
   double bottom = 0;  ///< of the panel [px]
-  int first_colour = 0;
+  int first_series = 0;
 };
+
+/// Of the figure's curve with that number.
+std::string curve_style(const Series& series, int number) {
+  return fmt::format("curve c{} {}", series.colour.value_or(number) % kColours, stroke_class(series.stroke));
+}
 
 /// A window that clips what is drawn in it and leaves the coordinates as they are.
 std::string clipped(double top, double bottom, const std::string& content) {
@@ -168,10 +173,10 @@ std::string clipped(double top, double bottom, const std::string& content) {
 
 std::string curves_svg(const Panel& panel, const Layout& at, const Scale& y) {
   std::string svg;
-  int colour = at.first_colour;
+  int number = at.first_series;
   for (const Series& series : panel.series)
-    svg += fmt::format("<path class=\"curve c{} {}\" d=\"{}\"/>\n", colour++ % kColours,
-                       stroke_class(series.stroke), path_data(series, at.x, y));
+    svg += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", curve_style(series, number++),
+                       path_data(series, at.x, y));
   return clipped(at.top, at.bottom, svg);
 }
 
@@ -239,11 +244,10 @@ std::string legend_html(const Figure& figure) {
         style, html_text(text), output);
   };
   std::string html = "<span class=\"key at\"><output></output></span>\n";
-  int colour = 0;
+  int number = 0;
   for (const Panel& panel : figure.panels) {
     for (const Series& series : panel.series)
-      html += key(fmt::format("curve c{} {}", colour++ % kColours, stroke_class(series.stroke)), series.label,
-                  "<output></output>");
+      html += key(curve_style(series, number++), series.label, "<output></output>");
     for (const Marker& level : panel.levels)
       if (!level.label.empty()) html += key("level", level.label, "");
   }
@@ -315,7 +319,7 @@ Plot plot(const Figure& figure) {
     if (at.bottom > kTop) at.top = at.bottom + kGap;
     at.bottom = at.top + panel.height;
     panels += panel_svg(panel, at);
-    at.first_colour += static_cast<int>(panel.series.size());
+    at.first_series += static_cast<int>(panel.series.size());
   }
   return {x, at.bottom, bands_svg(figure, x, at.bottom) + panels + abscissa_svg(figure, x, at.bottom)};
 }
@@ -334,26 +338,58 @@ std::string figure_html(const Figure& figure) {
       drawn.x.value[1], kLeft, kWidth - kRight, drawn.shapes, caption);
 }
 
+namespace {
+
+struct Legend {
+  std::string svg;
+  double bottom;  ///< [px]
+};
+
+/// Below y: as many columns as the longest label leaves, one for each panel where that is enough.
+Legend legend_svg(const Figure& figure, double y) {
+  constexpr double kLine = 20;
+  constexpr double kLetter = 7;  ///< no letter is wider on the average [px]
+  constexpr double kLead = 46;
+  std::size_t longest = 1;
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series) longest = std::max(longest, series.label.size());
+  const double room = kWidth - kLeft - kRight;
+  const int fit = std::max(1, static_cast<int>(room / (kLead + kLetter * static_cast<double>(longest))));
+  const bool by_panel = static_cast<int>(figure.panels.size()) <= fit;
+  const int columns = by_panel ? std::max(1, static_cast<int>(figure.panels.size())) : fit;
+  Legend legend{"", y};
+  int number = 0;
+  for (int p = 0; p < static_cast<int>(figure.panels.size()); ++p) {
+    int row = 0;
+    for (const Series& series : figure.panels[static_cast<std::size_t>(p)].series) {
+      const int column = by_panel ? p : number % columns;
+      const double left = kLeft + room / columns * column;
+      const double base = y + kLine * (1 + (by_panel ? row++ : number / columns));
+      legend.bottom = std::max(legend.bottom, base);
+      legend.svg += fmt::format(
+          "<path class=\"{}\" d=\"M{:.0f} {:.0f}h26\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
+          curve_style(series, number++), left, base - 4, left + 34, base, svg_text(series.label));
+    }
+  }
+  return legend;
+}
+
+}  // namespace
+
 std::string figure_svg(const Figure& figure) {
   constexpr double kLine = 20;
   const Plot drawn = plot(figure);
   std::string head = fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" font-weight=\"bold\">{}</text>\n", kLeft,
                                  kLine, svg_text(figure.title));
-  double y = kLine;
-  int colour = 0;
-  for (const Panel& panel : figure.panels)
-    for (const Series& series : panel.series)
-      head += fmt::format(
-          "<path class=\"curve c{} {}\" d=\"M{:.0f} {:.0f}h26\"/><text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n",
-          colour++ % kColours, stroke_class(series.stroke), kLeft, (y += kLine) - 4, kLeft + 34, y,
-          svg_text(series.label));
-  const double height = y + drawn.bottom + kBottom;
+  const Legend legend = legend_svg(figure, kLine);
+  head += legend.svg;
+  const double height = legend.bottom + drawn.bottom + kBottom;
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}<g transform=\"translate(0 "
       "{4:.0f})\">\n{5}</g>\n"
       "</svg>\n",
-      kWidth, height, kReportStyle, head, y, drawn.shapes);
+      kWidth, height, kReportStyle, head, legend.bottom, drawn.shapes);
 }
 
 }  // namespace tread

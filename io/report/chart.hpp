@@ -18,6 +18,7 @@ struct Series {
   std::vector<double> x;  ///< in the unit of the figure's x label
   std::vector<double> y;  ///< as many, in the unit of the panel's label
   Stroke stroke = Stroke::solid;
+  std::optional<int> colour = {};  ///< for what is the same in several panels; absent: one of its own
 };
 
 /// A line across a panel at a value, or across all panels at an abscissa.

@@ -118,6 +118,25 @@ TEST_F(SharedRollingStudy, WhereTheRollingFailsTheOthersAreNotTried) {
   expect_same_runs();
 }
 
+/// A wheel under traction gets ahead of its first speed: by 90 mm on its way to the corrugation at 100 km/h.
+TEST(Approach, CountsTractionIn) {
+  const Approach approach{.before = 0.04, .force = 88e3, .mass = 926, .wheel_radius = 0.43};
+  MotionSpec motion;
+  motion.speed = 100 / 3.6;
+  EXPECT_NEAR(approach.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
+  motion.traction_mu = 0.3;
+  const double time = approach.time(motion, 2.4);
+  EXPECT_NEAR(motion.speed * time + 0.5 * 0.3 * 88e3 / 926 * time * time, 2.36, 1e-12);
+  EXPECT_LT(time, 0.97 * 2.36 / motion.speed);
+  EXPECT_EQ(approach.time(motion, 0.03), 0);
+  motion.traction_mu.reset();
+  motion.traction_torque = 0.3 * 88e3 * 0.43;
+  EXPECT_NEAR(approach.time(motion, 2.4), time, 1e-12);
+  Approach guided = approach;
+  guided.guided = true;
+  EXPECT_NEAR(guided.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
+}
+
 /// Without runs.
 class SharedRollingList : public SharedRollingStudy {
  protected:
@@ -187,6 +206,24 @@ TEST_F(SharedRollingPlan, NothingElseDoes) {
             Names{});
   const std::string two = waves("a", "0.02") + waves("b", "0.03");
   EXPECT_EQ(groups(two), Names{"a b"});
+}
+
+TEST_F(SharedRollingPlan, AStateOfAnotherStudyServesWhereItIsInTimeAndHasRoom) {
+  const auto keeps = [&](double at, double room) {
+    StudyPlan plan = plan_study(
+        read_study(program_.write(
+            "study.toml", fmt::format("[study]\nscene = \"{}\"\n[set]\nscene.element_size = \"10 mm\"\n{}",
+                                      kTyre, waves("a", "0.02") + waves("b", "0.03") + waves("c", "0.04")))),
+        program_.folder / "runs");
+    plan.points[2].status.state = PointState::interrupted;
+    plan.points[2].status.keeps_at = at;
+    plan.points[2].status.room = room;
+    project_cost(plan, false);
+    return plan.points[2].keeps_state;
+  };
+  EXPECT_TRUE(keeps(0.5e-3, 0.2e-3));
+  EXPECT_FALSE(keeps(1.9e-3, 0.2e-3));
+  EXPECT_FALSE(keeps(0.5e-3, 0.01e-3));
 }
 
 TEST_F(SharedRollingPlan, ADeepCorrugationNeedsRoomAndANearOneSharesNothing) {
