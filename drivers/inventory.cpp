@@ -156,7 +156,7 @@ std::vector<FieldInfo> fields(const Model& model) {
   };
   const bool motion = model.scene.motion.has_value();
   const bool wheel = model.wheelset.has_value();
-  add(true, {"coefficients", "m, Pa", "quad and pitch class; moved elements", model.internal->bytes()});
+  add(true, {"coefficients", "m, Pa", "quad and pitch class; moved node", model.internal->bytes()});
   add(moved_nodes(model) > 0,
       {"moved nodes", "m", "node on a chord or on the corrugation", kMapNode * moved_nodes(model)});
   add(true, {"mass", "kg, 1/kg", "node", bytes_of(model.mass) + bytes_of(model.inverse_mass)});
@@ -175,9 +175,8 @@ std::vector<FieldInfo> fields(const Model& model) {
   add(true, {"displacement", "m", "node", vector});
   add(motion && rounded(model),
       {"displacement in motion", "m", "node", 3 * model.mesh.slots * bytes.displacement});
-  add(motion && rounded(model),
-      {"rounded coefficients and mass", "m, Pa, 1/kg", "quad and pitch class; moved elements; node",
-       model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
+  add(motion && rounded(model), {"rounded coefficients and mass", "m, Pa, 1/kg", "quad and pitch class; node",
+                                 model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
   add(motion, {"velocity", "m/s", "node", 3 * model.mesh.slots * bytes.other});
   add(motion, {"force", "N", "node", 3 * model.mesh.slots * bytes.other});
   add(motion && model.contact, {"surface fields", "Pa, J/m2", "rail surface node",

@@ -161,16 +161,16 @@ SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const Hour
                                      const Material& material) {
   SweptConstants<Real> c{};
   const auto real = [](double value) { return static_cast<Real>(value); };
-  constexpr std::size_t kAlong[3] = {mode_xi, mode_h2, mode_h3};
+  constexpr std::size_t kAlong[4] = {mode_xi, mode_h2, mode_h3, mode_h4};
   constexpr std::size_t kAcross[3] = {mode_eta, mode_zeta, mode_h1};
   for (std::size_t m = 0; m < 3; ++m) {
     c.gradient_x[m] = real(geometry.gradient[kAlong[m]].x);
     c.gradient_y[m] = real(geometry.gradient[kAcross[m]].y);
     c.gradient_z[m] = real(geometry.gradient[kAcross[m]].z);
-    c.position_x[m] = real(geometry.position[mode_h2 + m].x);
+    c.position_y[m] = real(geometry.position[kAcross[m]].y);
+    c.position_z[m] = real(geometry.position[kAcross[m]].z);
   }
-  c.position_y = real(geometry.position[mode_h1].y);
-  c.position_z = real(geometry.position[mode_h1].z);
+  for (std::size_t m = 0; m < 4; ++m) c.position_x[m] = real(geometry.position[kAlong[m]].x);
   c.inverse_volume = real(1 / geometry.volume);
   c.lambda = real(material.lame_lambda() * geometry.volume);
   c.mu = real(material.shear_modulus() * geometry.volume);

@@ -70,19 +70,12 @@ struct SweptConstants {
   Real gradient_x[3];  ///< of xi, h2, h3 [1/m]
   Real gradient_y[3];  ///< of eta, zeta, h1 [1/m]
   Real gradient_z[3];
-  Real position_x[3];  ///< of h2, h3, h4 [m]
-  Real position_y;     ///< of h1 [m]
-  Real position_z;
+  Real position_x[4];  ///< of xi, h2, h3, h4 [m]
+  Real position_y[3];  ///< of eta, zeta, h1 [m]
+  Real position_z[3];
   Real lambda, mu;      ///< Lame's constants times the volume [N m]
   Real inverse_volume;  ///< [1/m3]
   HourglassConstants<Real> hourglass;
-};
-
-/// Position amplitudes of kLanes perturbed elements in their middle frames; the hourglass matrix and the
-/// material are those of the swept shape. Unused lanes repeat a used one. [m]
-template <class Real>
-struct LanePositions {
-  Real position[kModes][3][kLanes];
 };
 
 template <class Real>

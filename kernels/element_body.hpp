@@ -75,10 +75,10 @@ struct SweptElement {
     e.g[i][0] = x;
     e.g[i][1] = y;
     e.g[i][2] = z;
-    e.q[i][0] = a[mode_h1] - c.position_y * y - c.position_z * z;
+    e.q[i][0] = a[mode_h1] - c.position_y[2] * y - c.position_z[2] * z;
     for (int m = 1; m < kHourglassModes; ++m) {
       e.q[i][m] = a[mode_h1 + m];
-      if constexpr (sweep == Sweep::revolved) e.q[i][m] -= c.position_x[m - 1] * x;
+      if constexpr (sweep == Sweep::revolved) e.q[i][m] -= c.position_x[m] * x;
     }
   }
 
@@ -86,10 +86,10 @@ struct SweptElement {
   template <class V>
   TREAD_INLINE void forces(int i, const Strain<V>& f, V (&a)[kModes]) const {
     V x = f.g[i][0];
-    const V y = f.g[i][1] - c.position_y * f.q[i][0];
-    const V z = f.g[i][2] - c.position_z * f.q[i][0];
+    const V y = f.g[i][1] - c.position_y[2] * f.q[i][0];
+    const V z = f.g[i][2] - c.position_z[2] * f.q[i][0];
     if constexpr (sweep == Sweep::revolved)
-      x -= c.position_x[0] * f.q[i][1] + c.position_x[1] * f.q[i][2] + c.position_x[2] * f.q[i][3];
+      x -= c.position_x[1] * f.q[i][1] + c.position_x[2] * f.q[i][2] + c.position_x[3] * f.q[i][3];
     a[mode_xi] = c.gradient_x[0] * x;
     a[mode_h2] = f.q[i][1] + c.gradient_x[1] * x;
     a[mode_h3] = f.q[i][2] + c.gradient_x[2] * x;
@@ -109,46 +109,46 @@ struct SweptElement {
   }
 };
 
-/// a x b of two rows of vectors.
+/// a x b + c x d of rows of vectors.
 template <class V>
-TREAD_INLINE void cross_product(const V (&a)[3], const V (&b)[3], V (&result)[3]) {
-  result[0] = a[1] * b[2] - a[2] * b[1];
-  result[1] = a[2] * b[0] - a[0] * b[2];
-  result[2] = a[0] * b[1] - a[1] * b[0];
+TREAD_INLINE void add_products(const V (&a)[3], const V (&b)[3], const V (&c)[3], const V (&d)[3],
+                               V (&sum)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    sum[i] = a[j] * b[k] - a[k] * b[j] + c[j] * d[k] - c[k] * d[j];
+  }
 }
 
-/// Reads the positions of a tile's elements from `lane` on.
-template <class V, class Real>
-struct PositionsFrom {
-  const LanePositions<Real>& lanes;
-  int lane;
-
-  TREAD_INLINE V operator()(int m, int j) const {
-    V value;
-    __builtin_memcpy(&value, lanes.position[m][j] + lane, sizeof value);
-    return value;
-  }
-};
-
-/// Strains of perturbed elements, each lane with positions of its own: read(mode, component).
+/// Strains of elements that touch moved nodes, each lane with positions of its own: those of the swept shape
+/// and what the shifts of its nodes add, shift[component][mode]. [m]
 /// Gradients are formed here, as in element_geometry: reading them would cost more time than these products.
+/// The hourglass matrix and the material are those of the swept shape.
 template <class V, class Real>
 struct PerturbedElement {
   V position[kModes][3];
   V gradient[kGradientModes][3];
   V volume_ratio;  ///< by the volume of the swept shape
 
-  template <class Read>
-  TREAD_INLINE PerturbedElement(const Read& read, const SweptConstants<Real>& swept) {
+  TREAD_INLINE PerturbedElement(const SweptConstants<Real>& swept, const V (&shift)[3][kModes]) {
     for (int m = 0; m < kModes; ++m)
-      for (int j = 0; j < 3; ++j) position[m][j] = read(m, j);
-    const Real third = Real(1) / 3;
-    set_linear(mode_xi, third);
-    set_linear(mode_eta, third);
-    set_linear(mode_zeta, third);
-    set_hourglass(mode_xi, third);
-    set_hourglass(mode_eta, third);
-    set_hourglass(mode_zeta, third);
+      for (int j = 0; j < 3; ++j) position[m][j] = shift[j][m];
+    constexpr int kAcross[3] = {mode_eta, mode_zeta, mode_h1};
+    for (int m = 0; m < 3; ++m) {
+      position[kAcross[m]][1] += swept.position_y[m];
+      position[kAcross[m]][2] += swept.position_z[m];
+    }
+    constexpr int kAlong[4] = {mode_xi, mode_h2, mode_h3, mode_h4};
+    for (int m = 0; m < 4; ++m) position[kAlong[m]][0] += swept.position_x[m];
+    V thirds[3][3];
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j) thirds[k][j] = Real(1) / 3 * position[mode_h1 + k][j];
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3;
+      const int k2 = (k + 2) % 3;
+      add_products(position[k1], position[k2], position[mode_h1 + k2], thirds[k1], gradient[k]);
+      add_products(position[k2], thirds[k1], thirds[k2], position[k1], gradient[mode_h1 + k]);
+    }
     V triple = position[mode_xi][0] * gradient[mode_xi][0] + position[mode_h1][0] * gradient[mode_h1][0];
     for (int j = 1; j < 3; ++j)
       triple += position[mode_xi][j] * gradient[mode_xi][j] + position[mode_h1][j] * gradient[mode_h1][j];
@@ -189,27 +189,6 @@ struct PerturbedElement {
   }
 
   TREAD_INLINE V energy_in_volume(const V& work) const { return work * volume_ratio; }
-
- private:
-  /// Of xi, eta or zeta; the hourglass mode h_k has no gradient along xi_k.
-  TREAD_INLINE void set_linear(int k, Real third) {
-    const int k1 = (k + 1) % 3;
-    const int k2 = (k + 2) % 3;
-    V hourglass[3];
-    cross_product(position[k1], position[k2], gradient[k]);
-    cross_product(position[mode_h1 + k2], position[mode_h1 + k1], hourglass);
-    for (int j = 0; j < 3; ++j) gradient[k][j] += third * hourglass[j];
-  }
-
-  /// Of h1, h2 or h3.
-  TREAD_INLINE void set_hourglass(int k, Real third) {
-    const int k1 = (k + 1) % 3;
-    const int k2 = (k + 2) % 3;
-    V other[3];
-    cross_product(position[k2], position[mode_h1 + k1], gradient[mode_h1 + k]);
-    cross_product(position[mode_h1 + k2], position[k1], other);
-    for (int j = 0; j < 3; ++j) gradient[mode_h1 + k][j] = third * (gradient[mode_h1 + k][j] + other[j]);
-  }
 };
 
 /// Strain (xx, yy, zz, 2yz, 2zx, 2xy) of a displacement gradient: its symmetric part, or Green-Lagrange's.

@@ -67,14 +67,19 @@ Vec3 turned(const Vec3& v, double angle) {
   return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
 }
 
+template <class Real>
+void component_modes(int i, const Real (&s)[4][3], const Real (&d)[4][3], Real (&a)[kModes]) {
+  const Real sum[4] = {s[0][i], s[1][i], s[2][i], s[3][i]};
+  const Real difference[4] = {d[0][i], d[1][i], d[2][i], d[3][i]};
+  to_modes(sum, difference, a);
+}
+
 template <class Element, class Real>
 Strain<Real> element_strain(const Element& element, const Real (&s)[4][3], const Real (&d)[4][3]) {
   Strain<Real> result;
   for (int i = 0; i < 3; ++i) {
-    const Real sum[4] = {s[0][i], s[1][i], s[2][i], s[3][i]};
-    const Real difference[4] = {d[0][i], d[1][i], d[2][i], d[3][i]};
     Real a[kModes];
-    to_modes(sum, difference, a);
+    component_modes(i, s, d, a);
     element.strain(i, a, result);
   }
   return result;
@@ -99,7 +104,7 @@ void element_forces(const Element& element, const Strain<Real>& force, Real (&s)
 template <class Real>
 Real* front_of(const FrontPlan& plan) {
   thread_local AlignedVector<Real> front;
-  front.resize(std::max(front.size(), index(plan.slots) * kTilesAbreast * kFrontValues));
+  front.resize(std::max(front.size(), index(plan.slots) * kTilesAbreast * (kFrontValues + kShiftValues)));
   return front.data();
 }
 
@@ -170,79 +175,108 @@ template <class Real, class U>
 void BasicInternalForce<Real, U>::build_perturbed(int block) {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   BlockData& data = blocks_[index(block)];
-  data.perturbed_row.assign(swept.tiles.size(), -1);
+  data.row.assign(swept.tiles.size(), -1);
   if (swept.node_shift.empty()) return;
-
-  std::vector<std::vector<int>> quads_of_node(swept.section.p.size());
-  for (std::size_t quad = 0; quad < swept.section.quads.size(); ++quad)
-    for (const int node : swept.section.quads[quad])
-      quads_of_node[index(node)].push_back(static_cast<int>(quad));
-
-  const std::size_t quads = swept.section.quads.size();
-  const auto mark = [&](int tile, int node) {
-    if (tile < 0 || swept.tiles[index(tile)].elements == 0) return;
-    int& row = data.perturbed_row[index(tile)];
-    if (row < 0) {
-      row = static_cast<int>(data.perturbed.size() / quads);
-      data.perturbed.resize(data.perturbed.size() + quads, -1);
-    }
-    for (const int quad : quads_of_node[index(node)])
-      data.perturbed[index(row) * quads + index(data.place[index(quad)])] = 0;
-  };
-  for (const auto& [slot, shift] : swept.node_shift) {
-    const auto row = static_cast<int>(slot / kLanes);
-    const int tile = row / swept.section.nodes();
-    const int node = row % swept.section.nodes();
-    mark(tile, node);
-    if (slot % kLanes == 0) mark(data.previous[index(tile)], node);
-  }
-
+  mark_perturbed(block);
+  store_shifts(block);
   ElementFaults faults(swept);
-  for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
-    if (data.perturbed_row[index(tile)] < 0) continue;
-    const Tile& at = swept.tiles[index(tile)];
-    for (std::size_t place = 0; place < quads; ++place) {
-      int& entry = data.perturbed[index(data.perturbed_row[index(tile)]) * quads + place];
-      if (entry < 0) continue;
-      entry = static_cast<int>(data.lanes.size());
-      LanePositions<Real>& lanes = data.lanes.emplace_back();
-      const int quad = data.plan.quads[place].quad;
-      for (int lane = 0; lane < at.elements; ++lane) {
-        const Place element = locate(block, quad, at.first_station + lane);
-        const ElementGeometry shape = geometry(block, element);
-        faults.check(shape, quad, element.station);
-        for (std::size_t m = 0; m < kModes; ++m)
-          for (int j = 0; j < 3; ++j)
-            std::fill(lanes.position[m][j] + lane, lanes.position[m][j] + kLanes,
-                      static_cast<Real>(shape.position[m][j]));
-      }
-    }
-  }
+  for_each_element(block, [&](const Place& at) {
+    if (at.perturbed) faults.check(geometry(block, at), at.quad, at.station);
+  });
   faults.raise("reduce the shift of their nodes or make the elements larger");
 }
 
+/// Elements at moved nodes, and the nodes of such elements.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::mark_perturbed(int block) {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  BlockData& data = blocks_[index(block)];
+  const std::size_t quads = swept.section.quads.size();
+  const std::size_t nodes = swept.section.p.size();
+  std::vector<std::vector<int>> quads_of_node(nodes);
+  for (std::size_t quad = 0; quad < quads; ++quad)
+    for (const int node : swept.section.quads[quad])
+      quads_of_node[index(node)].push_back(static_cast<int>(quad));
+
+  const auto mark = [&](int tile, int node) {
+    int& row = data.row[index(tile)];
+    if (row < 0) {
+      row = static_cast<int>(data.perturbed.size() / quads);
+      data.perturbed.resize(data.perturbed.size() + quads, 0);
+      data.shifted.resize(data.shifted.size() + nodes, -1);
+    }
+    for (const int quad : quads_of_node[index(node)]) {
+      data.perturbed[index(row) * quads + index(data.place[index(quad)])] = 1;
+      for (const int corner : swept.section.quads[index(quad)])
+        data.shifted[index(row) * nodes + index(corner)] = 0;
+    }
+  };
+  for (const auto& [slot, shift] : swept.node_shift) {
+    const auto group = static_cast<int>(slot / kLanes);
+    const int tile = group / swept.section.nodes();
+    const int node = group % swept.section.nodes();
+    mark(tile, node);
+    if (slot % kLanes == 0 && data.previous[index(tile)] >= 0) mark(data.previous[index(tile)], node);
+  }
+}
+
+/// Tiles with the same shifts of a node share them: chords repeat along a ring, and what is read again and
+/// again stays in the caches.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::store_shifts(int block) {
+  constexpr double kSame = 1e-15;  ///< rounding of positions [m]
+  constexpr int kRemembered = 8;   ///< chords of n elements repeat every n tiles or sooner
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  BlockData& data = blocks_[index(block)];
+  const auto nodes = index(swept.section.nodes());
+  std::vector<std::vector<int>> stored(nodes);
+  data.shifts.assign(1, {});
+  const auto same = [](const LaneShifts<Real>& a, const LaneShifts<Real>& b) {
+    return std::equal(&a.shift[0][0], &a.shift[0][0] + 3 * kLanes, &b.shift[0][0],
+                      [](Real x, Real y) { return std::abs(x - y) <= static_cast<Real>(kSame); });
+  };
+  for (auto at = swept.node_shift.begin(); at != swept.node_shift.end();) {
+    const std::int64_t group = at->first / kLanes;
+    LaneShifts<Real> own{};
+    for (; at != swept.node_shift.end() && at->first / kLanes == group; ++at)
+      for (int i = 0; i < 3; ++i) own.shift[i][at->first % kLanes] = static_cast<Real>(at->second[i]);
+    const std::size_t node = static_cast<std::size_t>(group) % nodes;
+    auto& known = stored[node];
+    const auto last = known.end() - std::min<std::ptrdiff_t>(kRemembered, std::ssize(known));
+    auto found = std::find_if(last, known.end(), [&](int i) { return same(data.shifts[index(i)], own); });
+    if (found == known.end()) {
+      found = known.insert(known.end(), static_cast<int>(data.shifts.size()));
+      data.shifts.push_back(own);
+    }
+    data.shifted[index(data.row[static_cast<std::size_t>(group) / nodes]) * nodes + node] = *found;
+  }
+}
+
+template <class Real, class U>
+bool BasicInternalForce<Real, U>::perturbed(const BlockData& data, int tile, int place) const {
+  const int row = data.row[index(tile)];
+  return row >= 0 && data.perturbed[index(row) * data.plan.quads.size() + index(place)] != 0;
+}
+
 /// Two tiles that the loop takes at once lie behind one another in memory and along the sweep, the first is
-/// full, and their elements have the same coefficients or both their own. Which ones does not depend on the
+/// full, and their elements have the same shape or both their own. Which ones does not depend on the
 /// threads: displacements are rounded relative to one of the first tile's.
 template <class Real, class U>
 void BasicInternalForce<Real, U>::join_tiles(int block) {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   BlockData& data = blocks_[index(block)];
-  const std::size_t quads = swept.section.quads.size();
-  const auto perturbed = [&](std::size_t tile, std::size_t place) {
-    const int row = data.perturbed_row[tile];
-    return row >= 0 && data.perturbed[index(row) * quads + place] >= 0;
+  const auto joins = [&](int tile) {
+    const Tile& own = swept.tiles[index(tile)];
+    const Tile& next = swept.tiles[index(tile + 1)];
+    bool alike = own.next == tile + 1 && own.elements == kLanes && next.elements > 0 &&
+                 own.pitch_class == next.pitch_class;
+    for (int place = 0; alike && place < static_cast<int>(data.plan.quads.size()); ++place)
+      alike = perturbed(data, tile, place) == perturbed(data, tile + 1, place);
+    return alike && (tile == 0 || data.joins_next[index(tile - 1)] == 0);
   };
   data.joins_next.assign(swept.tiles.size(), 0);
-  for (std::size_t tile = 0; tile + 1 < swept.tiles.size(); ++tile) {
-    const Tile& own = swept.tiles[tile];
-    const Tile& next = swept.tiles[tile + 1];
-    bool alike = own.next == static_cast<int>(tile + 1) && own.elements == kLanes && next.elements > 0 &&
-                 own.pitch_class == next.pitch_class;
-    for (std::size_t place = 0; alike && place < quads; ++place)
-      alike = perturbed(tile, place) == perturbed(tile + 1, place);
-    data.joins_next[tile] = alike && (tile == 0 || data.joins_next[tile - 1] == 0);
-  }
+  for (int tile = 0; tile + 1 < static_cast<int>(swept.tiles.size()); ++tile)
+    data.joins_next[index(tile)] = joins(tile);
 }
 
 template <class Real, class U>
@@ -365,11 +399,17 @@ TileElements<Real> BasicInternalForce<Real, U>::tile_elements(const Item& item, 
   made_of.open = data.plan.open.data();
   made_of.close = data.plan.close.data();
   made_of.quad_count = static_cast<int>(data.plan.quads.size());
+  made_of.slots = data.plan.slots;
   made_of.swept = elements.constants.data();
-  for (int i = 0; i < tiles; ++i)
-    if (const int row = data.perturbed_row[index(item.tile + i)]; row >= 0)
-      made_of.perturbed[i] = data.perturbed.data() + index(row) * data.plan.quads.size();
-  made_of.lanes = data.lanes.data();
+  const int row = data.row[index(item.tile)];
+  if (row >= 0) made_of.perturbed = data.perturbed.data() + index(row) * data.plan.quads.size();
+  const auto shifted_of = [&](int of) {
+    const int its_row = data.row[index(of)];
+    return its_row < 0 ? nullptr : data.shifted.data() + index(its_row) * data.plan.close.size();
+  };
+  for (int i = 0; i < tiles; ++i) made_of.shifted[i] = shifted_of(item.tile + i);
+  made_of.shifted_next = shifted_of(mesh_.blocks[index(item.block)].tiles[index(item.tile + tiles - 1)].next);
+  made_of.shifts = data.shifts.data();
   made_of.beta = data.beta;
   made_of.cosine = elements.cosine;
   made_of.sine = elements.sine;
@@ -387,9 +427,7 @@ typename BasicInternalForce<Real, U>::Place BasicInternalForce<Real, U>::locate(
   at.station = station;
   at.place = data.place[index(quad)];
   at.pitch_class = swept.tiles[index(tile)].pitch_class;
-  at.lane = station - swept.tiles[index(tile)].first_station;
-  const int row = data.perturbed_row[index(tile)];
-  if (row >= 0) at.lanes = data.perturbed[index(row) * data.plan.quads.size() + index(at.place)];
+  at.perturbed = perturbed(data, tile, at.place);
   return at;
 }
 
@@ -398,7 +436,7 @@ HexNodes BasicInternalForce<Real, U>::element_nodes(int block, const Place& at) 
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const double pitch = swept.classes[index(at.pitch_class)].pitch;
   HexNodes nodes = swept_nodes(swept.section, at.quad, swept.sweep, pitch);
-  if (at.lanes < 0) return nodes;
+  if (!at.perturbed) return nodes;
   for (int node = 0; node < 8; ++node) {
     const int station = node < 4 ? at.station : far_station(swept, at.station);
     const auto shift =
@@ -412,73 +450,60 @@ HexNodes BasicInternalForce<Real, U>::element_nodes(int block, const Place& at) 
 
 template <class Real, class U>
 ElementGeometry BasicInternalForce<Real, U>::geometry(int block, const Place& at) const {
-  if (at.lanes >= 0) return element_geometry(element_nodes(block, at));
+  if (at.perturbed) return element_geometry(element_nodes(block, at));
   return blocks_[index(block)].classes[index(at.pitch_class)].geometry[index(at.place)];
 }
 
+/// As the loop reads it. [m]
 template <class Real, class U>
-Strain<Real> BasicInternalForce<Real, U>::strain(int block, const Place& at, const Real (&u)[8][3]) const {
+Real BasicInternalForce<Real, U>::shift(int block, int section_node, int station, int component) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
-  const ClassData& elements = data.classes[index(at.pitch_class)];
-  const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
-  Real s[4][3];
-  Real d[4][3];
+  const std::int64_t slot = swept.slot(section_node, station);
+  const int row = data.row[index(swept.tile_of_station[index(station)])];
+  const int entry =
+      row < 0 ? -1 : data.shifted[index(row) * index(swept.section.nodes()) + index(section_node)];
+  return entry < 0 ? 0 : data.shifts[index(entry)].shift[component][slot % kLanes];
+}
+
+/// Sums and differences of the values at both ends of an element, in its middle frame.
+template <class Real, class U>
+template <class Value>
+void BasicInternalForce<Real, U>::spread(int block, const Place& at, const Value& value, Real (&s)[4][3],
+                                         Real (&d)[4][3]) const {
+  const ClassData& elements = blocks_[index(block)].classes[index(at.pitch_class)];
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 3; ++i) {
-      s[j][i] = u[j][i] + u[j + 4][i];
-      d[j][i] = u[j + 4][i] - u[j][i];
+      s[j][i] = value(j, i) + value(j + 4, i);
+      d[j][i] = value(j + 4, i) - value(j, i);
     }
-    if (revolved)
+    if (mesh_.blocks[index(block)].sweep == Sweep::revolved)
       turn_to_middle(static_cast<Real>(elements.cosine), static_cast<Real>(elements.sine), s[j], d[j]);
   }
-  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
-  if (at.lanes >= 0)
-    return element_strain(PerturbedElement<Real, Real>(
-                              PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants),
-                          s, d);
-  if (revolved) return element_strain(SweptElement<Sweep::revolved, Real>{constants}, s, d);
-  return element_strain(SweptElement<Sweep::extruded, Real>{constants}, s, d);
 }
 
+/// visit(element), of the type that it has.
 template <class Real, class U>
-Strain<Real> BasicInternalForce<Real, U>::linear_forces(int block, const Place& at,
-                                                        const Strain<Real>& strain) const {
-  const BlockData& data = blocks_[index(block)];
-  const ClassData& elements = data.classes[index(at.pitch_class)];
+template <class Visit>
+void BasicInternalForce<Real, U>::with_element(int block, const Place& at, const Visit& visit) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const ClassData& elements = blocks_[index(block)].classes[index(at.pitch_class)];
   const SweptConstants<Real>& constants = elements.constants[index(at.place)];
-  Strain<Real> force;
-  stress_forces<false>(constants, strain, force);
-  if (at.lanes >= 0)
-    PerturbedElement<Real, Real>(PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants)
-        .scale_by_volume(force);
-  hourglass_forces(constants.hourglass, strain, force);
-  return force;
-}
-
-template <class Real, class U>
-void BasicInternalForce<Real, U>::nodal_forces(int block, const Place& at, const Strain<Real>& force,
-                                               Real (&f)[8][3]) const {
-  const BlockData& data = blocks_[index(block)];
-  const ClassData& elements = data.classes[index(at.pitch_class)];
-  const bool revolved = mesh_.blocks[index(block)].sweep == Sweep::revolved;
-  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
-  Real s[4][3];
-  Real d[4][3];
-  if (at.lanes >= 0)
-    element_forces(PerturbedElement<Real, Real>(
-                       PositionsFrom<Real, Real>{data.lanes[index(at.lanes)], at.lane}, constants),
-                   force, s, d);
-  else if (revolved)
-    element_forces(SweptElement<Sweep::revolved, Real>{constants}, force, s, d);
-  else
-    element_forces(SweptElement<Sweep::extruded, Real>{constants}, force, s, d);
-  for (int j = 0; j < 4; ++j) {
-    if (revolved)
-      turn_to_nodes(static_cast<Real>(elements.cosine), static_cast<Real>(elements.sine), s[j], d[j]);
-    for (int i = 0; i < 3; ++i) {
-      f[j][i] = s[j][i] - d[j][i];
-      f[j + 4][i] = s[j][i] + d[j][i];
-    }
+  if (at.perturbed) {
+    Real s[4][3];
+    Real d[4][3];
+    Real shifts[3][kModes];
+    const auto at_node = [&](int node, int i) {
+      return shift(block, swept.section.quads[index(at.quad)][index(node % 4)],
+                   node < 4 ? at.station : far_station(swept, at.station), i);
+    };
+    spread(block, at, at_node, s, d);
+    for (int i = 0; i < 3; ++i) component_modes(i, s, d, shifts[i]);
+    visit(PerturbedElement<Real, Real>(constants, shifts));
+  } else if (swept.sweep == Sweep::revolved) {
+    visit(SweptElement<Sweep::revolved, Real>{constants});
+  } else {
+    visit(SweptElement<Sweep::extruded, Real>{constants});
   }
 }
 
@@ -539,9 +564,15 @@ std::array<double, 6> BasicInternalForce<Real, U>::stress(int block, int quad, i
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);
+  Real sums[4][3];
+  Real differences[4][3];
+  spread(
+      block, at, [&](int node, int i) { return values[node][i]; }, sums, differences);
   Real e[6];
   Real s[6];
-  law_strain(blocks_[index(block)].finite_rotation, strain(block, at, values), e);
+  with_element(block, at, [&](const auto& element) {
+    law_strain(blocks_[index(block)].finite_rotation, element_strain(element, sums, differences), e);
+  });
   const Material& material = mesh_.blocks[index(block)].material(quad, at.pitch_class);
   point_stress(static_cast<Real>(material.lame_lambda()), static_cast<Real>(material.shear_modulus()), e, s);
   return {s[0], s[1], s[2], s[3], s[4], s[5]};
@@ -579,7 +610,7 @@ void BasicInternalForce<Real, U>::diagonal(double* d) const {
     std::vector<std::optional<std::array<double, 24>>> known(quads * swept.classes.size());
     for_each_element(block, [&](const Place& at) {
       std::array<double, 24> values;
-      if (at.lanes >= 0) {
+      if (at.perturbed) {
         values = diagonal_of(at);
       } else {
         auto& shared = known[index(at.pitch_class) * quads + index(at.quad)];
@@ -598,14 +629,31 @@ void BasicInternalForce<Real, U>::diagonal(double* d) const {
 
 template <class Real, class U>
 ElementStiffness BasicInternalForce<Real, U>::stiffness(int block, const Place& at) const {
+  const ClassData& elements = blocks_[index(block)].classes[index(at.pitch_class)];
+  const SweptConstants<Real>& constants = elements.constants[index(at.place)];
   ElementStiffness k;
-  for (int column = 0; column < 24; ++column) {
-    Real u[8][3] = {};
-    Real f[8][3];
-    u[column / 3][column % 3] = 1;
-    nodal_forces(block, at, linear_forces(block, at, strain(block, at, u)), f);
-    for (int row = 0; row < 24; ++row) k[index(row)][index(column)] = f[row / 3][row % 3];
-  }
+  with_element(block, at, [&](const auto& element) {
+    for (int column = 0; column < 24; ++column) {
+      Real s[4][3];
+      Real d[4][3];
+      spread(
+          block, at, [&](int node, int i) { return Real(3 * node + i == column); }, s, d);
+      const Strain<Real> strain = element_strain(element, s, d);
+      Strain<Real> force;
+      stress_forces<false>(constants, strain, force);
+      element.scale_by_volume(force);
+      hourglass_forces(constants.hourglass, strain, force);
+      element_forces(element, force, s, d);
+      for (int j = 0; j < 4; ++j) {
+        if (mesh_.blocks[index(block)].sweep == Sweep::revolved)
+          turn_to_nodes(static_cast<Real>(elements.cosine), static_cast<Real>(elements.sine), s[j], d[j]);
+        for (int i = 0; i < 3; ++i) {
+          k[index(3 * j + i)][index(column)] = s[j][i] - d[j][i];
+          k[index(3 * (j + 4) + i)][index(column)] = s[j][i] + d[j][i];
+        }
+      }
+    }
+  });
   return k;
 }
 
@@ -652,8 +700,8 @@ ElementFrequency BasicInternalForce<Real, U>::max_frequency(int block) const {
   std::vector<bool> seen(quads * swept.classes.size(), false);
   for_each_element(block, [&](const Place& at) {
     const std::size_t shared = index(at.pitch_class) * quads + index(at.quad);
-    if (at.lanes < 0 && seen[shared]) return;
-    if (at.lanes < 0) seen[shared] = true;
+    if (!at.perturbed && seen[shared]) return;
+    if (!at.perturbed) seen[shared] = true;
     candidates.push_back(at);
   });
   std::vector<double> omega(candidates.size());
@@ -677,7 +725,7 @@ std::int64_t BasicInternalForce<Real, U>::perturbed_elements() const {
 template <class Real, class U>
 std::int64_t BasicInternalForce<Real, U>::perturbed_elements(int block) const {
   std::int64_t count = 0;
-  for_each_element(block, [&](const Place& at) { count += at.lanes >= 0; });
+  for_each_element(block, [&](const Place& at) { count += at.perturbed; });
   return count;
 }
 
@@ -686,8 +734,8 @@ std::int64_t BasicInternalForce<Real, U>::bytes() const {
   std::size_t sum = 0;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     const BlockData& data = blocks_[block];
-    sum += data.lanes.size() * sizeof(LanePositions<Real>) + data.perturbed.size() * sizeof(int) +
-           carries_[block].size() * sizeof(Real);
+    sum += data.shifts.size() * sizeof(LaneShifts<Real>) + data.shifted.size() * sizeof(int) +
+           data.perturbed.size() + carries_[block].size() * sizeof(Real);
     for (const ClassData& elements : data.classes)
       sum += elements.constants.size() * (sizeof(SweptConstants<Real>) + sizeof(ElementGeometry));
   }

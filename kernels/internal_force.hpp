@@ -15,9 +15,6 @@
 
 namespace tread {
 
-template <class V>
-struct Strain;
-
 /// Rows and columns [3 node + component]: element nodes as in kernels/element.hpp, components in the nodes'
 /// local bases. [N/m]
 using ElementStiffness = std::array<std::array<double, 24>, 24>;
@@ -95,7 +92,7 @@ class BasicInternalForce {
   ElementFrequency max_frequency() const;
   ElementFrequency max_frequency(int block) const;
 
-  /// Elements with coefficients of their own (whole lanes of a tile's quad), of all blocks or of one.
+  /// Elements whose shape is their own (whole lanes of a tile's quad), of all blocks or of one.
   std::int64_t perturbed_elements() const;
   std::int64_t perturbed_elements(int block) const;
 
@@ -125,9 +122,10 @@ class BasicInternalForce {
     std::vector<ClassData> classes;
     std::vector<int> previous;              ///< tile whose last element ends in this tile, or -1
     std::vector<unsigned char> joins_next;  ///< by tile: the loop takes the tile behind it along if it can
-    std::vector<int> perturbed_row;         ///< by tile: row of `perturbed`, or -1
-    std::vector<int> perturbed;             ///< [row][place]: index into `lanes`, or -1
-    AlignedVector<LanePositions<Real>> lanes;
+    std::vector<int> row;                   ///< by tile: of what follows, or -1: no moved node near
+    std::vector<unsigned char> perturbed;   ///< [row][place]: elements touch moved nodes
+    std::vector<int> shifted;               ///< [row][section node]: index into `shifts`, or -1
+    AlignedVector<LaneShifts<Real>> shifts;
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
     double beta = 0;  ///< [s]
@@ -139,8 +137,7 @@ class BasicInternalForce {
     int station = 0;
     int place = 0;
     int pitch_class = 0;
-    int lane = 0;
-    int lanes = -1;  ///< index into BlockData::lanes, or -1
+    bool perturbed = false;
   };
   struct Moved {
     const BasicTimeUpdate<Real, U>* update = nullptr;  ///< null: nothing moves
@@ -158,13 +155,18 @@ class BasicInternalForce {
 
   void build_swept(int block);
   void build_perturbed(int block);
+  void mark_perturbed(int block);
+  void store_shifts(int block);
   void join_tiles(int block);
+  bool perturbed(const BlockData& data, int tile, int place) const;
+  Real shift(int block, int section_node, int station, int component) const;
+  template <class Value>
+  void spread(int block, const Place& at, const Value& value, Real (&s)[4][3], Real (&d)[4][3]) const;
+  template <class Visit>
+  void with_element(int block, const Place& at, const Visit& visit) const;
   Place locate(int block, int quad, int station) const;
   HexNodes element_nodes(int block, const Place& at) const;
   ElementGeometry geometry(int block, const Place& at) const;
-  Strain<Real> strain(int block, const Place& at, const Real (&u)[8][3]) const;
-  Strain<Real> linear_forces(int block, const Place& at, const Strain<Real>& strain) const;
-  void nodal_forces(int block, const Place& at, const Strain<Real>& force, Real (&f)[8][3]) const;
   void gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const;
   ElementStiffness stiffness(int block, const Place& at) const;
   double frequency(int block, const Place& at) const;

@@ -80,6 +80,13 @@ inline void shift_nodes(SweptBlock& block, double size, double share = 0.2, unsi
                                                        size * value(random)};
 }
 
+/// Gives every node the shift of the one `period` stations before it; those of the first period stay.
+inline void repeat_shifts(SweptBlock& block, int period) {
+  for (int station = period; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node)
+      block.node_shift[block.slot(node, station)] = block.node_shift[block.slot(node, station - period)];
+}
+
 /// Calls visit(block, section node, station, slot in the mesh) for every node.
 template <class Visit>
 void for_each_node(const Mesh& mesh, const Visit& visit) {

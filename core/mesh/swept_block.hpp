@@ -62,7 +62,7 @@ struct SweptBlock {
 
   /// Displacement of nodes from their swept position, in their local basis [m], by slot relative to `base`
   /// (corrugation by moved nodes; interface nodes that lie on the chords of a coarser block). Elements that
-  /// touch a shifted node carry coefficients of their own.
+  /// touch a shifted node have a shape of their own.
   std::map<std::int64_t, Vec3> node_shift;
 
   std::int64_t slots() const { return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes; }

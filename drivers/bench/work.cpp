@@ -42,9 +42,11 @@ double element_flops(const ElementVariant& variant) {
   const SweptConstants<Counted> constants{};
   const std::int64_t before = Counted::operations();
   if (variant.perturbed) {
-    const LanePositions<Counted> lanes{};
-    run_element<finite_rotation>(
-        PerturbedElement<Counted, Counted>(PositionsFrom<Counted, Counted>{lanes, 0}, constants), constants);
+    const Counted s[kCorners] = {};
+    const Counted d[kCorners] = {};
+    Counted shift[3][kModes] = {};
+    for (auto& component : shift) to_modes(s, d, component);
+    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(constants, shift), constants);
   } else if (variant.sweep == Sweep::revolved) {
     run_element<finite_rotation>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
   } else {
@@ -54,16 +56,18 @@ double element_flops(const ElementVariant& variant) {
 }
 
 /// Of a node of the section and one element along the sweep: sum and difference of its ends, their forces,
-/// the sum with the neighbour's.
+/// the sum with the neighbour's; sum and difference of its shifts.
 double node_flops(const ElementVariant& variant) {
   double flops = kComponents * (2 + 2 + 1);
   if (variant.damped) flops += kComponents * 2;
+  if (variant.perturbed) flops += kComponents * 2;
   if (variant.sweep == Sweep::extruded) return flops;
   Counted s[3] = {};
   Counted d[3] = {};
   const std::int64_t before = Counted::operations();
   turn_to_middle(Counted(1), Counted(0), s, d);
   turn_to_nodes(Counted(1), Counted(0), s, d);
+  if (variant.perturbed) turn_to_middle(Counted(1), Counted(0), s, d);
   return flops + static_cast<double>(Counted::operations() - before);
 }
 
@@ -84,7 +88,9 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
     const int others = variant.damped ? 3 : 2;  // force, fetched and written; velocity
     work.bytes = kComponents * (bytes.displacement + others * bytes.other) * slots;
   }
-  if (variant.perturbed) work.bytes += int{kModes} * kComponents * bytes.other + sizeof(int) / double{kLanes};
+  // The shift of every node, and which one it is; of every quad, that it has some.
+  if (variant.perturbed)
+    work.bytes += (kComponents * bytes.other + sizeof(int) / double{kLanes}) * slots + 1 / double{kLanes};
   return work;
 }
 

@@ -20,7 +20,7 @@ struct ElementVariant {
   Sweep sweep = Sweep::extruded;
   bool damped = false;
   bool finite_rotation = false;
-  bool perturbed = false;  ///< coefficients by element
+  bool perturbed = false;  ///< touches moved nodes
   bool moves = false;      ///< its nodes move in the same pass
 };
 

@@ -56,6 +56,13 @@ struct TileView {
   std::ptrdiff_t stride = 0;  ///< from a tile's vector fields to those of the tile behind it in memory
 };
 
+/// How far the stations of a node lie from their swept places, in their own bases; unused lanes hold zeros.
+/// [m]
+template <class Real>
+struct LaneShifts {
+  Real shift[3][kLanes];
+};
+
 /// What the elements of a tile are made of, in the order of the plan's quads.
 template <class Real>
 struct TileElements {
@@ -63,20 +70,26 @@ struct TileElements {
   const FrontPlan::Node* open = nullptr;
   const FrontPlan::Node* close = nullptr;
   int quad_count = 0;
+  int slots = 0;  ///< of the front
   const SweptConstants<Real>* swept = nullptr;
-  /// By tile, both alike: index into `lanes` or -1; null if all are swept.
-  const int* perturbed[kTilesAbreast] = {};
-  const LanePositions<Real>* lanes = nullptr;
-  double beta = 0;    ///< stiffness-proportional damping [s]
-  double cosine = 1;  ///< of half the pitch (revolved)
+  /// Whether elements touch moved nodes, the same in all tiles; null if none does.
+  const unsigned char* perturbed = nullptr;
+  /// By tile and section node: index into `shifts`, or -1 if no such element is at the node.
+  const int* shifted[kTilesAbreast] = {};
+  const int* shifted_next = nullptr;  ///< of the tile that holds the last element's far station; null: 0
+  const LaneShifts<Real>* shifts = nullptr;  ///< the first one is zero
+  double beta = 0;                           ///< stiffness-proportional damping [s]
+  double cosine = 1;                         ///< of half the pitch (revolved)
   double sine = 0;
 };
 
 /// Values of kLanes per tile and node of the front: sum and difference of the displacements, and of the
-/// forces.
+/// forces; then, for all nodes, of the shifts.
 inline constexpr int kFrontValues = 12 * kLanes;
+inline constexpr int kShiftValues = 6 * kLanes;
 
-/// `front` is scratch of plan.slots * kTilesAbreast * kFrontValues values aligned to 64 bytes.
+/// `front` is scratch of plan.slots * kTilesAbreast * (kFrontValues + kShiftValues) values aligned to 64
+/// bytes.
 template <class Real, class U>
 using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front);
 

@@ -225,17 +225,46 @@ class TileLoop {
     return u;
   }
 
-  /// Sums and differences of a node's displacements at both ends of the elements, in their middle frames.
+  /// Opens a node in the front.
   TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
+    Real* const slot = corner(node.slot, 0);
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node.node) * 3 * kLanes;
+    spread(
+        slot, [&](int i, int part) { return displacement(at + i * kLanes, i, part); },
+        [&](int i) { return far_displacement(at + i * kLanes, i); });
+    for (int value = 6 * kAbreast; value < 12 * kAbreast; value += kWidth) store(slot + value, Register{});
+    if (elements_.perturbed != nullptr && elements_.shifted[0][node.node] >= 0) open_shift(node);
+  }
+
+  TREAD_INLINE void open_shift(const FrontPlan::Node& node) const {
+    const LaneShifts<Real>* tile[kTilesAbreast] = {};
+    for (int i = 0; i < kTiles; ++i)
+      tile[i] = elements_.shifts + (i < view_.tiles ? elements_.shifted[i][node.node] : 0);
+    const int next = elements_.shifted_next != nullptr ? elements_.shifted_next[node.node] : 0;
+    const LaneShifts<Real>& far = elements_.shifts[next > 0 ? next : 0];
+    spread(
+        shift_corner(node.slot, 0),
+        [&](int i, int part) {
+          if constexpr (kWidth <= kLanes)
+            return load<Register>(tile[0]->shift[i] + part * kWidth);
+          else
+            return abreast(load<Half>(tile[0]->shift[i]), load<Half>(tile[1]->shift[i]));
+        },
+        [&](int i) { return far.shift[i][0]; });
+  }
+
+  /// Sums and differences of a node's values at both ends of the elements, in their middle frames:
+  /// near_end(component, part) at the stations, far_end(component) behind the last element.
+  template <class Near, class Far>
+  TREAD_INLINE void spread(Real* to, const Near& near_end, const Far& far_end) const {
     Register s[kParts][3];
     Register d[kParts][3];
     for (int i = 0; i < 3; ++i) {
-      const std::ptrdiff_t at = (static_cast<std::ptrdiff_t>(node.node) * 3 + i) * kLanes;
       Register near[kParts + 1];
       Register far[kParts];
-      for (int part = 0; part < kParts; ++part) near[part] = displacement(at, i, part);
+      for (int part = 0; part < kParts; ++part) near[part] = near_end(i, part);
       near[kParts] = Register{};
-      near[kParts][0] = far_displacement(at, i);
+      near[kParts][0] = far_end(i);
       if (count_ == kAbreast) [[likely]] {
         for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
       } else {
@@ -249,14 +278,11 @@ class TileLoop {
         d[part][i] = far[part] - near[part];
       }
     }
-    Real* slot = corner(node.slot, 0);
-    for (int part = 0; part < kParts; ++part, slot += kWidth) {
+    for (int part = 0; part < kParts; ++part, to += kWidth) {
       if constexpr (sweep == Sweep::revolved) turn_to_middle(cosine(), sine(), s[part], d[part]);
       for (int i = 0; i < 3; ++i) {
-        store(slot + i * kAbreast, s[part][i]);
-        store(slot + (3 + i) * kAbreast, d[part][i]);
-        store(slot + (6 + i) * kAbreast, Register{});
-        store(slot + (9 + i) * kAbreast, Register{});
+        store(to + i * kAbreast, s[part][i]);
+        store(to + (3 + i) * kAbreast, d[part][i]);
       }
     }
   }
@@ -331,29 +357,18 @@ class TileLoop {
     }
   }
 
-  /// Positions of the elements in the lanes from `lane` on.
-  struct Positions {
-    const LanePositions<Real>* tile[kTilesAbreast];
-    int lane;
-
-    TREAD_INLINE Register operator()(int m, int j) const {
-      if constexpr (kWidth <= kLanes)
-        return load<Register>(tile[0]->position[m][j] + lane);
-      else
-        return abreast(load<Half>(tile[0]->position[m][j]), load<Half>(tile[1]->position[m][j]));
-    }
-  };
-
   /// visit(lane, element) for the elements of a quad from that lane on.
   template <class Visit>
   TREAD_INLINE void with_elements(int index, const Visit& visit) const {
     const SweptConstants<Real>& constants = elements_.swept[index];
-    if (elements_.perturbed[0] != nullptr && elements_.perturbed[0][index] >= 0) {
-      Positions positions{};
-      for (int tile = 0; tile < kTiles; ++tile)
-        positions.tile[tile] = elements_.lanes + elements_.perturbed[tile < view_.tiles ? tile : 0][index];
-      for (positions.lane = 0; positions.lane < kAbreast; positions.lane += kWidth)
-        visit(positions.lane, PerturbedElement<Register, Real>(positions, constants));
+    if (elements_.perturbed != nullptr && elements_.perturbed[index] != 0) {
+      for (int lane = 0; lane < kAbreast; lane += kWidth) {
+        Register shift[3][kModes];
+        const FrontPlan::Quad& quad = elements_.quads[index];
+        for (int i = 0; i < 3; ++i)
+          amplitudes([&](int j) { return shift_corner(quad.slot[j], lane) + i * kAbreast; }, shift[i]);
+        visit(lane, PerturbedElement<Register, Real>(constants, shift));
+      }
     } else {
       for (int lane = 0; lane < kAbreast; lane += kWidth) visit(lane, SweptElement<sweep, Real>{constants});
     }
@@ -364,19 +379,30 @@ class TileLoop {
     return front_ + static_cast<std::ptrdiff_t>(slot) * kTiles * kFrontValues + lane;
   }
 
+  TREAD_INLINE Real* shift_corner(int slot, int lane) const {
+    return corner(elements_.slots, lane) + static_cast<std::ptrdiff_t>(slot) * kTiles * kShiftValues;
+  }
+
+  /// Modal amplitudes of a component whose sums at the quad's corners stand at `sums(corner)`, and whose
+  /// differences three rows behind.
+  template <class Sums>
+  TREAD_INLINE void amplitudes(const Sums& sums, Register (&a)[kModes]) const {
+    Register s[4];
+    Register d[4];
+    for (int j = 0; j < 4; ++j) {
+      s[j] = load<Register>(sums(j));
+      d[j] = load<Register>(sums(j) + 3 * kAbreast);
+    }
+    to_modes(s, d, a);
+  }
+
   template <class Element>
   TREAD_INLINE Strain<Register> deformation(const FrontPlan::Quad& quad, int lane,
                                             const Element& element) const {
     Strain<Register> strain;
     for (int i = 0; i < 3; ++i) {
-      Register s[4];
-      Register d[4];
       Register a[kModes];
-      for (int j = 0; j < 4; ++j) {
-        s[j] = load<Register>(corner(quad.slot[j], lane) + i * kAbreast);
-        d[j] = load<Register>(corner(quad.slot[j], lane) + (3 + i) * kAbreast);
-      }
-      to_modes(s, d, a);
+      amplitudes([&](int j) { return corner(quad.slot[j], lane) + i * kAbreast; }, a);
       element.strain(i, a, strain);
     }
     return strain;

@@ -60,6 +60,9 @@ std::vector<Case> cases() {
     list.push_back(list[i]);
     samples::shift_nodes(list.back().block, 1e-3);
   }
+  list.push_back({"revolved closed, repeating shifts", samples::revolved_closed(48)});
+  samples::shift_nodes(list.back().block, 1e-3);
+  samples::repeat_shifts(list.back().block, 6);
   return list;
 }
 
@@ -210,6 +213,21 @@ TEST(InternalForceLanes, UnusedOnesStayZero) {
     EXPECT_EQ(f[i], 0);
   }
   EXPECT_GT(unused, 0);
+}
+
+TEST(InternalForceShifts, AreStoredOnceWhereTilesRepeat) {
+  const auto bytes = [](const SweptBlock& block) {
+    Mesh mesh;
+    mesh.add(block);
+    return InternalForce(mesh).bytes();
+  };
+  SweptBlock ring = samples::revolved_closed(48);
+  samples::shift_nodes(ring, 1e-3, 1);
+  const std::int64_t all = bytes(ring);
+  samples::repeat_shifts(ring, 6);
+  // 48 stations in 6 tiles; 6 stations repeat after 3 of them.
+  const auto shifts = static_cast<std::int64_t>(sizeof(LaneShifts<double>)) * ring.section.nodes();
+  EXPECT_EQ(all - bytes(ring), 3 * shifts);
 }
 
 TEST(InternalForceDamping, ActsOnDisplacementPlusBetaVelocity) {

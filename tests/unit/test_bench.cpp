@@ -48,12 +48,12 @@ TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   EXPECT_LT(plain.flops, 350);
   EXPECT_GT(turning.flops, plain.flops);
   EXPECT_GT(perturbed.flops, 1.5 * plain.flops);
-  // Displacement in, force fetched and out, velocity in with damping: 24 B a slot each; seven positions an
-  // element.
+  // Displacement in, force fetched and out, velocity in with damping: 24 B a slot each; a shift
+  // and its index a node, a mark a quad.
   const double slots = static_cast<double>(block.slots()) / static_cast<double>(block.elements());
   EXPECT_DOUBLE_EQ(plain.bytes, 72 * slots);
   EXPECT_DOUBLE_EQ(damped.bytes, 96 * slots);
-  EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 7 * 24 + 0.5);
+  EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 24.5 * slots + 0.125);
   EXPECT_DOUBLE_EQ(element_work({}, block, {4, 4}).bytes, 36 * slots);
 }
 
