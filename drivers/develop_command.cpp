@@ -25,11 +25,12 @@ void leave(const DevelopmentFolder& folder, const Development& development, cons
 }
 
 std::string passage_text(const Development& development) {
-  const WornPassage& last = development.passages.back();
-  return fmt::format(
-      "[develop] passage {} stands for {:.4g}: range of the profile {:.4g} um before, {:.4g} um after",
-      development.passages.size(), last.passages, 1e6 * last.profile.range(),
-      1e6 * development.profile.range());
+  std::string text = fmt::format("[develop] passage {} stands for {:.4g}", development.passages.size(),
+                                 development.passages.back().passages);
+  if (const std::optional<BandOutcome> band = deepest(outcome(development)))
+    text += fmt::format("; waves of {:g} mm: {:.4g} um at the start, {:.4g} um now", 1e3 * band->wavelength,
+                        1e6 * band->before, 1e6 * band->after);
+  return text;
 }
 
 }  // namespace

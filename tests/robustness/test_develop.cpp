@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 using namespace samples;
 
 const std::string kCorrugation =
-    "[corrugation]\nkind = \"random\"\nrms = \"2 um\"\nshortest = \"32 mm\"\nlongest = \"60 mm\"\n"
-    "start = \"0.1 m\"\nlength = \"60 mm\"\napply = \"gap\"\n";
-const std::string kWear = "[wear]\nshortest = \"32 mm\"\nlongest = \"60 mm\"\n";
+    "[corrugation]\nkind = \"random\"\nrms = \"2 um\"\nshortest = \"32 mm\"\nlongest = \"72 mm\"\n"
+    "start = \"0.1 m\"\nlength = \"72 mm\"\napply = \"gap\"\n";
+const std::string kWear = "[wear]\nshortest = \"32 mm\"\nlongest = \"72 mm\"\n";
 
 class Develop : public ProgramTest {
  protected:
@@ -35,7 +35,7 @@ class Develop : public ProgramTest {
                              const std::string& more = "") {
     std::ofstream(root_ / "scene.toml") << content_of(kTyre) << tables;
     return fmt::format(
-        "develop {} --passages {} -o {} --set \"scene.element_size=8 mm\" --set \"motion.duration=2.2 ms\" "
+        "develop {} --passages {} -o {} --set \"scene.element_size=8 mm\" --set \"motion.duration=2.4 ms\" "
         "{}",
         (root_ / "scene.toml").string(), passages, folder.string(), more);
   }
@@ -60,7 +60,7 @@ TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
   EXPECT_EQ(number_in(result, "passages"), 2);
   EXPECT_GT(number_in(result, "real_passages"), 1);
   EXPECT_GT(number_in(result, "even_wear_m_per_passage"), 1e-11);
-  EXPECT_EQ(number_in(result, "bands.0.wavelength_m"), 0.05);
+  EXPECT_EQ(number_in(result, "bands.0.wavelength_m"), 0.04);
   EXPECT_FALSE(content_of(whole / "profiles/0000.txt") == content_of(whole / "profiles/0001.txt"));
   // Of the runs those stay that others begin with, and the last.
   EXPECT_TRUE(fs::exists(whole / "passage-0000/forks"));
@@ -102,8 +102,8 @@ TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kWear, "the scene has no [corrugation]");
   expect_refused(kCorrugation + kWear, "state \"gap\"", "--set corrugation.apply=nodes");
   expect_refused(kCorrugation + kWear, "is below 4 elements, 32 mm", "--set \"wear.shortest=31 mm\"");
-  expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=61 mm\"");
-  expect_refused(kCorrugation + kWear, "motion.duration must be 2.16 ms", "--set \"motion.duration=2 ms\"");
+  expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=73 mm\"");
+  expect_refused(kCorrugation + kWear, "motion.duration must be 2.304 ms", "--set \"motion.duration=2 ms\"");
   expect_refused(kCorrugation + kWear, "not shorter than the longest", "--set \"wear.longest=32 mm\"");
   expect_refused(kCorrugation + kWear, "has an effect only with corrugation.kind = \"sine\" or \"random\"",
                  "--set corrugation.kind=table");

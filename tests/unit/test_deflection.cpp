@@ -16,8 +16,12 @@ double hollow(double from_wheel) {
 }
 
 TEST(Deflection, IsReadAboutTheWheel) {
-  const SweptBlock rail = make_swept_block("rail", Sweep::extruded, rectangle(-0.03, 0.03, 2, -0.05, 0, 1),
-                                           {Material{}}, -1, {{400, 5e-3, 0}});
+  Section section = rectangle(-0.03, 0.03, 2, -0.05, 0, 1);
+  for (int node = 0; node < section.nodes(); ++node)
+    if (section.q[static_cast<std::size_t>(node)] == 0) section.surface.push_back({0, {node, node}});
+  ASSERT_EQ(section.surface.size(), 3U);
+  const SweptBlock rail =
+      make_swept_block("rail", Sweep::extruded, section, {Material{}}, -1, {{400, 5e-3, 0}});
   RailLine line(rail, 0.004);
   std::vector<double> u(static_cast<std::size_t>(3 * (rail.base + rail.slots())), 0.0);
   const auto press = [&](double wheel, double behind) {

@@ -62,11 +62,12 @@ TEST(Wear, WavesOfTheBandPassUnchangedAndNothingElseDoes) {
   });
   EXPECT_NEAR(mean_work(work, kFlat, kBand), kMean, 1e-3 * kMean);
   const std::vector<double> uneven = uneven_work(work, kFlat, kBand);
+  // Where the ends fade, waves have parts outside of the band: 3 % of the amplitude is missed inside.
   for (std::size_t i = 0; i < uneven.size(); ++i) {
     const double x = kFlat.x(i);
     const double inside = std::min(x - kStart, kStart + kLength - x);
-    if (inside > 0.12) {
-      EXPECT_NEAR(uneven[i], amplitude * wave(x, 0.08, 0.7), 0.03 * amplitude) << x;
+    if (inside > kBand.longest) {
+      EXPECT_NEAR(uneven[i], amplitude * wave(x, 0.08, 0.7), 0.04 * amplitude) << x;
     }
   }
   EXPECT_NEAR(uneven.front(), 0, 1e-9);
