@@ -111,7 +111,7 @@ std::vector<BandOutcome> outcome(const Development& development) {
   const std::vector<GrowthBand> now = development.bands_now();
   const double rate = development.plan.per_work;
   const double wear = rate * development.mean_work();
-  const double deepest_before = first.empty() ? 0 : first[deepest_band(first)].depth;
+  const GrowthBand* deepest_before = deepest_band(first);
   std::vector<BandOutcome> bands;
   for (std::size_t i = 0; i < first.size(); ++i) {
     BandOutcome band;
@@ -124,7 +124,8 @@ std::vector<BandOutcome> outcome(const Development& development) {
     band.per_wear = band.first_growth / wear;
     band.lag = first[i].lag();
     band.coherence = first[i].coherence;
-    band.telling = band.before >= kTellingDepth * deepest_before && band.coherence >= kTellingCoherence;
+    band.telling =
+        band.before >= kTellingDepth * deepest_before->depth && band.coherence >= kTellingCoherence;
     bands.push_back(band);
   }
   return bands;

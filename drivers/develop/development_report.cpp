@@ -104,14 +104,15 @@ Table passage_table(const Development& d) {
   Table table{"Passages",
               {{"Passage", Align::right},
                {"Stands for", Align::right},
-               {"Range of the profile [µm]", Align::right},
+               {"Depth of the deepest band, rms [µm]", Align::right},
                {"Range of the work that wears [J/m²]", Align::right}},
               {}};
   for (std::size_t i = 0; i < d.passages.size(); ++i) {
     const WornPassage& passage = d.passages[i];
     const WornProfile uneven{0, 0, passage.uneven};
+    const GrowthBand* band = deepest_band(passage.bands);
     table.rows.push_back({std::to_string(i + 1), readable(passage.passages, 3),
-                          readable(1e6 * passage.profile.range()), readable(uneven.range())});
+                          band ? readable(1e6 * band->depth) : "–", readable(uneven.range())});
   }
   return table;
 }
@@ -184,14 +185,14 @@ std::string development_json(const Development& d) {
 
 Table growth_table(const Development& d) {
   Table table{"",
-              {{"Wavelength [mm]", Align::right},
+              {{"Wave [mm]", Align::right},
                {"Depth before [µm]", Align::right},
-               {"after [µm]", Align::right},
-               {"Growth per 10⁶ passages: profiles", Align::right},
+               {"after", Align::right},
+               {"Growth per 10⁶: profiles", Align::right},
                {"first work", Align::right},
                {"last work", Align::right},
-               {"per mm of even wear", Align::right},
-               {"Work past the trough [waves]", Align::right},
+               {"per mm worn", Align::right},
+               {"Past trough [waves]", Align::right},
                {"Coherence", Align::right}},
               {}};
   for (const BandOutcome& b : outcome(d)) {
@@ -263,11 +264,13 @@ Report development_report(const Development& d, const Scene& scene, const std::s
   report.chapters.push_back(
       {"Growth",
        {key_figures(d), Text{verdict(d)}, growth_figure(d), growth_table(d),
-        Text{"* too little of these waves in the profile, or too little of the work explained by them, to "
-             "tell. "
-             "Bands are one-third octaves; the logarithm's growth per passage is the real part of work over "
-             "depth "
-             "times the volume worn off per work; profiles also fade at the ends of the stretch."}}});
+        Text{"Depth: root mean square in one-third octave bands. Growth: of its logarithm, in a million real "
+             "passages, "
+             "by the profiles before and after and by the work of a passage; per millimetre of even wear. "
+             "Past "
+             "trough: where the work is largest as the wheel rolls. Profiles also fade at the ends of the "
+             "stretch. "
+             "* too little of these waves in the profile, or of the work explained by them, to tell."}}});
   report.chapters.push_back({"Profile", {profile_figure(d), spectrum_figure(d), passage_table(d)}});
   Chapter work{"Frictional work", {work_figure(d, 0)}};
   if (d.passages.size() > 1) work.blocks.emplace_back(work_figure(d, d.passages.size() - 1));

@@ -99,10 +99,10 @@ std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWo
   return bands;
 }
 
-std::size_t deepest_band(const std::vector<GrowthBand>& bands) {
+const GrowthBand* deepest_band(const std::vector<GrowthBand>& bands) {
   const auto deepest = std::max_element(
       bands.begin(), bands.end(), [](const GrowthBand& a, const GrowthBand& b) { return a.depth < b.depth; });
-  return static_cast<std::size_t>(deepest - bands.begin());
+  return deepest == bands.end() ? nullptr : &*deepest;
 }
 
 }  // namespace tread

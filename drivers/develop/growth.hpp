@@ -26,7 +26,7 @@ struct GrowthBand {
 std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWork& uneven,
                                      const WearBand& band);
 
-/// The band whose depth is largest; they may not be empty.
-std::size_t deepest_band(const std::vector<GrowthBand>& bands);
+/// The band whose depth is largest; nullptr: there is none.
+const GrowthBand* deepest_band(const std::vector<GrowthBand>& bands);
 
 }  // namespace tread

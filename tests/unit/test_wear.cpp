@@ -111,8 +111,9 @@ TEST(Growth, TheResponseIsFoundWithItsPhase) {
   const std::vector<GrowthBand> bands = growth_bands(profile, work, kBand);
   ASSERT_EQ(bands.size(), 8U);  // 160 to 31.5 mm
   EXPECT_EQ(bands.front().wavelength, 0.16);
-  const std::size_t deepest = deepest_band(bands);
-  EXPECT_EQ(bands[deepest].wavelength, 0.08);
+  ASSERT_NE(deepest_band(bands), nullptr);
+  EXPECT_EQ(deepest_band(bands)->wavelength, 0.08);
+  EXPECT_EQ(deepest_band({}), nullptr);
   for (const GrowthBand& band : bands) {
     if (band.wavelength != 0.08 && band.wavelength != 0.04) continue;
     EXPECT_NEAR(std::abs(band.response - response), 0, 0.02 * std::abs(response)) << band.wavelength;
