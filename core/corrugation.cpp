@@ -6,9 +6,56 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <utility>
 
 namespace tread {
+
+namespace {
+
+double range_with_zero(const std::vector<double>& depth) {
+  const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
+  return std::max(*high, 0.0) - std::min(*low, 0.0);
+}
+
+/// The same numbers on every machine, unlike the library's distributions.
+double random_phase(std::mt19937_64& source) {
+  return 2 * std::numbers::pi * std::ldexp(static_cast<double>(source() >> 11U), -53);
+}
+
+/// Places along the rail for depths whose shortest wave is given [m].
+std::vector<double> places(double length, double shortest) {
+  constexpr double kSamples = 20;  // of a wave: joined by cubics
+  const auto pieces = static_cast<std::size_t>(std::ceil(kSamples * length / shortest));
+  std::vector<double> x;
+  for (std::size_t i = 0; i <= pieces; ++i)
+    x.push_back(length * static_cast<double>(i) / static_cast<double>(pieces));
+  return x;
+}
+
+std::vector<double> random_depths(const Corrugation::Random& random, double length) {
+  const std::vector<double> x = places(length, random.shortest);
+  std::vector<double> depth(x.size(), 0.0);
+  std::mt19937_64 source(random.seed);
+  const double turn = 2 * std::numbers::pi / length;
+  const auto first = static_cast<int>(std::ceil(length / random.longest - 1e-9));
+  const auto last = static_cast<int>(std::floor(length / random.shortest + 1e-9));
+  const double amplitude = random.rms * std::sqrt(2.0 / std::max(1, last - first + 1));
+  for (int wave = first; wave <= last; ++wave) {
+    const double phase = random_phase(source);
+    for (std::size_t i = 0; i < x.size(); ++i) depth[i] += amplitude * std::cos(turn * wave * x[i] + phase);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) depth[i] *= end_taper(x[i], length, 0.5 * random.longest);
+  return depth;
+}
+
+}  // namespace
+
+double end_taper(double x, double length, double fade) {
+  const double inside = std::min(x, length - x);
+  if (inside >= fade) return 1;
+  return inside <= 0 ? 0 : 0.5 * (1 - std::cos(std::numbers::pi * inside / fade));
+}
 
 Corrugation::Corrugation(Sine sine, double start, double length, double centre, double width)
     : sine_(sine),
@@ -25,7 +72,7 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
       last_(start + x.back()),
       centre_(centre),
       width_(width),
-      deepest_(*std::max_element(depth.begin(), depth.end())),
+      deepest_(range_with_zero(depth)),
       x_(std::move(x)),
       depth_(std::move(depth)) {
   for (double& at : x_) at += start;
@@ -41,6 +88,11 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
   // secants.
   for (std::size_t i = 1; i < n; ++i)
     steepest_ = std::max(steepest_, 2 * std::abs(depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]));
+}
+
+Corrugation Corrugation::rough(const Random& random, double start, double length, double centre,
+                               double width) {
+  return {places(length, random.shortest), random_depths(random, length), start, centre, width};
 }
 
 double Corrugation::profile(double x) const {

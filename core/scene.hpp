@@ -128,17 +128,29 @@ struct MotionSpec {
 
 /// [corrugation]
 struct CorrugationSpec {
-  std::string kind = "sine";        ///< "sine" (eqs. 6 and 7) or "table"
+  std::string kind = "sine";        ///< "sine" (eqs. 6 and 7), "table" or "random"
   double wavelength = 0.08;         ///< L [m]
   double depth = 0.14e-3;           ///< d_m [m]
   double width = 30e-3;             ///< W: depth is zero beyond |y - centre| = W [m]
   double start = 2.4;               ///< x_s [m]
   double length = 0.56;             ///< whole waves that fit are cut [m]
   std::optional<double> centre;     ///< y of the deepest line; absent: the preload's pressure maximum [m]
+  double rms = 2e-6;                ///< of random depths [m]
+  double shortest = 0.02;           ///< of their waves [m]
+  double longest = 0.15;            ///< of their waves [m]
+  int seed = 1;                     ///< that draws their phases
   std::string apply = "nodes";      ///< "nodes" (moved nodes) or "gap" (added to the contact gap)
   std::string file;                 ///< table: two columns, x from `start` and depth, with a unit line
   std::vector<double> table_x;      ///< [m]
   std::vector<double> table_depth;  ///< positive downwards [m]
+};
+
+/// [wear]: how passages change the rail's profile
+struct WearSpec {
+  double coefficient = 2.5e-9;  ///< mass worn off per frictional work [kg/(N m)]
+  double change = 0.05;         ///< of the depth by one simulated passage, at the most [-]
+  double shortest = 0.03;       ///< wavelength that wears [m]
+  double longest = 0.15;        ///< wavelength that wears [m]
 };
 
 /// [pulse]: an initial velocity along x over one end of a bar (a box rail without a wheel)
@@ -206,6 +218,7 @@ struct Scene {
   std::optional<ContactSpec> contact;
   std::optional<MotionSpec> motion;
   std::optional<CorrugationSpec> corrugation;
+  std::optional<WearSpec> wear;
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
   std::optional<ForkSpec> forks;

@@ -77,8 +77,9 @@ Found find_state(const Place& place, const Progress& progress) {
 
 /// Values that may differ: what acts later than the state, or on nothing that moves.
 bool is_free(std::string_view path) {
-  constexpr std::array<std::string_view, 7> kBeginnings = {
-      "scene.title", "corrugation.", "output.", "stop.", "forks.", "motion.duration", "contact.depth_room"};
+  constexpr std::array<std::string_view, 8> kBeginnings = {
+      "scene.title", "corrugation.", "wear.",           "output.",
+      "stop.",       "forks.",       "motion.duration", "contact.depth_room"};
   return std::any_of(kBeginnings.begin(), kBeginnings.end(),
                      [&](std::string_view beginning) { return path.starts_with(beginning); });
 }

@@ -15,6 +15,7 @@
 #include "drivers/cache_command.hpp"
 #include "drivers/check_command.hpp"
 #include "drivers/ctl_command.hpp"
+#include "drivers/develop_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/multibody_command.hpp"
 #include "drivers/paper_command.hpp"
@@ -277,6 +278,27 @@ void add_paper(CLI::App& app, const std::string& command_line) {
   });
 }
 
+void add_develop(CLI::App& app, const std::string& command_line) {
+  auto state = std::make_shared<SceneCommand<tread::DevelopOptions>>();
+  tread::DevelopOptions& options = state->options;
+  options.command = command_line;
+  CLI::App& command = *app.add_subcommand(
+      "develop", "passages that wear the rail, each for the next; goes on where it was stopped");
+  add_scene_options(command, state->arguments)->required();
+  command.add_option("--passages", options.passages, "simulated ones (default: 10), each standing for many")
+      ->check(CLI::Range(1, 9999));
+  command.add_option("-o,--output", options.output, "directory")->required();
+  command.add_option("--from", options.from,
+                     "begin all passages with the state of a run over the smooth rail, DIR or DIR@TIME");
+  command.add_option("-t,--threads", options.threads, "threads of a passage (default: 1)")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--json", options.json, "JSON on stdout");
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
+  command.callback([state] {
+    report_problems(state->options.json, [&] { tread::develop(state->arguments.resolve(), state->options); });
+  });
+}
+
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<tread::VerifyOptions>();
   CLI::App& command =
@@ -392,6 +414,7 @@ int run(int argc, char** argv) {
   add_roughness(app, command_line);
   add_sweep(app, command_line);
   add_paper(app, command_line);
+  add_develop(app, command_line);
   add_verify(app);
   add_bench(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);

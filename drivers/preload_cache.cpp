@@ -89,9 +89,16 @@ std::optional<ContentCache> preload_cache(const std::string& place) {
 }
 
 bool acts_on_rolling_alone(std::string_view path) {
-  constexpr std::array<std::string_view, 9> kBeginnings = {
-      "scene.title",      "corrugation.",       "output.",           "stop.", "forks.", "contact.friction",
-      "motion.traction.", "motion.step_safety", "contact.depth_room"};
+  constexpr std::array<std::string_view, 10> kBeginnings = {"scene.title",
+                                                            "corrugation.",
+                                                            "wear.",
+                                                            "output.",
+                                                            "stop.",
+                                                            "forks.",
+                                                            "contact.friction",
+                                                            "motion.traction.",
+                                                            "motion.step_safety",
+                                                            "contact.depth_room"};
   return std::any_of(kBeginnings.begin(), kBeginnings.end(),
                      [&](std::string_view beginning) { return path.starts_with(beginning); });
 }

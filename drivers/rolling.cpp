@@ -280,6 +280,7 @@ void Rolling::fill_results() {
   results_->state_hash = simulation_->state_hash();
   results_->momentum = simulation_->momentum_check();
   results_->surface_fields = simulation_->surface();
+  results_->rail_line = simulation_->rail_line();
   for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
     results_->block_energy.push_back(simulation_->fields().energy(b));
 }

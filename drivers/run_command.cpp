@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "drivers/deflection.hpp"
 #include "drivers/disk_use.hpp"
 #include "drivers/fork.hpp"
 #include "drivers/frame_files.hpp"
@@ -33,6 +34,7 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
   if (!results.surface_fields) return;
   write_surface(directory / "surface.h5", *results.surface_fields);
   write_axis(directory / "surface_axis.csv", results.surface);
+  write_deflection(directory / "deflection.csv", deflection(*results.rail_line));
   const Scene& scene = model.scene;
   const bool waves = !model.contact->corrugation().smooth() && scene.corrugation->kind == "sine";
   const double stretch = waves ? scene.corrugation->wavelength : 4 * model.contact->reach();
@@ -182,7 +184,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
 void remove_results(const std::filesystem::path& directory) {
   CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
-  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv"})
+  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv"})
     std::filesystem::remove(directory / name, ignored);
   FrameFiles::remove(directory);
 }

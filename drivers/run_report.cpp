@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "drivers/deflection.hpp"
 #include "drivers/hammer_figures.hpp"
 #include "drivers/inventory.hpp"
 #include "drivers/machine.hpp"
@@ -139,6 +140,8 @@ Chapter surface_chapter(const Run& run) {
   q.add("Frictional work of the whole passage", s.total_work, "J",
         fmt::format("{} J by samples", readable(s.total_sampled_work)));
   chapter.blocks.emplace_back(q.take());
+  if (run.results.rail_line)
+    chapter.blocks.emplace_back(deflection_figure(deflection(*run.results.rail_line)));
   return chapter;
 }
 

@@ -48,6 +48,7 @@ struct RunResults {
   std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
   std::optional<SurfaceFields> surface_fields;  ///< none without contact
   SurfaceResults surface;                       ///< from surface_fields
+  std::optional<RailLine> rail_line;            ///< none without contact
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
   std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
 

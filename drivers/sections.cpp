@@ -122,6 +122,9 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
 Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
   if (spec.kind == "table")
     return Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width);
+  if (spec.kind == "random")
+    return Corrugation::rough({spec.rms, spec.shortest, spec.longest, static_cast<std::uint64_t>(spec.seed)},
+                              spec.start, spec.length, centre, spec.width);
   return Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
 }
 

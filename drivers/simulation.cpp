@@ -64,7 +64,11 @@ Simulation::Simulation(Model& model, double patch_y, double dt)
       force_(fields_->force()) {
   const Scene& scene = model.scene;
   if (model.wheelset) {
-    if (model.contact) surface_.emplace(model.contact->nodes().grid());
+    if (model.contact) {
+      surface_.emplace(model.contact->nodes().grid());
+      rail_line_.emplace(model.mesh.blocks[static_cast<std::size_t>(model.contact->options().rail_block)],
+                         patch_y);
+    }
     if (scene.motion && scene.motion->traction_torque) max_torque_ = *scene.motion->traction_torque;
     if (scene.motion && scene.motion->traction_mu) {
       const double mass = model.wheelset->mass() + (scene.vehicle ? scene.vehicle->unsprung_mass : 0.0);
@@ -112,6 +116,7 @@ void Simulation::start(const Preload& preload) {
   AlignedVector<double> u = preload.displacement;
   AlignedVector<double> v(u.size(), 0.0);
   frame_ = preload.wheel;
+  if (rail_line_) rail_line_->note_static(u.data());
   if (model.guide) model.guide->settle(u.data());
   const std::optional<RunIn>& run_in = preload.run_in;
   const StartFields fields{u, v, frame_};
@@ -166,6 +171,7 @@ StateList Simulation::state() {
   list.add_part("energy_watch", energy_watch_);
   list.add_records("sample", std::span(&sample_, 1));
   if (surface_) list.add_part("surface", *surface_);
+  if (rail_line_) list.add_part("rail_line", *rail_line_);
   if (model_->contact) list.add_part("contact", *model_->contact);
   if (model_->guide) list.add_part("guided_bore", *model_->guide);
   if (model_->fastenings) list.add_part("fastenings", *model_->fastenings);
@@ -266,6 +272,9 @@ void Simulation::record() {
   if (!sampled_) return;
   surface_->add_sample(patch, static_cast<double>(sampling_) * dt_);
   surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_);
+  const Scene& scene = model_->scene;
+  if (frame_.origin.x <= scene.zone_start + 0.5 * scene.zone_length)
+    rail_line_->note_rolling(u_, frame_.origin.x);
 }
 
 void Simulation::drive() {

@@ -12,6 +12,7 @@
 #include "drivers/node_fields.hpp"
 #include "drivers/phase_clock.hpp"
 #include "drivers/preload.hpp"
+#include "kernels/rail_line.hpp"
 #include "kernels/surface_fields.hpp"
 
 namespace tread {
@@ -102,6 +103,9 @@ class Simulation {
   const BodyFrame& wheel() const { return frame_; }
   /// What the wheel leaves on the rail's surface; none without contact.
   const std::optional<SurfaceFields>& surface() const { return surface_; }
+  /// The rail's surface along the patch's longitudinal axis, static and in the middle of the solution zone,
+  /// or at the last sample before; none without contact.
+  const std::optional<RailLine>& rail_line() const { return rail_line_; }
   double torque_at(double time) const;
 
  private:
@@ -170,6 +174,7 @@ class Simulation {
   };
   std::vector<CreepageNode> creepage_nodes_;
   std::optional<SurfaceFields> surface_;
+  std::optional<RailLine> rail_line_;
 
   Sample sample_;
   double kinetic_before_ = 0;

@@ -77,6 +77,8 @@ class Checker {
             "plane strain needs a block under the tyre; state rail.profile = \"box\"");
     require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
     require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
+    require(!s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
+            "the shortest wave that wears is not shorter than the longest");
     require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
     require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
     require(!s.forks || (s.motion && s.contact), {"forks"}, "forks need [motion] and [contact]");
@@ -223,21 +225,26 @@ class Checker {
   }
 
   void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
-    const bool sine = corrugation.kind == "sine";
-    if (sine) {
+    const bool table = corrugation.kind == "table";
+    if (corrugation.kind == "sine")
       require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
               {"corrugation.wavelength", "corrugation.length"},
               "not one wave fits into the corrugation's length");
-    } else if (corrugation.table_x.empty()) {
-      return;
+    if (corrugation.kind == "random") {
+      require(corrugation.shortest < corrugation.longest, {"corrugation.shortest", "corrugation.longest"},
+              "the roughness' shortest wave is not shorter than its longest");
+      require(corrugation.longest <= corrugation.length + kLengthTolerance,
+              {"corrugation.longest", "corrugation.length"},
+              "the roughness' longest wave does not fit into its length");
     }
-    const double first = corrugation.start + (sine ? 0 : corrugation.table_x.front());
-    const double last = corrugation.start + (sine ? corrugation.length : corrugation.table_x.back());
+    if (table && corrugation.table_x.empty()) return;
+    const double first = corrugation.start + (table ? corrugation.table_x.front() : 0);
+    const double last = corrugation.start + (table ? corrugation.table_x.back() : corrugation.length);
     const auto inside = [&](double left, double right) {
       return first >= left - kLengthTolerance && last <= right + kLengthTolerance;
     };
     const std::string extent = fmt::format("the corrugation, x = {:.6g} m to {:.6g} m,", first, last);
-    std::vector<std::string> keys{"corrugation.start", sine ? "corrugation.length" : "corrugation.file"};
+    std::vector<std::string> keys{"corrugation.start", table ? "corrugation.file" : "corrugation.length"};
     const bool on_rail = inside(-rail.origin, rail.length - rail.origin);
     const double zone_end = scene_.zone_start + scene_.zone_length;
     require(!on_rail || inside(scene_.zone_start, zone_end),

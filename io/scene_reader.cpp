@@ -250,12 +250,12 @@ class SceneBuilder {
     if (found == settings_.end() || std::holds_alternative<std::monostate>(field)) return;
     const Setting& setting = found->second;
     if (!applies(key, scene_)) {
-      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.value.empty());
+      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.values.empty());
       if (setting.origin.level == Level::library || unclear) return;
       report(setting.origin.place, key.path,
-             key.only_with.value.empty() ? fmt::format("has no effect without [{}]", key.only_with.key)
-                                         : fmt::format("has an effect only with {} = \"{}\"",
-                                                       key.only_with.key, key.only_with.value));
+             key.only_with.values.empty() ? fmt::format("has no effect without [{}]", key.only_with.key)
+                                          : fmt::format("has an effect only with {} = {}", key.only_with.key,
+                                                        key.only_with.alternatives()));
       return;
     }
     try {

@@ -69,9 +69,10 @@ std::string allowed_of(const Key& key) {
 std::string meaning_of(const Key& key) {
   std::string text = key.description;
   if (key.only_with.key.empty()) return text;
-  const std::string& value = key.only_with.value;
-  return text + (value.empty() ? fmt::format(" (only with `[{}]`)", key.only_with.key)
-                               : fmt::format(" (only with `{} = \"{}\"`)", key.only_with.key, value));
+  const Condition& condition = key.only_with;
+  return text + (condition.values.empty()
+                     ? fmt::format(" (only with `[{}]`)", condition.key)
+                     : fmt::format(" (only with `{} = {}`)", condition.key, condition.alternatives()));
 }
 
 std::string table_section(const SceneTable& table, Scene& scene) {

@@ -95,9 +95,17 @@ Key or_file(Key key) {
   return key;
 }
 
-Key only_with(std::string condition, std::string value, Key key) {
-  key.only_with = {std::move(condition), std::move(value)};
+Key only_with(std::string condition, std::vector<std::string> values, Key key) {
+  key.only_with = {std::move(condition), std::move(values)};
   return key;
+}
+
+Key with_table(std::string table, Key key) {
+  return only_with(std::move(table), std::vector<std::string>{}, std::move(key));
+}
+
+Key only_with(std::string condition, std::string value, Key key) {
+  return only_with(std::move(condition), std::vector<std::string>{std::move(value)}, std::move(key));
 }
 
 Key instead_of(std::string other, Key key) {
@@ -133,12 +141,10 @@ void add_general(Keys& keys) {
   keys.push_back(only_with("wheel.shape", "tyre",
                            flag("scene.plane_strain", at(&Scene::plane_strain),
                                 "Nothing moves across: a slice of a wide tyre on a wide block")));
-  keys.push_back(only_with("wheel", "",
-                           quantity("solution_zone.start", at(&Scene::zone_start), kLength, "m",
-                                    from(-1000, 1000), "x where the finely divided rail starts")));
-  keys.push_back(only_with("wheel", "",
-                           quantity("solution_zone.length", at(&Scene::zone_length), kLength, "m",
-                                    above(0, 1000), "Length of the finely divided rail")));
+  keys.push_back(with_table("wheel", quantity("solution_zone.start", at(&Scene::zone_start), kLength, "m",
+                                              from(-1000, 1000), "x where the finely divided rail starts")));
+  keys.push_back(with_table("wheel", quantity("solution_zone.length", at(&Scene::zone_length), kLength, "m",
+                                              above(0, 1000), "Length of the finely divided rail")));
 }
 
 /// The keys of one material.
@@ -298,7 +304,7 @@ void add_contact(Keys& keys) {
 }
 
 void add_motion(Keys& keys) {
-  const auto rolling = [](Key key) { return only_with("wheel", "", std::move(key)); };
+  const auto rolling = [](Key key) { return with_table("wheel", std::move(key)); };
   keys.push_back(rolling(quantity("motion.speed", at(&Scene::motion, &MotionSpec::speed), kSpeed, "km/h",
                                   from(0, 300), "Forward speed at the start")));
   keys.push_back(quantity("motion.duration", at(&Scene::motion, &MotionSpec::duration), kTime, "s",
@@ -337,8 +343,9 @@ void add_corrugation(Keys& keys) {
                          const char* description) {
     return quantity(name, at(&Scene::corrugation, member), kLength, unit, range, description);
   };
+  const auto random = [](Key key) { return only_with("corrugation.kind", "random", std::move(key)); };
   keys.push_back(choice("corrugation.kind", at(&Scene::corrugation, &CorrugationSpec::kind),
-                        {"sine", "table"}, "Sine waves, or measured depths"));
+                        {"sine", "table", "random"}, "Sine waves, measured depths, or random roughness"));
   keys.push_back(sine(
       length("corrugation.wavelength", &CorrugationSpec::wavelength, "mm", above(0, 10), "Wavelength L")));
   keys.push_back(sine(length("corrugation.depth", &CorrugationSpec::depth, "mm", above(0, 0.01),
@@ -346,9 +353,20 @@ void add_corrugation(Keys& keys) {
   keys.push_back(length("corrugation.width", &CorrugationSpec::width, "mm", above(0, 0.1),
                         "Half width W across the rail, where the depth has fallen to zero"));
   keys.push_back(length("corrugation.start", &CorrugationSpec::start, "m", from(-1000, 1000),
-                        "x_s where it starts, at a crest"));
-  keys.push_back(sine(length("corrugation.length", &CorrugationSpec::length, "m", above(0, 1000),
-                             "Length that the whole waves must fit into")));
+                        "x_s where it starts, a sine at a crest"));
+  keys.push_back(
+      only_with("corrugation.kind", std::vector<std::string>{"sine", "random"},
+                length("corrugation.length", &CorrugationSpec::length, "m", above(0, 1000),
+                       "Length that the whole waves must fit into; of the roughness, which fades over half "
+                       "the longest wave at either end")));
+  keys.push_back(random(length("corrugation.rms", &CorrugationSpec::rms, "um", above(0, 0.01),
+                               "Root mean square of the roughness")));
+  keys.push_back(random(length("corrugation.shortest", &CorrugationSpec::shortest, "mm", above(0, 10),
+                               "Shortest wave of the roughness")));
+  keys.push_back(random(length("corrugation.longest", &CorrugationSpec::longest, "mm", above(0, 10),
+                               "Longest wave of the roughness")));
+  keys.push_back(random(number("corrugation.seed", at(&Scene::corrugation, &CorrugationSpec::seed), {0, 2e9},
+                               "Draws the phases of the roughness' waves", Kind::integer)));
   keys.push_back(length("corrugation.centre", &CorrugationSpec::centre, "mm", {-0.1, 0.1},
                         "y of the deepest line; absent: at the preload's largest pressure"));
   keys.push_back(choice("corrugation.apply", at(&Scene::corrugation, &CorrugationSpec::apply),
@@ -361,6 +379,20 @@ void add_corrugation(Keys& keys) {
                "`# x [m]  d [mm]`"};
   file.takes_file = true;
   keys.push_back(only_with("corrugation.kind", "table", required(std::move(file))));
+}
+
+void add_wear(Keys& keys) {
+  keys.push_back(quantity("wear.coefficient", at(&Scene::wear, &WearSpec::coefficient), kWear, "ug/N/m",
+                          above(0, 1e-3),
+                          "Mass worn off per frictional work: 2.5e-9 kg/(N m) is usual for mild wear, after "
+                          "Krause and Poll (1984)"));
+  keys.push_back(number("wear.change", at(&Scene::wear, &WearSpec::change), above(0, 1),
+                        "Change of the depth by one simulated passage over the depth, at the most: how many "
+                        "passages it stands for"));
+  keys.push_back(quantity("wear.shortest", at(&Scene::wear, &WearSpec::shortest), kLength, "mm", above(0, 10),
+                          "Shortest wave that wear changes; what is shorter is taken for the mesh's noise"));
+  keys.push_back(quantity("wear.longest", at(&Scene::wear, &WearSpec::longest), kLength, "mm", above(0, 10),
+                          "Longest wave that wear changes"));
 }
 
 void add_impacts_and_output(Keys& keys) {
@@ -396,9 +428,9 @@ void add_impacts_and_output(Keys& keys) {
                         "Steps after which the run ends; 0: any number", Kind::integer));
   keys.push_back(quantity("stop.wall_time", at(&Scene::stop, &StopSpec::wall_time), kTime, "h", above(0, 1e8),
                           "Time of the process after which it leaves a checkpoint and ends"));
-  keys.push_back(only_with("contact", "",
-                           quantity("stop.penetration", at(&Scene::stop, &StopSpec::penetration), kLength,
-                                    "um", above(0, 1), "Penetration that ends the run")));
+  keys.push_back(
+      with_table("contact", quantity("stop.penetration", at(&Scene::stop, &StopSpec::penetration), kLength,
+                                     "um", above(0, 1), "Penetration that ends the run")));
 }
 
 Keys make_keys() {
@@ -416,6 +448,7 @@ Keys make_keys() {
   add_contact(keys);
   add_motion(keys);
   add_corrugation(keys);
+  add_wear(keys);
   add_impacts_and_output(keys);
   for (const SceneTable& table : scene_tables()) {
     if (!table.removable()) continue;
@@ -483,6 +516,9 @@ std::vector<SceneTable> make_tables() {
                 "The transient run; a scene without it ends with its static state."),
       component("corrugation", &Scene::corrugation,
                 "Periodic or measured depth of the rail's running surface."),
+      component("wear", &Scene::wear,
+                "How the frictional work of passages changes the profile: of `tread develop` alone. "
+                "[develop.md](develop.md)"),
       component("pulse", &Scene::pulse, "An initial velocity at one end of a bar: a rail without a wheel."),
       component("hammer", &Scene::hammer,
                 "A blow on the rail head; the histories hold its force and the struck point's "
@@ -558,14 +594,21 @@ bool is_table(std::string_view path) {
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);
 }
 
+std::string Condition::alternatives() const {
+  std::string text;
+  for (const std::string& value : values) text += fmt::format("{}\"{}\"", text.empty() ? "" : " or ", value);
+  return text;
+}
+
 bool applies(const Key& key, const Scene& scene) {
   if (key.only_with.key.empty()) return true;
   const SceneTable* table = table_of(key.only_with.key);
   if (!table->exists(scene)) return false;
-  if (key.only_with.value.empty()) return true;
+  const std::vector<std::string>& values = key.only_with.values;
+  if (values.empty()) return true;
   Scene copy = scene;
   const Field field = find_key(key.only_with.key)->locate(copy);
-  return *std::get<std::string*>(field) == key.only_with.value;
+  return std::find(values.begin(), values.end(), *std::get<std::string*>(field)) != values.end();
 }
 
 std::string similar_text(std::string_view text, const std::vector<std::string>& options) {

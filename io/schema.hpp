@@ -46,11 +46,14 @@ struct Bounds {
   bool contains(double value) const;
 };
 
-/// The key has an effect only where the table `key` is present (empty `value`) or the text key `key` has this
-/// value.
+/// The key has an effect only where the table `key` is present (no `values`) or the text key `key` has one of
+/// these values.
 struct Condition {
   std::string key;
-  std::string value;
+  std::vector<std::string> values;
+
+  /// The values, "\"sine\" or \"random\"".
+  std::string alternatives() const;
 };
 
 struct Key {

@@ -43,6 +43,7 @@ inline constexpr Quantity kStiffness{"stiffness", {0, 1, -2}, "N/m", "N/m, kN/m,
 inline constexpr Quantity kViscousDamping{"viscous damping", {0, 1, -1}, "N s/m", "N s/m, kN s/m"};
 inline constexpr Quantity kTorque{"torque", {2, 1, -2}, "N m", "N m, kN m"};
 inline constexpr Quantity kStress{"stress", {-1, 1, -2}, "Pa", "Pa, kPa, MPa, GPa, N/mm2"};
+inline constexpr Quantity kWear{"wear coefficient", {-2, 0, 2}, "kg/N/m", "kg/N/m, g/N/m, ug/N/m"};
 inline constexpr Quantity kFrequency{"frequency", {0, 0, -1}, "Hz", "Hz, kHz"};
 inline constexpr Quantity kData{"amount of data", {0, 0, 0, 1}, "B", "B, kB, MB, GB"};
 

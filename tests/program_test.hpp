@@ -53,7 +53,7 @@ inline std::vector<std::string> frames_in(const fs::path& folder) {
 }
 
 inline void expect_same_run(const fs::path& a, const fs::path& b) {
-  for (const char* name : {"histories.csv", "surface_axis.csv", "frames.hdf.series"})
+  for (const char* name : {"histories.csv", "surface_axis.csv", "deflection.csv", "frames.hdf.series"})
     EXPECT_TRUE(content_of(a / name) == content_of(b / name)) << name;
   for (const char* name : {"run.h5", "patch.h5", "surface.h5"}) expect_same_file(a / name, b / name);
   EXPECT_EQ(frames_in(a), frames_in(b));

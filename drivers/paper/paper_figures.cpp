@@ -64,6 +64,15 @@ CurvePanel over_time(CurvePanel panel) {
   return panel;
 }
 
+std::vector<CurvePanel> surface_displacement() {
+  const auto state = [](const char* column, std::string prefix) {
+    const RunCurve curve{
+        .file = "deflection.csv", .x = {"x_from_wheel", "m"}, .y = {column, "m"}, .y_scale = 1e3};
+    return CurvePanel{"Upwards [mm]", curve, std::move(prefix)};
+  };
+  return {state("static", "static, "), state("rolling", "rolling, ")};
+}
+
 std::vector<CurvePanel> along_the_axis() {
   const auto axis = [](std::string y_label, const char* column, const char* unit, double scale,
                        std::string prefix) {
@@ -100,6 +109,13 @@ std::vector<PaperFigure> smooth_figures() {
   const auto by_ramp = labelled(&Passage::ramp, "T1 = {:g} ms");
   const std::string way = "Position of the wheel [m]";
   return {
+      {.id = "07",
+       .title = "Vertical displacement of the rail's surface about the wheel, smooth rail, 300 km/h",
+       .section = "3.1",
+       .passages = {smooth},
+       .label = by_speed,
+       .curves = {"", "From the wheel, ahead positive [m]", surface_displacement(), true, false},
+       .one_panel = true},
       {"08",
        "Vertical force at different speeds, smooth rail",
        "3.1",
@@ -266,6 +282,16 @@ Series multibody_force(const FinishedRun& run) {
   return series;
 }
 
+/// Puts the curves of all panels into the first; the later ones are dashed.
+void overlay(Figure& figure) {
+  for (std::size_t i = 1; i < figure.panels.size(); ++i)
+    for (Series& series : figure.panels[i].series) {
+      series.stroke = Stroke::dashed;
+      figure.panels.front().series.push_back(std::move(series));
+    }
+  figure.panels.resize(1);
+}
+
 /// The corrugated surface below the curves, where they all have the same.
 void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   const Corrugation first = runs.front().corrugation();
@@ -310,6 +336,7 @@ Figure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   spec.title = title;
   Figure figure = curves_figure(spec, found);
   if (found.empty()) return figure;
+  if (wanted.one_panel) overlay(figure);
   if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
   add_surface(found, figure);
   return figure;

@@ -22,6 +22,7 @@ struct PaperFigure {
   std::function<double(const Passage&)> x = {};
   std::vector<TrendPanel> trends = {};
   bool multibody = false;  ///< F_N by the multi-body approach beside the run's
+  bool one_panel = false;  ///< all curves in one panel
 };
 
 /// In the paper's order.

@@ -33,7 +33,7 @@ FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& 
 
 /// A curve of a run: one column of a table against another.
 struct RunCurve {
-  std::string file = "histories.csv";  ///< or surface_axis.csv
+  std::string file = "histories.csv";  ///< or surface_axis.csv, deflection.csv
   HistoryColumn x = {"wheel_x", "m"};
   double x_scale = 1;
   HistoryColumn y;

@@ -134,7 +134,8 @@ Figure curves_figure(const CurvesSpec& spec, const std::vector<FinishedRun>& all
     figure.panels.push_back(panel(wanted.y_label, std::move(curves), {}, wanted.height));
   }
   if (!way) return figure;
-  const bool along_the_rail = !spec.panels.empty() && spec.panels.front().curve.x.unit == "m";
+  const bool along_the_rail =
+      spec.on_the_rail && !spec.panels.empty() && spec.panels.front().curve.x.unit == "m";
   figure.x_range = spec.whole_way || !along_the_rail ? *way : in_sight(runs, *way);
   if (along_the_rail) mark_common_track(runs, figure);
   return figure;

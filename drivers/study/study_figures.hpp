@@ -25,7 +25,8 @@ struct CurvesSpec {
   std::string title;
   std::string x_label = "Position of the wheel [m]";
   std::vector<CurvePanel> panels;
-  bool whole_way = false;  ///< from the start; else the corrugation or the solution zone
+  bool whole_way = false;   ///< from the start; else the corrugation or the solution zone
+  bool on_the_rail = true;  ///< lengths on the abscissa are places on the rail, not distances
 };
 
 /// The runs' curves overlaid; with the corrugation and the fastenings where all runs have the same. Runs that

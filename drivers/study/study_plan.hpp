@@ -21,6 +21,7 @@ struct PlannedPoint {
   std::vector<std::string> overrides;  ///< as after --set, later ones first in rank
   ResolvedScene resolved;
   SceneContent content;
+  std::string from = {};  ///< state that the run begins with, as in fork_from(); empty: its start
   std::filesystem::path folder;
   PointStatus status;
   std::optional<Estimate> cost;       ///< of a point that is not done

@@ -49,6 +49,7 @@ std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoi
   std::vector<std::string> arguments = {"run", plan.study.scene.string()};
   for (const std::string& text : point.overrides) arguments.insert(arguments.end(), {"--set", text});
   arguments.insert(arguments.end(), {"-o", point.folder.string(), "-t", threads});
+  if (!point.from.empty()) arguments.insert(arguments.end(), {"--from", point.from});
   if (failed) arguments.emplace_back("--overwrite");
   const std::vector<std::string> sharing = sharing_arguments(plan, point);
   arguments.insert(arguments.end(), sharing.begin(), sharing.end());

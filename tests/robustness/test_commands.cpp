@@ -89,7 +89,7 @@ TEST_F(Commands, RunOfABarLeavesEverything) {
   EXPECT_EQ(call(fmt::format("run -t 1 --quiet -o {} {}", folder_.string(), scene("bar-wave.toml"))).code, 0);
   for (const char* name : {"scene.resolved.toml", "run.h5", "histories.csv", "summary.json", "report.html"})
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
-  for (const char* name : {"patch.h5", "surface.h5", "surface_axis.csv"})
+  for (const char* name : {"patch.h5", "surface.h5", "surface_axis.csv", "deflection.csv"})
     EXPECT_FALSE(fs::exists(folder_ / name)) << name;
   const std::string report = content("report.html");
   EXPECT_TRUE(has(report, "Wave in a bar"));
@@ -121,7 +121,7 @@ TEST_P(RollingScenes, Run) {
                              scene(name)))
                 .code,
             0);
-  for (const char* file : {"report.html", "patch.h5", "surface.h5", "surface_axis.csv"})
+  for (const char* file : {"report.html", "patch.h5", "surface.h5", "surface_axis.csv", "deflection.csv"})
     EXPECT_TRUE(fs::exists(folder_ / file)) << file;
 }
 

@@ -96,7 +96,7 @@ TEST(SceneErrors, Types) {
        "cylinder, or a "
        "file"},
       {"[corrugation]\nkind = \"square\"",
-       "x.toml:4:1: corrugation.kind: \"square\" is unknown; choose from: sine, table"},
+       "x.toml:4:1: corrugation.kind: \"square\" is unknown; choose from: sine, table, random"},
       {"[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = 1e-8 }",
        "x.toml:4:1: material.steel.damping: 1e-08 has no unit; expected a time, such as \"1e-08 s\" (units: "
        "s, ms, us, "

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -93,6 +94,53 @@ TEST(Corrugation, TheFirstDifferenceIsFoundWhereverItLies) {
   EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.14e-3}, 2.4, 0.6, 1e-3, 29e-3), 10).value(), 2.4, 2e-3);
   EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.14e-3}, 2.4, 0.6, 1.1e-3, 30e-3), 10).value(), 2.4, 2e-3);
   EXPECT_NEAR(differ(kSine, Corrugation({0.08, 0.13e-3}, 2.4, 0.6, 1e-3, 30e-3), 10).value(), 2.4, 2e-3);
+}
+
+TEST(Corrugation, RoughnessIsTheSameForASeedAndFadesAtItsEnds) {
+  const Corrugation::Random random{3e-6, 0.03, 0.12, 7};
+  const Corrugation rough = Corrugation::rough(random, 2.4, 0.6, 0, 0.03);
+  const Corrugation again = Corrugation::rough(random, 2.4, 0.6, 0, 0.03);
+  const Corrugation other = Corrugation::rough({3e-6, 0.03, 0.12, 8}, 2.4, 0.6, 0, 0.03);
+  EXPECT_FALSE(first_difference(rough, again, 3, 0));
+  EXPECT_TRUE(first_difference(rough, other, 3, 1e-9));
+  EXPECT_EQ(rough.first(), 2.4);
+  EXPECT_DOUBLE_EQ(rough.last(), 3.0);
+  EXPECT_NEAR(rough.depth(2.401, 0), 0, 1e-8);
+  EXPECT_NEAR(rough.depth(2.999, 0), 0, 1e-8);
+  double squares = 0;
+  double lowest = 0;
+  double deepest = 0;
+  int count = 0;
+  for (double x = 2.46; x <= 2.94; x += 1e-3, ++count) {
+    squares += rough.depth(x, 0) * rough.depth(x, 0);
+    lowest = std::min(lowest, rough.depth(x, 0));
+    deepest = std::max(deepest, rough.depth(x, 0));
+  }
+  EXPECT_NEAR(std::sqrt(squares / count), 3e-6, 0.6e-6);
+  EXPECT_LT(lowest, 0);
+  EXPECT_GE(rough.deepest(), deepest - lowest - 1e-12);
+  EXPECT_LT(rough.deepest(), 2 * (deepest - lowest));
+}
+
+TEST(Corrugation, RoughnessHoldsTheWavesOfItsBandAlone) {
+  const double length = 0.6;
+  const Corrugation rough = Corrugation::rough({3e-6, 0.03, 0.12, 7}, 0, length, 0, 0.03);
+  const auto line = [&](double wavelength) {
+    double real = 0;
+    double imaginary = 0;
+    for (int i = 0; i < 1200; ++i) {
+      const double x = length * i / 1200;
+      const double angle = 2 * std::acos(-1.0) * x / wavelength;
+      const double window = 1 - std::cos(2 * std::acos(-1.0) * x / length);  // the fading ends count little
+      real += window * rough.depth(x, 0) * std::cos(angle) / 600;
+      imaginary += window * rough.depth(x, 0) * std::sin(angle) / 600;
+    }
+    return std::hypot(real, imaginary);
+  };
+  double inside = 0;
+  for (int wave = 5; wave <= 20; ++wave) inside += line(length / wave);
+  for (const int outside : {1, 2, 24, 30}) EXPECT_LT(line(length / outside), 0.03 * inside / 16) << outside;
+  EXPECT_GT(inside / 16, 0.5e-6);
 }
 
 }  // namespace

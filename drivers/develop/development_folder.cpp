@@ -1,0 +1,216 @@
+#include "drivers/develop/development_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/machine.hpp"
+#include "drivers/sections.hpp"
+#include "drivers/study/study_runner.hpp"
+#include "io/hdf5_file.hpp"
+#include "io/history_reader.hpp"
+#include "io/output_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kScene = "scene.resolved.toml";
+constexpr const char* kSmoothScene = "smooth.toml";
+constexpr const char* kPassageScene = "passage.toml";
+
+/// The directory's absolute path; passages are processes that are told of files in it.
+fs::path made(const fs::path& directory) {
+  make_directory(directory);
+  return fs::absolute(directory).lexically_normal();
+}
+
+/// Values that each passage states for itself.
+bool is_of_passage(const std::string& path) {
+  return path.starts_with("corrugation.") || path.starts_with("wear.") || path.starts_with("forks.") ||
+         path == "contact.depth_room" || path == "output.frames";
+}
+
+/// The scene without corrugation, wear and forks.
+std::string smooth_scene(const ResolvedScene& resolved) {
+  ResolvedScene smooth = resolved;
+  std::erase_if(smooth.entries, [](const Entry& entry) { return is_of_passage(entry.path); });
+  return resolved_toml(smooth);
+}
+
+std::string fork_table(const Scene& scene) {
+  const bool stated = scene.forks && scene.forks->at;
+  return "\n[forks]\n" + (stated ? fmt::format("at = \"{} s\"\n", *scene.forks->at) : "");
+}
+
+void require_same(const fs::path& folder, const ResolvedScene& resolved) {
+  if (!fs::exists(folder / kScene)) return;
+  const std::string other =
+      difference(scene_content(resolved), scene_content(resolve_scene(folder / kScene)));
+  if (!other.empty())
+    throw InputError(
+        fmt::format("{} holds the development of another scene: {}; choose another folder with -o",
+                    folder.string(), other));
+}
+
+/// Corrugation depth that the passages have room for [m].
+double room_of(const Scene& scene, const std::string& from) {
+  if (from.empty()) {
+    Scene forked = scene;
+    forked.forks.emplace();
+    return std::max(depth_room(forked), 2 * corrugation_of(*scene.corrugation, 0).deepest());
+  }
+  const std::size_t at = from.rfind('@');
+  const fs::path folder = at == std::string::npos || fs::is_directory(from) ? from : from.substr(0, at);
+  return depth_room(read_scene(folder / kScene));
+}
+
+std::string work_csv(const PassageWork& work) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "x [m],length [m],frictional_work [J/m2]\n");
+  for (std::size_t i = 0; i < work.x.size(); ++i)
+    fmt::format_to(out, "{},{},{}\n", work.x[i], work.length[i], work.work[i]);
+  return {text.data(), text.size()};
+}
+
+std::string profile_table(const WornProfile& profile) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "# x [m]  d [m]\n");
+  for (std::size_t i = 0; i < profile.depth.size(); ++i)
+    fmt::format_to(out, "{} {}\n", static_cast<double>(i) * profile.spacing, profile.depth[i]);
+  return {text.data(), text.size()};
+}
+
+PassageWork read_work(const fs::path& csv) {
+  auto columns = read_history(csv, {{"x", "m"}, {"length", "m"}, {"frictional_work", "J/m2"}});
+  return {std::move(columns[0]), std::move(columns[1]), std::move(columns[2])};
+}
+
+Error failure(const fs::path& folder, const PointStatus& status) {
+  return Error(status.state == PointState::failed ? status.code : ExitCode::resources,
+               fmt::format("the passage in {} {}: {}", folder.string(), name_of(status.state), status.why));
+}
+
+}  // namespace
+
+DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& resolved, Options options)
+    : folder_(made(path)), scene_(resolved.scene), options_(std::move(options)) {
+  require_same(folder_.path(), resolved);
+  for (const char* name : {"work", "profiles"}) make_directory(folder_ / name);
+  write_text_file(folder_ / kScene, resolved_toml(resolved));
+  const std::string smooth = smooth_scene(resolved);
+  write_text_file(folder_ / kSmoothScene, smooth + (options_.from.empty() ? fork_table(scene_) : ""));
+  write_text_file(folder_ / kPassageScene, smooth);
+}
+
+fs::path DevelopmentFolder::profile_path(int number) const {
+  return folder_.path() / "profiles" / fmt::format("{:04}.txt", number);
+}
+
+fs::path DevelopmentFolder::work_path(int number) const {
+  return folder_.path() / "work" / fmt::format("{:04}.csv", number);
+}
+
+fs::path DevelopmentFolder::run_path(int number) const {
+  return folder_.path() / fmt::format("passage-{:04}", number);
+}
+
+std::vector<std::string> DevelopmentFolder::overrides(int number) const {
+  std::vector<std::string> list = {"output.frames=0",
+                                   fmt::format("contact.depth_room={} m", room_of(scene_, options_.from))};
+  if (number == 0) return list;
+  const CorrugationSpec& spec = *scene_.corrugation;
+  const Corrugation start = corrugation_of(spec, 0);
+  list.insert(list.end(), {"corrugation.kind=table", "corrugation.apply=gap",
+                           "corrugation.file=" + profile_path(number - 1).string(),
+                           fmt::format("corrugation.start={} m", start.first()),
+                           fmt::format("corrugation.width={} m", spec.width)});
+  if (spec.centre) list.push_back(fmt::format("corrugation.centre={} m", *spec.centre));
+  return list;
+}
+
+void DevelopmentFolder::roll(int number, Progress& progress) const {
+  StudyPlan plan;
+  plan.folder = folder_.path();
+  plan.study.scene = folder_ / (number == 0 ? kSmoothScene : kPassageScene);
+  plan.threads = options_.threads;
+  PlannedPoint point;
+  point.name = run_path(number).filename().string();
+  point.overrides = overrides(number);
+  point.resolved = resolve_scene(plan.study.scene, point.overrides);
+  point.content = scene_content(point.resolved);
+  point.folder = run_path(number);
+  point.from = number > 0 && options_.from.empty() ? run_path(0).string() : options_.from;
+  point.status = look_into(point.folder, point.content);
+  if (point.status.foreign) throw failure(point.folder, point.status);
+  plan.points.push_back(std::move(point));
+  const std::string stopped_by = StudyRunner(plan, folder_, progress).run(true);
+  if (!stopped_by.empty())
+    throw Interrupted(fmt::format("stopped by {} in passage {}; nothing is lost: the same command goes on",
+                                  stopped_by, number));
+  const PlannedPoint& ended = plan.points.front();
+  if (ended.status.state != PointState::done) throw failure(ended.folder, ended.status);
+}
+
+void DevelopmentFolder::keep_profile(int number, const WornProfile& profile) const {
+  write_text_file(profile_path(number), profile_table(profile));
+}
+
+PassageWork DevelopmentFolder::pass(int number, const WornProfile* profile, Progress& progress) const {
+  if (profile) keep_profile(number - 1, *profile);
+  if (!fs::exists(work_path(number))) {
+    roll(number, progress);
+    const Corrugation stretch = corrugation_of(*scene_.corrugation, 0);
+    write_text_file(work_path(number),
+                    work_csv(work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last())));
+  }
+  std::error_code ignored;
+  if (number > 1) fs::remove_all(run_path(number - 1), ignored);
+  return read_work(work_path(number));
+}
+
+PassageWork work_of_run(const fs::path& surface, double first, double last) {
+  const Hdf5File file = Hdf5File::open_to_read(surface);
+  const auto x = file.read<double>("/x");
+  const auto length = file.read<double>("/length");
+  const auto width = file.read<double>("/width");
+  const auto work = file.read<double>("/frictional_work");
+  if (x.empty() || x.front() > first || x.back() < last)
+    throw InputError(
+        fmt::format("{}: the wheel has not passed x = {:.4g} m to {:.4g} m; motion.duration must "
+                    "be longer",
+                    surface.string(), first, last));
+  const std::size_t rows = width.size();
+  std::vector<double> share(rows, 0.0);  // of a row: its mean work over the stretch, times its width
+  double whole = 0;
+  PassageWork result;
+  for (const bool weigh : {true, false})
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (x[i] < first || x[i] > last) continue;
+      double across = 0;
+      for (std::size_t row = 0; row < rows; ++row) {
+        const double value = work[i * rows + row];
+        if (weigh) {
+          share[row] += length[i] * value * width[row];
+          whole += length[i] * value * width[row];
+        } else {
+          across += whole > 0 ? value * share[row] / whole : 0;
+        }
+      }
+      if (weigh) continue;
+      result.x.push_back(x[i]);
+      result.length.push_back(length[i]);
+      result.work.push_back(across);
+    }
+  return result;
+}
+
+}  // namespace tread

@@ -1,0 +1,113 @@
+// `tread develop` as a user calls it, on a tyre that rolls over a short rough block.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "io/json_reader.hpp"
+#include "tests/program_test.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+
+const std::string kCorrugation =
+    "[corrugation]\nkind = \"random\"\nrms = \"2 um\"\nshortest = \"32 mm\"\nlongest = \"72 mm\"\n"
+    "start = \"0.1 m\"\nlength = \"72 mm\"\napply = \"gap\"\n";
+const std::string kWear = "[wear]\nshortest = \"32 mm\"\nlongest = \"72 mm\"\n";
+
+class Develop : public ProgramTest {
+ protected:
+  static void SetUpTestSuite() {
+    make_root();
+    ASSERT_EQ(call(develop(root_ / "whole", 2, kCorrugation + kWear)), 0) << errors();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Arguments; the scene is the coarse tyre's with `tables`.
+  static std::string develop(const fs::path& folder, int passages, const std::string& tables,
+                             const std::string& more = "") {
+    std::ofstream(root_ / "scene.toml") << content_of(kTyre) << tables;
+    return fmt::format(
+        "develop {} --passages {} -o {} --set \"scene.element_size=8 mm\" --set \"motion.duration=2.4 ms\" "
+        "{}",
+        (root_ / "scene.toml").string(), passages, folder.string(), more);
+  }
+  void expect_refused(const std::string& tables, const std::string& reason,
+                      const std::string& more = "") const {
+    EXPECT_EQ(call(develop(folder_, 1, tables, more)), 2) << reason;
+    EXPECT_TRUE(has(errors(), reason)) << reason << " is not in: " << errors();
+    EXPECT_FALSE(fs::exists(folder_ / "passage-0000"));
+  }
+
+  fs::path folder_ = root_ / "development";
+};
+
+TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
+  const fs::path whole = root_ / "whole";
+  for (const char* name : {"profiles/0000.txt", "profiles/0001.txt", "profiles/0002.txt", "work/0000.csv",
+                           "work/0002.csv", "spectra.csv", "growth.csv", "growth.svg", "profile.svg"})
+    EXPECT_TRUE(fs::exists(whole / name)) << name;
+  EXPECT_TRUE(has(content_of(whole / "profiles.csv"), "depth_after_2 [m]"));
+  EXPECT_TRUE(has(content_of(whole / "report.html"), "What the model leaves out"));
+  const JsonRecord result = read_json(whole / "development.json");
+  EXPECT_EQ(number_in(result, "passages"), 2);
+  EXPECT_GT(number_in(result, "real_passages"), 1);
+  EXPECT_GT(number_in(result, "even_wear_m_per_passage"), 1e-11);
+  EXPECT_EQ(number_in(result, "bands.0.wavelength_m"), 0.04);
+  EXPECT_FALSE(content_of(whole / "profiles/0000.txt") == content_of(whole / "profiles/0001.txt"));
+  // Of the runs those stay that others begin with, and the last.
+  EXPECT_TRUE(fs::exists(whole / "passage-0000/forks"));
+  EXPECT_FALSE(fs::exists(whole / "passage-0001"));
+  EXPECT_TRUE(fs::exists(whole / "passage-0002/report.html"));
+  EXPECT_TRUE(has(content_of(whole / "passage-0002/report.html"), "fork of"));
+}
+
+TEST_F(Develop, GoesOnWhereItWasStopped) {
+  const std::string scene = kCorrugation + kWear;
+  const pid_t process = start(develop(folder_, 2, scene));
+  ASSERT_TRUE(
+      wait_until([&] { return has(content_of(folder_ / "passage-0001/status.json"), "\"rolling\""); }));
+  ::kill(process, SIGTERM);
+  EXPECT_EQ(wait_for(process), 75) << errors();
+  EXPECT_TRUE(has(errors(), "the same command goes on")) << errors();
+  const auto smooth = fs::last_write_time(folder_ / "work/0000.csv");
+
+  ASSERT_EQ(call(develop(folder_, 1, scene)), 0) << errors();
+  ASSERT_EQ(call(develop(folder_, 2, scene)), 0) << errors();
+  EXPECT_EQ(fs::last_write_time(folder_ / "work/0000.csv"), smooth);
+  for (const char* name : {"profiles/0002.txt", "profiles.csv", "spectra.csv", "growth.csv"})
+    EXPECT_TRUE(content_of(folder_ / name) == content_of(root_ / "whole" / name)) << name;
+
+  EXPECT_EQ(call(develop(folder_, 2, scene, "--set wear.change=0.02")), 2);
+  EXPECT_TRUE(has(errors(), "another scene: wear.change is 0.02 here and 0.05 there")) << errors();
+}
+
+TEST_F(Develop, BeginsWithTheStateOfAnotherRun) {
+  const std::string from = fmt::format("--from {}", (root_ / "whole/passage-0000").string());
+  ASSERT_EQ(call(develop(folder_, 1, kCorrugation + kWear, from)), 0) << errors();
+  EXPECT_FALSE(fs::exists(folder_ / "passage-0000/forks"));
+  for (const char* name : {"work/0000.csv", "work/0001.csv", "profiles/0001.txt"})
+    EXPECT_TRUE(content_of(folder_ / name) == content_of(root_ / "whole" / name)) << name;
+}
+
+TEST_F(Develop, RefusesWhatItCannotDevelop) {
+  expect_refused(kCorrugation, "the scene has no [wear]");
+  expect_refused(kWear, "the scene has no [corrugation]");
+  expect_refused(kCorrugation + kWear, "state \"gap\"", "--set corrugation.apply=nodes");
+  expect_refused(kCorrugation + kWear, "is below 4 elements, 32 mm", "--set \"wear.shortest=31 mm\"");
+  expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=73 mm\"");
+  expect_refused(kCorrugation + kWear, "motion.duration must be 2.304 ms", "--set \"motion.duration=2 ms\"");
+  expect_refused(kCorrugation + kWear, "not shorter than the longest", "--set \"wear.longest=32 mm\"");
+  expect_refused(kCorrugation + kWear, "has an effect only with corrugation.kind = \"sine\" or \"random\"",
+                 "--set corrugation.kind=table");
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,54 @@
+// The rail's surface about the wheel: where it is read, and how uneven it is.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/mesh/structured.hpp"
+#include "drivers/deflection.hpp"
+
+namespace tread {
+namespace {
+
+double hollow(double from_wheel) {
+  return -1e-3 / (1 + 100 * from_wheel * from_wheel);
+}
+
+TEST(Deflection, IsReadAboutTheWheel) {
+  Section section = rectangle(-0.03, 0.03, 2, -0.05, 0, 1);
+  for (int node = 0; node < section.nodes(); ++node)
+    if (section.q[static_cast<std::size_t>(node)] == 0) section.surface.push_back({0, {node, node}});
+  ASSERT_EQ(section.surface.size(), 3U);
+  const SweptBlock rail =
+      make_swept_block("rail", Sweep::extruded, section, {Material{}}, -1, {{400, 5e-3, 0}});
+  RailLine line(rail, 0.004);
+  std::vector<double> u(static_cast<std::size_t>(3 * (rail.base + rail.slots())), 0.0);
+  const auto press = [&](double wheel, double behind) {
+    for (int node = 0; node < rail.section.nodes(); ++node)
+      for (int station = 0; station < rail.station_count(); ++station) {
+        const double from = rail.stations[static_cast<std::size_t>(station)] - wheel;
+        const bool surface = rail.section.q[static_cast<std::size_t>(node)] == 0 &&
+                             rail.section.p[static_cast<std::size_t>(node)] == 0;
+        u[static_cast<std::size_t>(dof(rail.base + rail.slot(node, station), 2))] =
+            surface ? hollow(from < 0 ? behind * from : from) : 1.0;
+      }
+  };
+  press(0, 1);
+  line.note_static(u.data());
+  press(0.4, 0.7);
+  line.note_rolling(u.data(), 0.4);
+
+  const Deflection d = deflection(line);
+  ASSERT_EQ(d.x.size(), 401U);
+  EXPECT_EQ(d.wheel_x, 0.4);
+  for (std::size_t i = 0; i < d.x.size(); i += 50) {
+    EXPECT_NEAR(d.at_rest[i], hollow(d.x[i]), 2e-6) << d.x[i];
+    EXPECT_NEAR(d.rolling[i], hollow(d.x[i] < 0 ? 0.7 * d.x[i] : d.x[i]), 2e-6) << d.x[i];
+  }
+  EXPECT_LT(Deflection::asymmetry(d.at_rest), 1e-6);
+  EXPECT_GT(Deflection::asymmetry(d.rolling), 0.1);
+}
+
+}  // namespace
+}  // namespace tread
