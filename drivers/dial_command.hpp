@@ -12,9 +12,9 @@ namespace tread {
 struct DialOptions {
   std::filesystem::path file;  ///< a scene, or a study that states the points
   DialAxes axes;
-  std::string reference;         ///< a point, or the folder of a finished run; empty: the finest run
-  std::string against;           ///< a point that effects are told against; empty: the base
-  std::string cost = "minutes";  ///< or "element-steps"
+  std::string reference;               ///< a point, or the folder of a finished run; empty: the finest run
+  std::string against;                 ///< a point that effects are told against; empty: the base
+  std::string cost = "element-steps";  ///< or "minutes"
   StudyOptions common;
 };
 

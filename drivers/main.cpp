@@ -175,7 +175,7 @@ void add_cache(CLI::App& app) {
 }
 
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {
-  return command.add_option("--cost", cost, "what cheap means: minutes (default) or element-steps");
+  return command.add_option("--cost", cost, "what cheap means: element-steps (default) or minutes");
 }
 
 void add_check(CLI::App& app) {

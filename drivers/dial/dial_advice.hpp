@@ -16,7 +16,7 @@ struct AdviceOptions {
   std::string error;                      ///< "2%" or "0.02"; empty: no advice is wanted
   std::string quantity = kAllQuantities;  ///< or a DialQuantity's name
   std::filesystem::path dial;             ///< folder or file; empty: measured_dial()
-  std::string cost = "minutes";
+  std::string cost = "element-steps";     ///< or "minutes"
 };
 
 /// What was asked and what the table says.

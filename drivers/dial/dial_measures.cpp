@@ -100,8 +100,9 @@ const std::vector<DialQuantity>& dial_quantities() {
 
 std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const CurvePoints& reference,
                                                 const Span& stretch, double longest_shift) {
-  const Span common = with_room(with_room(stretch, reference, 0), curve, longest_shift);
-  if (common.last - common.first < 0.5 * (stretch.last - stretch.first)) return std::nullopt;
+  const Span known = with_room(stretch, reference, 0);
+  const Span common = with_room(known, curve, longest_shift);
+  if (known.empty() || common.last - common.first < 0.5 * (known.last - known.first)) return std::nullopt;
   const std::vector<double> wanted = values_on(reference, common, 0);
   const Statistics of_wanted = statistics_of(wanted);
   const Statistics of_curve = statistics_of(values_on(curve, common, 0));
@@ -121,10 +122,13 @@ std::optional<CurveDifference> run_difference(const FinishedRun& run, const Fini
                                               const DialQuantity& quantity) {
   const Scene& scene = reference.scene;
   const bool sine = scene.corrugation && scene.corrugation->kind == "sine";
+  const CurvePoints wanted = read_curve(reference, quantity.curve);
+  const Span stretch = stretch_of(run, reference, quantity);
+  const Span known = with_room(stretch, wanted, 0);
   constexpr double kLongest = 20e-3;  // [m]
-  const double longest = sine ? 0.25 * scene.corrugation->wavelength : kLongest;
-  return curve_difference(read_curve(run, quantity.curve), read_curve(reference, quantity.curve),
-                          stretch_of(run, reference, quantity), longest);
+  const double longest =
+      sine ? 0.25 * scene.corrugation->wavelength : std::min(kLongest, 0.1 * (known.last - known.first));
+  return curve_difference(read_curve(run, quantity.curve), wanted, stretch, longest);
 }
 
 }  // namespace tread

@@ -37,7 +37,8 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
                                                 const Span& stretch, double longest_shift);
 
 /// In this quantity, over the stretch on which the reference is evaluated; the longest shift is a quarter of
-/// its corrugation's wave, or 20 mm. Nothing as above or where a run has no such curve.
+/// its corrugation's wave; on other rails 20 mm, or a tenth of the way if that is less. Nothing as above or
+/// where a run has no such curve.
 std::optional<CurveDifference> run_difference(const FinishedRun& run, const FinishedRun& reference,
                                               const DialQuantity& quantity);
 

@@ -26,7 +26,7 @@ struct DialOutcome {
   DialTable table;
   DialTable effects;  ///< beside the point that the axes start from; without rows where there is none
   std::vector<FinishedRun> runs;
-  DialCost cost = DialCost::minutes;
+  DialCost cost = DialCost::element_steps;
 };
 
 Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command);

@@ -28,7 +28,8 @@ DialRow row_of(const FinishedRun& run, const FinishedRun& reference) {
       (number("mesh_s") + number("preload_s") + number("rolling_s")) * std::max(1.0, number("threads")) / 60;
   for (const DialQuantity& quantity : dial_quantities())
     if (const auto difference = run_difference(run, reference, quantity))
-      row.differences[quantity.name] = *difference;
+      row.differences[quantity.name] =
+          run.label == reference.label ? CurveDifference{0, 0, 0.0, 0.0} : *difference;
   return row;
 }
 

@@ -42,10 +42,11 @@ TEST(DialMeasures, ACurveBesideItselfDiffersByNothing) {
   const CurvePoints curve = sampled(wave);
   const auto d = curve_difference(curve, curve, kStretch, kLongest);
   ASSERT_TRUE(d);
-  EXPECT_LT(d->error, 1e-9);
+  // The parabola through the best shift and its neighbours, 0.25 mm away, is the correlation's but nearly.
+  EXPECT_LT(d->error, 1e-6);
   EXPECT_EQ(d->mean, 0);
   EXPECT_EQ(*d->range, 0);
-  EXPECT_LT(std::abs(*d->shift), 1e-9);
+  EXPECT_LT(std::abs(*d->shift), 1e-6);
 }
 
 TEST(DialMeasures, AShiftIsFoundAndTakenOut) {

@@ -25,7 +25,7 @@ class Dial : public testing::Test {
   /// A tyre that rolls for an instant in its solution zone.
   std::string tyres(const std::string& more) const {
     return fmt::format(
-        "dial {} -o {} -t 1 --quiet --set \"motion.duration=1.5 ms\" --set \"solution_zone.start=0 m\" "
+        "dial {} -o {} -t 1 --quiet --set \"motion.duration=1 ms\" --set \"solution_zone.start=0 m\" "
         "--base \"scene.element_size=10 mm\" {}",
         scene("tyre.toml"), runs_.string(), more);
   }
