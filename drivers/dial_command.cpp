@@ -73,13 +73,14 @@ FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
   return read_finished_run(folder, resolved.scene, folder.lexically_normal().filename().string());
 }
 
-/// What tells the runs from the scene; a reference from elsewhere has none.
+/// What tells the runs from the scene, outputs aside; a reference from elsewhere has none.
 void add_settings(const Study& study, DialTable& table) {
   for (DialRow& row : table.rows)
     for (const StudyPoint& point : study.points)
       if (point.name == row.point)
         for (const auto* settings : {&point.own, &point.varied})
-          for (const StudySetting& one : *settings) row.settings.push_back(one.as_override());
+          for (const StudySetting& one : *settings)
+            if (!one.key.starts_with("output.")) row.settings.push_back(one.as_override());
 }
 
 DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const StudyPlan& plan) {

@@ -39,6 +39,15 @@ std::string settings_text(const DialRow& row) {
   return text;
 }
 
+/// Whether the scene's element size is in the way of the row's quality.
+bool hides_quality(const ResolvedScene& resolved, const DialRow& row) {
+  const auto sets = [&](const char* key) {
+    return std::any_of(row.settings.begin(), row.settings.end(),
+                       [&](const std::string& one) { return one.starts_with(std::string(key) + "="); });
+  };
+  return resolved.scene.element_size && sets("scene.quality") && !sets("scene.element_size");
+}
+
 std::string percent_text(double share) {
   return readable(100 * share, 2) + " %";
 }
@@ -55,6 +64,7 @@ std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions&
   if (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, dial_cost(options.cost))) {
     advice.row = *row;
     advice.cost = cost_with(resolved, row->settings);
+    advice.hidden_quality = hides_quality(resolved, *row);
   }
   return advice;
 }
@@ -74,6 +84,8 @@ std::string advice_text(const Advice& advice) {
                       percent_text(error_of(*advice.row, advice.quantity).value_or(0)));
   text += fmt::format("          measured on \"{}\" against {}\n", advice.measured_on, advice.reference);
   text += fmt::format("         {}\n", settings_text(*advice.row));
+  if (advice.hidden_quality)
+    text += "          and scene.element_size left out of the scene, which hides the quality\n";
   return text + fmt::format("          this scene with it: about {}, {} elements, {} steps\n",
                             duration_text(advice.cost->seconds()), advice.cost->elements, advice.cost->steps);
 }

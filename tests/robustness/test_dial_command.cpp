@@ -56,6 +56,11 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   ASSERT_EQ(call(check + " --error 0.0001%"), 0) << errors();
   EXPECT_TRUE(has(program_.out(), "no setting measured is as near; the nearest")) << program_.out();
 
+  // The program's own table names a quality, which the tyre's element size hides.
+  ASSERT_EQ(call(fmt::format("check {} -t 1 --error 2% --quantity F_N", scene("tyre.toml"))), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "measured on \"Corrugation D, 300 km/h")) << program_.out();
+  EXPECT_TRUE(has(program_.out(), "left out of the scene")) << program_.out();
+
   // A finished run from elsewhere as the reference: nothing runs again.
   fs::rename(runs_ / "element_size=8mm", program_.folder / "fine");
   const std::string fewer = "--axis \"scene.element_size=12 mm\" --axis motion.start=rigid --reference ";

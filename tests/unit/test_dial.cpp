@@ -166,7 +166,9 @@ TEST(DialTable, TheMeasuredTableHasItsReference) {
             1);
   for (const DialRow& one : measured.rows)
     EXPECT_EQ(one.differences.size(), dial_quantities().size()) << one.point;
-  EXPECT_GE(pareto_front(measured, "F_N", DialCost::element_steps).size(), 3U);
+  // What docs/dial.md answers.
+  EXPECT_NE(cheapest(measured, "F_N", 0.02, DialCost::element_steps), nullptr);
+  EXPECT_NE(cheapest(measured, "pressure", 0.05, DialCost::element_steps), nullptr);
 }
 
 TEST(DialReport, EveryQuantityHasAPanel) {
