@@ -90,10 +90,10 @@ const std::vector<DialQuantity>& dial_quantities() {
       {"F_N", "F_N", {.y = {"vertical_force", "N"}}},
       {"F_L", "F_L", {.y = {"longitudinal_force", "N"}}},
       {"creepage", "creepage", {.y = {"creepage_mean", "-"}}},
-      {"pressure", "largest pressure", {.y = {"max_pressure", "Pa"}}},
-      {"shear", "largest shear", {.y = {"max_shear", "Pa"}}},
-      {"von_mises", "Von Mises stress", along_axis("max_von_mises", "Pa")},
-      {"work", "frictional work", along_axis("frictional_work", "J/m2")},
+      {"pressure", "pressure", {.y = {"max_pressure", "Pa"}}},
+      {"shear", "shear", {.y = {"max_shear", "Pa"}}},
+      {"von_mises", "Von Mises", along_axis("max_von_mises", "Pa")},
+      {"work", "work", along_axis("frictional_work", "J/m2")},
   };
   return quantities;
 }

@@ -101,6 +101,7 @@ std::string frame_svg(const Axes& at) {
 std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
   std::string path;
   std::string dots;
+  bool above = false;
   for (const ScatterDot& dot : panel.dots) {
     if (!drawn(dot)) continue;
     const double x = at.x(dot.x);
@@ -110,7 +111,9 @@ std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
         "<circle class=\"mark {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"><title>{}</title>"
         "</circle>\n",
         dot.marked ? "full" : "hollow", x, y, html_text(dot.label));
-    if (dot.marked) dots += label("note", x + 6, y - 5, dot.label);
+    if (!dot.marked) continue;
+    above = !above;  // labels of neighbours on either side of the line
+    dots += label("note", x + 6, y + (above ? -5 : 15), dot.label);
   }
   return fmt::format("<path class=\"curve c0\" d=\"{}\"/>\n{}", path, dots);
 }
