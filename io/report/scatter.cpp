@@ -130,7 +130,8 @@ Plot plot(const Scatter& scatter) {
   double bottom = 0;
   for (std::size_t i = 0; i < scatter.panels.size(); ++i) {
     const double left = kLeft + (i % 2 == 0 ? 0 : kWidth / 2);
-    const double top = kTop + static_cast<double>(i / 2) * (kTop + kHeight + kBottom);
+    const std::size_t row = i / 2;
+    const double top = kTop + static_cast<double>(row) * (kTop + kHeight + kBottom);
     bottom = top + kHeight;
     axes.x.first = left, axes.x.last = left + kPlotWidth;
     axes.y.first = bottom, axes.y.last = top;
