@@ -48,7 +48,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   return text;
 }
 
-std::string check_json(const Model& model, const Estimate& e) {
+std::string check_json(const Model& model, const Estimate& e, const std::optional<Advice>& advice) {
   JsonWriter json;
   json.begin_object().member("ok", true).key("problems").begin_array().end_array();
   json.member("elements", model.elements()).member("nodes", model.nodes());
@@ -91,16 +91,20 @@ std::string check_json(const Model& model, const Estimate& e) {
         .member("entity", std::string_view(field.entity))
         .member("bytes", field.bytes)
         .end_object();
-  return json.end_array().end_object().text();
+  json.end_array();
+  if (advice) add_advice(*advice, json);
+  return json.end_object().text();
 }
 
 }  // namespace
 
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
+  const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model(resolved.scene);
   const Estimate e = estimate(model);
-  fmt::print("{}", options.json ? check_json(model, e) : check_text(model, resolved, e));
+  fmt::print("{}", options.json ? check_json(model, e, advice) : check_text(model, resolved, e));
+  if (advice && !options.json) fmt::print("\n{}", advice_text(*advice));
 }
 
 }  // namespace tread

@@ -16,6 +16,7 @@
 #include "drivers/check_command.hpp"
 #include "drivers/ctl_command.hpp"
 #include "drivers/develop_command.hpp"
+#include "drivers/dial_command.hpp"
 #include "drivers/mesh_command.hpp"
 #include "drivers/multibody_command.hpp"
 #include "drivers/paper_command.hpp"
@@ -174,9 +175,26 @@ void add_cache(CLI::App& app) {
   command.callback([options] { tread::tend_cache(*options); });
 }
 
+CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {
+  return command.add_option("--cost", cost, "what cheap means: element-steps (default) or minutes");
+}
+
 void add_check(CLI::App& app) {
-  add_scene_command(app, "check", "all errors of a scene, or what it would compute and cost",
-                    tread::check_scene, std::make_shared<SceneCommand<tread::CheckOptions>>());
+  auto state = std::make_shared<SceneCommand<tread::CheckOptions>>();
+  CLI::App& command = add_scene_command(
+      app, "check", "all errors of a scene, or what it would compute and cost", tread::check_scene, state);
+  tread::AdviceOptions& advice = state->options.advice;
+  CLI::Option* error = command.add_option(
+      "--error", advice.error, "names the cheapest setting that was measured to be as near, e.g. 2%");
+  command
+      .add_option("--quantity", advice.quantity,
+                  "of the error: F_N, F_L, creepage, pressure, shear, von_mises, work (default: all)")
+      ->needs(error);
+  command
+      .add_option("--dial", advice.dial,
+                  "folder of `tread dial`, or its dial.jsonl (default: the table of docs/dial.md)")
+      ->needs(error);
+  add_cost_option(command, advice.cost)->needs(error);
 }
 
 void add_mesh(CLI::App& app) {
@@ -260,6 +278,33 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   command.callback([options] {
     std::optional<tread::Error> shortfall;
     report_problems(options->common.json, [&] { shortfall = tread::sweep(*options); });
+    if (shortfall) throw tread::Error(*shortfall);
+  });
+}
+
+void add_dial(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<tread::DialOptions>();
+  options->common.command = command_line;
+  CLI::App& command =
+      *app.add_subcommand("dial", "what settings of a passage cost and how far from the finest they lead");
+  command.add_option("file", options->file, "scene, or study file that states the runs (TOML)")->required();
+  command
+      .add_option("--base", options->axes.base,
+                  "key=value that holds while another key is varied (default: scene.element_size=5 mm)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--axis", options->axes.axes,
+                  "key=value,value,...: values in place of the usual ones, a run each")
+      ->allow_extra_args(false);
+  command.add_option("--reference", options->reference,
+                     "point, or folder of a finished run of the passage (default: the finest)");
+  command.add_option("--against", options->against,
+                     "point that single settings are compared with (default: the base)");
+  add_cost_option(command, options->cost);
+  add_study_options(command, options->common);
+  command.callback([options] {
+    std::optional<tread::Error> shortfall;
+    report_problems(options->common.json, [&] { shortfall = tread::turn_dial(*options); });
     if (shortfall) throw tread::Error(*shortfall);
   });
 }
@@ -415,6 +460,7 @@ int run(int argc, char** argv) {
   add_sweep(app, command_line);
   add_paper(app, command_line);
   add_develop(app, command_line);
+  add_dial(app, command_line);
   add_verify(app);
   add_bench(app);
   add_plain(app, "version", "version, compiler, instruction sets, packages", tread::print_version);

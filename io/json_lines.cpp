@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -13,7 +12,10 @@ namespace tread {
 
 std::vector<JsonRecord> read_json_lines(const std::filesystem::path& path) {
   constexpr std::size_t kLimit = 64 << 20;
-  const std::string text = read_text_file(path, kLimit);
+  return parse_json_lines(read_text_file(path, kLimit), path.string());
+}
+
+std::vector<JsonRecord> parse_json_lines(std::string_view text, const std::string& name) {
   std::vector<JsonRecord> records;
   std::string_view rest = text;
   for (int line = 1; !rest.empty(); ++line) {
@@ -25,7 +27,7 @@ std::vector<JsonRecord> read_json_lines(const std::filesystem::path& path) {
       throw InputError(
           fmt::format("{}:{}: expected one JSON object of numbers, texts and truths, without "
                       "objects or lists inside it",
-                      path.string(), line));
+                      name, line));
     records.push_back(std::move(*record));
   }
   return records;

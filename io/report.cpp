@@ -55,6 +55,10 @@ std::string html(const Heatmap& map) {
   return heatmap_html(map);
 }
 
+std::string html(const Scatter& scatter) {
+  return scatter_html(scatter);
+}
+
 std::string html(const PatchMovie& movie) {
   return movie_html(movie);
 }

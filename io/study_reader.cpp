@@ -322,6 +322,10 @@ std::string point_name(const std::vector<StudySetting>& varied) {
   return name.size() <= kLongestName ? name : name.substr(0, kLongestName);
 }
 
+bool is_study(const std::string& text, const std::string& name) {
+  return parse_toml(text, name).contains("study");
+}
+
 Study read_study(const fs::path& path) {
   return StudyReader(path).read();
 }

@@ -14,13 +14,6 @@ namespace {
 
 constexpr int kPlaces = 1024;
 
-double at(const CurvePoints& curve, double x) {
-  const auto above = std::upper_bound(curve.x.begin() + 1, curve.x.end() - 1, x);
-  const auto i = static_cast<std::size_t>(above - curve.x.begin()) - 1;
-  const double share = (x - curve.x[i]) / (curve.x[i + 1] - curve.x[i]);
-  return (1 - share) * curve.y[i] + share * curve.y[i + 1];
-}
-
 bool has_sine(const FinishedRun& run) {
   return run.rolled() && run.scene.corrugation && run.scene.corrugation->kind == "sine";
 }
@@ -31,7 +24,8 @@ std::vector<double> evaluated(const FinishedRun& run, const CurvePoints& curve) 
   if (curve.x.size() < 2 || curve.x.front() > stretch.first || curve.x.back() < stretch.last) return {};
   std::vector<double> values(kPlaces);
   for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = at(curve, stretch.first + (stretch.last - stretch.first) * static_cast<double>(i) / kPlaces);
+    values[i] = value_at(curve.x, curve.y,
+                         stretch.first + (stretch.last - stretch.first) * static_cast<double>(i) / kPlaces);
   return values;
 }
 
@@ -148,7 +142,7 @@ std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRu
   double most = 0;
   for (std::size_t i = 0; i < one.x.size(); ++i)
     if (one.x[i] >= time && one.x[i] <= other.x.back())
-      most = std::max(most, std::abs(one.y[i] - at(other, one.x[i])));
+      most = std::max(most, std::abs(one.y[i] - value_at(other.x, other.y, one.x[i])));
   return most / load;
 }
 

@@ -1,5 +1,7 @@
 #include "drivers/study/finished_run.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "drivers/sections.hpp"
@@ -20,6 +22,15 @@ CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
   for (double& x : columns[0]) x *= curve.x_scale;
   for (double& y : columns[1]) y *= curve.y_scale;
   return {std::move(columns[0]), std::move(columns[1])};
+}
+
+double value_at(const std::vector<double>& x, const std::vector<double>& y, double place) {
+  if (x.empty() || place < x.front() || place > x.back()) return std::numeric_limits<double>::quiet_NaN();
+  const auto above = std::upper_bound(x.begin(), x.end(), place);
+  if (above == x.end()) return y.back();
+  const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
+  const double share = (place - x[i]) / (x[i + 1] - x[i]);
+  return (1 - share) * y[i] + share * y[i + 1];
 }
 
 const std::vector<ResultColumn>& result_columns() {

@@ -41,8 +41,11 @@ struct RunCurve {
 };
 
 struct CurvePoints {
-  std::vector<double> x, y;
+  std::vector<double> x, y;  ///< x increasing
 };
+
+/// The curve of `y` over `x`, which increases, at `place`: linear between its points, NaN beyond its ends.
+double value_at(const std::vector<double>& x, const std::vector<double>& y, double place);
 
 /// Both columns, scaled. InputError.
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve);

@@ -15,8 +15,6 @@ namespace tread {
 
 namespace {
 
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-
 Series series_of(const FinishedRun& run, const CurvePanel& panel) {
   CurvePoints points = read_curve(run, panel.curve);
   return {panel.prefix + run.label, std::move(points.x), std::move(points.y), Stroke::solid};
@@ -67,15 +65,6 @@ void mark_common_track(const std::vector<FinishedRun>& runs, Figure& figure) {
         one_corrugation && other.first() == corrugation.first() && other.last() == corrugation.last();
   }
   mark_track(first.scene, one_corrugation ? corrugation : Corrugation(), *figure.x_range, figure);
-}
-
-double value_at(const Series& series, double x) {
-  if (series.x.empty() || x < series.x.front() || x > series.x.back()) return kGap;
-  const auto above = std::upper_bound(series.x.begin(), series.x.end(), x);
-  if (above == series.x.end()) return series.y.back();
-  const auto i = static_cast<std::size_t>(above - series.x.begin()) - 1;
-  const double share = (x - series.x[i]) / (series.x[i + 1] - series.x[i]);
-  return (1 - share) * series.y[i] + share * series.y[i + 1];
 }
 
 /// 1, 2 or 5 times a power of ten, and no more than `most` of them in `length`.
@@ -203,7 +192,7 @@ std::string figure_csv(const Figure& figure) {
   for (const double x : abscissae(all, figure)) {
     text += fmt::format("{:.6g}", x);
     for (const Series* series : all) {
-      const double value = value_at(*series, x);
+      const double value = value_at(series->x, series->y, x);
       text += std::isfinite(value) ? fmt::format(",{:.5g}", value) : ",";
     }
     text += '\n';

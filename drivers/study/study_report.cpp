@@ -89,43 +89,6 @@ void add_curves(const CurvesSpec& spec, const std::vector<FinishedRun>& runs, Ch
   }
 }
 
-Chapter curve_chapter(const std::vector<FinishedRun>& rolled) {
-  Chapter chapter{"Curves", {}};
-  CurvesSpec forces{"Contact forces", "Position of the wheel [m]", {}};
-  forces.panels.push_back({"F_N [kN]", {.y = {"vertical_force", "N"}, .y_scale = 1e-3}, "F_N, "});
-  forces.panels.push_back({"F_L [kN]", {.y = {"longitudinal_force", "N"}, .y_scale = 1e-3}, "F_L, "});
-  add_curves(forces, rolled, chapter);
-  CurvesSpec creepage{"Longitudinal creepage, mean of 28 nodes", "Position of the wheel [m]", {}};
-  creepage.panels.push_back({"Creepage [%]", {.y = {"creepage_mean", "-"}, .y_scale = 100}, "", 200});
-  add_curves(creepage, rolled, chapter);
-  CurvesSpec surface{
-      "What the passage leaves on the patch's longitudinal axis", "Position on the rail [m]", {}};
-  const auto along = [](const char* name, const char* unit, double scale) {
-    return RunCurve{.file = "surface_axis.csv", .x = {"x", "m"}, .y = {name, unit}, .y_scale = scale};
-  };
-  surface.panels.push_back(
-      {"Von Mises [MPa]", along("max_von_mises", "Pa", 1e-6), "Von Mises stress, ", 180});
-  surface.panels.push_back(
-      {"Work [mJ]", along("frictional_work_in_1.1_mm_cell", "J", 1e3), "frictional work, ", 180});
-  add_curves(surface, rolled, chapter);
-  return chapter;
-}
-
-Table point_table(const StudyPlan& plan) {
-  Table table{"", {{"Point"}, {"State"}}, {}};
-  const std::vector<std::string> keys = varied_keys(plan);
-  for (const std::string& key : keys)
-    table.columns.push_back({fmt::format("{} [{}]", key, unit_of(key)), Align::right});
-  table.columns.push_back({"Remark"});
-  for (const PlannedPoint& point : plan.points) {
-    std::vector<std::string> row = {point.name, name_of(point.status.state)};
-    for (const std::string& key : keys) row.push_back(value_text(point, key));
-    row.push_back(point.status.why);
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 }  // namespace
 
 std::vector<FinishedRun> finished_runs(const StudyPlan& plan) {
@@ -203,6 +166,43 @@ Table result_table(const std::vector<FinishedRun>& runs) {
       const auto value = result_of(run, *column);
       row.push_back(value ? readable(column->scale * *value) : "–");
     }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Chapter curve_chapter(const std::vector<FinishedRun>& rolled) {
+  Chapter chapter{"Curves", {}};
+  CurvesSpec forces{"Contact forces", "Position of the wheel [m]", {}};
+  forces.panels.push_back({"F_N [kN]", {.y = {"vertical_force", "N"}, .y_scale = 1e-3}, "F_N, "});
+  forces.panels.push_back({"F_L [kN]", {.y = {"longitudinal_force", "N"}, .y_scale = 1e-3}, "F_L, "});
+  add_curves(forces, rolled, chapter);
+  CurvesSpec creepage{"Longitudinal creepage, mean of 28 nodes", "Position of the wheel [m]", {}};
+  creepage.panels.push_back({"Creepage [%]", {.y = {"creepage_mean", "-"}, .y_scale = 100}, "", 200});
+  add_curves(creepage, rolled, chapter);
+  CurvesSpec surface{
+      "What the passage leaves on the patch's longitudinal axis", "Position on the rail [m]", {}};
+  const auto along = [](const char* name, const char* unit, double scale) {
+    return RunCurve{.file = "surface_axis.csv", .x = {"x", "m"}, .y = {name, unit}, .y_scale = scale};
+  };
+  surface.panels.push_back(
+      {"Von Mises [MPa]", along("max_von_mises", "Pa", 1e-6), "Von Mises stress, ", 180});
+  surface.panels.push_back(
+      {"Work [mJ]", along("frictional_work_in_1.1_mm_cell", "J", 1e3), "frictional work, ", 180});
+  add_curves(surface, rolled, chapter);
+  return chapter;
+}
+
+Table point_table(const StudyPlan& plan) {
+  Table table{"", {{"Point"}, {"State"}}, {}};
+  const std::vector<std::string> keys = varied_keys(plan);
+  for (const std::string& key : keys)
+    table.columns.push_back({fmt::format("{} [{}]", key, unit_of(key)), Align::right});
+  table.columns.push_back({"Remark"});
+  for (const PlannedPoint& point : plan.points) {
+    std::vector<std::string> row = {point.name, name_of(point.status.state)};
+    for (const std::string& key : keys) row.push_back(value_text(point, key));
+    row.push_back(point.status.why);
     table.rows.push_back(std::move(row));
   }
   return table;

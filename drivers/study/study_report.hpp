@@ -29,6 +29,12 @@ std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& ru
 /// Headline results of the runs for readers.
 Table result_table(const std::vector<FinishedRun>& runs);
 
+/// Forces, creepage, Von Mises stress and frictional work of runs that have rolled, over one another.
+Chapter curve_chapter(const std::vector<FinishedRun>& rolled);
+
+/// The points' state and values.
+Table point_table(const StudyPlan& plan);
+
 Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command);
 
 }  // namespace tread

@@ -1,0 +1,34 @@
+#pragma once
+// What a dial shows: tables, picture, report.
+
+#include <vector>
+
+#include "drivers/dial/dial_table.hpp"
+#include "drivers/study/study_plan.hpp"
+#include "io/report.hpp"
+
+namespace tread {
+
+/// Cost and errors [%], a row a run.
+Table error_table(const DialTable& table);
+
+/// Shifts [mm].
+Table shift_table(const DialTable& table);
+
+/// The cheapest run for some errors, in every quantity.
+Table advice_table(const DialTable& table, DialCost cost);
+
+/// Error over cost, a panel a quantity, with the fronts.
+Scatter dial_picture(const DialTable& table, DialCost cost);
+
+/// A dial as it stands in its folder.
+struct DialOutcome {
+  DialTable table;
+  DialTable effects;  ///< beside the point that the axes start from; without rows where there is none
+  std::vector<FinishedRun> runs;
+  DialCost cost = DialCost::element_steps;
+};
+
+Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command);
+
+}  // namespace tread

@@ -1,0 +1,35 @@
+#pragma once
+// Dots in planes of two logarithmic axes, drawn as SVG.
+
+#include <string>
+#include <vector>
+
+namespace tread {
+
+/// A place in both axes' units, above zero.
+struct ScatterDot {
+  double x = 0, y = 0;
+  std::string label;    ///< shown where the reader points; written beside a marked dot
+  bool marked = false;  ///< full and joined with the other marked ones, in their order
+};
+
+struct ScatterPanel {
+  std::string title;
+  std::vector<ScatterDot> dots;
+};
+
+/// Panels side by side in two columns over the same axes.
+struct Scatter {
+  std::string title;
+  std::string x_label, y_label;  ///< with units
+  std::vector<ScatterPanel> panels;
+  std::string caption;
+};
+
+/// A `figure` element: title, SVG, caption. Dots that are not above zero are left out.
+std::string scatter_html(const Scatter& scatter);
+
+/// The scatter as an SVG file that stands alone, title included.
+std::string scatter_svg(const Scatter& scatter);
+
+}  // namespace tread

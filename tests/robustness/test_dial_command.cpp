@@ -1,0 +1,104 @@
+// `tread dial` and `tread check --error` as a user calls them.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "io/json_lines.hpp"
+#include "tests/program.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using samples::content_of;
+using samples::has;
+
+class Dial : public testing::Test {
+ protected:
+  static std::string scene(const char* name) { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
+  int call(const std::string& arguments) const { return program_.call(arguments); }
+  std::string errors() const { return program_.errors(); }
+
+  /// A tyre that rolls for an instant in its solution zone.
+  std::string tyres(const std::string& more) const {
+    return fmt::format(
+        "dial {} -o {} -t 1 --quiet --set \"motion.duration=1 ms\" --set \"solution_zone.start=0 m\" "
+        "--base \"scene.element_size=10 mm\" {}",
+        scene("tyre.toml"), runs_.string(), more);
+  }
+
+  samples::Program program_{"dial"};
+  fs::path runs_ = program_.folder / "runs";
+};
+
+TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
+  const std::string axes = "--axis \"scene.element_size=12 mm,8 mm\" --axis motion.start=rigid";
+  ASSERT_EQ(call(tyres(axes)), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "against element_size=8mm")) << program_.out();
+  for (const char* name : {"dial.csv", "dial.jsonl", "dial.svg", "effects.csv", "sweep.csv", "report.html"})
+    EXPECT_TRUE(fs::exists(runs_ / name)) << name;
+  const std::vector<JsonRecord> rows = read_json_lines(runs_ / "dial.jsonl");
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(text_in(rows[3], "point"), "start=rigid");
+  EXPECT_EQ(text_in(rows[3], "settings"), "scene.element_size=10 mm; motion.start=rigid");
+  EXPECT_EQ(number_in(rows[2], "F_N_error"), 0);
+  for (const char* key : {"F_N_error", "creepage_error", "von_mises_error", "work_error", "shear_mean"})
+    EXPECT_TRUE(number_in(rows[0], key)) << key;
+  EXPECT_GT(number_in(rows[0], "F_N_error"), 0.001);
+
+  const std::string check =
+      fmt::format("check {} -t 1 --dial {} --quantity F_N", scene("tyre.toml"), runs_.string());
+  ASSERT_EQ(call(check + " --error 99%"), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "--set \"scene.element_size=1")) << program_.out();
+  ASSERT_EQ(call(check + " --error 0.0001%"), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "no setting measured is as near; the nearest")) << program_.out();
+
+  // The program's own table names a quality, which the tyre's element size hides.
+  ASSERT_EQ(call(fmt::format("check {} -t 1 --error 2% --quantity F_N", scene("tyre.toml"))), 0) << errors();
+  EXPECT_TRUE(has(program_.out(), "measured on \"Corrugation D, 300 km/h")) << program_.out();
+  EXPECT_TRUE(has(program_.out(), "left out of the scene")) << program_.out();
+
+  // A finished run from elsewhere as the reference: nothing runs again.
+  fs::rename(runs_ / "element_size=8mm", program_.folder / "fine");
+  const std::string fewer = "--axis \"scene.element_size=12 mm\" --axis motion.start=rigid --reference ";
+  ASSERT_EQ(call(tyres(fewer + (program_.folder / "fine").string())), 0) << errors();
+  EXPECT_EQ(read_json_lines(runs_ / "dial.jsonl").size(), 4U);
+  EXPECT_EQ(number_in(read_json_lines(runs_ / "dial.jsonl")[0], "F_N_error"),
+            number_in(rows[0], "F_N_error"));
+}
+
+TEST_F(Dial, RefusesBeforeAnythingRuns) {
+  const std::string two = "--axis \"scene.element_size=12 mm\" ";
+  EXPECT_EQ(call(tyres(two + "--reference nowhere")), 2);
+  EXPECT_TRUE(has(errors(), "--reference nowhere: neither a point of this dial")) << errors();
+  EXPECT_EQ(call(tyres(two + "--against nothing")), 2);
+  EXPECT_TRUE(has(errors(), "--against nothing: not a point")) << errors();
+  EXPECT_EQ(call(tyres("--axis scene.elements=3")), 2);
+  EXPECT_TRUE(has(errors(), "scene.elements")) << errors();
+  EXPECT_EQ(call(tyres(two + "--cost hours")), 2);
+  EXPECT_EQ(call(fmt::format("dial {} --list", scene("bar-wave.toml"))), 2);
+  EXPECT_TRUE(has(errors(), "nothing rolls in it")) << errors();
+  for (const char* wrong : {"--error 0", "--error two", "--error 2% --quantity F_Q",
+                            "--error 2% --cost hours", "--error 2% --dial nowhere"})
+    EXPECT_EQ(call(fmt::format("check {} -t 1 {}", scene("tyre.toml"), wrong)), 2) << wrong;
+  EXPECT_FALSE(fs::exists(runs_ / "element_size=12mm"));
+}
+
+TEST_F(Dial, AReferenceIsOfTheSamePassage) {
+  ASSERT_EQ(call(fmt::format("run {} -o {} -t 1 --quiet --set \"scene.element_size=10 mm\" --set "
+                             "\"motion.duration=0.1 ms\" --set \"solution_zone.start=0 m\" --set "
+                             "motion.traction.mu=0.1",
+                             scene("tyre.toml"), (program_.folder / "other").string())),
+            0)
+      << errors();
+  EXPECT_EQ(
+      call(tyres("--axis \"scene.element_size=12 mm\" --reference " + (program_.folder / "other").string())),
+      2);
+  EXPECT_TRUE(has(errors(), "motion.traction.mu is 0.3 here and 0.1 there")) << errors();
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,233 @@
+// How the dial measures curves, finds its front and names a setting.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/dial/dial_advice.hpp"
+#include "drivers/dial/dial_design.hpp"
+#include "drivers/dial/dial_report.hpp"
+#include "drivers/dial/dial_table.hpp"
+#include "tests/program.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kWave = 0.08;        ///< [m]
+constexpr Span kStretch{2.44, 2.92};  ///< six waves
+constexpr double kLongest = 0.25 * kWave;
+
+CurvePoints sampled(const std::function<double(double)>& value, double first = 2, double last = 3.3,
+                    double step = 0.83e-3) {
+  CurvePoints curve;
+  for (double x = first; x <= last; x += step) {
+    curve.x.push_back(x);
+    curve.y.push_back(value(x));
+  }
+  return curve;
+}
+
+double wave(double x) {
+  const double phase = 2 * std::numbers::pi * (x - 2.4) / kWave;
+  return 87e3 + 50e3 * std::cos(phase) + 12e3 * std::sin(2 * phase);
+}
+
+TEST(DialMeasures, ACurveBesideItselfDiffersByNothing) {
+  const CurvePoints curve = sampled(wave);
+  const auto d = curve_difference(curve, curve, kStretch, kLongest);
+  ASSERT_TRUE(d);
+  // The parabola through the best shift and its neighbours, 0.25 mm away, is the correlation's but nearly.
+  EXPECT_LT(d->error, 1e-6);
+  EXPECT_EQ(d->mean, 0);
+  EXPECT_EQ(*d->range, 0);
+  EXPECT_LT(std::abs(*d->shift), 1e-6);
+}
+
+TEST(DialMeasures, AShiftIsFoundAndTakenOut) {
+  // Between samples of 0.83 mm and between the shifts that are tried, 0.25 mm apart.
+  for (const double shift : {-7.13e-3, -0.4e-3, 0.07e-3, 3.31e-3, 15e-3}) {
+    const CurvePoints moved = sampled([shift](double x) { return wave(x - shift); });
+    const auto d = curve_difference(moved, sampled(wave), kStretch, kLongest);
+    ASSERT_TRUE(d && d->shift) << shift;
+    EXPECT_NEAR(*d->shift, shift, 0.02e-3);
+    EXPECT_LT(d->error, 2e-3) << shift;
+  }
+}
+
+TEST(DialMeasures, MeanRangeAndErrorOfAScaledCurve) {
+  const CurvePoints reference = sampled(wave);
+  const auto larger =
+      curve_difference(sampled([](double x) { return 1.1 * wave(x - 2e-3); }), reference, kStretch, kLongest);
+  ASSERT_TRUE(larger);
+  EXPECT_NEAR(larger->error, 0.1, 1e-3);
+  EXPECT_NEAR(*larger->range, 0.1, 1e-3);
+  const double level = std::sqrt(87e3 * 87e3 + 0.5 * (50e3 * 50e3 + 12e3 * 12e3));
+  EXPECT_NEAR(larger->mean, 0.1 * 87e3 / level, 1e-3);
+
+  const auto lifted =
+      curve_difference(sampled([](double x) { return wave(x) + 5e3; }), reference, kStretch, kLongest);
+  ASSERT_TRUE(lifted);
+  EXPECT_NEAR(lifted->error, 5e3 / level, 1e-4);
+  EXPECT_NEAR(lifted->mean, 5e3 / level, 1e-4);
+  EXPECT_NEAR(*lifted->range, 0, 1e-9);
+}
+
+TEST(DialMeasures, NoPatternNoShift) {
+  const CurvePoints reference = sampled(wave);
+  const auto flat = curve_difference(sampled([](double) { return 87e3; }), reference, kStretch, kLongest);
+  ASSERT_TRUE(flat);
+  EXPECT_FALSE(flat->shift);
+  EXPECT_NEAR(*flat->range, -1, 1e-12);
+  const auto other = curve_difference(sampled([](double x) { return wave(2.4 + 0.37 * (x - 2.4)); }),
+                                      reference, kStretch, kLongest);
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(other->shift);
+  EXPECT_GT(other->error, 0.2);
+}
+
+TEST(DialMeasures, AsFarAsBothCurvesGo) {
+  const CurvePoints reference = sampled(wave);
+  const auto half = curve_difference(sampled(wave, 2, 2.8), reference, kStretch, kLongest);
+  ASSERT_TRUE(half);
+  EXPECT_LT(half->error, 1e-3);
+  EXPECT_FALSE(curve_difference(sampled(wave, 2, 2.6), reference, kStretch, kLongest));
+  EXPECT_FALSE(curve_difference({}, reference, kStretch, kLongest));
+  EXPECT_FALSE(curve_difference(reference, sampled([](double) { return 0.0; }), kStretch, kLongest));
+}
+
+/// One quantity's errors; cost in minutes and element-steps in opposite orders.
+DialRow row(const std::string& point, double minutes, double f_n, double work) {
+  DialRow r{point, {"scene.element_size=" + point}, 1000 / minutes, 10, minutes, {}};
+  r.differences["F_N"].error = f_n;
+  r.differences["work"] = {work, -0.01, {}, 1e-3};
+  return r;
+}
+
+DialTable table() {
+  return {"made up",
+          "1mm",
+          {row("8mm", 1, 0.2, 0.3), row("6mm", 2, 0.1, 0.4), row("5mm", 3, 0.15, 0.2),
+           row("4mm", 5, 0.04, 0.09), row("1mm", 100, 0, 0)}};
+}
+
+std::vector<std::string> names(const std::vector<const DialRow*>& rows) {
+  std::vector<std::string> list;
+  for (const DialRow* one : rows) list.push_back(one->point);
+  return list;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(DialTable, TheFrontLeavesOutWhatIsDearerAndFurther) {
+  const DialTable t = table();
+  EXPECT_EQ(names(pareto_front(t, "F_N", DialCost::minutes)), (Names{"8mm", "6mm", "4mm"}));
+  EXPECT_EQ(names(pareto_front(t, "work", DialCost::minutes)), (Names{"8mm", "5mm", "4mm"}));
+  EXPECT_EQ(names(pareto_front(t, kAllQuantities, DialCost::minutes)), (Names{"8mm", "5mm", "4mm"}));
+  EXPECT_EQ(names(pareto_front(t, "F_N", DialCost::element_steps)), (Names{"4mm"}));
+  EXPECT_TRUE(pareto_front(t, "shear", DialCost::minutes).empty());
+}
+
+TEST(DialTable, TheCheapestIsNearEnough) {
+  const DialTable t = table();
+  EXPECT_EQ(cheapest(t, "F_N", 0.12, DialCost::minutes)->point, "6mm");
+  EXPECT_EQ(cheapest(t, kAllQuantities, 0.12, DialCost::minutes)->point, "4mm");
+  EXPECT_EQ(cheapest(t, "F_N", 0.01, DialCost::minutes), nullptr);
+}
+
+TEST(DialTable, LinesAreReadBack) {
+  const DialTable read = parse_dial(dial_lines(table()), "t");
+  EXPECT_EQ(read.scene, "made up");
+  EXPECT_EQ(read.reference, "1mm");
+  ASSERT_EQ(read.rows.size(), 5U);
+  EXPECT_EQ(read.rows[1].settings, (Names{"scene.element_size=6mm"}));
+  EXPECT_EQ(read.rows[1].differences.at("work").shift, 1e-3);
+  EXPECT_FALSE(read.rows[1].differences.at("work").range);
+  EXPECT_EQ(dial_csv(read), dial_csv(table()));
+  EXPECT_THROW(parse_dial("{\"point\": \"a\"}\n", "t"), InputError);
+  EXPECT_THROW(parse_dial("", "t"), InputError);
+}
+
+TEST(DialTable, WhatItDoesNotKnowIsRefused) {
+  EXPECT_NO_THROW(require_quantity("--quantity", "von_mises"));
+  EXPECT_THROW(require_quantity("--quantity", "F_Q"), InputError);
+  EXPECT_THROW(dial_cost("hours"), InputError);
+}
+
+TEST(DialTable, TheMeasuredTableHasItsReference) {
+  const DialTable& measured = measured_dial();
+  EXPECT_EQ(std::count_if(measured.rows.begin(), measured.rows.end(),
+                          [&](const DialRow& one) { return one.point == measured.reference; }),
+            1);
+  for (const DialRow& one : measured.rows)
+    EXPECT_EQ(one.differences.size(), dial_quantities().size()) << one.point;
+  // What docs/dial.md answers.
+  EXPECT_NE(cheapest(measured, "F_N", 0.02, DialCost::element_steps), nullptr);
+  EXPECT_NE(cheapest(measured, "pressure", 0.05, DialCost::element_steps), nullptr);
+}
+
+TEST(DialReport, EveryQuantityHasAPanel) {
+  const Scatter picture = dial_picture(table(), DialCost::minutes);
+  EXPECT_EQ(picture.panels.size(), dial_quantities().size() + 1);
+  EXPECT_EQ(picture.panels[0].dots.size(), 4U);
+  EXPECT_EQ(picture.panels[0].dots.back().label, "4mm");
+  EXPECT_TRUE(picture.panels[0].dots.back().marked);
+  EXPECT_NEAR(picture.panels[0].dots.back().y, 4, 1e-12);
+  const std::string svg = scatter_svg(picture);
+  EXPECT_TRUE(samples::has(svg, "4mm</text>"));
+  EXPECT_FALSE(samples::has(svg, "nan"));
+}
+
+class DialDesigns : public testing::Test {
+ protected:
+  static std::string scene() { return std::string(TREAD_SOURCE_DIR) + "/scenes/corrugation-d.toml"; }
+  static Names points(const DialAxes& axes) {
+    Names list;
+    for (const StudyPoint& point : design_dial(scene(), axes).study.points) list.push_back(point.name);
+    return list;
+  }
+};
+
+TEST_F(DialDesigns, OneKeyAtATimeAboutTheBase) {
+  const DialAxes axes{{"scene.element_size=6 mm", "scene.precision=mixed"},
+                      {"scene.element_size=8 mm,6 mm", "scene.quality=draft", "motion.start=rigid"}};
+  EXPECT_EQ(points(axes),
+            (Names{"element_size=6mm,precision=mixed", "element_size=8mm", "quality=draft", "start=rigid"}));
+  const Study study = design_dial(scene(), axes).study;
+  // A quality is not hidden by the base's element size.
+  ASSERT_EQ(study.points[2].own.size(), 1U);
+  EXPECT_EQ(study.points[2].own[0].as_override(), "scene.precision=mixed");
+  EXPECT_EQ(study.points[3].own.size(), 2U);
+}
+
+TEST_F(DialDesigns, TheUsualAxesSuitTheScene) {
+  const Names usual = points({});
+  for (const char* name :
+       {"element_size=5mm", "element_size=8mm", "quality=paper", "precision=single", "penetration_ratio=0.05",
+        "step_safety=0.5", "surface=facets", "start=rigid", "present=false"})
+    EXPECT_EQ(std::count(usual.begin(), usual.end(), name), 1) << name;
+  const auto axes = default_axes(read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/tyre.toml"));
+  EXPECT_EQ(std::count(axes.begin(), axes.end(), "scene.element_size=2.2 mm,1.6 mm,1.1 mm"), 1);
+  EXPECT_EQ(std::count(axes.begin(), axes.end(), "slab.present=false"), 0);
+}
+
+TEST_F(DialDesigns, WhatDoesNotReadIsRefused) {
+  EXPECT_THROW(points({{}, {"motion.start"}}), InputError);
+  EXPECT_THROW(points({{}, {"motion.start=rigid,"}}), InputError);
+  EXPECT_THROW(points({{"=5 mm"}, {}}), InputError);
+  const samples::Program program("dial_design");
+  const auto study = program.write("study.toml", "[study]\nscene = \"" + scene() +
+                                                     "\"\n[[point]]\nname = \"a\"\nscene.element_size = "
+                                                     "\"6 mm\"\n");
+  EXPECT_EQ(design_dial(study, {}).study.points.size(), 1U);
+  EXPECT_EQ(design_dial(study, {}).base, "");
+  EXPECT_THROW(design_dial(study, {{}, {"motion.start=rigid"}}), InputError);
+}
+
+}  // namespace
+}  // namespace tread
