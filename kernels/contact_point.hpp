@@ -21,19 +21,19 @@ struct ContactPoint {
   std::array<double, 4> wheel_angle;               ///< space angle of the four wheel stations [rad]
   std::array<double, 4> wheel_cosine, wheel_sine;  ///< of it
   std::array<double, 4> face_share;  ///< of the rail face's corners in the point (for nodal averages)
-  std::array<int, 2> face;  ///< rail station and surface edge
-  Vec3 normal;              ///< out of the wheel, into the rail; Cartesian
-  Vec3 along, across;       ///< tangents: along the rolling direction; across, to the field side
-  Vec3 position;            ///< on the rail surface [m]
-  std::int64_t history;     ///< place of the point's history
-  double area;              ///< that the point stands for [m2]
-  double gap;               ///< at the start of the step, < 0: penetration [m]
-  Vec3 velocity_before;     ///< of the wheel against the rail, mean of the step before [m/s]
-  Traction shear_before;    ///< in the middle of the step before [Pa]
-  double pressure;          ///< in the middle of the step [Pa]
-  Traction shear;           ///< on the rail, in the middle of the step [Pa]
-  double closing_speed;     ///< of the surfaces at the start of the step [m/s]
-  Traction slip_speed;      ///< of the wheel against the rail at the start of the step [m/s]
+  std::array<int, 2> face;           ///< rail station and surface edge
+  Vec3 normal;                       ///< out of the wheel, into the rail; Cartesian
+  Vec3 along, across;                ///< tangents: along the rolling direction; across, to the field side
+  Vec3 position;                     ///< on the rail surface [m]
+  std::int64_t history;              ///< place of the point's history
+  double area;                       ///< that the point stands for [m2]
+  double gap;                        ///< at the start of the step, < 0: penetration [m]
+  Vec3 velocity_before;              ///< of the wheel against the rail, mean of the step before [m/s]
+  Traction shear_before;             ///< in the middle of the step before [Pa]
+  double pressure;                   ///< in the middle of the step [Pa]
+  Traction shear;                    ///< on the rail, in the middle of the step [Pa]
+  double closing_speed;              ///< of the surfaces at the start of the step [m/s]
+  Traction slip_speed;               ///< of the wheel against the rail at the start of the step [m/s]
   bool slips;
   double frictional_work;  ///< of the step per area [J/m2]
 
