@@ -14,6 +14,8 @@
 #include <string>
 #include <thread>
 
+#include "tests/temporary_folder.hpp"
+
 namespace tread::samples {
 
 inline std::string content_of(const std::filesystem::path& path) {
@@ -65,14 +67,6 @@ inline pid_t start_program(const std::string& arguments, const std::filesystem::
 /// A folder that goes with the test, in which the program's output lands.
 class Program {
  public:
-  explicit Program(const std::string& name)
-      : folder(std::filesystem::path(testing::TempDir()) / fmt::format("tread_{}_{}", name, ::getpid())) {
-    std::filesystem::create_directories(folder);
-  }
-  ~Program() { std::filesystem::remove_all(folder); }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-
   pid_t start(const std::string& arguments) const { return start_program(arguments, folder); }
   int call(const std::string& arguments) const { return wait_for(start(arguments)); }
 
@@ -83,7 +77,11 @@ class Program {
     return folder / name;
   }
 
-  const std::filesystem::path folder;
+ private:
+  TemporaryFolder temporary_;
+
+ public:
+  const std::filesystem::path& folder = temporary_.path;
 };
 
 }  // namespace tread::samples

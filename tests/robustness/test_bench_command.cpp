@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <set>
 
 #include "io/json_lines.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -20,9 +20,6 @@ namespace fs = std::filesystem;
 
 class Bench : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Exit code; what it prints is left in `file`.
   int call(const std::string& arguments, const std::string& file = "out") const {
     const std::string command =
@@ -34,7 +31,8 @@ class Bench : public testing::Test {
   }
   std::string path(const char* name) const { return (folder_ / name).string(); }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_bench_{}", ::getpid());
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
 };
 
 double number(const JsonRecord& record, const char* name) {

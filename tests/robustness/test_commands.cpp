@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +11,8 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -39,8 +40,6 @@ bool has(const std::string& text, const std::string& part) {
 
 class Commands : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
   std::string scene(const std::string& name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
   std::string content(const char* name) const {
     std::stringstream text;
@@ -48,7 +47,8 @@ class Commands : public testing::Test {
     return text.str();
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_commands_{}", ::getpid());
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
 };
 
 TEST_F(Commands, CheckListsEveryProblemWithItsPlace) {

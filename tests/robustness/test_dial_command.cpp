@@ -30,7 +30,7 @@ class Dial : public testing::Test {
         scene("tyre.toml"), runs_.string(), more);
   }
 
-  samples::Program program_{"dial"};
+  samples::Program program_;
   fs::path runs_ = program_.folder / "runs";
 };
 

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "drivers/static_system.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/text_file.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -44,7 +44,6 @@ class Frames : public testing::TestWithParam<const char*> {
     simulation_.emplace(model_, solve_preload(model_, steady_motion(model_), [](const std::string&) {}), dt_);
     while (simulation_->steps() < kSteps) simulation_->step();
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   FrameFiles files() { return {model_, folder_, 2 * kSteps, dt_}; }
   fs::path frame(std::int64_t steps) const { return folder_ / fmt::format("frames/step-{:012}.hdf", steps); }
@@ -55,7 +54,8 @@ class Frames : public testing::TestWithParam<const char*> {
   }
 
   static constexpr std::int64_t kSteps = 40;
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_frames_{}", ::getpid());
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
   Model model_{samples::tyre_scene(
       {"scene.element_size=10 mm", "output.frames=5", fmt::format("output.frame_cells={}", GetParam())})};
   double dt_ = 0.9 * step_limit(model_).stable_step;

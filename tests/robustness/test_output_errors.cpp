@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "io/history_file.hpp"
 #include "io/output_file.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -55,10 +56,8 @@ std::string content(const fs::path& path) {
 
 class OutputErrors : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_output_{}", ::getpid());
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
   std::vector<Channel> channels_ = {{"time", "s", ""}, {"vertical_force", "N", ""}};
 };
 

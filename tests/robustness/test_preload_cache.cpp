@@ -16,6 +16,7 @@
 #include "io/content_cache.hpp"
 #include "io/file_range_lock.hpp"
 #include "tests/program_test.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -190,8 +191,8 @@ TEST_F(PreloadCache, IsShownAndCleared) {
 }
 
 TEST(ContentCache, RemovesWhatHasNotBeenUsedForLongest) {
-  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("tread_content_{}", ::getpid());
-  fs::remove_all(folder);
+  const samples::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   const SealedContent content = {{"values", std::vector<double>(1000, 1.5)}};
   ContentCache unbounded(folder, 1 << 30);
   std::string refused;

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "io/scene_checks.hpp"
 #include "io/scene_reader.hpp"
 #include "io/table_reader.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -294,9 +294,6 @@ TEST(SceneErrors, ThousandsOfProblemsAreListedInShort) {
 
 class Files : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -320,7 +317,8 @@ class Files : public testing::Test {
     return "accepted";
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / "tread_scene_errors";
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
 };
 
 TEST_F(Files, ThatCannotBeRead) {

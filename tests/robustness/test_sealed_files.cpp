@@ -18,6 +18,7 @@
 #include "io/sealed_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -50,10 +51,8 @@ SealedContent sample(double value) {
 
 class SealedFiles : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("tread_sealed_{}", ::getpid());
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
   fs::path path_ = folder_ / "a.h5";
 };
 

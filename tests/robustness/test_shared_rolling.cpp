@@ -186,7 +186,7 @@ class SharedRollingPlan : public testing::Test {
     return fmt::format("[[point]]\nname = \"{}\"\ncorrugation.present = false\n{}", name, more);
   }
   using Names = std::vector<std::string>;
-  Program program_{"shared_rolling"};
+  Program program_;
 };
 
 TEST_F(SharedRollingPlan, CorrugationsByGapAtOneSpeedAndTractionRollTogether) {

@@ -43,7 +43,7 @@ motion.traction.mu = [0.1, 0.3]
   std::string errors() const { return program_.errors(); }
   JsonRecord status() const { return read_json(runs_ / "status.json"); }
 
-  samples::Program program_{"sweep"};
+  samples::Program program_;
   fs::path runs_ = program_.folder / "runs";
 };
 

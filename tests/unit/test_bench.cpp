@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "drivers/bench/work.hpp"
 #include "io/json_lines.hpp"
 #include "kernels/element_body.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -82,13 +82,12 @@ TEST(Measurement, TakesTheMedianAndTheSpread) {
 
 class JsonLines : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
   std::vector<JsonRecord> read(const std::string& text) {
     std::ofstream(path_) << text;
     return read_json_lines(path_);
   }
-  std::filesystem::path path_ =
-      std::filesystem::path(testing::TempDir()) / fmt::format("tread_json_lines_{}", ::getpid());
+  samples::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path / "lines.json";
 };
 
 TEST_F(JsonLines, ReadsWhatTheCommandsPrint) {

@@ -220,7 +220,7 @@ TEST_F(DialDesigns, WhatDoesNotReadIsRefused) {
   EXPECT_THROW(points({{}, {"motion.start"}}), InputError);
   EXPECT_THROW(points({{}, {"motion.start=rigid,"}}), InputError);
   EXPECT_THROW(points({{"=5 mm"}, {}}), InputError);
-  const samples::Program program("dial_design");
+  const samples::Program program;
   const auto study = program.write("study.toml", "[study]\nscene = \"" + scene() +
                                                      "\"\n[[point]]\nname = \"a\"\nscene.element_size = "
                                                      "\"6 mm\"\n");

@@ -1,6 +1,4 @@
-#include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 
 #include "io/history_file.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -17,17 +16,14 @@ namespace fs = std::filesystem;
 
 class HistoryFileTest : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string csv() const {
     std::stringstream text;
     text << std::ifstream(folder_ / "histories.csv").rdbuf();
     return text.str();
   }
 
-  fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
   std::vector<Channel> channels_ = {{"time", "s", "Time since the start of rolling"},
                                     {"vertical_force", "N", "F_N"}};
 };

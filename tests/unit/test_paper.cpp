@@ -56,7 +56,7 @@ class MadeUpRun : public testing::Test {
 
   static constexpr double kSpeed = 300 / 3.6;  ///< [m/s]
   static constexpr double kLoad = 87564;       ///< [N]
-  samples::Program program_{"paper"};
+  samples::Program program_;
 };
 
 TEST_F(MadeUpRun, APatternHasItsShareAndShift) {

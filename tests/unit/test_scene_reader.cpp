@@ -11,6 +11,7 @@
 #include "io/scene_library.hpp"
 #include "io/scene_reader.hpp"
 #include "io/schema.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -197,8 +198,8 @@ TEST(SceneReader, DampingHasTwoNames) {
 }
 
 TEST(SceneReader, CorrugationTableIsReadBesideTheScene) {
-  const fs::path folder = fs::path(testing::TempDir()) / "tread_corrugation_table";
-  fs::create_directories(folder);
+  const samples::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   std::ofstream(folder / "measured.txt") << "# x [mm]; d [um]\n0; 0\n50; 60.5  # trough\n\n100, 0\n";
   const SceneSource source{"scene.toml", kBase + "[corrugation]\nkind = \"table\"\nfile = \"measured.txt\"\n",
                            folder};
@@ -206,12 +207,11 @@ TEST(SceneReader, CorrugationTableIsReadBesideTheScene) {
   EXPECT_EQ(resolved.scene.corrugation->table_x, (std::vector<double>{0, 0.05, 0.1}));
   EXPECT_EQ(resolved.scene.corrugation->table_depth, (std::vector<double>{0, 60.5e-6, 0}));
   expect_round_trip(resolved);
-  fs::remove_all(folder);
 }
 
 TEST(SceneReader, ProfilesAreReadBesideTheScene) {
-  const fs::path folder = fs::path(testing::TempDir()) / "tread_profiles";
-  fs::create_directories(folder);
+  const samples::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   std::ofstream(folder / "worn.txt") << "-70 0\n65 -3.1\n";
   const ResolvedScene resolved =
       resolve_scene(SceneSource{"scene.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n", folder});
@@ -219,7 +219,6 @@ TEST(SceneReader, ProfilesAreReadBesideTheScene) {
   EXPECT_EQ(resolved.scene.wheel->profile_z, (std::vector<double>{0, -3.1e-3}));
   EXPECT_TRUE(resolved.scene.rail->profile_y.empty());
   expect_round_trip(resolved);
-  fs::remove_all(folder);
 }
 
 TEST(SceneReader, ReferencePageIsUpToDate) {

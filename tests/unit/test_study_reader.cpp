@@ -25,7 +25,7 @@ class StudyReader : public testing::Test {
     }
     return "nothing";
   }
-  samples::Program program_{"study_reader"};
+  samples::Program program_;
 };
 
 std::vector<std::string> names(const Study& study) {

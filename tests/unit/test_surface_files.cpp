@@ -11,6 +11,7 @@
 
 #include "drivers/patch_file.hpp"
 #include "drivers/surface_results.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -44,11 +45,8 @@ ContactPoint point_on(std::array<int, 2> face, double pressure) {
 
 class SurfaceFiles : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_ =
-      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  samples::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path;
   SurfaceGrid grid_ = plane();
 };
 

@@ -10,6 +10,7 @@
 
 #include "io/hdf5_file.hpp"
 #include "io/vtkhdf.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
@@ -42,14 +43,13 @@ Mesh bar_and_ring() {
 
 class VtkhdfTest : public testing::Test {
  protected:
-  void TearDown() override { fs::remove(path_); }
-
   Vec3 point(const std::vector<double>& xyz, std::int64_t i) const {
     const auto at = static_cast<std::size_t>(3 * i);
     return {xyz[at], xyz[at + 1], xyz[at + 2]};
   }
 
-  fs::path path_ = fs::path(testing::TempDir()) / fmt::format("tread_mesh_{}.hdf", ::getpid());
+  samples::TemporaryFolder folder_;
+  fs::path path_ = folder_.path / "mesh.hdf";
   Mesh mesh_ = bar_and_ring();
 };
 
