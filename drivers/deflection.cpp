@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "drivers/interpolation.hpp"
 #include "io/output_file.hpp"
 #include "io/report/markup.hpp"
 
@@ -17,14 +18,9 @@ constexpr int kPlaces = 200;    ///< on either side of the wheel
 constexpr double kReach = 0.5;  ///< [m]
 constexpr double kNear = 0.1;   ///< where asymmetry is judged [m]
 
-/// Linear between the nodes; the last value beyond them.
-double value_at(const std::vector<double>& x, const std::vector<double>& values, double at) {
-  const auto above = std::upper_bound(x.begin(), x.end(), at);
-  if (above == x.begin()) return values.front();
-  if (above == x.end()) return values.back();
-  const auto i = static_cast<std::size_t>(above - x.begin());
-  const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
-  return (1 - share) * values[i - 1] + share * values[i];
+/// Beyond the rail the value at its end.
+double on_rail(const RailLine& line, const std::vector<double>& values, double x) {
+  return value_at(line.x(), values, std::clamp(x, line.x().front(), line.x().back()));
 }
 
 std::string described(const char* name, const std::vector<double>& displacement) {
@@ -62,8 +58,8 @@ Deflection deflection(const RailLine& line) {
   d.wheel_x = line.wheel_x();
   for (int i = -kPlaces; i <= kPlaces; ++i) {
     d.x.push_back(kReach * i / kPlaces);
-    d.at_rest.push_back(value_at(line.x(), line.at_rest(), d.x.back()));
-    d.rolling.push_back(value_at(line.x(), line.rolling(), d.wheel_x + d.x.back()));
+    d.at_rest.push_back(on_rail(line, line.at_rest(), d.x.back()));
+    d.rolling.push_back(on_rail(line, line.rolling(), d.wheel_x + d.x.back()));
   }
   return d;
 }

@@ -143,12 +143,11 @@ void require_same_start(const std::string& from, const ResolvedScene& there, con
 
 /// Corrugation depth that the searched surface of the scene's run has room for [m].
 double room_of(const Scene& scene) {
-  const double own = scene.corrugation ? corrugation_of(*scene.corrugation, 0).deepest() : 0.0;
-  return std::max(depth_room(scene), own);
+  return std::max(depth_room(scene), corrugation_depth(scene));
 }
 
 void require_room(const std::string& from, const Scene& scene, double room) {
-  const double deepest = scene.corrugation ? corrugation_of(*scene.corrugation, 0).deepest() : 0.0;
+  const double deepest = corrugation_depth(scene);
   if (deepest > room)
     throw InputError(
         fmt::format("--from {}: the corrugation is {:.4g} mm deep, the run there has searched the surface "

@@ -268,18 +268,25 @@ void add_study_options(CLI::App& command, tread::StudyOptions& options) {
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
 }
 
+/// The options of all studies, and what is done with them.
+template <class Options>
+void add_study(CLI::App& command, const std::shared_ptr<Options>& options,
+               std::optional<tread::Error> (*run)(const Options&)) {
+  add_study_options(command, options->common);
+  command.callback([options, run] {
+    std::optional<tread::Error> shortfall;
+    report_problems(options->common.json, [&] { shortfall = run(*options); });
+    if (shortfall) throw tread::Error(*shortfall);
+  });
+}
+
 void add_sweep(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<tread::SweepOptions>();
   options->common.command = command_line;
   CLI::App& command = *app.add_subcommand(
       "sweep", "a scene with some keys varied: a run for each point; goes on where it was stopped");
   command.add_option("study", options->study, "study file (TOML)")->required();
-  add_study_options(command, options->common);
-  command.callback([options] {
-    std::optional<tread::Error> shortfall;
-    report_problems(options->common.json, [&] { shortfall = tread::sweep(*options); });
-    if (shortfall) throw tread::Error(*shortfall);
-  });
+  add_study(command, options, tread::sweep);
 }
 
 void add_dial(CLI::App& app, const std::string& command_line) {
@@ -301,12 +308,7 @@ void add_dial(CLI::App& app, const std::string& command_line) {
   command.add_option("--against", options->against,
                      "point that single settings are compared with (default: the base)");
   add_cost_option(command, options->cost);
-  add_study_options(command, options->common);
-  command.callback([options] {
-    std::optional<tread::Error> shortfall;
-    report_problems(options->common.json, [&] { shortfall = tread::turn_dial(*options); });
-    if (shortfall) throw tread::Error(*shortfall);
-  });
+  add_study(command, options, tread::turn_dial);
 }
 
 void add_paper(CLI::App& app, const std::string& command_line) {
@@ -315,12 +317,7 @@ void add_paper(CLI::App& app, const std::string& command_line) {
   CLI::App& command = *app.add_subcommand(
       "paper", "the figures of the paper: runs what they need, ours beside theirs, a verdict each");
   command.add_option("--fig", options->figures, "numbers of figures (default: all; --list names them)");
-  add_study_options(command, options->common);
-  command.callback([options] {
-    std::optional<tread::Error> shortfall;
-    report_problems(options->common.json, [&] { shortfall = tread::reproduce_paper(*options); });
-    if (shortfall) throw tread::Error(*shortfall);
-  });
+  add_study(command, options, tread::reproduce_paper);
 }
 
 void add_develop(CLI::App& app, const std::string& command_line) {

@@ -129,9 +129,17 @@ Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
 }
 
 double depth_room(const Scene& scene) {
-  constexpr double kOfForks = 0.2e-3;
-  if (!scene.contact) return 0;
-  return scene.contact->depth_room.value_or(scene.forks ? kOfForks : 0.0);
+  if (scene.forks) return forks_room(scene);
+  return scene.contact ? scene.contact->depth_room.value_or(0) : 0;
+}
+
+double forks_room(const Scene& scene) {
+  constexpr double kUsual = 0.2e-3;
+  return scene.contact ? scene.contact->depth_room.value_or(kUsual) : 0;
+}
+
+double corrugation_depth(const Scene& scene) {
+  return scene.corrugation ? corrugation_of(*scene.corrugation, 0).deepest() : 0;
 }
 
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade) {

@@ -32,6 +32,12 @@ Corrugation corrugation_of(const CorrugationSpec& spec, double centre);
 /// [m].
 double depth_room(const Scene& scene);
 
+/// The same of the scene with [forks] [m].
+double forks_room(const Scene& scene);
+
+/// How deep the scene's corrugation is; 0 without one [m].
+double corrugation_depth(const Scene& scene);
+
 /// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that
 /// fades to nothing over `fade` [m] (node_shift).
 void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);

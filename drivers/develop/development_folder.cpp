@@ -59,18 +59,6 @@ void require_same(const fs::path& folder, const ResolvedScene& resolved) {
                     folder.string(), other));
 }
 
-/// Corrugation depth that the passages have room for [m].
-double room_of(const Scene& scene, const std::string& from) {
-  if (from.empty()) {
-    Scene forked = scene;
-    forked.forks.emplace();
-    return std::max(depth_room(forked), 2 * corrugation_of(*scene.corrugation, 0).deepest());
-  }
-  const std::size_t at = from.rfind('@');
-  const fs::path folder = at == std::string::npos || fs::is_directory(from) ? from : from.substr(0, at);
-  return depth_room(read_scene(folder / kScene));
-}
-
 std::string work_csv(const PassageWork& work) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
@@ -124,9 +112,14 @@ fs::path DevelopmentFolder::run_path(int number) const {
 }
 
 std::vector<std::string> DevelopmentFolder::overrides(int number) const {
-  std::vector<std::string> list = {"output.frames=0",
-                                   fmt::format("contact.depth_room={} m", room_of(scene_, options_.from))};
-  if (number == 0) return list;
+  std::vector<std::string> list = {"output.frames=0"};
+  if (number == 0) {
+    // Waves that grow find room; the others, and all that begin with a run's state, take over its room.
+    if (options_.from.empty())
+      list.push_back(fmt::format("contact.depth_room={} m",
+                                 std::max(forks_room(scene_), 2 * corrugation_depth(scene_))));
+    return list;
+  }
   const CorrugationSpec& spec = *scene_.corrugation;
   const Corrugation start = corrugation_of(spec, 0);
   list.insert(list.end(), {"corrugation.kind=table", "corrugation.apply=gap",
@@ -189,27 +182,26 @@ PassageWork work_of_run(const fs::path& surface, double first, double last) {
                     "be longer",
                     surface.string(), first, last));
   const std::size_t rows = width.size();
-  std::vector<double> share(rows, 0.0);  // of a row: its mean work over the stretch, times its width
+  std::vector<std::size_t> stations;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] >= first && x[i] <= last) stations.push_back(i);
+  std::vector<double> share(rows, 0.0);  // of a row in the stretch's work [J]
   double whole = 0;
-  PassageWork result;
-  for (const bool weigh : {true, false})
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (x[i] < first || x[i] > last) continue;
-      double across = 0;
-      for (std::size_t row = 0; row < rows; ++row) {
-        const double value = work[i * rows + row];
-        if (weigh) {
-          share[row] += length[i] * value * width[row];
-          whole += length[i] * value * width[row];
-        } else {
-          across += whole > 0 ? value * share[row] / whole : 0;
-        }
-      }
-      if (weigh) continue;
-      result.x.push_back(x[i]);
-      result.length.push_back(length[i]);
-      result.work.push_back(across);
+  for (const std::size_t i : stations)
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double part = length[i] * work[i * rows + row] * width[row];
+      share[row] += part;
+      whole += part;
     }
+  PassageWork result;
+  for (const std::size_t i : stations) {
+    double across = 0;
+    for (std::size_t row = 0; row < rows && whole > 0; ++row)
+      across += work[i * rows + row] * share[row] / whole;
+    result.x.push_back(x[i]);
+    result.length.push_back(length[i]);
+    result.work.push_back(across);
+  }
   return result;
 }
 

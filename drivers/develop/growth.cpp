@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/corrugation.hpp"
 #include "drivers/roughness/roughness_levels.hpp"
 
 namespace tread {
@@ -28,24 +27,11 @@ PassageWork as_stations(const WornProfile& profile) {
   return stations;
 }
 
-/// 1/length of the integral of w (value - mean) exp(-i turn (x - start)), w the fading of the ends.
-Complex coefficient(const PassageWork& values, const WornProfile& profile, const WearBand& band,
-                    double turn) {
-  const double mean = mean_work(values, profile, band);
-  Complex sum = 0;
-  for (std::size_t i = 0; i < values.x.size(); ++i) {
-    const double along = values.x[i] - profile.start;
-    sum += values.length[i] * end_taper(along, profile.length(), band.fade()) * (values.work[i] - mean) *
-           std::polar(1.0, -turn * along);
-  }
-  return sum / profile.length();
-}
-
 /// Mean square of the fading, by which it takes from a wave's power.
 double taper_power(const WornProfile& profile, const WearBand& band) {
   double sum = 0;
   for (std::size_t i = 0; i < profile.depth.size(); ++i) {
-    const double taper = end_taper(profile.x(i) - profile.start, profile.length(), band.fade());
+    const double taper = taper_at(profile.x(i), profile, band);
     sum += taper * taper * profile.spacing;
   }
   return sum / profile.length();
@@ -54,12 +40,15 @@ double taper_power(const WornProfile& profile, const WearBand& band) {
 std::vector<Line> lines_in(const RoughnessBand& octave_third, const WornProfile& profile,
                            const PassageWork& uneven, const WearBand& band) {
   const PassageWork depths = as_stations(profile);
+  const double mean_depth = mean_work(depths, profile, band);
+  const double mean = mean_work(uneven, profile, band);
   std::vector<Line> lines;
   const double length = profile.length();
   const auto first = static_cast<int>(std::ceil(length / octave_third.longest()));
   for (int wave = std::max(1, first); length / wave > octave_third.shortest(); ++wave) {
     const double turn = 2 * std::numbers::pi * wave / length;
-    lines.push_back({coefficient(depths, profile, band, turn), coefficient(uneven, profile, band, turn)});
+    lines.push_back(
+        {work_line(depths, mean_depth, turn, profile, band), work_line(uneven, mean, turn, profile, band)});
   }
   return lines;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "core/corrugation.hpp"
@@ -18,10 +17,6 @@ double range_of(const std::vector<double>& values) {
   return *high - *low;
 }
 
-double taper_at(double x, const WornProfile& profile, const WearBand& band) {
-  return end_taper(x - profile.start, profile.length(), band.fade());
-}
-
 }  // namespace
 
 double WornProfile::range() const {
@@ -35,6 +30,10 @@ double WearBand::gain(double wavelength) const {
   return beyond >= kFlank ? 0 : 0.5 * (1 + std::cos(std::numbers::pi * beyond / kFlank));
 }
 
+double taper_at(double x, const WornProfile& profile, const WearBand& band) {
+  return end_taper(x - profile.start, profile.length(), band.fade());
+}
+
 double mean_work(const PassageWork& work, const WornProfile& profile, const WearBand& band) {
   double sum = 0;
   double weights = 0;
@@ -46,6 +45,15 @@ double mean_work(const PassageWork& work, const WornProfile& profile, const Wear
   return weights > 0 ? sum / weights : 0;
 }
 
+std::complex<double> work_line(const PassageWork& work, double mean, double turn, const WornProfile& profile,
+                               const WearBand& band) {
+  std::complex<double> sum = 0;
+  for (std::size_t i = 0; i < work.x.size(); ++i)
+    sum += work.length[i] * taper_at(work.x[i], profile, band) * (work.work[i] - mean) *
+           std::polar(1.0, -turn * (work.x[i] - profile.start));
+  return sum / profile.length();
+}
+
 std::vector<double> uneven_work(const PassageWork& work, const WornProfile& profile, const WearBand& band) {
   const double mean = mean_work(work, profile, band);
   const double length = profile.length();
@@ -54,13 +62,9 @@ std::vector<double> uneven_work(const PassageWork& work, const WornProfile& prof
     const double gain = band.gain(length / wave);
     if (gain <= 0) continue;
     const double turn = 2 * std::numbers::pi * wave / length;
-    std::complex<double> line = 0;
-    for (std::size_t i = 0; i < work.x.size(); ++i)
-      line += work.length[i] * taper_at(work.x[i], profile, band) * (work.work[i] - mean) *
-              std::polar(1.0, -turn * (work.x[i] - profile.start));
+    const std::complex<double> line = work_line(work, mean, turn, profile, band);
     for (std::size_t i = 0; i < uneven.size(); ++i)
-      uneven[i] +=
-          2 * gain / length * std::real(line * std::polar(1.0, turn * (profile.x(i) - profile.start)));
+      uneven[i] += 2 * gain * std::real(line * std::polar(1.0, turn * (profile.x(i) - profile.start)));
   }
   for (std::size_t i = 0; i < uneven.size(); ++i) uneven[i] *= taper_at(profile.x(i), profile, band);
   return uneven;

@@ -1,6 +1,7 @@
 #pragma once
 // From the frictional work of a passage to the profile of the next. [theory.md, Wear]
 
+#include <complex>
 #include <vector>
 
 namespace tread {
@@ -35,6 +36,15 @@ struct WearBand {
 
 /// Mean of the work over the profile's stretch, its ends faded [J/m2].
 double mean_work(const PassageWork& work, const WornProfile& profile, const WearBand& band);
+
+/// Fourier coefficient of the work, its mean taken off and its ends faded, at `turn` = 2 pi / wavelength
+/// [1/m]: 1/length of the integral of the taper times (work - mean) exp(-i turn (x - start)). `mean`: of
+/// mean_work(). [J/m2]
+std::complex<double> work_line(const PassageWork& work, double mean, double turn, const WornProfile& profile,
+                               const WearBand& band);
+
+/// Share of a wave that the fading ends leave at x [m].
+double taper_at(double x, const WornProfile& profile, const WearBand& band);
 
 /// The uneven part of the work at the profile's places, without what is shorter or longer than the band and
 /// fading at the ends [J/m2]. [theory.md, eq. (W4)]

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "drivers/evaluated_stretch.hpp"
+#include "drivers/interpolation.hpp"
 #include "drivers/statistics.hpp"
 
 namespace tread {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "drivers/evaluated_stretch.hpp"
+#include "drivers/interpolation.hpp"
 #include "drivers/statistics.hpp"
 
 namespace tread {

@@ -24,15 +24,6 @@ CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
   return {std::move(columns[0]), std::move(columns[1])};
 }
 
-double value_at(const std::vector<double>& x, const std::vector<double>& y, double place) {
-  if (x.empty() || place < x.front() || place > x.back()) return std::numeric_limits<double>::quiet_NaN();
-  const auto above = std::upper_bound(x.begin(), x.end(), place);
-  if (above == x.end()) return y.back();
-  const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
-  const double share = (place - x[i]) / (x[i + 1] - x[i]);
-  return (1 - share) * y[i] + share * y[i + 1];
-}
-
 const std::vector<ResultColumn>& result_columns() {
   static const std::vector<ResultColumn> columns = {
       {"static_wheel_load", "N", "static_wheel_load_N", "Static F_N [kN]", 1e-3},

@@ -44,9 +44,6 @@ struct CurvePoints {
   std::vector<double> x, y;  ///< x increasing
 };
 
-/// The curve of `y` over `x`, which increases, at `place`: linear between its points, NaN beyond its ends.
-double value_at(const std::vector<double>& x, const std::vector<double>& y, double place);
-
 /// Both columns, scaled. InputError.
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve);
 

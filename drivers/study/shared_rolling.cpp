@@ -19,17 +19,6 @@ const SharedRolling* group_of(const StudyPlan& plan, const PlannedPoint& point) 
   return point.shared ? &plan.shared[*point.shared] : nullptr;
 }
 
-double deepest(const Scene& scene) {
-  return scene.corrugation ? corrugation_of(*scene.corrugation, 0).deepest() : 0.0;
-}
-
-/// Room for corrugations that a run with [forks] has of itself, or states [m].
-double usual_room(const Scene& scene) {
-  Scene with_forks = scene;
-  with_forks.forks.emplace();
-  return depth_room(with_forks);
-}
-
 /// Equal for points whose rolling is the same until their corrugations differ.
 SceneContent content_before(const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
@@ -50,9 +39,9 @@ SharedRolling group_from(const StudyPlan& plan, const std::vector<std::size_t>& 
     const Scene& scene = plan.points[i].resolved.scene;
     if (!scene.corrugation) continue;
     group.from_x = std::min(group.from_x, corrugation_of(*scene.corrugation, 0).first());
-    group.deepest = std::max(group.deepest, deepest(scene));
+    group.deepest = std::max(group.deepest, corrugation_depth(scene));
   }
-  if (group.deepest > usual_room(plan.points[points.front()].resolved.scene)) group.room = group.deepest;
+  if (group.deepest > forks_room(plan.points[points.front()].resolved.scene)) group.room = group.deepest;
   return group;
 }
 
@@ -96,7 +85,7 @@ void choose_keeper(StudyPlan& plan, const SharedRolling& group, bool retry) {
 bool can_share(const Scene& scene) {
   if (!scene.motion || scene.motion->speed <= 0 || !scene.contact) return false;
   if (scene.corrugation && scene.corrugation->apply != "gap") return false;
-  return !scene.contact->depth_room || deepest(scene) <= *scene.contact->depth_room;
+  return !scene.contact->depth_room || corrugation_depth(scene) <= *scene.contact->depth_room;
 }
 
 void find_shared_rolling(StudyPlan& plan) {

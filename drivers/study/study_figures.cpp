@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "drivers/figure_parts.hpp"
+#include "drivers/interpolation.hpp"
 
 namespace tread {
 

@@ -109,15 +109,6 @@ class TickFormat {
   int decimals_ = 0;
 };
 
-std::string line(const char* style, double x1, double y1, double x2, double y2) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style,
-                     x1, y1, x2, y2);
-}
-
-std::string label(const char* style, double x, double y, const std::string& text) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style, x, y, svg_text(text));
-}
-
 const char* stroke_class(Stroke stroke) {
   switch (stroke) {
     case Stroke::dashed:
@@ -189,14 +180,14 @@ std::string panel_svg(const Panel& panel, const Layout& at) {
   const std::vector<double> values = ticks(y.value[0], y.value[1], tick_count(panel.height));
   const TickFormat format(values);
   for (const double v : values) {
-    svg += line("grid", kLeft, y(v), kWidth - kRight, y(v));
-    svg += label("tick right", kLeft - 8, y(v) + 4, format(v));
+    svg += svg_line("grid", kLeft, y(v), kWidth - kRight, y(v));
+    svg += svg_label("tick right", kLeft - 8, y(v) + 4, format(v));
   }
   svg += curves_svg(panel, at, y);
   for (const Marker& level : panel.levels)
-    svg += line("level", kLeft, y(level.at), kWidth - kRight, y(level.at));
-  svg += line("axis", kLeft, at.top, kLeft, at.bottom) +
-         line("axis", kLeft, at.bottom, kWidth - kRight, at.bottom);
+    svg += svg_line("level", kLeft, y(level.at), kWidth - kRight, y(level.at));
+  svg += svg_line("axis", kLeft, at.top, kLeft, at.bottom) +
+         svg_line("axis", kLeft, at.bottom, kWidth - kRight, at.bottom);
   svg += fmt::format("<text class=\"name middle\" transform=\"translate(15 {:.1f}) rotate(-90)\">{}</text>\n",
                      (at.top + at.bottom) / 2, svg_text(panel.y_label + format.factor_text()));
   return svg + "</g>\n";
@@ -207,11 +198,11 @@ std::string abscissa_svg(const Figure& figure, const Scale& x, double bottom) {
   const TickFormat format(values);
   std::string svg = fmt::format("<g class=\"abscissa\" data-factor=\"{:g}\">\n", format.factor());
   for (const double v : values) {
-    svg += line("axis xtick", x(v), bottom, x(v), bottom + 5);
-    svg += label("tick middle xtick", x(v), bottom + 18, format(v));
+    svg += svg_line("axis xtick", x(v), bottom, x(v), bottom + 5);
+    svg += svg_label("tick middle xtick", x(v), bottom + 18, format(v));
   }
-  svg +=
-      label("name middle", (kLeft + kWidth - kRight) / 2, bottom + 38, figure.x_label + format.factor_text());
+  svg += svg_label("name middle", (kLeft + kWidth - kRight) / 2, bottom + 38,
+                   figure.x_label + format.factor_text());
   return svg + "</g>\n";
 }
 
@@ -219,7 +210,7 @@ std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
   std::string shapes;
   std::string labels;
   const auto note = [&](double at, const std::string& text) {
-    if (at > kLeft && at < kWidth - kRight) labels += label("note middle follows", at, kTop - 5, text);
+    if (at > kLeft && at < kWidth - kRight) labels += svg_label("note middle follows", at, kTop - 5, text);
   };
   for (const Band& band : figure.bands) {
     shapes +=
@@ -228,7 +219,7 @@ std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
     note((std::max(x(band.from), kLeft) + std::min(x(band.to), kWidth - kRight)) / 2, band.label);
   }
   for (const Marker& position : figure.positions) {
-    shapes += line("position", x(position.at), kTop, x(position.at), bottom);
+    shapes += svg_line("position", x(position.at), kTop, x(position.at), bottom);
     note(x(position.at), position.label);
   }
   return clipped(kTop, bottom, shapes) + labels;
@@ -328,14 +319,12 @@ Plot plot(const Figure& figure) {
 
 std::string figure_html(const Figure& figure) {
   const Plot drawn = plot(figure);
-  const std::string caption =
-      figure.caption.empty() ? "" : "<p class=\"caption\">" + html_text(figure.caption) + "</p>\n";
   return fmt::format(
       "<figure class=\"chart\">\n<figcaption>{}</figcaption>\n{}"
       "<svg viewBox=\"0 0 {:.0f} {:.0f}\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-left=\"{:.0f}\" "
       "data-right=\"{:.0f}\">\n{}</svg>\n{}</figure>\n",
       html_text(figure.title), legend_html(figure), kWidth, drawn.bottom + kBottom, drawn.x.value[0],
-      drawn.x.value[1], kLeft, kWidth - kRight, drawn.shapes, caption);
+      drawn.x.value[1], kLeft, kWidth - kRight, drawn.shapes, caption_html(figure.caption));
 }
 
 namespace {

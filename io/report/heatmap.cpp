@@ -202,12 +202,11 @@ std::string heatmap_html(const Heatmap& map) {
                                                         "width=\"26\" height=\"8\"><path class=\"outline\" "
                                                         "d=\"M0 4H26\"/></svg>" +
                                                             html_text(map.marked_label) + "</span></div>\n";
-  const std::string caption =
-      map.caption.empty() ? "" : "<p class=\"caption\">" + html_text(map.caption) + "</p>\n";
   return fmt::format(
       "<figure>\n<figcaption>{}</figcaption>\n{}<svg viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n{}"
       "</figure>\n",
-      html_text(map.title), legend, kWidth, kTop + kPlotHeight + kBottom, Plot(map).shapes(), caption);
+      html_text(map.title), legend, kWidth, kTop + kPlotHeight + kBottom, Plot(map).shapes(),
+      caption_html(map.caption));
 }
 
 std::string heatmap_svg(const Heatmap& map) {

@@ -80,6 +80,19 @@ std::string power_of_ten(int exponent) {
   return out;
 }
 
+std::string svg_line(const char* style, double x1, double y1, double x2, double y2) {
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style,
+                     x1, y1, x2, y2);
+}
+
+std::string svg_label(const char* style, double x, double y, std::string_view text) {
+  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style, x, y, svg_text(text));
+}
+
+std::string caption_html(std::string_view text) {
+  return text.empty() ? "" : fmt::format("<p class=\"caption\">{}</p>\n", html_text(text));
+}
+
 std::string readable(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   const std::string sign = value < 0 ? "−" : "";

@@ -13,6 +13,15 @@ std::string html_text(std::string_view text);
 /// The same for the content of an SVG text element.
 std::string svg_text(std::string_view text);
 
+/// An SVG line from (x1, y1) to (x2, y2) [px].
+std::string svg_line(const char* style, double x1, double y1, double x2, double y2);
+
+/// An SVG text element at (x, y) [px].
+std::string svg_label(const char* style, double x, double y, std::string_view text);
+
+/// The paragraph under a figure; nothing where the text is empty.
+std::string caption_html(std::string_view text);
+
 /// A number for reading, to the given significant digits and without zeros at the end: "193.2", "0.276", and
 /// "8.9×10⁻⁸" outside 10⁻³ ... 10⁷; an en dash where it is not finite.
 std::string readable(double value, int digits = 4);

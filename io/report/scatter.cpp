@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -75,27 +74,18 @@ Axes axes_of(const Scatter& scatter) {
   return axes;
 }
 
-std::string line(const char* style, const std::array<double, 4>& ends) {
-  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style,
-                     ends[0], ends[1], ends[2], ends[3]);
-}
-
-std::string label(const char* style, double x, double y, const std::string& text) {
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style, x, y, svg_text(text));
-}
-
 std::string frame_svg(const Axes& at) {
   std::string svg;
   for (const double value : at.y.ticks()) {
-    svg += line("grid", {at.x.first, at.y(value), at.x.last, at.y(value)});
-    svg += label("tick right", at.x.first - 8, at.y(value) + 4, readable(value));
+    svg += svg_line("grid", at.x.first, at.y(value), at.x.last, at.y(value));
+    svg += svg_label("tick right", at.x.first - 8, at.y(value) + 4, readable(value));
   }
   for (const double value : at.x.ticks()) {
-    svg += line("grid", {at.x(value), at.y.first, at.x(value), at.y.last});
-    svg += label("tick middle", at.x(value), at.y.first + 18, readable(value));
+    svg += svg_line("grid", at.x(value), at.y.first, at.x(value), at.y.last);
+    svg += svg_label("tick middle", at.x(value), at.y.first + 18, readable(value));
   }
-  return svg + line("axis", {at.x.first, at.y.first, at.x.last, at.y.first}) +
-         line("axis", {at.x.first, at.y.first, at.x.first, at.y.last});
+  return svg + svg_line("axis", at.x.first, at.y.first, at.x.last, at.y.first) +
+         svg_line("axis", at.x.first, at.y.first, at.x.first, at.y.last);
 }
 
 std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
@@ -113,7 +103,7 @@ std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
         dot.marked ? "full" : "hollow", x, y, html_text(dot.label));
     if (!dot.marked) continue;
     above = !above;  // labels of neighbours on either side of the line
-    dots += label("note", x + 6, y + (above ? -5 : 15), dot.label);
+    dots += svg_label("note", x + 6, y + (above ? -5 : 15), dot.label);
   }
   return fmt::format("<path class=\"curve c0\" d=\"{}\"/>\n{}", path, dots);
 }
@@ -135,12 +125,12 @@ Plot plot(const Scatter& scatter) {
     bottom = top + kHeight;
     axes.x.first = left, axes.x.last = left + kPlotWidth;
     axes.y.first = bottom, axes.y.last = top;
-    svg += label("name", left, top - 7, scatter.panels[i].title);
+    svg += svg_label("name", left, top - 7, scatter.panels[i].title);
     svg += frame_svg(axes) + dots_svg(scatter.panels[i], axes);
   }
   svg += fmt::format("<text class=\"name middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
                      (kTop + bottom) / 2, svg_text(scatter.y_label));
-  svg += label("name middle", kWidth / 2, bottom + kBottom + 16, scatter.x_label);
+  svg += svg_label("name middle", kWidth / 2, bottom + kBottom + 16, scatter.x_label);
   return {svg, bottom + kBottom + kFoot};
 }
 
@@ -148,12 +138,10 @@ Plot plot(const Scatter& scatter) {
 
 std::string scatter_html(const Scatter& scatter) {
   const Plot drawing = plot(scatter);
-  const std::string caption =
-      scatter.caption.empty() ? "" : "<p class=\"caption\">" + html_text(scatter.caption) + "</p>\n";
   return fmt::format(
       "<figure class=\"scatter\">\n<figcaption>{}</figcaption>\n<svg viewBox=\"0 0 {:.0f} "
       "{:.0f}\">\n{}</svg>\n{}</figure>\n",
-      html_text(scatter.title), kWidth, drawing.height, drawing.shapes, caption);
+      html_text(scatter.title), kWidth, drawing.height, drawing.shapes, caption_html(scatter.caption));
 }
 
 std::string scatter_svg(const Scatter& scatter) {
