@@ -131,7 +131,7 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
   }
 }
 
-std::optional<FileRangeLock> claim_preload(const ContentCache& cache, const std::string& key,
+std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
                                            const ProgressText& say, const std::function<void()>& wait) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kLongest = std::chrono::minutes(30);
@@ -140,7 +140,7 @@ std::optional<FileRangeLock> claim_preload(const ContentCache& cache, const std:
   bool told = false;
   try {
     while (Clock::now() - started < kLongest) {
-      if (std::optional<FileRangeLock> claim = cache.claim(key)) return claim;
+      if (std::optional<FileLock> claim = cache.claim(key)) return claim;
       if (!std::exchange(told, true)) say("another process solves it; waiting for that");
       wait();
       std::this_thread::sleep_for(kLook);

@@ -33,8 +33,8 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
 /// Waits while another process solves the preload of that key, at most half an hour; `wait` is called now and
 /// then and may throw. After that the cache may have it; what is returned keeps other processes waiting.
 /// Nothing where there are no locks.
-std::optional<FileRangeLock> claim_preload(const ContentCache& cache, const std::string& key,
-                                           const ProgressText& say, const std::function<void()>& wait);
+std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
+                                      const ProgressText& say, const std::function<void()>& wait);
 
 /// Keeps the preload; why it cannot goes to `say`.
 void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,

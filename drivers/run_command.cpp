@@ -81,7 +81,7 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
   const auto quietly = [](const std::string&) {};
   std::optional<Preload> known = cache ? recall_preload(*cache, key, model, quietly) : std::nullopt;
   const auto wait = [&] { obey_before_first_step(session); };
-  const std::optional<FileRangeLock> claim =
+  const std::optional<FileLock> claim =
       cache && !known ? claim_preload(*cache, key, say, wait) : std::nullopt;
   if (cache && !known) known = recall_preload(*cache, key, model, say);
   if (known) {

@@ -19,8 +19,8 @@ constexpr const char* kRequest = "request";
 constexpr const char* kStatus = "status.json";
 
 /// ResourceError where another process owns the folder.
-FolderLock take(const fs::path& folder) {
-  std::optional<FolderLock> lock = FolderLock::try_take(folder);
+FileLock take(const fs::path& folder) {
+  std::optional<FileLock> lock = FileLock::try_folder(folder);
   if (lock) return std::move(*lock);
   throw ResourceError(fmt::format(
       "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
@@ -57,7 +57,7 @@ std::optional<RunRequest> read_request(const fs::path& path) {
 }  // namespace
 
 bool is_taken(const fs::path& folder) {
-  return !FolderLock::try_take(folder);
+  return !FileLock::try_folder(folder);
 }
 
 void leave_request(const fs::path& folder, RunRequest request) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "io/folder_lock.hpp"
+#include "io/file_lock.hpp"
 
 namespace tread {
 
@@ -45,7 +45,7 @@ class RunFolder {
 
  private:
   std::filesystem::path path_;
-  FolderLock lock_;
+  FileLock lock_;
 };
 
 }  // namespace tread

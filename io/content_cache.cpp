@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "io/folder_lock.hpp"
 #include "io/output_file.hpp"
 
 namespace tread {
@@ -51,10 +50,10 @@ bool is_entry(const fs::path& path) {
 }
 
 /// For those who change the folder; readers see whole files without it.
-FolderLock take(const fs::path& folder) {
+FileLock take(const fs::path& folder) {
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
-    if (std::optional<FolderLock> lock = FolderLock::try_take(folder)) return std::move(*lock);
+    if (std::optional<FileLock> lock = FileLock::try_folder(folder)) return std::move(*lock);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   throw ResourceError(fmt::format("another process has held {} for 10 s", folder.string()));
@@ -89,16 +88,16 @@ std::optional<SealedContent> ContentCache::find(const std::string& key, std::str
 void ContentCache::store(const std::string& key, SealedContent content) const {
   create(folder_);
   content[kKey] = key;
-  const FolderLock lock = take(folder_);
+  const FileLock lock = take(folder_);
   remove_parts(folder_);
   replace_file(path_of(folder_, key),
                [&](const fs::path& part) { write_sealed(part, kKind, kVersion, content); });
   trim();
 }
 
-std::optional<FileRangeLock> ContentCache::claim(const std::string& key) const {
+std::optional<FileLock> ContentCache::claim(const std::string& key) const {
   create(folder_);
-  return FileRangeLock::try_take(folder_ / kClaims, hash_of(key));
+  return FileLock::try_number(folder_ / kClaims, hash_of(key));
 }
 
 std::vector<ContentCache::Entry> ContentCache::entries() const {
@@ -125,7 +124,7 @@ void ContentCache::trim() const {
 
 void ContentCache::clear() const {
   if (!fs::exists(folder_)) return;
-  const FolderLock lock = take(folder_);
+  const FileLock lock = take(folder_);
   remove_parts(folder_);
   for (const Entry& entry : entries()) {
     std::error_code error;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file_range_lock.hpp"
+#include "io/file_lock.hpp"
 #include "io/sealed_file.hpp"
 
 namespace tread {
@@ -29,7 +29,7 @@ class ContentCache {
 
   /// Of who is finding out what belongs under the key; nothing where another process is. Needs no entry, and
   /// hinders nobody to find or store. ResourceError where the folder cannot be written.
-  std::optional<FileRangeLock> claim(const std::string& key) const;
+  std::optional<FileLock> claim(const std::string& key) const;
 
   struct Entry {
     std::filesystem::path path;

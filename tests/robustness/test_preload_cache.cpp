@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "drivers/run_folder.hpp"
 #include "io/content_cache.hpp"
-#include "io/file_range_lock.hpp"
+#include "io/file_lock.hpp"
 #include "tests/program_test.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -136,13 +136,13 @@ TEST_F(PreloadCache, AProcessWaitsForTheOneThatSolvesItsPreload) {
   const fs::path hidden = cache_ / "hidden";
   fs::rename(entry, hidden);
   const pid_t holder = child([&] {
-    const auto claim = FileRangeLock::try_take(cache_ / "claims.lock", number);
+    const auto claim = FileLock::try_number(cache_ / "claims.lock", number);
     std::ofstream(root_ / "held") << "x";
     if (claim) ::pause();
   });
   ASSERT_TRUE(wait_until([&] { return fs::exists(root_ / "held"); }));
-  EXPECT_FALSE(FileRangeLock::try_take(cache_ / "claims.lock", number));
-  EXPECT_TRUE(FileRangeLock::try_take(cache_ / "claims.lock", number + 1));
+  EXPECT_FALSE(FileLock::try_number(cache_ / "claims.lock", number));
+  EXPECT_TRUE(FileLock::try_number(cache_ / "claims.lock", number + 1));
   EXPECT_EQ(call(run("elsewhere", "--set \"load.wheel_load=87 kN\"")), 0) << errors();
   EXPECT_FALSE(has(errors(), "another process solves it")) << errors();
 
@@ -162,7 +162,7 @@ TEST_F(PreloadCache, AStopIsObeyedWhileAnotherProcessSolves) {
   ASSERT_EQ(call(run("known")), 0) << errors();
   const fs::path entry = entries().front().path;
   const auto claim =
-      FileRangeLock::try_take(cache_ / "claims.lock", std::stoull(entry.stem().string(), nullptr, 16));
+      FileLock::try_number(cache_ / "claims.lock", std::stoull(entry.stem().string(), nullptr, 16));
   ASSERT_TRUE(claim);
   fs::remove(entry);
   const pid_t waiting = start(run("stopped"));
