@@ -139,15 +139,6 @@ Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSi
   return builder.take();
 }
 
-/// Rows on the side face, as fractions from the tie up: growing upwards, so that the cell in the rounded
-/// corner is large enough to have an angle there.
-std::vector<double> side_rows(int rows) {
-  std::vector<double> result = {0.0};
-  for (int j = 0; j < rows; ++j) result.push_back(result.back() + 1 + 0.9 * (j + 0.5) / rows);
-  for (double& value : result) value /= result[static_cast<std::size_t>(rows)];
-  return result;
-}
-
 struct CapEdges {
   double left, right;          // logical corners, where the surface is inclined by 45 degrees
   double left_tie, right_tie;  // where the side faces meet the tie
@@ -162,27 +153,54 @@ CapEdges cap_edges(const PlaneCurve& running) {
           running.first(middle, 0, below), running.first(middle, running.length(), below)};
 }
 
+/// Values along a line with one more among the first `count` intervals, which keep their ends.
+std::vector<double> with_one_more(std::span<const double> values, int count) {
+  std::vector<double> result;
+  for (int i = 0; i <= count; ++i) {
+    const double at = static_cast<double>(i) * count / (count + 1);
+    const auto k = static_cast<std::size_t>(at);
+    result.push_back(values[k] + (at - static_cast<double>(k)) * (values[k + 1] - values[k]));
+  }
+  result.insert(result.end(), values.begin() + count, values.end());
+  return result;
+}
+
+/// Wanted abscissae on the tie below the running surface's nodes `top` and the two columns that end in the
+/// collapsed corners.
+std::vector<double> below(std::span<const Point2> top, double tie_end) {
+  std::vector<double> x;
+  for (const Point2& point : top) x.push_back(point.x);
+  const int outer = std::min(4, static_cast<int>(top.size() - 1) / 2);
+  for (int side = 0; side < 2; ++side) {
+    x = with_one_more(x, outer);
+    std::reverse(x.begin(), x.end());
+  }
+  for (double& value : x) {
+    const double reach = value < 0 ? -top.front().x : top.back().x;
+    value += (tie_end - reach) * std::pow(value / reach, 3);
+  }
+  return x;
+}
+
+/// Its upper corners are collapsed: the outline is smooth there.
 Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSize& size) {
   const PlaneCurve& running = rail.running;
   const CapEdges edges = cap_edges(running);
   const auto s = graded(breaks_on(running, edges.left, edges.right),
                         [&](double at) { return size.column(running.at(at).position.x, kLargestColumn); });
+  const auto layers = from_below(layer_depths(size, kTieDepth));
+  const int side_edges = static_cast<int>(layers.size()) - 2;
 
   PatchSides sides;
   sides.top = positions(running, s);
-  std::vector<double> wanted, weight;
-  for (const Point2& point : sides.top) {
-    const double reach = point.x < 0 ? -sides.top.front().x : sides.top.back().x;
-    wanted.push_back(point.x + (tie.end - reach) * std::pow(point.x / reach, 3));
+  sides.left = along(running, edges.left_tie, edges.left, side_edges);
+  sides.right = along(running, edges.right_tie, edges.right, side_edges);
+  sides.bottom = at_height(nested(below(sides.top, tie.end), tie.x, "rail head"), -kTieDepth);
+  for (auto* side : {&sides.top, &sides.left, &sides.right}) side->push_back(side->back());
+  sides.top.insert(sides.top.begin(), sides.top.front());
+  std::vector<double> weight;
+  for (const Point2& point : sides.top)
     weight.push_back(size.layer_weight(point.x, sides.top.front().x, sides.top.back().x));
-  }
-  const auto x = nested(wanted, tie.x, "rail head");
-  sides.bottom = at_height(x, -kTieDepth);
-  const auto layers = from_below(layer_depths(size, kTieDepth));
-  for (const double fraction : side_rows(static_cast<int>(layers.size()) - 1)) {
-    sides.left.push_back(running.at(edges.left_tie + fraction * (edges.left - edges.left_tie)).position);
-    sides.right.push_back(running.at(edges.right_tie + fraction * (edges.right - edges.right_tie)).position);
-  }
 
   SectionBuilder builder;
   builder.add(fill_layered(sides, layers, weight));

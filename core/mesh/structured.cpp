@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -213,19 +214,40 @@ Patch fill(const PatchSides& s) {
 
 namespace {
 
+/// Of the four neighbours; beside a collapsed corner two of them are one node and count once.
+Point2 middle_of_neighbours(const Patch& patch, int i, int j) {
+  const std::array<Point2, 4> neighbours = {patch.at(i - 1, j), patch.at(i + 1, j), patch.at(i, j - 1),
+                                            patch.at(i, j + 1)};
+  Point2 sum;
+  int count = 0;
+  for (auto here = neighbours.begin(); here != neighbours.end(); ++here) {
+    const auto same = [&](Point2 other) { return norm(other - *here) < kMerge; };
+    if (std::any_of(neighbours.begin(), here, same)) continue;
+    sum = sum + *here;
+    ++count;
+  }
+  return (1.0 / count) * sum;
+}
+
 /// Moves inner nodes towards the middle of their neighbours where `held` is below 1: corners of a patch that
 /// lie on a smooth outline get cells of a useful shape.
 void relax(Patch& patch, std::span<const double> held) {
-  constexpr int kPasses = 4;
+  constexpr int kPasses = 12;
   for (int pass = 0; pass < kPasses; ++pass) {
     const Patch before = patch;
     for (int j = 1; j < patch.rows; ++j)
       for (int i = 1; i < patch.columns; ++i) {
-        const Point2 middle =
-            0.25 * (before.at(i - 1, j) + before.at(i + 1, j) + before.at(i, j - 1) + before.at(i, j + 1));
+        const Point2 middle = middle_of_neighbours(before, i, j);
         patch.at(i, j) = patch.at(i, j) + (1 - held[index(i)]) * (middle - patch.at(i, j));
       }
   }
+}
+
+/// How much of a side's bulge its rows keep at a distance, a fraction of the width: columns that lean cost
+/// time step, so it fades before the fine columns begin.
+double bulge_at(double distance) {
+  constexpr double kReach = 0.15;
+  return std::exp(-(distance / kReach) * (distance / kReach));
 }
 
 }  // namespace
@@ -244,9 +266,8 @@ Patch fill_layered(const PatchSides& s, std::span<const double> layers, std::spa
       const double x = u[index(i)], w = weight[index(i)];
       const double side = (1 - x) * vl[index(j)] + x * vr[index(j)];
       const double v = w * layers[index(j)] + (1 - w) * side;
-      const double near_left = (1 - x) * (1 - x) * (1 - x), near_right = x * x * x;
       patch.at(i, j) = s.bottom[index(i)] + v * (s.top[index(i)] - s.bottom[index(i)]) +
-                       near_left * bulge_left + near_right * bulge_right;
+                       bulge_at(x) * bulge_left + bulge_at(1 - x) * bulge_right;
     }
   }
   for (int i = 0; i <= patch.columns; ++i) {
@@ -279,8 +300,12 @@ void SectionBuilder::add(const Patch& patch) {
   for (int j = 0; j < patch.rows; ++j)
     for (int i = 0; i < patch.columns; ++i) {
       const int at = j * (patch.columns + 1) + i;
-      section_.quads.push_back({node[index(at)], node[index(at + 1)], node[index(at + patch.columns + 2)],
-                                node[index(at + patch.columns + 1)]});
+      const std::array<int, 4> quad = {node[index(at)], node[index(at + 1)],
+                                       node[index(at + patch.columns + 2)],
+                                       node[index(at + patch.columns + 1)]};
+      const bool collapsed = std::set<int>(quad.begin(), quad.end()).size() == 2;
+      if (collapsed) continue;
+      section_.quads.push_back(quad);
       section_.quad_material.push_back(0);
     }
 }

@@ -80,12 +80,14 @@ Patch fill(const PatchSides& sides);
 
 /// Columns are straight between bottom and top except near curved left and right sides. Their nodes stand at
 /// `layers` (fractions from the bottom, rows + 1 of them) where weight[i] = 1, and spaced as on the left and
-/// right sides where it is 0.
+/// right sides where it is 0. Two sides that meet may end with their common corner twice: that corner is
+/// collapsed, the cell in it has no area, and a smooth outline passes through without a flat cell.
 Patch fill_layered(const PatchSides& sides, std::span<const double> layers, std::span<const double> weight);
 
 /// Collects patches into a section; nodes closer than 1e-7 m are one.
 class SectionBuilder {
  public:
+  /// Cells of collapsed corners are left out.
   void add(const Patch& patch);
   /// Nodes at the given points, which must exist.
   std::vector<int> nodes_at(std::span<const Point2> points) const;
