@@ -232,7 +232,7 @@ Point2 middle_of_neighbours(const Patch& patch, int i, int j) {
 /// Moves inner nodes towards the middle of their neighbours where `held` is below 1: corners of a patch that
 /// lie on a smooth outline get cells of a useful shape.
 void relax(Patch& patch, std::span<const double> held) {
-  constexpr int kPasses = 12;
+  constexpr int kPasses = 16;
   for (int pass = 0; pass < kPasses; ++pass) {
     const Patch before = patch;
     for (int j = 1; j < patch.rows; ++j)
