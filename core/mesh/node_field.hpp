@@ -59,6 +59,7 @@ class NodeField {
    public:
     Value(const NodeField& field, std::int64_t i) : double_(field.double_), single_(field.single_), i_(i) {}
     Value(const Value&) = default;
+    /// Writes the other's value to this one's place. NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
     Value& operator=(const Value& other) { return *this = static_cast<double>(other); }
     operator double() const { return single_ != nullptr ? single_[i_] : double_[i_]; }
     Value& operator=(double value) {
