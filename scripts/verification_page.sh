@@ -11,6 +11,7 @@ runs=(
   'hertz_sphere'
   'hertz_sphere --set "element_size=0.55 mm"' # 25 minutes of a core
   'hertz_ellipse'
+  'hertz_ellipse --set "element_size=0.55 mm"' # 25 minutes of a core
   'contact_filter'
   'cattaneo_mindlin'
   'cattaneo_mindlin --set "element_size=2.2 mm"'
@@ -22,6 +23,7 @@ runs=(
   'steady_rolling --set mu=0.1'
   'steady_rolling --set "element_size=2.2 mm"'
   'steady_rolling --set "element_size=0.55 mm"' # 1.6 million elements: 20 minutes of a core
+  'steady_rolling --set "element_size=0.55 mm" --set mu=0.1'
   'transient'
   'von_mises'
   'von_mises --set "element_size=2.2 mm"'
