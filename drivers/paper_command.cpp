@@ -103,6 +103,8 @@ std::optional<Error> reproduce_paper(const PaperOptions& options) {
       write_text_file(plan.folder / fmt::format("fig{}.svg", figure.id), figure_svg(drawn));
     }
     write_text_file(plan.folder / "numbers.csv", number_csv(runs));
+    write_text_file(plan.folder / "results.md",
+                    markdown(number_table(runs)) + "\n" + markdown(verdict_table(runs)));
     write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, finished));
     write_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.command));
     if (common.json)

@@ -14,8 +14,8 @@ struct PaperOptions {
 };
 
 /// Runs the passages that the figures need and that are not done, each once, and leaves figNN.csv and
-/// figNN.svg, numbers.csv, sweep.csv and report.html; prints the paper's numbers beside ours. Throws and
-/// returns what run_study() does; InputError for a figure that is not known.
+/// figNN.svg, numbers.csv, results.md, sweep.csv and report.html; prints the paper's numbers beside ours.
+/// Throws and returns what run_study() does; InputError for a figure that is not known.
 std::optional<Error> reproduce_paper(const PaperOptions& options);
 
 }  // namespace tread

@@ -47,6 +47,20 @@ std::string plain_text(const Table& table) {
   return text;
 }
 
+std::string markdown(const Table& table) {
+  std::string head = "|", rule = "|", rows;
+  for (const Column& column : table.columns) {
+    head += fmt::format(" {} |", column.title);
+    rule += column.align == Align::right ? "--:|" : "---|";
+  }
+  for (const auto& row : table.rows) {
+    rows += "|";
+    for (const std::string& cell : row) rows += fmt::format(" {} |", cell);
+    rows += "\n";
+  }
+  return head + "\n" + rule + "\n" + rows;
+}
+
 std::string grouped(std::int64_t number) {
   const std::string digits = std::to_string(number);
   std::string text;

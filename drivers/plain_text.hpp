@@ -1,5 +1,5 @@
 #pragma once
-// Tables and figures for the terminal.
+// Tables and figures as text.
 
 #include <cstdint>
 #include <string>
@@ -10,6 +10,9 @@ namespace tread {
 
 /// A report's table in columns of equal width, the title above.
 std::string plain_text(const Table& table);
+
+/// The same as a table of Markdown, without its title.
+std::string markdown(const Table& table);
 
 /// "461 656".
 std::string grouped(std::int64_t number);

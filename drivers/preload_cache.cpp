@@ -132,7 +132,7 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
 }
 
 std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
-                                           const ProgressText& say, const std::function<void()>& wait) {
+                                      const ProgressText& say, const std::function<void()>& wait) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kLongest = std::chrono::minutes(30);
   constexpr auto kLook = std::chrono::milliseconds(100);

@@ -173,11 +173,10 @@ void write_page(const Outcome& outcome, const std::filesystem::path& directory) 
   const std::string command = "`tread verify " + outcome.verified->name + changed_inputs(outcome, " --set ");
   std::string text =
       fmt::format("{}`: {}; {}.\n\n", command, outcome.verified->summary, duration_text(outcome.seconds));
-  text += "| quantity | ours | reference | unit | error | bound | |\n|---|---|---|---|---|---|---|\n";
-  for (const auto& row : table_of({&outcome, 1}).rows) {
-    for (std::size_t i = 1; i < row.size(); ++i) text += "| " + row[i] + " ";
-    text += "|\n";
-  }
+  Table table = table_of({&outcome, 1});
+  table.columns.erase(table.columns.begin());
+  for (auto& row : table.rows) row.erase(row.begin());
+  text += markdown(table);
   text += "\n";
   for (std::size_t i = 0; i < outcome.result.figures.size(); ++i) {
     const std::string file = fmt::format("{}-{}.svg", name, i);

@@ -171,6 +171,8 @@ TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
   const std::string numbers = content_of(runs_ / "numbers.csv");
   EXPECT_TRUE(has(numbers, "\"Largest F_N over corrugation D\",kN,193.19,,")) << numbers;
   EXPECT_TRUE(has(numbers, "\"Creepage before the corrugation\",%,0.276,,")) << numbers;
+  const std::string results = content_of(runs_ / "results.md");
+  EXPECT_TRUE(has(results, "| Largest F_N over corrugation D | kN | 193.2 |")) << results;
 
   EXPECT_EQ(program_.call("paper --fig 3 --list"), 2);
   EXPECT_TRUE(has(errors(), "--fig 3: not among the figures 7, 8")) << errors();

@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# scripts/paper_page.sh DIR: takes what `tread paper -o DIR` has left: figures as CSV and SVG into docs/paper/, the tables
+# of numbers and conclusions between the marks of docs/paper.md.
+set -euo pipefail
+root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
+results=${1:?which folder? see the head of this file}
+document="$root/docs/paper.md"
+
+mkdir -p "$root/docs/paper"
+cp "$results"/fig*.csv "$results"/fig*.svg "$results/numbers.csv" "$root/docs/paper/"
+{
+  sed '/<!-- tread paper: begin -->/q' "$document"
+  printf '\n'
+  cat "$results/results.md"
+  printf '\n'
+  for picture in "$results"/fig*.svg; do
+    name=$(basename "$picture" .svg)
+    printf '![Fig. %s](paper/%s.svg)\n\n' "$(sed 's/^fig0*//' <<< "$name")" "$name"
+  done
+  sed -n '/<!-- tread paper: end -->/,$p' "$document"
+} > "$document.new"
+mv "$document.new" "$document"
