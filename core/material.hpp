@@ -1,9 +1,18 @@
 #pragma once
 // Linear elastic isotropic material.
 
+#include <numbers>
+#include <optional>
 #include <string>
 
 namespace tread {
+
+/// A spring of `strength` times the elasticity in series with a dashpot, beside the elasticity.
+/// [theory.md, Maxwell branch]
+struct MaxwellBranch {
+  double strength;  ///< g [-]
+  double time;      ///< of relaxation, tau [s]
+};
 
 struct Material {
   std::string name;
@@ -14,10 +23,18 @@ struct Material {
   double rayleigh_beta = 0;            ///< classical [s]
   double high_frequency_fraction = 0;  ///< fraction of critical at the highest frequency of the mesh of this
                                        ///< material (LS-DYNA's positive COEF) [-]
+  /// rayleigh_beta holds below this frequency, by a Maxwell branch; none: at all frequencies. [Hz]
+  std::optional<double> damping_up_to = {};
 
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
   double lame_lambda() const {
     return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
+  }
+  /// Its loss is beta w / (1 + (w tau)^2), nine tenths of beta w at damping_up_to. [theory.md, eq. 12d]
+  std::optional<MaxwellBranch> branch() const {
+    if (!damping_up_to || rayleigh_beta == 0) return std::nullopt;
+    const double time = 1 / (6 * std::numbers::pi * *damping_up_to);
+    return MaxwellBranch{rayleigh_beta / time, time};
   }
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
 };

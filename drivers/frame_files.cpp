@@ -120,6 +120,7 @@ void FrameFiles::copy(const Simulation& simulation) {
   };
   copy_field(simulation.displacement(), at_.displacement);
   copy_field(simulation.velocity(), at_.velocity);
+  if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, at_.lag);
   at_.wheel = simulation.wheel();
   if (model_->contact) at_.patch = model_->contact->nodes();
 }
@@ -211,9 +212,10 @@ VtkArray FrameFiles::contact_pressure() const {
 VtkArray FrameFiles::von_mises_stress() const {
   VtkArray array{"von Mises stress [Pa]", "Pa", "at the element's centre", 1, true, {}};
   array.values.reserve(grid_.cells.size());
+  const ConstNodeField lag = at_.lag.empty() ? nullptr : at_.lag.data();
   for (const VtkGrid::Cell& cell : grid_.cells)
-    array.values.push_back(static_cast<float>(
-        von_mises(model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data()))));
+    array.values.push_back(static_cast<float>(von_mises(
+        model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data(), lag))));
   return array;
 }
 

@@ -44,6 +44,7 @@ class FrameFiles {
     std::int64_t steps = 0;
     double time = 0;  ///< [s]
     AlignedVector<double> displacement, velocity;
+    AlignedVector<double> lag;  ///< empty without Maxwell branches
     BodyFrame wheel;
     PatchNodes patch;  ///< empty without contact
   };

@@ -65,11 +65,12 @@ class Phases {
   std::vector<PhaseInfo> list_;
 };
 
-/// Displacement and velocity; grid, arrays, file and its image.
+/// Displacement, velocity and the branches' lag; grid, arrays, file and its image.
 std::int64_t frame_memory(const Model& model) {
   const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
   constexpr int kTimes = 3;
-  return 2 * 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double)) + bytes.mesh +
+  const int vectors = model.has_branches() ? 3 : 2;
+  return vectors * 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double)) + bytes.mesh +
          kTimes * bytes.frame;
 }
 
@@ -96,7 +97,10 @@ std::vector<PhaseInfo> phases(const Model& model) {
   const bool vehicle = model.scene.vehicle && !model.journal.empty();
   const bool load = model.scene.load && !model.journal.empty();
 
-  list.add(true, {"internal force", "all blocks", {"coefficients", "displacement", "velocity"}, {"force"}});
+  std::vector<std::string> deformed_by = {"coefficients", "displacement", "velocity"};
+  if (model.has_branches()) deformed_by.emplace_back("branch lag");
+  list.add(true, {"internal force", "all blocks", deformed_by, {"force"}});
+  list.add(model.has_branches(), {"Maxwell branches", "blocks that have them", {"velocity"}, {"branch lag"}});
   list.add(model.ties.has_value(), {"tied forces", "tied nodes", {"tie links"}, {"force"}});
   list.add(model.fastenings.has_value(),
            {"fastenings", "spring-dampers", {"fastening elements", "displacement", "velocity"}, {"force"}});
@@ -179,6 +183,7 @@ std::vector<FieldInfo> fields(const Model& model) {
                                  model.internal->bytes() / 2 + model.mesh.slots * bytes.other});
   add(motion, {"velocity", "m/s", "node", 3 * model.mesh.slots * bytes.other});
   add(motion, {"force", "N", "node", 3 * model.mesh.slots * bytes.other});
+  add(motion && model.has_branches(), {"branch lag", "m", "node", 3 * model.mesh.slots * bytes.other});
   add(motion && model.contact, {"surface fields", "Pa, J/m2", "rail surface node",
                                 model.contact ? SurfaceFields::bytes(model.contact->nodes().grid()) : 0});
   add(motion, {"samples", "all", "sample",
@@ -215,16 +220,18 @@ Table field_table(const Model& model) {
 
 std::int64_t checkpoint_bytes(const Model& model) {
   const ValueBytes bytes = value_bytes(model.scene);
-  const std::int64_t motion = 3 * model.mesh.slots * (bytes.displacement + bytes.other);
+  const std::int64_t motion =
+      3 * model.mesh.slots * (bytes.displacement + bytes.other * (model.has_branches() ? 2 : 1));
   if (!model.contact) return motion;
   return motion + model.contact->bytes() + SurfaceFields::bytes(model.contact->nodes().grid());
 }
 
 std::int64_t peak_bytes(const Model& model) {
-  constexpr std::array<std::string_view, 8> kInMotion = {"displacement in motion",
+  constexpr std::array<std::string_view, 9> kInMotion = {"displacement in motion",
                                                          "rounded coefficients and mass",
                                                          "velocity",
                                                          "force",
+                                                         "branch lag",
                                                          "surface fields",
                                                          "samples",
                                                          "checkpoint",

@@ -270,12 +270,21 @@ void Model::set_damping() {
       omega = std::max(omega, internal->max_frequency(static_cast<int>(b)).omega);
   }
   beta.assign(mesh.blocks.size(), 0.0);
+  branches.assign(mesh.blocks.size(), std::nullopt);
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Material& material = mesh.blocks[b].materials.front();
     const double fraction = material.high_frequency_fraction;  // of critical: beta omega / 2
-    beta[b] = fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
+    branches[b] = material.branch();
+    if (branches[b])
+      internal->set_branch(static_cast<int>(b), branches[b]->strength);
+    else
+      beta[b] = fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
     internal->set_beta(static_cast<int>(b), beta[b]);
   }
+}
+
+bool Model::has_branches() const {
+  return std::any_of(branches.begin(), branches.end(), [](const auto& branch) { return branch.has_value(); });
 }
 
 void Model::build_fastenings() {

@@ -53,7 +53,8 @@ struct Model {
   AlignedVector<double> mass;            ///< lumped, ties gathered; scalar node field [kg]
   AlignedVector<double> inverse_mass;    ///< scalar node field, 0 where nothing moves by itself [1/kg]
 
-  std::vector<double> beta;  ///< stiffness-proportional damping by block [s]
+  std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
+  std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
 
   std::optional<SpringDampers> fastenings;
   std::optional<Attachment> hammer;  ///< the struck point of the rail's crown
@@ -66,6 +67,7 @@ struct Model {
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
 
+  bool has_branches() const;
   double wheel_load() const;    ///< static vertical contact force [N]
   double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
+#include "kernels/branch_lag.hpp"
 #include "kernels/solver/chunks.hpp"
 
 namespace tread {
@@ -29,6 +31,7 @@ class RoundedParts {
       : internal_(model.mesh), inverse_mass_(model.inverse_mass.begin(), model.inverse_mass.end()) {
     for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
       internal_.set_beta(b, model.internal->beta(b));
+      internal_.set_branch(b, model.internal->branch(b));
       internal_.set_finite_rotation(b, model.internal->finite_rotation(b));
     }
   }
@@ -53,6 +56,10 @@ class PreciseFields final : public NodeFields {
     displacement_ = u_.data();
     velocity_ = v_.data();
     force_ = f_.data();
+    if (model.has_branches()) {
+      q_.emplace(model.mesh, model.branches);
+      lag_ = q_->data();
+    }
     for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
       if (model.vertical_only(b)) update_.set_vertical_only(b);
     update_.defer(model.loaded_slots());
@@ -63,9 +70,9 @@ class PreciseFields final : public NodeFields {
     std::copy(velocity.begin(), velocity.end(), v_.begin());
   }
 
-  void deform() override { parts_.internal().internal_force(u_.data(), v_.data(), f_.data()); }
+  void deform() override { parts_.internal().internal_force(u_.data(), v_.data(), f_.data(), lag()); }
   void deform_and_move(const StepLoads& loads) override {
-    parts_.internal().move(update_, loads, u_.data(), v_.data(), f_.data());
+    parts_.internal().move(update_, loads, {u_.data(), v_.data(), f_.data(), lag()});
   }
   void move_all(const StepLoads& loads) override {
     update_.move_all(loads, {u_.data(), v_.data(), f_.data()});
@@ -74,11 +81,27 @@ class PreciseFields final : public NodeFields {
     update_.move_rest(loads, {u_.data(), v_.data(), f_.data()}, parts_.internal().unmoved_tiles());
   }
 
+  void follow(double dt) override {
+    if (q_) q_->advance(v_.data(), dt);
+  }
+
   DeformationEnergy energy(int block) const override { return parts_.internal().energy(block, u_.data()); }
 
   double strain_energy() const override {
     double sum = 0;
     for (int b = 0; b < static_cast<int>(mesh_->blocks.size()); ++b) sum += strain_energy(b);
+    return sum;
+  }
+
+  BranchEnergy branch_energy() const override {
+    BranchEnergy sum;
+    for (int b = 0; q_ && b < static_cast<int>(mesh_->blocks.size()); ++b) {
+      const std::optional<MaxwellBranch>& branch = q_->branch(b);
+      if (!branch) continue;
+      const double stored = branch->strength * parts_.internal().linear_energy(b, q_->data());
+      sum.stored += stored;
+      sum.power += 2 * stored / branch->time;
+    }
     return sum;
   }
 
@@ -92,14 +115,16 @@ class PreciseFields final : public NodeFields {
   void list_state(StateList& list) override {
     list.add("displacement", std::span(u_));
     list.add("velocity", std::span(v_));
+    if (q_) list.add("lag", std::span(q_->values()));
   }
 
  private:
+  const Real* lag() const { return q_ ? q_->data() : nullptr; }
   double strain_energy(int b) const {
     if constexpr (std::is_same_v<Real, double>) {
       // In the linear blocks u . K u / 2; the force still holds K (u + beta v) alone.
       const SweptBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
-      if (block.sweep == Sweep::extruded)
+      if (block.sweep == Sweep::extruded && !(q_ && q_->branch(b)))
         return 0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base);
     }
     const DeformationEnergy part = energy(b);
@@ -111,6 +136,7 @@ class PreciseFields final : public NodeFields {
   BasicTimeUpdate<Real, U> update_;
   AlignedVector<U> u_;
   AlignedVector<Real> v_, f_;
+  std::optional<BranchLag<Real>> q_;
 };
 
 }  // namespace

@@ -12,6 +12,12 @@
 
 namespace tread {
 
+/// Of all Maxwell branches.
+struct BranchEnergy {
+  double stored = 0;  ///< in their springs [J]
+  double power = 0;   ///< dissipated in their dashpots [W]
+};
+
 class NodeFields {
  public:
   NodeFields() = default;
@@ -25,6 +31,8 @@ class NodeFields {
   ConstNodeField velocity() const { return velocity_; }
   NodeField force() { return force_; }  ///< internal minus external [N]
   ConstNodeField force() const { return force_; }
+  /// Lag of the Maxwell branches, where there are any [m].
+  ConstNodeField lag() const { return lag_; }
 
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
@@ -38,17 +46,22 @@ class NodeFields {
   /// Moves those that deform_and_move() left.
   virtual void move_rest(const StepLoads& loads) = 0;
 
-  /// Energy in a block's elements [J].
+  /// The lag follows the motion of a step of dt [s].
+  virtual void follow(double dt) = 0;
+
+  /// Energy in a block's elements, Maxwell branches aside [J].
   virtual DeformationEnergy energy(int block) const = 0;
   /// The same in all blocks; cheaper than element by element where forces that deform() has left are precise
   /// enough for it [J].
   virtual double strain_energy() const = 0;
+  virtual BranchEnergy branch_energy() const = 0;
 
   virtual bool finite() const = 0;
   virtual void list_state(StateList& list) = 0;
 
  protected:
   NodeField displacement_, velocity_, force_;
+  ConstNodeField lag_;
 };
 
 /// At rest, undeformed. Keeps a reference to the model, whose coefficients must stay what they are.

@@ -185,6 +185,7 @@ Figure energy_figure(const Model& model, const RunResults& r) {
     small.push_back(kind("springs", &EnergyLedger::connectors));
     small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
   }
+  if (model.has_branches()) small.push_back(kind("material", &EnergyLedger::material_loss, Stroke::dashed));
   if (!large.empty()) figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
   figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
   figure.panels.push_back(

@@ -97,6 +97,9 @@ std::vector<Column> columns_of(const Model& model) {
   if (model.contact) columns = wheel_columns();
   if (model.hammer) columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
   columns.insert(columns.end(), body_columns().begin(), body_columns().end());
+  if (model.has_branches())
+    columns.push_back({{"material_loss", "J", "dissipated in the material's Maxwell branches"},
+                       [](const Sample& s) { return s.energy.material_loss; }});
   return columns;
 }
 
@@ -188,7 +191,8 @@ void evaluate(const Model& model, RunResults& r) {
           std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
   }
   const EnergyLedger& last = r.samples.back().energy;
-  const double scale = last.frictional_work + last.connector_loss + strain_high - strain_low;
+  const double scale =
+      last.frictional_work + last.connector_loss + last.material_loss + strain_high - strain_low;
   r.energy_error = scale > 0 ? worst / scale : 0;
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
   if (r.momentum.contact_impulse.z > 0)

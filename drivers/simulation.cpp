@@ -172,6 +172,7 @@ StateList Simulation::state() {
   list.add_records("sample", std::span(&sample_, 1));
   if (surface_) list.add_part("surface", *surface_);
   if (rail_line_) list.add_part("rail_line", *rail_line_);
+  if (model_->has_branches()) list.add_part("branch_loss", branch_loss_);
   if (model_->contact) list.add_part("contact", *model_->contact);
   if (model_->guide) list.add_part("guided_bore", *model_->guide);
   if (model_->fastenings) list.add_part("fastenings", *model_->fastenings);
@@ -189,8 +190,8 @@ void Simulation::step() {
   // 1  contact: search and gap
   enter(StepPhase::contact_search);
   search();
-  // 2  internal force K (u + beta v) of every block, with which nodes move that nothing else acts on;
-  // secondary nodes hand theirs to the primaries
+  // 2  internal force K (u + beta v) or K (u + g q) of every block, with which nodes move that nothing else
+  // acts on; secondary nodes hand theirs to the primaries
   enter(StepPhase::deform);
   deform();
   enter(StepPhase::measured);
@@ -207,7 +208,7 @@ void Simulation::step() {
   strike();
   carry();
   // 5  velocities, displacements of the rest, restraints; pressure and friction of the middle of the step;
-  // ties, frames
+  // ties, lag q of Maxwell branches, frames
   enter(StepPhase::update);
   move();
   enter(StepPhase::contact);
@@ -271,7 +272,7 @@ void Simulation::record() {
   surface_->add_step(patch);
   if (!sampled_) return;
   surface_->add_sample(patch, static_cast<double>(sampling_) * dt_);
-  surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_);
+  surface_->add_stress(patch, *model_->internal, model_->contact->options().rail_block, u_, fields_->lag());
   const Scene& scene = model_->scene;
   if (frame_.origin.x <= scene.zone_start + 0.5 * scene.zone_length)
     rail_line_->note_rolling(u_, frame_.origin.x);
@@ -327,6 +328,7 @@ void Simulation::guide() {
 
 void Simulation::finish() {
   follow_ties(u_, v_);
+  fields_->follow(dt_);
   frame_.advance(dt_);
   time_ += dt_;
   ++steps_;
@@ -427,6 +429,12 @@ double Simulation::creepage(std::size_t index, const MeanMotion& mean) const {
 void Simulation::begin_sample() {
   EnergyLedger& energy = sample_.energy;
   energy.strain = fields_->strain_energy();
+  if (fields_->lag()) {
+    const BranchEnergy branches = fields_->branch_energy();
+    energy.strain += branches.stored;
+    branch_loss_.look(time_, branches.power);
+    energy.material_loss = branch_loss_.work;
+  }
   kinetic_before_ = kinetic_energy();
   energy.gravity = gravity_potential();
   energy.connectors = model_->fastenings ? model_->fastenings->energy(u_) : 0.0;
@@ -485,8 +493,8 @@ void Simulation::end_sample() {
 
 std::uint64_t Simulation::state_hash() const {
   Hash hash;
-  for (const ConstNodeField field : {ConstNodeField(u_), ConstNodeField(v_)})
-    for (std::int64_t i = 0; i < 3 * model_->mesh.slots; ++i) hash.add(field[i]);
+  for (const ConstNodeField field : {ConstNodeField(u_), ConstNodeField(v_), fields_->lag()})
+    for (std::int64_t i = 0; field && i < 3 * model_->mesh.slots; ++i) hash.add(field[i]);
   for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,
                              frame_.velocity.x, sprung_.height, sprung_.speed})
     hash.add(value);

@@ -20,13 +20,14 @@ namespace tread {
 /// Energies and works by kind [J]; `residual` closes the balance.
 struct EnergyLedger {
   double kinetic = 0;
-  double strain = 0;           ///< one-point stress and hourglass, all bodies
+  double strain = 0;           ///< one-point stress and hourglass, all bodies, springs of Maxwell branches
   double connectors = 0;       ///< springs of fastenings and suspension
   double penalty = 0;          ///< stored in contact
   double gravity = 0;          ///< potential
   double frictional_work = 0;  ///< dissipated
   double connector_loss = 0;   ///< dissipated in dampers of fastenings and suspension
   double damping_loss = 0;     ///< lost because contact forces lead the motion
+  double material_loss = 0;    ///< dissipated in Maxwell branches
   double torque_work = 0;      ///< done by the torque
   double guide_work = 0;       ///< done by the guide that holds the bore's forward speed
   double hammer_work = 0;      ///< done by the hammer
@@ -35,7 +36,25 @@ struct EnergyLedger {
   /// Stored and dissipated energy less the work of torque, guide and hammer: constant [J].
   double total() const {
     return kinetic + strain + connectors + penalty + gravity + frictional_work + connector_loss +
-           damping_loss - torque_work - guide_work - hammer_work;
+           damping_loss + material_loss - torque_work - guide_work - hammer_work;
+  }
+};
+
+/// What Maxwell branches dissipate, from their power at the looks at the energies, linear between them.
+struct BranchLoss {
+  double work = 0;   ///< since the start [J]
+  double power = 0;  ///< at the last look [W]
+  double time = 0;   ///< of it [s]
+
+  void look(double at, double power_now) {
+    work += 0.5 * (power + power_now) * (at - time);
+    power = power_now;
+    time = at;
+  }
+  void list_state(StateList& list) {
+    list.add("work", work);
+    list.add("power", power);
+    list.add("time", time);
   }
 };
 
@@ -166,6 +185,7 @@ class Simulation {
   double struck_at_ = 0;  ///< displacement of the hammer's point at the start, downwards [m]
   double hammer_force_ = 0, hammer_displacement_ = 0;
   double hammer_work_ = 0;
+  BranchLoss branch_loss_;
   /// A node of the tread whose speed makes the creepage.
   struct CreepageNode {
     std::int64_t slot;

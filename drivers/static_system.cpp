@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 #include "kernels/stable_step.hpp"
@@ -51,8 +52,9 @@ namespace {
 /// shorten it a thousand times.
 constexpr double kLeastShare = 0.5;
 
-void refuse_heavy_damping(double beta, double damped_step, double omega) {
+void refuse_heavy_damping(double beta, double omega) {
   const double free_step = stable_step(omega, 0);
+  const double damped_step = stable_step(omega, beta);
   if (damped_step >= kLeastShare * free_step) return;
   const double largest = (1 / kLeastShare - kLeastShare) / omega;
   throw InputError(fmt::format(
@@ -62,14 +64,28 @@ void refuse_heavy_damping(double beta, double damped_step, double omega) {
       "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
       "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which "
       "the "
-      "paper's 1e-4 is)",
+      "paper's 1e-4 is), or with this beta damping_up_to = \"3 kHz\" or another frequency that is enough",
       beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega,
       100 * kLeastShare, largest, 0.5 * largest * omega));
 }
 
-double largest_beta(const Model& model) {
-  return model.beta.empty() ? 0 : *std::max_element(model.beta.begin(), model.beta.end());
-}
+/// What damping adds to the bodies' stiffness at the limit of the step dt: 1 + g + 2 beta / dt, with the
+/// largest of all blocks. [theory.md, eqs. 12, 12f]
+struct Stiffening {
+  double branch = 1;  ///< 1 + g [-]
+  double beta = 0;    ///< [s]
+
+  explicit Stiffening(const Model& model) {
+    for (const double of_block : model.beta) beta = std::max(beta, of_block);
+    for (const std::optional<MaxwellBranch>& of_block : model.branches)
+      if (of_block) branch = std::max(branch, 1 + of_block->strength);
+  }
+  double at(double dt) const { return branch + 2 * beta / dt; }
+  /// Of bodies of the frequency omega [s].
+  double stable_step(double omega) const {
+    return tread::stable_step(omega * std::sqrt(branch), beta / branch);
+  }
+};
 
 /// The free unknowns' inverse masses, and the elastic operator with the fastenings' springs.
 class AssembledBodies {
@@ -92,13 +108,13 @@ class AssembledBodies {
     return std::any_of(damping_.begin(), damping_.end(), [](double c) { return c > 0; });
   }
 
-  /// From above, material damping aside; with dampers as the springs (k + 2 c / dt) / (1 + 2 beta / dt) that
+  /// From above, material damping aside; with dampers as the springs (k + 2 c / dt) / stiffening that
   /// they are at the limit of the step dt, or without them [rad/s].
   double frequency() const { return frequency_with(springs_); }
-  double frequency(double beta, double dt) const {
+  double frequency(const Stiffening& material, double dt) const {
     std::vector<Spring> springs = springs_;
     for (std::size_t i = 0; i < springs.size(); ++i)
-      springs[i].stiffness = (springs[i].stiffness + 2 * damping_[i] / dt) / (1 + 2 * beta / dt);
+      springs[i].stiffness = (springs[i].stiffness + 2 * damping_[i] / dt) / material.at(dt);
     return frequency_with(springs);
   }
 
@@ -134,16 +150,16 @@ struct AssembledStep {
 
 AssembledStep assembled_step(const Model& model) {
   const AssembledBodies bodies(model);
-  const double beta = largest_beta(model);
+  const Stiffening material(model);
   AssembledStep step;
   step.omega = bodies.frequency();
-  step.material = step.stable = stable_step(step.omega, beta);
+  step.material = step.stable = material.stable_step(step.omega);
   // A shorter step makes the dampers stiffer: comes down on the answer from above and takes a little less.
   constexpr double kTolerance = 1e-3;
   constexpr int kMaxIterations = 50;
   double last = step.material;
   for (int i = 0; bodies.damped() && i < kMaxIterations; ++i) {
-    const double next = stable_step(bodies.frequency(beta, last), beta);
+    const double next = material.stable_step(bodies.frequency(material, last));
     const bool settled = next >= (1 - kTolerance) * last;
     if (settled && i == 0) break;  // the dampers do not matter
     step.stable = (1 - 2 * kTolerance) * next;
@@ -165,16 +181,16 @@ StepLimit step_limit(const Model& model) {
   limit.element = model.internal->max_frequency();
   const AssembledStep step = assembled_step(model);
   const double omega = step.omega;
-  const double beta = largest_beta(model);
+  const Stiffening material(model);
   limit.stable_step = step.stable;
-  refuse_heavy_damping(beta, step.material, omega);
+  refuse_heavy_damping(material.beta, omega);
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
   const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
   const Vec3 at = position(block, node, limit.element.station);
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
       block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(omega, 0));
-  if (beta > 0)
+  if (material.beta > 0 || material.branch > 1)
     limit.reason +=
         fmt::format("; damping takes {:.1f} % of that", 100 * (1 - step.material / stable_step(omega, 0)));
   if (step.stable < step.material)

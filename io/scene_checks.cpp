@@ -97,16 +97,29 @@ class Checker {
               fmt::format("the {} needs [material.{}]", user, name));
     };
     if (scene_.wheel || scene_.rail) need(scene_.steel, "steel", scene_.wheel ? "wheel" : "rail");
+    for (const auto& [name, material] :
+         {std::pair("steel", &scene_.steel), std::pair("slab", &scene_.slab),
+          std::pair("gap_filler", &scene_.gap_filler), std::pair("mortar", &scene_.mortar)}) {
+      const std::string table = fmt::format("material.{}", name);
+      require(
+          !material->damping_up_to || material->rayleigh_beta > 0,
+          {table + ".damping_up_to", table + ".damping"},
+          "a frequency up to which damping holds belongs to damping = { kind = \"rayleigh_beta\", value = "
+          "\"1e-4 s\" }");
+    }
     if (!scene_.slab_track) return;
     need(scene_.slab, "slab", "slab");
     need(scene_.gap_filler, "gap_filler", "slab");
     need(scene_.mortar, "mortar", "slab");
     const auto damped_alike = [](const Material& a, const Material& b) {
-      return a.rayleigh_beta == b.rayleigh_beta && a.high_frequency_fraction == b.high_frequency_fraction;
+      return a.rayleigh_beta == b.rayleigh_beta && a.high_frequency_fraction == b.high_frequency_fraction &&
+             a.damping_up_to == b.damping_up_to;
     };
-    require(damped_alike(scene_.slab, scene_.gap_filler) && damped_alike(scene_.slab, scene_.mortar),
-            {"material.slab.damping", "material.gap_filler.damping", "material.mortar.damping"},
-            "slab, gap filler and mortar are damped as one body; state the same damping for all three");
+    require(
+        damped_alike(scene_.slab, scene_.gap_filler) && damped_alike(scene_.slab, scene_.mortar),
+        {"material.slab.damping", "material.gap_filler.damping", "material.mortar.damping",
+         "material.slab.damping_up_to", "material.gap_filler.damping_up_to", "material.mortar.damping_up_to"},
+        "slab, gap filler and mortar are damped as one body; state the same damping for all three");
     require(scene_.slab_track->gap < scene_.slab_track->pitch, {"slab.gap", "slab.pitch"},
             "the gap is not shorter than the pitch of slab and gap together");
   }

@@ -42,7 +42,8 @@ std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {
 }
 
 /// A member of a material; a material without a name is absent.
-std::function<Field(Scene&)> at(Material Scene::*material, double Material::*member) {
+template <class Member>
+std::function<Field(Scene&)> at(Material Scene::*material, Member Material::*member) {
   return [material, member](Scene& scene) -> Field {
     if ((scene.*material).name.empty()) return std::monostate{};
     return &(scene.*material.*member);
@@ -169,6 +170,11 @@ void add_material(Keys& keys, const std::string& name, Material Scene::*material
            "damping at the highest frequency of the material's mesh; or `{ kind = \"rayleigh_beta\", value = "
            "\"1e-8 s\" }`: classical stiffness-proportional damping",
        .range = from(0, 1)});
+  keys.push_back(quantity(table + ".damping_up_to", at(material, &Material::damping_up_to), kFrequency, "kHz",
+                          above(0, 1e9),
+                          "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
+                          "nine tenths of beta w there, above it hardly more, and a step that a beta of "
+                          "1e-4 s leaves too; none: at all frequencies"));
 }
 
 void add_wheel(Keys& keys) {

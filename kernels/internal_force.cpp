@@ -282,7 +282,7 @@ void BasicInternalForce<Real, U>::join_tiles(int block) {
 template <class Real, class U>
 void BasicInternalForce<Real, U>::internal_force(int block, const U* u, const Real* v, Real* f) const {
   const std::size_t first = blocks_[index(block)].first_item;
-  evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, f, false});
+  evaluate(first, first + mesh_.blocks[index(block)].tiles.size(), {u, v, nullptr, f, false});
 }
 
 template <class Real, class U>
@@ -362,14 +362,14 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
   const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
   const std::int64_t own = dof(swept.base + item.tile * slots, 0);
   const std::int64_t next = dof(swept.base + last_tile.next * slots, 0);
-  const bool damped = fields.v != nullptr && data.beta != 0;
+  const Real* const damping = data.branch != 0 ? fields.q : data.beta != 0 ? fields.v : nullptr;
 
   TileView<Real, U> view;
   view.u = fields.u + own;
   view.u_next = fields.u + next;
-  if (fields.v != nullptr) {
-    view.v = fields.v + own;
-    view.v_next = fields.v + next;
+  if (damping != nullptr) {
+    view.v = damping + own;
+    view.v_next = damping + next;
   }
   view.f = fields.f + own;
   TileMotion<Real, U> motion[kTilesAbreast];
@@ -385,7 +385,7 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
   view.tiles = tiles;
   view.stride = 3 * slots;
 
-  forces_->loops<Real, U>().force({swept.sweep, damped, data.finite_rotation && !fields.linear})(
+  forces_->loops<Real, U>().force({swept.sweep, damping != nullptr, data.finite_rotation && !fields.linear})(
       tile_elements(item, tiles), view, front_of<Real>(data.plan));
 }
 
@@ -410,7 +410,7 @@ TileElements<Real> BasicInternalForce<Real, U>::tile_elements(const Item& item, 
   for (int i = 0; i < tiles; ++i) made_of.shifted[i] = shifted_of(item.tile + i);
   made_of.shifted_next = shifted_of(mesh_.blocks[index(item.block)].tiles[index(item.tile + tiles - 1)].next);
   made_of.shifts = data.shifts.data();
-  made_of.beta = data.beta;
+  made_of.beta = data.branch != 0 ? data.branch : data.beta;
   made_of.cosine = elements.cosine;
   made_of.sine = elements.sine;
   return made_of;
@@ -531,20 +531,33 @@ void BasicInternalForce<Real, U>::for_each_element(int block, const Visit& visit
 
 template <class Real, class U>
 DeformationEnergy BasicInternalForce<Real, U>::energy(int block, const U* u) const {
+  return sum_energy(block, u, blocks_[index(block)].finite_rotation);
+}
+
+template <class Real, class U>
+double BasicInternalForce<Real, U>::linear_energy(int block, const Real* q) const {
+  const DeformationEnergy energy = sum_energy(block, q, false);
+  return energy.strain + energy.hourglass;
+}
+
+template <class Real, class U>
+template <class Value>
+DeformationEnergy BasicInternalForce<Real, U>::sum_energy(int block, const Value* field,
+                                                          bool finite_rotation) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
   std::vector<DeformationEnergy> partial(swept.tiles.size());
-  const TileEnergy<Real, U> tile_energy =
-      forces_->loops<Real, U>().energy({swept.sweep, false, data.finite_rotation});
+  const TileEnergy<Real, Value> tile_energy =
+      forces_->loops<Real, Value>().energy({swept.sweep, false, finite_rotation});
   parallel_ranges(static_cast<std::int64_t>(partial.size()), [&](std::int64_t first, std::int64_t last) {
     Real* const front = front_of<Real>(data.plan);
     for (std::int64_t i = first; i < last; ++i) {
       const Tile& tile = swept.tiles[index(static_cast<int>(i))];
       if (tile.elements == 0) continue;
       const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
-      TileView<Real, U> view;
-      view.u = u + dof(swept.base + i * slots, 0);
-      view.u_next = u + dof(swept.base + tile.next * slots, 0);
+      TileView<Real, Value> view;
+      view.u = field + dof(swept.base + i * slots, 0);
+      view.u_next = field + dof(swept.base + tile.next * slots, 0);
       view.elements = tile.elements;
       partial[static_cast<std::size_t>(i)] =
           tile_energy(tile_elements({block, static_cast<int>(i)}, 1), view, front);
@@ -559,11 +572,18 @@ DeformationEnergy BasicInternalForce<Real, U>::energy(int block, const U* u) con
 }
 
 template <class Real, class U>
-std::array<double, 6> BasicInternalForce<Real, U>::stress(int block, int quad, int station,
-                                                          ConstNodeField u) const {
+std::array<double, 6> BasicInternalForce<Real, U>::stress(int block, int quad, int station, ConstNodeField u,
+                                                          ConstNodeField q) const {
   const Place at = locate(block, quad, station);
   Real values[8][3];
   gather(block, at, u, values);
+  const auto strength = static_cast<Real>(blocks_[index(block)].branch);
+  if (q && strength != 0) {
+    Real lags[8][3];
+    gather(block, at, q, lags);
+    for (int node = 0; node < 8; ++node)
+      for (int i = 0; i < 3; ++i) values[node][i] += strength * lags[node][i];
+  }
   Real sums[4][3];
   Real differences[4][3];
   spread(

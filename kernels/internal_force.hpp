@@ -30,6 +30,15 @@ struct ElementFrequency {
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
 
+/// What the elements' loop reads and moves.
+template <class Real, class U>
+struct ForceFields {
+  U* displacement;            ///< [m]
+  Real* velocity;             ///< at the half step [m/s]
+  Real* force;                ///< [N]
+  const Real* lag = nullptr;  ///< of Maxwell branches, where there are any [m]
+};
+
 /// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
 /// unused lanes hold zero on entry and on return. Precisions as in kernels/lanes/tile_force.hpp. Results are
 /// the same bits for any number of threads. One object serves one caller at a time: applying it uses buffers
@@ -43,6 +52,10 @@ class BasicInternalForce {
 
   /// Damping of a block: forces are those of u + beta v. [s]
   void set_beta(int block, double beta) { blocks_[static_cast<std::size_t>(block)].beta = beta; }
+  /// Maxwell branch of a block: forces are those of u + strength q, whatever its beta. [theory.md, Maxwell
+  /// branch]
+  void set_branch(int block, double strength) { blocks_[static_cast<std::size_t>(block)].branch = strength; }
+  double branch(int block) const { return blocks_[static_cast<std::size_t>(block)].branch; }
   double beta(int block) const { return blocks_[static_cast<std::size_t>(block)].beta; }
 
   /// Green-Lagrange strain in the one-point stress of a block: forces balance moments about the deformed
@@ -53,15 +66,24 @@ class BasicInternalForce {
   bool finite_rotation(int block) const { return blocks_[static_cast<std::size_t>(block)].finite_rotation; }
 
   /// f = K u, overwritten: the linear operator of all blocks, without damping. [N]
-  void apply(const U* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, f, true}); }
-  /// f = F(u + beta v), overwritten, with F(u) the law that the block has; v may be null. [N]
-  void internal_force(const U* u, const Real* v, Real* f) const {
-    evaluate(0, items_.size(), {u, v, f, false});
+  void apply(const U* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, nullptr, f, true}); }
+  /// f = F(u + beta v), or F(u + strength q), overwritten, with F(u) the law that the block has; v and q may
+  /// be null. [N]
+  void internal_force(const U* u, const Real* v, Real* f, const Real* q = nullptr) const {
+    evaluate(0, items_.size(), {u, v, q, f, false});
   }
-  /// internal_force(u, v, f), and nodes whose force is complete move by a step while they are at hand: those
-  /// that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force in f.
-  void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads, U* u, Real* v, Real* f) const {
-    evaluate(0, items_.size(), {u, v, f, false, {&update, &loads, u, v}});
+  /// internal_force(u, v, f, q), and nodes whose force is complete move by a step while they are at hand:
+  /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force
+  /// in f.
+  void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+            const ForceFields<Real, U>& at) const {
+    evaluate(0, items_.size(),
+             {at.displacement,
+              at.velocity,
+              at.lag,
+              at.force,
+              false,
+              {&update, &loads, at.displacement, at.velocity}});
   }
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
@@ -70,11 +92,14 @@ class BasicInternalForce {
 
   /// Energy of u by the law that the block has: F is its gradient. [J]
   DeformationEnergy energy(int block, const U* u) const;
+  /// q . K q / 2 of the block's linear law. [J]
+  double linear_energy(int block, const Real* q) const;
 
   /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
   /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
-  /// the material and at small strain is the true one. [Pa]
-  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u) const;
+  /// the material and at small strain is the true one. With the lag q, that of u + strength q. [Pa]
+  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u,
+                               ConstNodeField q = nullptr) const;
 
   /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
   void lumped_mass(double* mass) const;
@@ -128,7 +153,8 @@ class BasicInternalForce {
     AlignedVector<LaneShifts<Real>> shifts;
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
-    double beta = 0;  ///< [s]
+    double beta = 0;    ///< [s]
+    double branch = 0;  ///< strength of the Maxwell branch [-]
     bool finite_rotation = false;
   };
   /// An element and where its coefficients are.
@@ -148,6 +174,7 @@ class BasicInternalForce {
   struct Fields {
     const U* u;
     const Real* v;
+    const Real* q;
     Real* f;
     bool linear;  ///< in blocks of finite rotation too
     Moved moved = {};
@@ -168,6 +195,8 @@ class BasicInternalForce {
   HexNodes element_nodes(int block, const Place& at) const;
   ElementGeometry geometry(int block, const Place& at) const;
   void gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const;
+  template <class Value>
+  DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation) const;
   ElementStiffness stiffness(int block, const Place& at) const;
   double frequency(int block, const Place& at) const;
   template <class Visit>

@@ -45,7 +45,7 @@ struct BlockData {
   }
   void force() { internal.internal_force(u.data(), v.data(), f.data()); }
   void force_and_motion() {
-    internal.move(update, loads, u.data(), v.data(), f.data());
+    internal.move(update, loads, {u.data(), v.data(), f.data()});
     update.move_rest(loads, fields(), internal.unmoved_tiles());
   }
   void motion() { update.move_all(loads, fields()); }

@@ -96,7 +96,7 @@ std::function<void()> made_up_step(std::int64_t elements) {
   return [data] {
     StepLoads loads;
     loads.dt = 1e-10;  // far below the stable step: the data stay bounded
-    data->internal.move(data->update, loads, data->u.data(), data->v.data(), data->f.data());
+    data->internal.move(data->update, loads, {data->u.data(), data->v.data(), data->f.data()});
     data->update.move_rest(loads, {data->u.data(), data->v.data(), data->f.data()},
                            data->internal.unmoved_tiles());
   };

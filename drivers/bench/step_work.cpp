@@ -16,7 +16,8 @@ Load force_and_motion(const Model& model) {
   for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     const bool revolved = block.sweep == Sweep::revolved;
-    const bool damped = model.beta[static_cast<std::size_t>(b)] != 0;
+    const bool damped =
+        model.beta[static_cast<std::size_t>(b)] != 0 || model.branches[static_cast<std::size_t>(b)];
     const std::int64_t perturbed = model.internal->perturbed_elements(b);
     for (const bool own : {false, true})
       add(load, element_work({block.sweep, damped, revolved, own, true}, block, value_bytes(model.scene)),

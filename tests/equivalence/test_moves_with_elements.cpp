@@ -85,6 +85,17 @@ length = "40 mm"
   expect_same_bits(scene);
 }
 
+TEST(MovesWithElements, MaxwellBranchOnATiedRail) {
+  std::vector<std::string> overrides = kShortTrack;
+  overrides.insert(overrides.end(),
+                   {"slab.present=false", "motion.duration=0.05 ms",
+                    "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-5 s\" }",
+                    "material.steel.damping_up_to=10 kHz"});
+  const Scene scene = scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\n", overrides);
+  ASSERT_TRUE(Model(scene).ties);
+  expect_same_bits(scene);
+}
+
 TEST(MovesWithElements, GuidedBoreOverMovedNodes) {
   expect_same_bits(samples::tyre_scene(
       {"scene.element_size=6 mm", "scene.gravity=0 m/s2", "motion.duration=0.1 ms", "wheel.bore=guided",

@@ -107,6 +107,15 @@ TEST(SceneErrors, Types) {
   expect_part(
       error_of(kBase + "[material.slab]\ndamping = { kind = \"high_frequency_fraction\", value = 0.01 }"),
       "x.toml:4:1: material.slab.damping: slab, gap filler and mortar are damped as one body");
+  expect_part(
+      error_of(kBase + "[material.steel]\ndamping_up_to = \"3 kHz\""),
+      "x.toml:4:1: material.steel.damping_up_to: a frequency up to which damping holds belongs to damping "
+      "= { kind = \"rayleigh_beta\"");
+  expect_part(error_of(kBase + "[material.slab]\ndamping = { kind = \"rayleigh_beta\", value = \"1e-5 s\" }\n"
+                               "damping_up_to = \"3 kHz\""),
+              "slab, gap filler and mortar are damped as one body");
+  expect_part(error_of(kBase + "[material.steel]\ndamping_up_to = \"0 Hz\""),
+              "damping_up_to: 0 kHz is not allowed");
   expect_part(error_of(kBase + "[material.steel]\ndamping = 1e-4"),
               "expected { kind = \"high_frequency_fraction\"");
   expect_part(error_of(kBase + "[material.steel]\ndamping = { kind = \"viscous\", value = 1 }"),

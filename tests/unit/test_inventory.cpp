@@ -142,6 +142,19 @@ TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
   expect_consistent(Model(scene_of(kBar)));
 }
 
+TEST(Inventory, BranchLagIsThereWithABranchOnly) {
+  const std::vector<std::string> damping = {
+      "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-4 s\" }",
+      "material.steel.damping_up_to=3 kHz"};
+  const Model with(scene_of(kBar, damping));
+  const Model without(scene_of(kBar));
+  expect_consistent(with);
+  EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"Maxwell branches"});
+  EXPECT_EQ(missing(field_names(with), field_names(without)), Names{"branch lag"});
+  EXPECT_EQ(bytes_of(with, "branch lag"), bytes_of(with, "velocity"));
+  EXPECT_GT(bytes_of(with, "checkpoint"), bytes_of(without, "checkpoint"));
+}
+
 TEST(Inventory, WithoutSlabThereIsNoVerticalUpdate) {
   const Model with(small_track());
   const Model without(small_track({"slab.present=false"}));

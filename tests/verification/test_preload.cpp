@@ -99,7 +99,12 @@ TEST(StepLimit, RefusesAClassicalDampingThatWouldStopTheRun) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("state rayleigh_beta of at most"), std::string::npos)
         << error.what();
+    EXPECT_NE(std::string(error.what()).find("damping_up_to = \"3 kHz\""), std::string::npos) << error.what();
   }
+  const Model banded(
+      samples::tyre_scene({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-4 s\" }",
+                           "material.steel.damping_up_to=3 kHz"}));
+  EXPECT_GT(step_limit(banded).stable_step, 0.3 * step_limit(usual).stable_step);
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+#pragma once
+// The inner variable of Maxwell branches: by node, for the elasticity of a block is linear and its branches
+// have one time of relaxation. [theory.md, Maxwell branch]
+
+#include <optional>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/material.hpp"
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// How far a node has moved beyond the dashpots of its branches, dq/dt = v - q / tau [m]; zero in blocks
+/// without branches. Precision as that of velocities.
+template <class Real>
+class BranchLag {
+ public:
+  /// Keeps a reference to the mesh. `branches`: by block. At rest.
+  BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches);
+
+  /// Exact over a step of dt [s] with the velocity v [m/s], a vector field.
+  void advance(const Real* v, double dt);
+
+  /// Vector field of 3 * mesh.slots values [m].
+  const Real* data() const { return q_.data(); }
+  AlignedVector<Real>& values() { return q_; }
+  const std::optional<MaxwellBranch>& branch(int block) const {
+    return branches_[static_cast<std::size_t>(block)];
+  }
+
+ private:
+  const Mesh& mesh_;
+  std::vector<std::optional<MaxwellBranch>> branches_;
+  AlignedVector<Real> q_;
+};
+
+extern template class BranchLag<double>;
+extern template class BranchLag<float>;
+
+}  // namespace tread
