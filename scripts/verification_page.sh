@@ -35,6 +35,8 @@ runs=(
   'wheelset_modes'
   'ring_modes'
   'moving_frames'
+  'moving_frames --set rolling_steps=1e6' # 20 minutes of a core
+  'moving_frames --set rolling_steps=1e6 --set damping=0.02'
 )
 
 for run in "${runs[@]}"; do
