@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kKind = "checkpoint";
 /// To be raised whenever a name or meaning in a checkpoint changes.
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr std::size_t kKept = 2;
 constexpr std::string_view kSuffix = ".h5";
 
