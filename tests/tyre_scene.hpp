@@ -50,4 +50,14 @@ duration = "0.3 ms"
       .scene;
 }
 
+/// Under traction, its steel damped up to a frequency.
+inline Scene tyre_with_maxwell_branches(std::vector<std::string> overrides) {
+  overrides.insert(
+      overrides.end(),
+      {"motion.traction.torque=13.8 kN m", "motion.traction.ramp=0.05 ms", "solution_zone.start=5 mm",
+       "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-5 s\" }",
+       "material.steel.damping_up_to=10 kHz"});
+  return tyre_scene(overrides);
+}
+
 }  // namespace tread::samples

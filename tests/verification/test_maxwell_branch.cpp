@@ -199,11 +199,8 @@ TEST(MaxwellBranch, WhatItDissipatesClosesTheBalance) {
 // Its material passes under the load again and again: what that costs is in the balance, in finite rotation
 // too.
 TEST(MaxwellBranch, RollingTyreClosesItsBalance) {
-  const Scene scene = samples::tyre_scene(
-      {"scene.element_size=8 mm", "motion.duration=0.5 ms", "motion.traction.torque=13.8 kN m",
-       "motion.traction.ramp=0.05 ms", "solution_zone.start=5 mm",
-       "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-5 s\" }",
-       "material.steel.damping_up_to=10 kHz"});
+  const Scene scene =
+      samples::tyre_with_maxwell_branches({"scene.element_size=8 mm", "motion.duration=0.5 ms"});
   Model model(scene);
   const Preload preload = solve_preload(model, steady_motion(model), kSilent);
   const double dt = scene.motion->step_safety * step_limit(model).stable_step;
