@@ -33,6 +33,13 @@ TREAD_INLINE void store(Real* at, const V& value) {
   __builtin_memcpy(at, &value, sizeof value);
 }
 
+/// Fetches a node's three components of a tile's lanes.
+template <int to_write, class Value>
+TREAD_INLINE void prefetch_vector(const Value* at) {
+  constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
+  for (int value = 0; value < 3 * kLanes; value += kLine) __builtin_prefetch(at + value, to_write);
+}
+
 /// Values in a register.
 template <class Real>
 constexpr int kFitting = kRegisterBytes / static_cast<int>(sizeof(Real));

@@ -178,12 +178,6 @@ class TileLoop {
     }
   }
 
-  template <int to_write, class Value>
-  TREAD_INLINE void prefetch_vector(const Value* at) const {
-    constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
-    for (int value = 0; value < 3 * kLanes; value += kLine) __builtin_prefetch(at + value, to_write);
-  }
-
   /// The field of the tile behind `tile` along the sweep.
   template <class Value>
   TREAD_INLINE const Value* next(const Value* field, const Value* field_next, int tile) const {
