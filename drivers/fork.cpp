@@ -17,6 +17,7 @@
 #include "drivers/run_folder.hpp"
 #include "drivers/sections.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/text.hpp"
 #include "io/units.hpp"
 
 namespace tread {
@@ -80,8 +81,7 @@ bool is_free(std::string_view path) {
   constexpr std::array<std::string_view, 8> kBeginnings = {
       "scene.title", "corrugation.", "wear.",           "output.",
       "stop.",       "forks.",       "motion.duration", "contact.depth_room"};
-  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                     [&](std::string_view beginning) { return path.starts_with(beginning); });
+  return begins_with_any(path, kBeginnings);
 }
 
 /// "motion.speed (300 km/h there, 250 km/h here)" for each value that `counts` and differs.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "drivers/run_checkpoint.hpp"
+#include "io/text.hpp"
 #include "io/text_file.hpp"
 #include "io/units.hpp"
 
@@ -99,8 +99,7 @@ bool acts_on_rolling_alone(std::string_view path) {
                                                             "motion.traction.",
                                                             "motion.step_safety",
                                                             "contact.depth_room"};
-  return std::any_of(kBeginnings.begin(), kBeginnings.end(),
-                     [&](std::string_view beginning) { return path.starts_with(beginning); });
+  return begins_with_any(path, kBeginnings);
 }
 
 std::string preload_key(const ResolvedScene& resolved, const Model& model) {

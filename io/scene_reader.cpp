@@ -15,6 +15,7 @@
 #include "io/scene_library.hpp"
 #include "io/schema.hpp"
 #include "io/table_reader.hpp"
+#include "io/text.hpp"
 #include "io/text_file.hpp"
 #include "io/toml_text.hpp"
 #include "io/toml_value.hpp"
@@ -87,19 +88,14 @@ class SceneBuilder {
   void read_override(const std::string& text) {
     const Place place{"--set", 0, 0};
     const auto equals = text.find('=');
-    const auto trim = [](std::string_view part) {
-      const auto first = part.find_first_not_of(" \t");
-      return first == part.npos ? std::string()
-                                : std::string(part.substr(first, part.find_last_not_of(" \t") - first + 1));
-    };
-    const std::string path = trim(std::string_view(text).substr(0, equals));
+    const std::string path(trimmed(std::string_view(text).substr(0, equals)));
     if (equals == std::string::npos || path.empty()) {
       report(place, "",
              fmt::format("\"{}\" is not of the form key=value, such as motion.speed=\"250 km/h\"", text));
       return;
     }
     const Origin origin{Level::command_line, place, "--set"};
-    set_plain(path, trim(std::string_view(text).substr(equals + 1)), origin);
+    set_plain(path, std::string(trimmed(std::string_view(text).substr(equals + 1))), origin);
   }
 
   void read_library() {

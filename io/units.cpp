@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/text.hpp"
 
 namespace tread {
 
@@ -42,12 +42,6 @@ constexpr std::array<std::pair<char, int>, 8> kPrefixes{
 constexpr std::array<const Quantity*, 13> kQuantities{
     &kLength,    &kTime,           &kSpeed,  &kAcceleration, &kMass,      &kDensity, &kForce,
     &kStiffness, &kViscousDamping, &kTorque, &kStress,       &kFrequency, &kData};
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
-  return text;
-}
 
 /// Typographic signs of unit names in ASCII.
 std::string in_ascii(std::string_view text) {

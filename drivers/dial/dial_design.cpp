@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
 #include "drivers/study/scene_content.hpp"
 #include "io/scene_reader.hpp"
+#include "io/text.hpp"
 
 namespace tread {
 
@@ -17,16 +19,11 @@ namespace {
 constexpr const char* kSize = "scene.element_size";
 constexpr const char* kQuality = "scene.quality";
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(' ');
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
-
 /// "key=value" with all behind the sign as the value.
 StudySetting setting(const std::string& option, const std::string& text) {
   const auto equals = text.find('=');
-  StudySetting s{trimmed(text.substr(0, equals)), ""};
-  if (equals != std::string::npos) s.value = trimmed(text.substr(equals + 1));
+  StudySetting s{std::string(trimmed(std::string_view(text).substr(0, equals))), ""};
+  if (equals != std::string::npos) s.value = trimmed(std::string_view(text).substr(equals + 1));
   if (s.key.empty() || s.value.empty())
     throw InputError(fmt::format("{} {}: expected key=value, such as \"{}=5 mm\"", option, text, kSize));
   return s;
@@ -37,7 +34,7 @@ std::vector<StudySetting> values_of(const std::string& axis) {
   std::vector<StudySetting> values;
   for (std::size_t at = 0; at <= all.value.size();) {
     const std::size_t end = std::min(all.value.find(',', at), all.value.size());
-    values.push_back({all.key, trimmed(all.value.substr(at, end - at))});
+    values.push_back({all.key, std::string(trimmed(std::string_view(all.value).substr(at, end - at)))});
     if (values.back().value.empty())
       throw InputError(fmt::format("--axis {}: a value is missing beside a comma", axis));
     at = end + 1;

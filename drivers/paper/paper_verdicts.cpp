@@ -1,6 +1,7 @@
 #include "drivers/paper/paper_verdicts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -33,6 +34,20 @@ Verdict of_parts(std::initializer_list<bool> parts) {
 /// Whether the run has passed its corrugation.
 bool passed(const FinishedRun* run) {
   return run && wave_pattern(*run, history_over_way(*run, "vertical_force", "N")).has_value();
+}
+
+/// Names those of the passages that have not passed their corrugation.
+Judgement missing(const PassageRuns& runs, const std::vector<Passage>& passages) {
+  std::vector<std::string> names;
+  for (const Passage& passage : passages)
+    if (!passed(runs.find(passage))) names.push_back(name_of(passage));
+  return missing(names.empty() ? "their surfaces" : fmt::format("{}", fmt::join(names, "; ")));
+}
+
+std::vector<Passage> joined(std::vector<Passage> passages, const std::vector<Passage>& more) {
+  for (const Passage& one : more)
+    if (std::find(passages.begin(), passages.end(), one) == passages.end()) passages.push_back(one);
+  return passages;
 }
 
 Passage at_speed(double speed) {
@@ -151,7 +166,7 @@ Judgement grows_with_traction(const PassageRuns& runs) {
   };
   const auto von_mises = range(kVonMises);
   const auto work = range(kWork);
-  if (!von_mises || !work) return missing("corrugation D at mu 0.1 to 0.5");
+  if (!von_mises || !work) return missing(runs, passages);
   return {of_parts({von_mises->grows(), work->grows()}),
           fmt::format("ranges at mu 0.1 to 0.5: Von Mises {} MPa, work {} mJ",
                       von_mises->text("{:.0f}", 1e-6), work->text("{:.1f}", 1e3))};
@@ -170,7 +185,7 @@ Judgement worst_wave_and_speed(const PassageRuns& runs) {
   const auto by_speed = list(runs, speeds, &Passage::speed, most);
   const auto by_speed_v = list(runs, speeds, &Passage::speed, stress);
   if (!by_wave || !by_wave_l || !by_wave_v || !by_speed || !by_speed_v)
-    return missing("65, 80, 95 mm at 300 km/h, and corrugation D at all speeds");
+    return missing(runs, joined(waves, speeds));
   const auto between = [](double speed) { return speed >= 250 && speed <= 300; };
   return {of_parts({by_wave->place_of_largest() == 80, by_wave_l->place_of_largest() == 80,
                     by_wave_v->place_of_largest() == 80, between(by_speed->place_of_largest()),
@@ -203,7 +218,7 @@ Judgement response_fights_the_corrugation(const PassageRuns& runs) {
   for (const double depth : {0.04, 0.08, 0.14, 0.18}) depths.push_back(corrugated(80, depth));
   const auto ranges =
       list(runs, depths, &Passage::depth, [](const FinishedRun& one) { return range_of(one, kWork); });
-  if (!passed(run) || !ranges) return missing("corrugation D and the depths 0.04 to 0.18 mm");
+  if (!passed(run) || !ranges) return missing(runs, depths);
   const auto work = wave_pattern(*run, along_axis(*run, "frictional_work", "J/m2"));
   const auto von_mises = wave_pattern(*run, along_axis(*run, "max_von_mises", "Pa"));
   if (!work || !von_mises) return missing("its surface");
