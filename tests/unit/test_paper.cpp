@@ -199,5 +199,14 @@ TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
   }
 }
 
+TEST(PaperFigures, AVerdictNamesThePassagesThatItLacksOnce) {
+  const std::string why = paper_conclusions()[4].judge({}).why;
+  for (const char* name : {"65mm,0.14mm,300km_h,mu=0.3", "80mm,0.14mm,500km_h,mu=0.3"})
+    EXPECT_NE(why.find(name), std::string::npos) << why;
+  const std::string shared = "80mm,0.14mm,300km_h,mu=0.3";
+  EXPECT_EQ(why.find(shared), why.rfind(shared)) << why;
+  EXPECT_NE(why.find(shared), std::string::npos) << why;
+}
+
 }  // namespace
 }  // namespace tread
