@@ -18,33 +18,19 @@ namespace tread {
 
 namespace {
 
-/// Tells ThreadSanitizer, which does not see into the library, that tasks begin after their call and end
-/// before its return. Tasks of one call stay unordered among themselves.
-class TaskOrder {
- public:
+// ThreadSanitizer does not see into the library. It is told what happens before what: a call's begin before
+// its tasks, their ends before its return. Tasks of one call stay unordered among themselves.
 #ifdef TREAD_THREAD_SANITIZER
-  void call_begins() {
-    __tsan_release(&begun_);
-  }
-  void task_begins() {
-    __tsan_acquire(&begun_);
-  }
-  void task_ends() {
-    __tsan_release(&ended_);
-  }
-  void call_ends() {
-    __tsan_acquire(&ended_);
-  }
-
- private:
-  char begun_ = 0, ended_ = 0;
+void release(char& event) {
+  __tsan_release(&event);
+}
+void acquire(char& event) {
+  __tsan_acquire(&event);
+}
 #else
-  void call_begins() {}
-  void task_begins() {}
-  void task_ends() {}
-  void call_ends() {}
+void release(char& /*event*/) {}
+void acquire(char& /*event*/) {}
 #endif
-};
 
 /// As many threads as asked for, even beyond the machine's cores.
 struct Team {
@@ -64,20 +50,20 @@ void run(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> t
     team.reset();
     team = std::make_unique<Team>(threads);
   }
-  static TaskOrder order;
-  order.call_begins();
+  static char begun, ended;
+  release(begun);
   team->arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::int64_t>(0, count, 1),
         [&](const tbb::blocked_range<std::int64_t>& range) {
-          order.task_begins();
+          acquire(begun);
           for (std::int64_t i = range.begin(); i < range.end(); ++i)
             task(i, tbb::this_task_arena::current_thread_index());
-          order.task_ends();
+          release(ended);
         },
         tbb::simple_partitioner());
   });
-  order.call_ends();
+  acquire(ended);
 }
 
 }  // namespace
