@@ -19,18 +19,22 @@ constexpr int kRegisterBytes = 16;
 template <class Real, int width>
 struct Vector {
   typedef Real type __attribute__((vector_size(width * sizeof(Real))));
+  /// The same at any multiple of a value's size. Not copied byte by byte: to the compiler bytes could be
+  /// pointers and indices too, which it then reads anew after every store.
+  typedef Real unaligned __attribute__((vector_size(width * sizeof(Real)), aligned(alignof(Real))));
 };
 
 template <class V, class Real>
+using Unaligned = typename Vector<Real, sizeof(V) / sizeof(Real)>::unaligned;
+
+template <class V, class Real>
 TREAD_INLINE V load(const Real* at) {
-  V value;
-  __builtin_memcpy(&value, at, sizeof value);
-  return value;
+  return *reinterpret_cast<const Unaligned<V, Real>*>(at);
 }
 
 template <class V, class Real>
 TREAD_INLINE void store(Real* at, const V& value) {
-  __builtin_memcpy(at, &value, sizeof value);
+  *reinterpret_cast<Unaligned<V, Real>*>(at) = value;
 }
 
 /// Fetches a node's three components of a tile's lanes.

@@ -1,6 +1,8 @@
 #pragma once
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
+#include <array>
+
 #include "kernels/element_body.hpp"
 #include "kernels/lanes/registers.hpp"
 #include "kernels/lanes/tie_sum_body.hpp"
@@ -373,6 +375,12 @@ class TileLoop {
     return front_ + static_cast<std::ptrdiff_t>(slot) * kTiles * kFrontValues + lane;
   }
 
+  /// Of all corners of a quad: found once, not for every value that is added to them.
+  TREAD_INLINE std::array<Real*, 4> corners(const FrontPlan::Quad& quad, int lane) const {
+    return {corner(quad.slot[0], lane), corner(quad.slot[1], lane), corner(quad.slot[2], lane),
+            corner(quad.slot[3], lane)};
+  }
+
   TREAD_INLINE Real* shift_corner(int slot, int lane) const {
     return corner(elements_.slots, lane) + static_cast<std::ptrdiff_t>(slot) * kTiles * kShiftValues;
   }
@@ -393,10 +401,11 @@ class TileLoop {
   template <class Element>
   TREAD_INLINE Strain<Register> deformation(const FrontPlan::Quad& quad, int lane,
                                             const Element& element) const {
+    const std::array<Real*, 4> at = corners(quad, lane);
     Strain<Register> strain;
     for (int i = 0; i < 3; ++i) {
       Register a[kModes];
-      amplitudes([&](int j) { return corner(quad.slot[j], lane) + i * kAbreast; }, a);
+      amplitudes([&](int j) { return at[j] + i * kAbreast; }, a);
       element.strain(i, a, strain);
     }
     return strain;
@@ -411,6 +420,7 @@ class TileLoop {
     stress_forces<finite_rotation>(constants, strain, force);
     element.scale_by_volume(force);
     hourglass_forces(constants.hourglass, strain, force);
+    const std::array<Real*, 4> at = corners(quad, lane);
     for (int i = 0; i < 3; ++i) {
       Register s[4];
       Register d[4];
@@ -418,8 +428,8 @@ class TileLoop {
       element.forces(i, force, a);
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
-        Real* const fs = corner(quad.slot[j], lane) + (6 + i) * kAbreast;
-        Real* const fd = corner(quad.slot[j], lane) + (9 + i) * kAbreast;
+        Real* const fs = at[j] + (6 + i) * kAbreast;
+        Real* const fd = at[j] + (9 + i) * kAbreast;
         store(fs, load<Register>(fs) + s[j]);
         store(fd, load<Register>(fd) + d[j]);
       }
