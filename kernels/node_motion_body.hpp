@@ -22,7 +22,12 @@ struct StepConstants {
 /// a b, rounded before anything is added to it. Compilers that contract across expressions need the barrier.
 template <class A, class B>
 TREAD_INLINE auto product(const A& a, const B& b) {
-#if __has_builtin(__builtin_assoc_barrier)
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<decltype(a * b), double>)
+    return __dmul_rn(a, b);
+  else
+    return __fmul_rn(a, b);
+#elif __has_builtin(__builtin_assoc_barrier) && !defined(__CUDACC__)
   return __builtin_assoc_barrier(a * b);
 #else
   return a * b;
