@@ -10,8 +10,8 @@ namespace tread {
 
 /// Watches SIGINT, SIGTERM, SIGHUP and SIGUSR1 while it lives; one at a time. Until defer() the first three
 /// end the process at once, with ExitCode::resumable and a sentence; after it the first of them only asks,
-/// and the second ends the process. SIGPIPE is ignored: a run outlives whoever reads its progress; so is
-/// SIGXFSZ, for then the write that went too far says so.
+/// and one that comes half a second later or more ends the process. SIGPIPE is ignored: a run outlives
+/// whoever reads its progress; so is SIGXFSZ, for then the write that went too far says so.
 class Interruption {
  public:
   /// `early` and `late`: the sentences, before defer() and after it.

@@ -12,6 +12,10 @@
 
 namespace tread {
 
+void throw_toml_fault() {
+  throw TomlFault{};
+}
+
 namespace {
 
 constexpr std::size_t kLongestLine = 2000;  // [bytes]
@@ -71,6 +75,31 @@ void refuse_foreign_characters(const std::string& text, const std::string& file)
                         "a character that is not ASCII stands outside of quotes and comments"}});
 }
 
+/// Bytes of the UTF-8 character that begins at `at`, or 1 where none does.
+std::size_t character_bytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(at);
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 1;
+  for (std::size_t i = 1; i < bytes; ++i)
+    if ((byte(at + i) & 0xC0U) != 0x80) return 1;
+  return bytes;
+}
+
+/// The text with an x in place of every character that is not ASCII, a byte order mark excepted: what is
+/// TOML in this form has such characters only where `foreign_character` finds them or where they are free
+/// text, and toml++ meets none of them in the middle of a malformed value.
+std::string in_ascii(const std::string& text) {
+  std::string ascii;
+  for (std::size_t i = 0, bytes = 0; i < text.size(); i += bytes) {
+    bytes = character_bytes(text, i);
+    if (bytes == 1 || (i == 0 && text.starts_with("\xEF\xBB\xBF")))
+      ascii.append(text, i, bytes);
+    else
+      ascii += 'x';
+  }
+  return ascii;
+}
+
 /// Number of the line at which the parser's assertion fails: the shortest run of lines that makes it fail
 /// ends there.
 int faulty_line(const std::string& text) {
@@ -91,15 +120,8 @@ int faulty_line(const std::string& text) {
   return static_cast<int>(first - ends.begin()) + 1;
 }
 
-}  // namespace
-
-void throw_toml_fault() {
-  throw TomlFault{};
-}
-
-toml::table parse_toml(const std::string& text, const std::string& file) {
-  refuse_long_lines(text, file);
-  refuse_foreign_characters(text, file);
+/// Of texts whose characters all are ASCII, or free text of what is TOML.
+toml::table parse_harmless(const std::string& text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -111,11 +133,23 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
   }
 }
 
+}  // namespace
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+  refuse_long_lines(text, file);
+  refuse_foreign_characters(text, file);
+  const std::string ascii = in_ascii(text);
+  toml::table table = parse_harmless(ascii, file);
+  if (ascii != text) table = parse_harmless(text, file);
+  return table;  // moved: a copy would know no lines
+}
+
 std::unique_ptr<toml::node> parse_plain_value(const std::string& text, bool takes_string) {
   refuse_long_lines(text, "--set");
   const bool quoted = text.size() > 1 && text.front() == '"';
   if ((!takes_string || quoted) && foreign_character(text) == std::string::npos) {
     try {
+      (void)toml::parse("value = " + in_ascii(text));
       const toml::table table = toml::parse("value = " + text);
       if (table.size() == 1) return clone(*table.get("value"));
     } catch (const toml::parse_error&) {

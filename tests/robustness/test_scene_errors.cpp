@@ -289,6 +289,9 @@ TEST(SceneErrors, Syntax) {
   EXPECT_EQ(error_of("scene.title = '''\xC3\xA9\n''\xC3\xA9'''\n[\\x]\n"),
             "x.toml:3: the line is not valid TOML");
   expect_part(error_of("[rail]\nlength = \"\xff\xfe\"\n"), "x.toml:2:");
+  // To the parser this quote is part of a number.
+  expect_part(error_of("[output]\nframes = 9223372((\"\xC3\xA9ri!=(\n"), "x.toml:2:");
+  expect_part(error_of("[output]\nframes = 9223372[\"\xC3\xA9\"]\n"), "x.toml:2:");
 }
 
 TEST(SceneErrors, ThousandsOfProblemsAreListedInShort) {
