@@ -33,7 +33,7 @@ double multiply_add(std::int64_t rounds) {
   const Register b = a;
   for (std::int64_t i = 0; i < rounds; ++i)
 #pragma GCC unroll 32
-    for (int k = 0; k < kChains; ++k) x[k] = a * x[k] + b;
+    for (Register& value : x) value = a * value + b;
   Register sum = x[0];
   for (int k = 1; k < kChains; ++k) sum += x[k];
   return static_cast<double>(sum[0]);
