@@ -106,7 +106,7 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
                     "{} waves, a wave {} samples; measure longer or finer, or state a longer --segment",
                     profile.length(), 1e3 * profile.spacing, kWavesInSegment, kSamplesInWave));
 
-  const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(finest / line + 0.5) + 2);
+  const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(std::lround(finest / line)) + 2);
   const std::size_t hop = std::max<std::size_t>(1, count / 2);
   const std::size_t segments = (profile.height.size() - count) / hop + 1;
   std::vector<std::vector<double>> spectra(segments);
