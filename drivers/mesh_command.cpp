@@ -85,6 +85,24 @@ Table inertia_table(const SpinningBody& wheelset) {
            {"mass centre from the rail's centre line", readable(1e3 * wheelset.centre_y(), 5), "mm"}}};
 }
 
+/// How far each block alone is from limiting the step: what steps of its own could save.
+Table step_table(const Model& model, const StepLimit& limit) {
+  Table table{"",
+              {{"Block"},
+               {"Stiffest element at (x, y, z) [m]"},
+               {"Stable step of it alone [s]", Align::right},
+               {"Over the shortest", Align::right}},
+              {}};
+  double shortest = limit.stiffest.front().step;
+  for (const StiffestElement& element : limit.stiffest) shortest = std::min(shortest, element.step);
+  for (std::size_t b = 0; b < limit.stiffest.size(); ++b) {
+    const StiffestElement& element = limit.stiffest[b];
+    table.rows.push_back({model.mesh.blocks[b].name, place(element.at), fmt::format("{:.3e}", element.step),
+                          fmt::format("{:.2f}", element.step / shortest)});
+  }
+  return table;
+}
+
 void write_mesh(const Model& model, const std::filesystem::path& directory) {
   make_directory(directory);
   write_vtk_mesh(directory / "mesh.hdf", model.mesh, make_vtk_grid(model.mesh, VtkCells::elements),
@@ -100,7 +118,8 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
   JsonWriter json;
   json.begin_object().member("elements", model.elements()).member("nodes", model.nodes());
   json.key("blocks").begin_array();
-  for (const BlockMeasures& b : blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const BlockMeasures& b = blocks[i];
     json.begin_object()
         .member("name", std::string_view(b.name))
         .member("elements", b.elements)
@@ -109,7 +128,8 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
     write_extreme(json, "shortest_edge_m", b.shortest_edge);
     write_extreme(json, "longest_edge_m", b.longest_edge);
     write_extreme(json, "worst_quality", b.worst_quality);
-    json.member("mass_kg", b.mass).member("swept_mass_kg", b.swept_mass).end_object();
+    json.member("mass_kg", b.mass).member("swept_mass_kg", b.swept_mass);
+    json.member("stiffest_element_step_s", limit.stiffest[i].step).end_object();
   }
   json.end_array().key("bodies").begin_array();
   for (const BodyMass& body : bodies_of(model, blocks))
@@ -144,8 +164,8 @@ void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
     fmt::print("{}", mesh_json(model, blocks, limit));
     return;
   }
-  fmt::print("{}\n{}\n{}\n", plain_text(count_table(blocks)), plain_text(quality_table(blocks)),
-             plain_text(mass_table(bodies_of(model, blocks))));
+  fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(blocks)), plain_text(quality_table(blocks)),
+             plain_text(step_table(model, limit)), plain_text(mass_table(bodies_of(model, blocks))));
   if (model.wheelset) fmt::print("{}\n", plain_text(inertia_table(*model.wheelset)));
   fmt::print("Stable step  {:.4e} s: {}\n", limit.stable_step, limit.reason);
   if (!options.output.empty()) fmt::print("Mesh         {}\n", (options.output / "mesh.hdf").string());

@@ -104,11 +104,11 @@ double swept_mass(const SweptBlock& block) {
   return sum;
 }
 
+}  // namespace
+
 std::string place(const Vec3& at) {
   return fmt::format("({:.3f}, {:.4f}, {:.4f})", at.x, at.y, at.z);
 }
-
-}  // namespace
 
 std::vector<BlockMeasures> measure_blocks(const Model& model) {
   AlignedVector<double> mass(static_cast<std::size_t>(model.mesh.slots), 0.0);

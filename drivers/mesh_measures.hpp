@@ -31,6 +31,9 @@ struct BlockMeasures {
 
 std::vector<BlockMeasures> measure_blocks(const Model& model);
 
+/// (x, y, z) for a table.
+std::string place(const Vec3& at);
+
 Table count_table(const std::vector<BlockMeasures>& blocks);
 Table quality_table(const std::vector<BlockMeasures>& blocks);
 

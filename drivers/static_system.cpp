@@ -170,6 +170,17 @@ AssembledStep assembled_step(const Model& model) {
   return step;
 }
 
+std::vector<StiffestElement> stiffest_elements(const Model& model) {
+  std::vector<StiffestElement> list;
+  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    const ElementFrequency highest = model.internal->max_frequency(b);
+    const int corner = block.section.quads[static_cast<std::size_t>(highest.quad)][0];
+    list.push_back({stable_step(highest.omega, 0), position(block, corner, highest.station)});
+  }
+  return list;
+}
+
 }  // namespace
 
 double stable_step_of(const Model& model) {
@@ -178,18 +189,18 @@ double stable_step_of(const Model& model) {
 
 StepLimit step_limit(const Model& model) {
   StepLimit limit;
-  limit.element = model.internal->max_frequency();
   const AssembledStep step = assembled_step(model);
   const double omega = step.omega;
   const Stiffening material(model);
   limit.stable_step = step.stable;
   refuse_heavy_damping(material.beta, omega);
-  const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(limit.element.block)];
-  const int node = block.section.quads[static_cast<std::size_t>(limit.element.quad)][0];
-  const Vec3 at = position(block, node, limit.element.station);
+  limit.stiffest = stiffest_elements(model);
+  const auto stiffest = std::min_element(limit.stiffest.begin(), limit.stiffest.end(),
+                                         [](const auto& a, const auto& b) { return a.step < b.step; });
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-      block.name, at.x, at.y, at.z, 2 / limit.element.omega, stable_step(omega, 0));
+      model.mesh.blocks[static_cast<std::size_t>(stiffest - limit.stiffest.begin())].name, stiffest->at.x,
+      stiffest->at.y, stiffest->at.z, stiffest->step, stable_step(omega, 0));
   if (material.beta > 0 || material.branch > 1)
     limit.reason +=
         fmt::format("; damping takes {:.1f} % of that", 100 * (1 - step.material / stable_step(omega, 0)));

@@ -30,11 +30,17 @@ class StaticSystem {
   const Model* model_;
 };
 
+/// The element of a block with the highest frequency of its own.
+struct StiffestElement {
+  double step = 0;  ///< stable step of the element alone, without damping [s]
+  Vec3 at;          ///< a corner of it (wheel blocks: relative to the axis) [m]
+};
+
 /// What limits the time step, for the report.
 struct StepLimit {
-  double stable_step = 0;    ///< largest stable step of the assembled bodies, damping included [s]
-  ElementFrequency element;  ///< the element with the highest frequency of its own
-  std::string reason;        ///< one sentence
+  double stable_step = 0;                 ///< largest of the assembled bodies, damping included [s]
+  std::vector<StiffestElement> stiffest;  ///< by block
+  std::string reason;                     ///< one sentence
 };
 
 /// InputError where damping takes more than half of the step.
