@@ -47,9 +47,9 @@ double half_step_excess(const Model& model, const std::vector<std::int64_t>& hel
                         double dt) {
   const double* inverse_mass = model.inverse_mass.data();
   double sum = 0;
-  for (std::size_t b = 0; b < model.mesh.blocks.size(); ++b)
-    sum += weighted_sum(model.mesh.blocks[b], model.vertical_only(static_cast<int>(b)) ? 2 : 0, inverse_mass,
-                        force, [](double value) { return value * value; });
+  for (const SweptBlock& block : model.mesh.blocks)
+    sum += weighted_sum(block, block.vertical_only ? 2 : 0, inverse_mass, force,
+                        [](double value) { return value * value; });
   const auto leave_out = [&](const std::vector<std::int64_t>& unknowns) {
     for (const std::int64_t unknown : unknowns)
       sum -=

@@ -25,7 +25,8 @@ std::int64_t bytes_of(const T& array) {
 }
 
 bool vertical_blocks(const Model& model) {
-  return model.index.slab >= 0;
+  return std::any_of(model.mesh.blocks.begin(), model.mesh.blocks.end(),
+                     [](const SweptBlock& block) { return block.vertical_only; });
 }
 
 bool fixed_blocks(const Model& model) {

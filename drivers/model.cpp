@@ -162,9 +162,11 @@ void Model::build_slab() {
   }
   stretch(rail.length - at, 0);
   const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
-  index.slab =
-      add(make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
-                           {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments));
+  SweptBlock block =
+      make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
+                       {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments);
+  block.vertical_only = true;
+  index.slab = add(std::move(block));
 }
 
 void Model::build_wheel() {

@@ -73,7 +73,6 @@ struct Model {
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
   std::int64_t elements() const;
   std::int64_t nodes() const;
-  bool vertical_only(int block) const { return block == index.slab; }
 
   /// Nodes to or from whose force a step adds more than their elements do.
   std::vector<std::int64_t> loaded_slots() const;

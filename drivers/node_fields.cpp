@@ -60,8 +60,6 @@ class PreciseFields final : public NodeFields {
       q_.emplace(model.mesh, model.branches);
       lag_ = q_->data();
     }
-    for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b)
-      if (model.vertical_only(b)) update_.set_vertical_only(b);
     update_.defer(model.loaded_slots());
   }
 

@@ -41,9 +41,8 @@ double creepage_of(double rim, double speed) {
 /// Restrained unknowns less those that the update leaves alone.
 std::vector<std::int64_t> held_unknowns(const Model& model) {
   std::vector<std::int64_t> held = model.restrained;
-  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
-    if (!model.vertical_only(b)) continue;
-    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+  for (const SweptBlock& block : model.mesh.blocks) {
+    if (!block.vertical_only) continue;
     std::erase_if(held, [&](std::int64_t unknown) {
       return unknown >= 3 * block.base && unknown < 3 * (block.base + block.slots()) &&
              unknown / kLanes % 3 != 2;

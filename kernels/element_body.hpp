@@ -100,6 +100,7 @@ struct SweptElement {
     if constexpr (sweep == Sweep::revolved) a[mode_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
   }
 
+  template <int first = 0>
   TREAD_INLINE void scale_by_volume(auto& /*f*/) const {}
 
   /// Of the work in the swept volume.
@@ -183,8 +184,10 @@ struct PerturbedElement {
   }
 
   /// The material constants hold the swept volume; the hourglass stiffness stays that of the swept shape.
+  /// Components from `first` on.
+  template <int first = 0>
   TREAD_INLINE void scale_by_volume(Strain<V>& f) const {
-    for (int i = 0; i < 3; ++i)
+    for (int i = first; i < 3; ++i)
       for (int j = 0; j < 3; ++j) f.g[i][j] *= volume_ratio;
   }
 
@@ -262,6 +265,21 @@ TREAD_INLINE void hourglass_forces(const HourglassConstants<Real>& c, const Stra
   f.q[2][1] = d[2] * z2 + u[1] * x1 + u[4] * y2 + u[7] * y3 + u[8] * z3;
   f.q[1][2] = d[3] * y3 + u[2] * x1 + u[5] * y2 + u[7] * z2 + u[9] * z3;
   f.q[2][2] = d[4] * z3 + u[3] * x1 + u[6] * y2 + u[8] * z2 + u[9] * y3;
+}
+
+/// stress_forces and hourglass_forces where component 2 alone moves and linearly: rows 0 and 1 are neither
+/// read nor written.
+template <class V, class Real>
+TREAD_INLINE void vertical_forces(const SweptConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
+  f.g[2][0] = c.mu * e.g[2][0];
+  f.g[2][1] = c.mu * e.g[2][1];
+  f.g[2][2] = c.lambda * e.g[2][2] + (c.mu + c.mu) * e.g[2][2];
+  const HourglassConstants<Real>& h = c.hourglass;
+  const V &z1 = e.q[2][0], &z2 = e.q[2][1], &z3 = e.q[2][2];
+  f.q[2][0] = h.even_diagonal[3] * z1;
+  f.q[2][1] = h.odd_upper[8] * z3 + h.odd_diagonal[2] * z2;
+  f.q[2][2] = h.odd_upper[8] * z2 + h.odd_diagonal[4] * z3;
+  f.q[2][3] = h.z4 * e.q[2][3];
 }
 
 /// Rotation between the sum and difference a, b of a node's values at the two ends of an element, in the

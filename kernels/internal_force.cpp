@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "core/error.hpp"
@@ -385,8 +386,9 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
   view.tiles = tiles;
   view.stride = 3 * slots;
 
-  forces_->loops<Real, U>().force({swept.sweep, damping != nullptr, data.finite_rotation && !fields.linear})(
-      tile_elements(item, tiles), view, front_of<Real>(data.plan));
+  const TileVariant variant{swept.sweep, damping != nullptr, data.finite_rotation && !fields.linear,
+                            swept.vertical_only};
+  forces_->loops<Real, U>().force(variant)(tile_elements(item, tiles), view, front_of<Real>(data.plan));
 }
 
 template <class Real, class U>
@@ -454,16 +456,22 @@ ElementGeometry BasicInternalForce<Real, U>::geometry(int block, const Place& at
   return blocks_[index(block)].classes[index(at.pitch_class)].geometry[index(at.place)];
 }
 
+/// Index into the shifts, 0 where there is none.
+template <class Real, class U>
+int BasicInternalForce<Real, U>::shift_entry(int block, int section_node, int station) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const BlockData& data = blocks_[index(block)];
+  const int row = data.row[index(swept.tile_of_station[index(station)])];
+  if (row < 0) return 0;
+  return std::max(0, data.shifted[index(row) * index(swept.section.nodes()) + index(section_node)]);
+}
+
 /// As the loop reads it. [m]
 template <class Real, class U>
 Real BasicInternalForce<Real, U>::shift(int block, int section_node, int station, int component) const {
-  const SweptBlock& swept = mesh_.blocks[index(block)];
-  const BlockData& data = blocks_[index(block)];
-  const std::int64_t slot = swept.slot(section_node, station);
-  const int row = data.row[index(swept.tile_of_station[index(station)])];
-  const int entry =
-      row < 0 ? -1 : data.shifted[index(row) * index(swept.section.nodes()) + index(section_node)];
-  return entry < 0 ? 0 : data.shifts[index(entry)].shift[component][slot % kLanes];
+  const std::int64_t slot = mesh_.blocks[index(block)].slot(section_node, station);
+  const int entry = shift_entry(block, section_node, station);
+  return blocks_[index(block)].shifts[index(entry)].shift[component][slot % kLanes];
 }
 
 /// Sums and differences of the values at both ends of an element, in its middle frame.
@@ -716,13 +724,20 @@ template <class Real, class U>
 ElementFrequency BasicInternalForce<Real, U>::max_frequency(int block) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::size_t quads = swept.section.quads.size();
-  std::vector<Place> candidates;  // one of each kind
-  std::vector<bool> seen(quads * swept.classes.size(), false);
+  std::vector<Place> candidates;  // one of each shape
+  // Quad and pitch class; of elements at moved nodes, what shifts their eight nodes have in which lane.
+  std::set<std::array<int, 11>> shapes;
   for_each_element(block, [&](const Place& at) {
-    const std::size_t shared = index(at.pitch_class) * quads + index(at.quad);
-    if (!at.perturbed && seen[shared]) return;
-    if (!at.perturbed) seen[shared] = true;
-    candidates.push_back(at);
+    std::array<int, 11> shape = {static_cast<int>(index(at.pitch_class) * quads + index(at.quad))};
+    if (at.perturbed) {
+      const int stations[2] = {at.station, far_station(swept, at.station)};
+      for (int node = 0; node < 8; ++node)
+        shape[index(1 + node)] =
+            shift_entry(block, swept.section.quads[index(at.quad)][index(node % 4)], stations[node / 4]);
+      for (int end = 0; end < 2; ++end)
+        shape[index(9 + end)] = 1 + static_cast<int>(swept.slot(0, stations[end]) % kLanes);
+    }
+    if (shapes.insert(shape).second) candidates.push_back(at);
   });
   std::vector<double> omega(candidates.size());
   parallel_ranges(static_cast<std::int64_t>(omega.size()), [&](std::int64_t first, std::int64_t last) {

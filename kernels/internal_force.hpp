@@ -186,6 +186,7 @@ class BasicInternalForce {
   void store_shifts(int block);
   void join_tiles(int block);
   bool perturbed(const BlockData& data, int tile, int place) const;
+  int shift_entry(int block, int section_node, int station) const;
   Real shift(int block, int section_node, int station, int component) const;
   template <class Value>
   void spread(int block, const Place& at, const Value& value, Real (&s)[4][3], Real (&d)[4][3]) const;

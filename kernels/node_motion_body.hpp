@@ -45,11 +45,11 @@ TREAD_INLINE To converted(const From& value) {
     return __builtin_convertvector(value, To);
 }
 
-/// v -= dt (f / m + g e_z), u += dt v; components 0 and 1 only rest where `vertical_only`.
-template <class V, class U, class Real>
-TREAD_INLINE void move_fixed(const StepConstants<Real>& step, bool vertical_only, const V& inverse_mass,
-                             const V (&f)[3], U (&u)[3], V (&v)[3]) {
-  for (int c = vertical_only ? 2 : 0; c < 3; ++c) {
+/// v -= dt (f / m + g e_z), u += dt v of the components from `first` on.
+template <int first, class V, class U, class Real>
+TREAD_INLINE void move_fixed(const StepConstants<Real>& step, const V& inverse_mass, const V (&f)[3],
+                             U (&u)[3], V (&v)[3]) {
+  for (int c = first; c < 3; ++c) {
     const V weight = V{} + (c == 2 ? step.gravity : Real{0});
     v[c] -= product(step.dt, product(inverse_mass, f[c]) + (inverse_mass > 0 ? weight : V{}));
     u[c] += converted<U>(product(step.dt, v[c]));

@@ -18,20 +18,25 @@ struct ElementValues {
   Real d[3][4];
 };
 
-template <bool finite_rotation, class Real, class Element>
+/// Of the components from `first` on.
+template <bool finite_rotation, int first = 0, class Real, class Element>
 __device__ void element_forces(const SweptConstants<Real>& constants, const Element& element,
                                ElementValues<Real>& values) {
   Strain<Real> strain;
   Strain<Real> force;
   Real a[kModes];
-  for (int i = 0; i < 3; ++i) {
+  for (int i = first; i < 3; ++i) {
     to_modes(values.s[i], values.d[i], a);
     element.strain(i, a, strain);
   }
-  stress_forces<finite_rotation>(constants, strain, force);
-  element.scale_by_volume(force);
-  hourglass_forces(constants.hourglass, strain, force);
-  for (int i = 0; i < 3; ++i) {
+  if constexpr (first == 2) {
+    vertical_forces(constants, strain, force);
+  } else {
+    stress_forces<finite_rotation>(constants, strain, force);
+    hourglass_forces(constants.hourglass, strain, force);
+  }
+  element.template scale_by_volume<first>(force);
+  for (int i = first; i < 3; ++i) {
     element.forces(i, force, a);
     from_modes(a, values.s[i], values.d[i]);
   }
@@ -41,6 +46,12 @@ template <Sweep sweep, bool finite_rotation, class Real>
 __global__ void swept_forces(const SweptConstants<Real>* constants, ElementValues<Real>* values) {
   const int i = thread_index();
   element_forces<finite_rotation>(constants[i], SweptElement<sweep, Real>{constants[i]}, values[i]);
+}
+
+template <class Real>
+__global__ void vertical_swept_forces(const SweptConstants<Real>* constants, ElementValues<Real>* values) {
+  const int i = thread_index();
+  element_forces<false, 2>(constants[i], SweptElement<Sweep::extruded, Real>{constants[i]}, values[i]);
 }
 
 /// shift: [element][component][mode] [m]
@@ -64,7 +75,8 @@ template <class Real, class U>
 __global__ void motions(StepConstants<Real> step, const Real* inverse_mass, const Real* radius,
                         const Real (*weight)[2], const Real (*f)[3], U (*u)[3], Real (*v)[3]) {
   const int i = thread_index();
-  move_fixed(step, false, inverse_mass[i], f[i], u[i], v[i]);
+  move_fixed<0>(step, inverse_mass[i], f[i], u[i], v[i]);
+  move_fixed<2>(step, inverse_mass[i], f[i], u[i], v[i]);
   move_spinning(step, weight[i], radius[i], inverse_mass[i], f[i], u[i], v[i]);
 }
 
@@ -83,6 +95,8 @@ TREAD_ELEMENT_KERNELS(double, false)
 TREAD_ELEMENT_KERNELS(double, true)
 TREAD_ELEMENT_KERNELS(float, false)
 TREAD_ELEMENT_KERNELS(float, true)
+template __global__ void vertical_swept_forces(const SweptConstants<double>*, ElementValues<double>*);
+template __global__ void vertical_swept_forces(const SweptConstants<float>*, ElementValues<float>*);
 template __global__ void turns(double, double, double (*)[3], double (*)[3]);
 template __global__ void turns(float, float, float (*)[3], float (*)[3]);
 TREAD_MOTION_KERNEL(double, double)

@@ -19,10 +19,7 @@ std::size_t index(std::int64_t i) {
 
 template <class Real, class U>
 BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
-    : mesh_(mesh),
-      inverse_mass_(inverse_mass),
-      vertical_only_(mesh.blocks.size(), false),
-      deferred_(index(mesh.slots / kLanes), 0) {
+    : mesh_(mesh), inverse_mass_(inverse_mass), deferred_(index(mesh.slots / kLanes), 0) {
   for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
     const SweptBlock& swept = mesh.blocks[index(block)];
     radius_.emplace_back(swept.section.q.begin(), swept.section.q.end());
@@ -63,7 +60,6 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
   motion.deferred = deferred_.data() + slot / kLanes;
   if (swept.sweep == Sweep::extruded) {
     motion.step.gravity = static_cast<Real>(loads.gravity);
-    motion.vertical_only = vertical_only(block);
     return motion;
   }
   const double spin = loads.frame.spin;
@@ -94,8 +90,9 @@ void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFie
                  deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
       if (nodes.empty()) continue;
       const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-      select(swept.sweep)(motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
-                          fields.force + dof(slot, 0));
+      select({swept.sweep, false, false, swept.vertical_only})(
+          motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
+          fields.force + dof(slot, 0));
     }
   });
 }

@@ -38,10 +38,6 @@ class BasicTimeUpdate {
   /// nodes) [1/kg].
   BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass);
 
-  /// Components 0 and 1 of a block's nodes stay zero.
-  void set_vertical_only(int block) { vertical_only_[static_cast<std::size_t>(block)] = true; }
-  bool vertical_only(int block) const { return vertical_only_[static_cast<std::size_t>(block)]; }
-
   /// These nodes get forces besides those of the elements.
   void defer(const std::vector<std::int64_t>& slots);
 
@@ -68,7 +64,6 @@ class BasicTimeUpdate {
 
   const Mesh& mesh_;
   const Real* inverse_mass_;
-  std::vector<bool> vertical_only_;          ///< by block
   std::vector<AlignedVector<Real>> radius_;  ///< by block and section node (revolved) [m]
   std::vector<Item> items_;                  ///< all tiles
   std::vector<unsigned char> deferred_;      ///< by tile and section node: by slot / kLanes

@@ -52,6 +52,8 @@ struct SweptBlock {
   std::string name;
   Sweep sweep = Sweep::extruded;
   bool closed = false;  ///< a full turn: the last element ends at station 0
+  /// Nodes move along component 2 only, the others stay zero. For extruded blocks of a linear law.
+  bool vertical_only = false;
   Section section;
   std::vector<Material> materials;
 

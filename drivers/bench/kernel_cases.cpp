@@ -37,6 +37,7 @@ struct BlockData {
         f(made_up_field<Real>(mesh, kForce)),
         inverse_mass(static_cast<std::size_t>(mesh.slots), Real(1e5)),
         update(mesh, inverse_mass.data()) {
+    mesh.blocks.front().vertical_only = variant.vertical_only;
     internal.set_finite_rotation(0, variant.finite_rotation);
     if (variant.damped) internal.set_beta(0, kBeta);
     loads.dt = kStep;
@@ -83,6 +84,7 @@ PreparedKernel prepare_element(const ElementVariant& variant, std::int64_t eleme
 std::string path_of(const ElementVariant& variant) {
   std::string path = variant.sweep == Sweep::revolved ? "revolved" : "extruded";
   if (variant.perturbed) path += " perturbed";
+  if (variant.vertical_only) path += ", vertical only";
   path += variant.finite_rotation ? ", finite rotation" : ", linear";
   return variant.damped ? path + ", damped" : path;
 }
@@ -111,8 +113,8 @@ void add_update(std::vector<KernelCase>& cases, const char* path, Sweep sweep, b
       {"update", path, precision<Real, U>(), "node", [=](std::int64_t elements) {
          ElementVariant variant;
          variant.sweep = sweep;
+         variant.vertical_only = vertical_only;
          const auto data = std::make_shared<BlockData<Real, U>>(variant, elements);
-         if (vertical_only) data->update.set_vertical_only(0);
          PreparedKernel kernel;
          kernel.timed.call = [data] { data->motion(); };
          set_work(kernel, data->mesh.slots, update_work(sweep, vertical_only, {sizeof(U), sizeof(Real)}));
@@ -165,6 +167,15 @@ void add_ties(std::vector<KernelCase>& cases) {
          [hand_over](std::int64_t elements) { return prepare_tie<Real, U>(hand_over, elements); }});
 }
 
+void add_elements(std::vector<KernelCase>& cases, ElementVariant variant) {
+  for (const bool moves : {false, true}) {
+    variant.moves = moves;
+    add_element<double, double>(cases, variant);
+    add_element<float, double>(cases, variant);
+    add_element<float, float>(cases, variant);
+  }
+}
+
 }  // namespace
 
 std::vector<KernelCase> kernel_cases() {
@@ -175,14 +186,9 @@ std::vector<KernelCase> kernel_cases() {
       for (const bool finite_rotation : {false, true})
         for (const bool damped : {false, true}) {
           if (perturbed && damped) continue;
-          ElementVariant variant{sweep, damped, finite_rotation, perturbed};
-          for (const bool moves : {false, true}) {
-            variant.moves = moves;
-            add_element<double, double>(cases, variant);
-            add_element<float, double>(cases, variant);
-            add_element<float, float>(cases, variant);
-          }
+          add_elements(cases, {sweep, damped, finite_rotation, perturbed});
         }
+  for (const bool damped : {false, true}) add_elements(cases, {.damped = damped, .vertical_only = true});
   add_updates<double, double>(cases);
   add_updates<float, double>(cases);
   add_updates<float, float>(cases);

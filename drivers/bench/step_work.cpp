@@ -20,7 +20,9 @@ Load force_and_motion(const Model& model) {
         model.beta[static_cast<std::size_t>(b)] != 0 || model.branches[static_cast<std::size_t>(b)];
     const std::int64_t perturbed = model.internal->perturbed_elements(b);
     for (const bool own : {false, true})
-      add(load, element_work({block.sweep, damped, revolved, own, true}, block, value_bytes(model.scene)),
+      add(load,
+          element_work({block.sweep, damped, revolved, own, true, block.vertical_only}, block,
+                       value_bytes(model.scene)),
           own ? perturbed : block.elements() - perturbed);
   }
   return load;

@@ -10,23 +10,31 @@ namespace {
 constexpr int kCorners = 4;
 constexpr double kComponents = 3;
 
+double moving_components(bool vertical_only) {
+  return vertical_only ? 1 : kComponents;
+}
+
 /// One element between the nodal sums and differences and the forces on them, as the tile loop runs it, with
 /// the additions into its four corners.
-template <bool finite_rotation, class Element>
+template <bool finite_rotation, int first, class Element>
 void run_element(const Element& element, const SweptConstants<Counted>& constants) {
   Strain<Counted> strain{};
   Strain<Counted> force{};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = first; i < 3; ++i) {
     const Counted s[kCorners] = {};
     const Counted d[kCorners] = {};
     Counted a[kModes] = {};
     to_modes(s, d, a);
     element.strain(i, a, strain);
   }
-  stress_forces<finite_rotation>(constants, strain, force);
-  element.scale_by_volume(force);
-  hourglass_forces(constants.hourglass, strain, force);
-  for (int i = 0; i < 3; ++i) {
+  if constexpr (first == 2) {
+    vertical_forces(constants, strain, force);
+  } else {
+    stress_forces<finite_rotation>(constants, strain, force);
+    hourglass_forces(constants.hourglass, strain, force);
+  }
+  element.template scale_by_volume<first>(force);
+  for (int i = first; i < 3; ++i) {
     Counted a[kModes] = {};
     Counted s[kCorners] = {};
     Counted d[kCorners] = {};
@@ -37,7 +45,7 @@ void run_element(const Element& element, const SweptConstants<Counted>& constant
   }
 }
 
-template <bool finite_rotation>
+template <bool finite_rotation, int first = 0>
 double element_flops(const ElementVariant& variant) {
   const SweptConstants<Counted> constants{};
   const std::int64_t before = Counted::operations();
@@ -46,11 +54,11 @@ double element_flops(const ElementVariant& variant) {
     const Counted d[kCorners] = {};
     Counted shift[3][kModes] = {};
     for (auto& component : shift) to_modes(s, d, component);
-    run_element<finite_rotation>(PerturbedElement<Counted, Counted>(constants, shift), constants);
+    run_element<finite_rotation, first>(PerturbedElement<Counted, Counted>(constants, shift), constants);
   } else if (variant.sweep == Sweep::revolved) {
-    run_element<finite_rotation>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
+    run_element<finite_rotation, first>(SweptElement<Sweep::revolved, Counted>{constants}, constants);
   } else {
-    run_element<finite_rotation>(SweptElement<Sweep::extruded, Counted>{constants}, constants);
+    run_element<finite_rotation, first>(SweptElement<Sweep::extruded, Counted>{constants}, constants);
   }
   return static_cast<double>(Counted::operations() - before);
 }
@@ -58,8 +66,9 @@ double element_flops(const ElementVariant& variant) {
 /// Of a node of the section and one element along the sweep: sum and difference of its ends, their forces,
 /// the sum with the neighbour's; sum and difference of its shifts.
 double node_flops(const ElementVariant& variant) {
-  double flops = kComponents * (2 + 2 + 1);
-  if (variant.damped) flops += kComponents * 2;
+  const double components = moving_components(variant.vertical_only);
+  double flops = components * (2 + 2 + 1);
+  if (variant.damped) flops += components * 2;
   if (variant.perturbed) flops += kComponents * 2;
   if (variant.sweep == Sweep::extruded) return flops;
   Counted s[3] = {};
@@ -78,15 +87,19 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
   const double quads = static_cast<double>(block.section.quads.size());
   const double slots = static_cast<double>(block.slots()) / elements;
   Work work;
-  work.flops = (variant.finite_rotation ? element_flops<true>(variant) : element_flops<false>(variant)) +
+  const double components = moving_components(variant.vertical_only);
+  work.flops = (variant.vertical_only     ? element_flops<false, 2>(variant)
+                : variant.finite_rotation ? element_flops<true>(variant)
+                                          : element_flops<false>(variant)) +
                node_flops(variant) * block.section.nodes() / quads;
   if (variant.moves) {
     // Displacement and velocity in and out, inverse mass; the force does not leave the caches.
-    work.flops += update_work(variant.sweep, false, bytes).flops * slots;
-    work.bytes = (2 * kComponents * (bytes.displacement + bytes.other) + bytes.other) * slots;
+    work.flops += update_work(variant.sweep, variant.vertical_only, bytes).flops * slots;
+    work.bytes = (2 * components * (bytes.displacement + bytes.other) + bytes.other) * slots;
   } else {
-    const int others = variant.damped ? 3 : 2;  // force, fetched and written; velocity
-    work.bytes = kComponents * (bytes.displacement + others * bytes.other) * slots;
+    // Force, fetched and written whole; velocity.
+    const double others = 2 * kComponents + (variant.damped ? components : 0);
+    work.bytes = (components * bytes.displacement + others * bytes.other) * slots;
   }
   // The shift of every node, and which one it is; of every quad, that it has some.
   if (variant.perturbed)
@@ -98,7 +111,7 @@ Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
   // Counted in kernels/node_motion_body.hpp: per component f / m + g, v, u; in the spinning frame two
   // accelerations with their centrifugal term, half of each before and after the turn, and the axial
   // component.
-  const double components = vertical_only ? 1 : kComponents;
+  const double components = moving_components(vertical_only);
   const double flops = sweep == Sweep::revolved ? 33 : 6 * components;
   // Displacement and velocity in and out, force, inverse mass.
   return {flops, 2 * components * bytes.displacement + (3 * components + 1) * bytes.other};

@@ -22,6 +22,7 @@ struct ElementVariant {
   bool finite_rotation = false;
   bool perturbed = false;  ///< touches moved nodes
   bool moves = false;      ///< its nodes move in the same pass
+  bool vertical_only = false;
 };
 
 /// Internal force of a block of one such variant, by element.

@@ -37,11 +37,12 @@ TREAD_INLINE void store(Real* at, const V& value) {
   *reinterpret_cast<Unaligned<V, Real>*>(at) = value;
 }
 
-/// Fetches a node's three components of a tile's lanes.
-template <int to_write, class Value>
+/// Fetches a node's components from `first` on of a tile's lanes.
+template <int to_write, int first = 0, class Value>
 TREAD_INLINE void prefetch_vector(const Value* at) {
   constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
-  for (int value = 0; value < 3 * kLanes; value += kLine) __builtin_prefetch(at + value, to_write);
+  for (int value = first * kLanes / kLine * kLine; value < 3 * kLanes; value += kLine)
+    __builtin_prefetch(at + value, to_write);
 }
 
 /// Values in a register.

@@ -27,7 +27,6 @@ struct TileMotion {
   Real* v = nullptr;                        ///< velocity [m/s]
   const Real* inverse_mass = nullptr;       ///< 0 where nothing moves: unused lanes, secondary nodes [1/kg]
   const unsigned char* deferred = nullptr;  ///< by section node: more is added to its force before it moves
-  bool vertical_only = false;               ///< components 0 and 1 stay zero
   const Real* radius = nullptr;             ///< by section node (revolved) [m]
   Real weight[2][kLanes] = {};              ///< gravity along t and r (revolved) [m/s2]
 };
@@ -112,6 +111,7 @@ struct TileVariant {
   Sweep sweep = Sweep::extruded;
   bool damped = false;
   bool finite_rotation = false;
+  bool vertical_only = false;  ///< components 0 and 1 are zero: extruded and linear only
 };
 
 /// The loops of one precision.
@@ -119,7 +119,7 @@ template <class Real, class U>
 struct TileLoops {
   TileForce<Real, U> (*force)(TileVariant);
   TileEnergy<Real, U> (*energy)(TileVariant);
-  TileMove<Real, U> (*move)(Sweep);
+  TileMove<Real, U> (*move)(TileVariant);
   int tiles;  ///< that `force` takes at once
 };
 

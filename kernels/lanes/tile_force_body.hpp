@@ -63,18 +63,18 @@ struct NodeLanes {
   using Displacement = typename Lanes<U>::Register;
 };
 
-/// Moves the lanes of a section node that begin at `lane` by their force.
-template <Sweep sweep, class Real, class U>
+/// Moves the lanes of a section node that begin at `lane` by their force, components from `first` on.
+template <Sweep sweep, int first, class Real, class U>
 TREAD_INLINE void move_node(const TileMotion<Real, U>& motion, int node, int lane,
                             const typename NodeLanes<Real, U>::Register (&f)[3]) {
   using V = typename NodeLanes<Real, U>::Register;
   using Displacement = typename NodeLanes<Real, U>::Displacement;
-  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(node) * kLanes + lane;
+  const std::ptrdiff_t scalars = static_cast<std::ptrdiff_t>(node) * kLanes + lane;
   const std::ptrdiff_t vectors = static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
-  const V inverse_mass = load<V>(motion.inverse_mass + first);
+  const V inverse_mass = load<V>(motion.inverse_mass + scalars);
   Displacement u[3];
   V v[3];
-  for (int c = 0; c < 3; ++c) {
+  for (int c = first; c < 3; ++c) {
     u[c] = load<Displacement>(motion.u + vectors + c * kLanes);
     v[c] = load<V>(motion.v + vectors + c * kLanes);
   }
@@ -82,16 +82,16 @@ TREAD_INLINE void move_node(const TileMotion<Real, U>& motion, int node, int lan
     const V weight[2] = {load<V>(motion.weight[0] + lane), load<V>(motion.weight[1] + lane)};
     move_spinning(motion.step, weight, motion.radius[node], inverse_mass, f, u, v);
   } else {
-    move_fixed(motion.step, motion.vertical_only, inverse_mass, f, u, v);
+    move_fixed<first>(motion.step, inverse_mass, f, u, v);
   }
-  for (int c = 0; c < 3; ++c) {
+  for (int c = first; c < 3; ++c) {
     store(motion.u + vectors + c * kLanes, u[c]);
     store(motion.v + vectors + c * kLanes, v[c]);
   }
 }
 
-/// The lanes of all tiles abreast are one row of registers.
-template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
+/// The lanes of all tiles abreast are one row of registers. Components before `first` are zero.
+template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation, int first = 0>
 class TileLoop {
  public:
   static constexpr int kTiles = kFitting<Real> > kLanes ? kTilesAbreast : 1;
@@ -174,8 +174,8 @@ class TileLoop {
       const bool moves = view_.motion[tile] != nullptr;
       if (moves)
         __builtin_prefetch(view_.motion[tile]->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
-      prefetch_vector<0>(next(view_.u, view_.u_next, tile) + at);
-      if (damped || moves) prefetch_vector<0>(next(view_.v, view_.v_next, tile) + at);
+      prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
+      if (damped || moves) prefetch_vector<0, first>(next(view_.v, view_.v_next, tile) + at);
       if (!moves) prefetch_vector<1>(view_.f + tile * view_.stride + at);
     }
   }
@@ -225,10 +225,12 @@ class TileLoop {
   TREAD_INLINE void open_node(const FrontPlan::Node& node) const {
     Real* const slot = corner(node.slot, 0);
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node.node) * 3 * kLanes;
-    spread(
+    spread<first>(
         slot, [&](int i, int part) { return displacement(at + i * kLanes, i, part); },
         [&](int i) { return far_displacement(at + i * kLanes, i); });
-    for (int value = 6 * kAbreast; value < 12 * kAbreast; value += kWidth) store(slot + value, Register{});
+    for (int rows = 6; rows < 12; rows += 3)
+      for (int value = (rows + first) * kAbreast; value < (rows + 3) * kAbreast; value += kWidth)
+        store(slot + value, Register{});
     if (elements_.perturbed != nullptr && elements_.shifted[0][node.node] >= 0) open_shift(node);
   }
 
@@ -238,7 +240,7 @@ class TileLoop {
       tile[i] = elements_.shifts + (i < view_.tiles ? elements_.shifted[i][node.node] : 0);
     const int next = elements_.shifted_next != nullptr ? elements_.shifted_next[node.node] : 0;
     const LaneShifts<Real>& far = elements_.shifts[next > 0 ? next : 0];
-    spread(
+    spread<0>(
         shift_corner(node.slot, 0),
         [&](int i, int part) {
           if constexpr (kWidth <= kLanes)
@@ -250,12 +252,13 @@ class TileLoop {
   }
 
   /// Sums and differences of a node's values at both ends of the elements, in their middle frames:
-  /// near_end(component, part) at the stations, far_end(component) behind the last element.
-  template <class Near, class Far>
+  /// near_end(component, part) at the stations, far_end(component) behind the last element; of components
+  /// from `from` on.
+  template <int from, class Near, class Far>
   TREAD_INLINE void spread(Real* to, const Near& near_end, const Far& far_end) const {
     Register s[kParts][3];
     Register d[kParts][3];
-    for (int i = 0; i < 3; ++i) {
+    for (int i = from; i < 3; ++i) {
       Register near[kParts + 1];
       Register far[kParts];
       for (int part = 0; part < kParts; ++part) near[part] = near_end(i, part);
@@ -276,7 +279,7 @@ class TileLoop {
     }
     for (int part = 0; part < kParts; ++part, to += kWidth) {
       if constexpr (sweep == Sweep::revolved) turn_to_middle(cosine(), sine(), s[part], d[part]);
-      for (int i = 0; i < 3; ++i) {
+      for (int i = from; i < 3; ++i) {
         store(to + i * kAbreast, s[part][i]);
         store(to + (3 + i) * kAbreast, d[part][i]);
       }
@@ -302,14 +305,14 @@ class TileLoop {
     Register s[kParts][3];
     Register d[kParts][3];
     for (int part = 0; part < kParts; ++part, slot += kWidth) {
-      for (int i = 0; i < 3; ++i) {
+      for (int i = first; i < 3; ++i) {
         s[part][i] = load<Register>(slot + (6 + i) * kAbreast);
         d[part][i] = load<Register>(slot + (9 + i) * kAbreast);
       }
       if constexpr (sweep == Sweep::revolved) turn_to_nodes(cosine(), sine(), s[part], d[part]);
     }
     Register force[kParts][3];
-    for (int i = 0; i < 3; ++i) {
+    for (int i = first; i < 3; ++i) {
       const std::ptrdiff_t value = static_cast<std::ptrdiff_t>(node.node) * 3 + i;
       Register far[kParts + 1];
       far[0] = carried(value);
@@ -339,7 +342,7 @@ class TileLoop {
     for (int lane = 0; lane < kLanes; lane += kNodeWidth) {
       const int place = tile * kLanes + lane;
       Piece piece[3];
-      for (int i = 0; i < 3; ++i) {
+      for (int i = first; i < 3; ++i) {
         const Register& part = force[place / kWidth][i];
         if constexpr (kNodeWidth == kWidth)
           piece[i] = part;
@@ -347,9 +350,9 @@ class TileLoop {
           piece[i] = load<Piece>(reinterpret_cast<const Real*>(&part) + place % kWidth);
       }
       if (moves)
-        move_node<sweep, Real, U>(*motion, node, lane, piece);
+        move_node<sweep, first, Real, U>(*motion, node, lane, piece);
       else
-        for (int i = 0; i < 3; ++i) store(f + i * kLanes + lane, piece[i]);
+        for (int i = 0; i < 3; ++i) store(f + i * kLanes + lane, i < first ? Piece{} : piece[i]);
     }
   }
 
@@ -403,7 +406,7 @@ class TileLoop {
                                             const Element& element) const {
     const std::array<Real*, 4> at = corners(quad, lane);
     Strain<Register> strain;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = first; i < 3; ++i) {
       Register a[kModes];
       amplitudes([&](int j) { return at[j] + i * kAbreast; }, a);
       element.strain(i, a, strain);
@@ -417,11 +420,15 @@ class TileLoop {
     const Strain<Register> strain = deformation(quad, lane, element);
     const SweptConstants<Real>& constants = elements_.swept[index];
     Strain<Register> force;
-    stress_forces<finite_rotation>(constants, strain, force);
-    element.scale_by_volume(force);
-    hourglass_forces(constants.hourglass, strain, force);
+    if constexpr (first == 2) {
+      vertical_forces(constants, strain, force);
+    } else {
+      stress_forces<finite_rotation>(constants, strain, force);
+      hourglass_forces(constants.hourglass, strain, force);
+    }
+    element.template scale_by_volume<first>(force);
     const std::array<Real*, 4> at = corners(quad, lane);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = first; i < 3; ++i) {
       Register s[4];
       Register d[4];
       Register a[kModes];
@@ -461,12 +468,12 @@ class TileLoop {
   U far_origin_[3];
 };
 
-template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation>
+template <class Real, class U, Sweep sweep, bool damped, bool finite_rotation, int first = 0>
 void tile_force(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front) {
-  TileLoop<Real, U, sweep, damped, finite_rotation>(elements, view, front).run();
+  TileLoop<Real, U, sweep, damped, finite_rotation, first>(elements, view, front).run();
 }
 
-template <class Real, class U, Sweep sweep>
+template <class Real, class U, Sweep sweep, int first>
 void move_nodes(const TileMotion<Real, U>& motion, std::span<const int> nodes, const Real* f) {
   using Lanes = NodeLanes<Real, U>;
   using Register = typename Lanes::Register;
@@ -475,14 +482,14 @@ void move_nodes(const TileMotion<Real, U>& motion, std::span<const int> nodes, c
       const Real* at = f + static_cast<std::ptrdiff_t>(node) * 3 * kLanes + lane;
       const Register force[3] = {load<Register>(at), load<Register>(at + kLanes),
                                  load<Register>(at + 2 * kLanes)};
-      move_node<sweep, Real, U>(motion, node, lane, force);
+      move_node<sweep, first, Real, U>(motion, node, lane, force);
     }
 }
 
 template <class Real, class U>
-TileMove<Real, U> select_move(Sweep sweep) {
-  return sweep == Sweep::revolved ? move_nodes<Real, U, Sweep::revolved>
-                                  : move_nodes<Real, U, Sweep::extruded>;
+TileMove<Real, U> select_move(TileVariant v) {
+  if (v.sweep == Sweep::revolved) return move_nodes<Real, U, Sweep::revolved, 0>;
+  return v.vertical_only ? move_nodes<Real, U, Sweep::extruded, 2> : move_nodes<Real, U, Sweep::extruded, 0>;
 }
 
 template <class Real, class U, Sweep sweep, bool finite_rotation>
@@ -511,6 +518,9 @@ TileForce<Real, U> select_options(TileVariant v) {
 
 template <class Real, class U>
 TileForce<Real, U> select_variant(TileVariant v) {
+  if (v.vertical_only)
+    return v.damped ? tile_force<Real, U, Sweep::extruded, true, false, 2>
+                    : tile_force<Real, U, Sweep::extruded, false, false, 2>;
   return v.sweep == Sweep::revolved ? select_options<Real, U, Sweep::revolved>(v)
                                     : select_options<Real, U, Sweep::extruded>(v);
 }

@@ -278,6 +278,59 @@ TEST(InternalForceSingle, AgreesToItsPrecision) {
   }
 }
 
+/// Where nodes move vertically only: the force that the whole element has along component 2, nothing else.
+template <class Real, class U>
+void expect_vertical_force_alone(double tolerance) {
+  Mesh whole;
+  whole.add(samples::extruded());
+  SweptBlock shifted = samples::extruded();
+  samples::shift_nodes(shifted, 1e-3);
+  whole.add(shifted);
+  Mesh vertical = whole;
+  for (SweptBlock& block : vertical.blocks) block.vertical_only = true;
+
+  const auto vertical_field = [&](unsigned seed) {
+    auto field = samples::random_field(whole, seed);
+    for_each_node(whole, [&](const SweptBlock&, int, int, std::int64_t slot) {
+      field[index(dof(slot, 0))] = field[index(dof(slot, 1))] = 0;
+    });
+    return field;
+  };
+  const auto displacement = vertical_field(3);
+  const auto velocity = vertical_field(4);
+  const AlignedVector<U> u(displacement.begin(), displacement.end());
+  const AlignedVector<Real> v(velocity.begin(), velocity.end());
+  BasicInternalForce<Real, U> all(whole);
+  BasicInternalForce<Real, U> one(vertical);
+  for (const double beta : {0.0, 0.25})
+    for (const char* set : InternalForce::instruction_sets()) {
+      all.set_beta(0, beta);
+      one.set_beta(0, beta);
+      all.use_instruction_set(set);
+      one.use_instruction_set(set);
+      AlignedVector<Real> expected(u.size());
+      AlignedVector<Real> f(u.size(), Real(1e30));
+      all.internal_force(u.data(), v.data(), expected.data());
+      one.internal_force(u.data(), v.data(), f.data());
+      Real largest = 0;
+      for_each_node(whole, [&](const SweptBlock&, int, int, std::int64_t slot) {
+        largest = std::max(largest, std::abs(expected[index(dof(slot, 2))]));
+      });
+      ASSERT_GT(largest, 0);
+      for (std::int64_t slot = 0; slot < whole.slots; ++slot) {
+        ASSERT_EQ(f[index(dof(slot, 0))], 0) << set;
+        ASSERT_EQ(f[index(dof(slot, 1))], 0) << set;
+        ASSERT_NEAR(f[index(dof(slot, 2))], expected[index(dof(slot, 2))], tolerance * largest) << set;
+      }
+    }
+}
+
+TEST(InternalForceVertical, IsThatOfTheThirdComponentAlone) {
+  expect_vertical_force_alone<double, double>(1e-15);
+  expect_vertical_force_alone<float, double>(5e-7);
+  expect_vertical_force_alone<float, float>(5e-7);
+}
+
 TEST(InternalForceEnergy, IsHalfTheWorkOfLinearForces) {
   const Mesh mesh = all_blocks();
   const InternalForce force(mesh);

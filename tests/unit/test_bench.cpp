@@ -44,6 +44,7 @@ TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   const Work damped = element_work({Sweep::extruded, true, false, false}, block, {8, 8});
   const Work turning = element_work({Sweep::revolved, false, true, false}, block, {8, 8});
   const Work perturbed = element_work({Sweep::extruded, false, false, true}, block, {8, 8});
+  const Work vertical = element_work({.vertical_only = true}, block, {8, 8});
   EXPECT_GT(plain.flops, 200);
   EXPECT_LT(plain.flops, 350);
   EXPECT_GT(turning.flops, plain.flops);
@@ -53,6 +54,9 @@ TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   const double slots = static_cast<double>(block.slots()) / static_cast<double>(block.elements());
   EXPECT_DOUBLE_EQ(plain.bytes, 72 * slots);
   EXPECT_DOUBLE_EQ(damped.bytes, 96 * slots);
+  // A third in, all forces out.
+  EXPECT_DOUBLE_EQ(vertical.bytes, 56 * slots);
+  EXPECT_LT(vertical.flops, 0.4 * plain.flops);
   EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 24.5 * slots + 0.125);
   EXPECT_DOUBLE_EQ(element_work({}, block, {4, 4}).bytes, 36 * slots);
 }
