@@ -25,8 +25,7 @@ constexpr double kPlotHeight = 420;
 constexpr double kBottom = 46;
 constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // of the colour scale
 constexpr double kScaleWidth = 18;
-constexpr double kSeam = 0.7;  // cells overlap, so that no white shows between them
-constexpr int kShades = 48;    // of the colour scale
+constexpr int kShades = 48;  // of the colour scale
 
 std::string colour(double share) {
   const double at = std::clamp(share, 0.0, 1.0) * (kShadeStops.size() - 1);
