@@ -29,20 +29,23 @@ void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t no
   links_.reserve(points);
   nodes_.reserve(nodes);
   velocity_.reserve(nodes);
+  inverse_mass_.reserve(nodes);
 }
 
 void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame& wheel,
                        const NodeMotion& motion, double dt) {
   nodes_.clear();
   velocity_.clear();
+  inverse_mass_.clear();
   links_.resize(points.size());
   const auto number = [&](std::int64_t slot, bool of_wheel) {
     int& node = node_of_[static_cast<std::size_t>(slot)];
     if (node < 0) {
       node = static_cast<int>(nodes_.size());
       const Padded velocity(motion.velocity.at(slot));
-      nodes_.push_back({slot, of_wheel, motion.inverse_mass[slot], velocity});
+      nodes_.push_back({slot, of_wheel, velocity});
       velocity_.push_back(velocity);
+      inverse_mass_.push_back(motion.inverse_mass[slot]);
     }
     return node;
   };
@@ -53,12 +56,8 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
     for (std::size_t k = 0; k < kSupport; ++k) {
       link.rail[k] = number(point.rail_slot[k], false);
       link.wheel[k] = number(point.wheel_slot[k], true);
-      link.rail_weight[k] = -point.rail_weight[k];
-      link.wheel_weight[k] = point.wheel_weight[k];
-      link.rail_push[k] = point.rail_weight[k] * nodes_[index(link.rail[k])].inverse_mass;
-      link.wheel_push[k] = -point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
-      mobility += point.rail_weight[k] * point.rail_weight[k] * nodes_[index(link.rail[k])].inverse_mass +
-                  point.wheel_weight[k] * point.wheel_weight[k] * nodes_[index(link.wheel[k])].inverse_mass;
+      mobility += point.rail_weight[k] * point.rail_weight[k] * inverse_mass_[index(link.rail[k])] +
+                  point.wheel_weight[k] * point.wheel_weight[k] * inverse_mass_[index(link.wheel[k])];
     }
     link.compliance = 0.5 * dt * dt * point.area * mobility;
     link.frame_velocity = Padded(
@@ -71,8 +70,10 @@ void PatchSolver::push(const ContactPoint& point, const Link& link, const Vec3& 
   for (std::size_t station = 0; station < 4; ++station) {
     const Padded on_wheel(localise(point.wheel_cosine[station], point.wheel_sine[station], impulse));
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      velocity_[index(link.rail[k])].add(link.rail_push[k], on_rail);
-      velocity_[index(link.wheel[k])].add(link.wheel_push[k], on_wheel);
+      const std::size_t rail = index(link.rail[k]);
+      const std::size_t wheel = index(link.wheel[k]);
+      velocity_[rail].add(point.rail_weight[k] * inverse_mass_[rail], on_rail);
+      velocity_[wheel].add(-(point.wheel_weight[k] * inverse_mass_[wheel]), on_wheel);
     }
   }
 }
@@ -82,8 +83,8 @@ Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link)
   for (std::size_t station = 0; station < 4; ++station) {
     Padded on_rail, local;
     for (std::size_t k = 4 * station; k < 4 * station + 4; ++k) {
-      local.add(link.wheel_weight[k], velocity_[index(link.wheel[k])]);
-      on_rail.add(link.rail_weight[k], velocity_[index(link.rail[k])]);
+      local.add(point.wheel_weight[k], velocity_[index(link.wheel[k])]);
+      on_rail.add(-point.rail_weight[k], velocity_[index(link.rail[k])]);
     }
     on_rail.add(1, Padded(globalise(point.wheel_cosine[station], point.wheel_sine[station], local)));
     relative.add(1, on_rail);
@@ -173,7 +174,7 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
 
 std::int64_t PatchSolver::bytes() const {
   return static_cast<std::int64_t>(node_of_.size() * sizeof(int) +
-                                   nodes_.capacity() * (sizeof(Node) + sizeof(Padded)) +
+                                   nodes_.capacity() * (sizeof(Node) + sizeof(Padded) + sizeof(double)) +
                                    links_.capacity() * sizeof(Link));
 }
 

@@ -50,15 +50,12 @@ class PatchSolver {
   struct Node {
     std::int64_t slot;
     bool of_wheel;
-    double inverse_mass;  ///< [1/kg]
-    Padded free;          ///< velocity without contact, in the node's basis [m/s]
+    Padded free;  ///< velocity without contact, in the node's basis [m/s]
   };
   struct Link {
-    std::array<int, kSupport> rail, wheel;                   ///< into nodes_
-    std::array<double, kSupport> rail_weight, wheel_weight;  ///< of the nodes' velocities in the point's slip
-    std::array<double, kSupport> rail_push, wheel_push;      ///< their velocity by an impulse [1/kg]
-    Padded frame_velocity;                                   ///< of the wheel's frame at the point [m/s]
-    double compliance;                                       ///< half of dt^2 A sum(w^2 / m) [m/Pa]
+    std::array<int, kSupport> rail, wheel;  ///< into nodes_
+    Padded frame_velocity;                  ///< of the wheel's frame at the point [m/s]
+    double compliance;                      ///< half of dt^2 A sum(w^2 / m) [m/Pa]
   };
   struct Law {
     double penalty;  ///< [Pa/m]
@@ -82,7 +79,8 @@ class PatchSolver {
 
   std::vector<int> node_of_;  ///< by slot, -1: none
   std::vector<Node> nodes_;
-  std::vector<Padded> velocity_;  ///< of the nodes with contact, in their bases [m/s]
+  std::vector<Padded> velocity_;      ///< of the nodes with contact, in their bases [m/s]
+  std::vector<double> inverse_mass_;  ///< of the nodes [1/kg]
   std::vector<Link> links_;
   int sweeps_ = 0;
 };
