@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "core/parallel.hpp"
 #include "drivers/frame_files.hpp"
 #include "drivers/machine.hpp"
@@ -93,8 +91,7 @@ Table step_table(const Model& model, const StepLimit& limit) {
                {"Stable step of it alone [s]", Align::right},
                {"Over the shortest", Align::right}},
               {}};
-  double shortest = limit.stiffest.front().step;
-  for (const StiffestElement& element : limit.stiffest) shortest = std::min(shortest, element.step);
+  const double shortest = limit.stiffest[limit.stiffest_block()].step;
   for (std::size_t b = 0; b < limit.stiffest.size(); ++b) {
     const StiffestElement& element = limit.stiffest[b];
     table.rows.push_back({model.mesh.blocks[b].name, place(element.at), fmt::format("{:.3e}", element.step),

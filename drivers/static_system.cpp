@@ -187,6 +187,12 @@ double stable_step_of(const Model& model) {
   return assembled_step(model).stable;
 }
 
+std::size_t StepLimit::stiffest_block() const {
+  const auto shortest = std::min_element(stiffest.begin(), stiffest.end(),
+                                         [](const auto& a, const auto& b) { return a.step < b.step; });
+  return static_cast<std::size_t>(shortest - stiffest.begin());
+}
+
 StepLimit step_limit(const Model& model) {
   StepLimit limit;
   const AssembledStep step = assembled_step(model);
@@ -195,12 +201,12 @@ StepLimit step_limit(const Model& model) {
   limit.stable_step = step.stable;
   refuse_heavy_damping(material.beta, omega);
   limit.stiffest = stiffest_elements(model);
-  const auto stiffest = std::min_element(limit.stiffest.begin(), limit.stiffest.end(),
-                                         [](const auto& a, const auto& b) { return a.step < b.step; });
+  const std::size_t block = limit.stiffest_block();
+  const StiffestElement& stiffest = limit.stiffest[block];
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-      model.mesh.blocks[static_cast<std::size_t>(stiffest - limit.stiffest.begin())].name, stiffest->at.x,
-      stiffest->at.y, stiffest->at.z, stiffest->step, stable_step(omega, 0));
+      model.mesh.blocks[block].name, stiffest.at.x, stiffest.at.y, stiffest.at.z, stiffest.step,
+      stable_step(omega, 0));
   if (material.beta > 0 || material.branch > 1)
     limit.reason +=
         fmt::format("; damping takes {:.1f} % of that", 100 * (1 - step.material / stable_step(omega, 0)));

@@ -41,6 +41,9 @@ struct StepLimit {
   double stable_step = 0;                 ///< largest of the assembled bodies, damping included [s]
   std::vector<StiffestElement> stiffest;  ///< by block
   std::string reason;                     ///< one sentence
+
+  /// With the shortest step of `stiffest`.
+  std::size_t stiffest_block() const;
 };
 
 /// InputError where damping takes more than half of the step.

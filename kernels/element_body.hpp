@@ -100,7 +100,7 @@ struct SweptElement {
     if constexpr (sweep == Sweep::revolved) a[mode_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
   }
 
-  template <int first = 0>
+  template <int first>
   TREAD_INLINE void scale_by_volume(auto& /*f*/) const {}
 
   /// Of the work in the swept volume.
@@ -185,7 +185,7 @@ struct PerturbedElement {
 
   /// The material constants hold the swept volume; the hourglass stiffness stays that of the swept shape.
   /// Components from `first` on.
-  template <int first = 0>
+  template <int first>
   TREAD_INLINE void scale_by_volume(Strain<V>& f) const {
     for (int i = first; i < 3; ++i)
       for (int j = 0; j < 3; ++j) f.g[i][j] *= volume_ratio;
@@ -280,6 +280,19 @@ TREAD_INLINE void vertical_forces(const SweptConstants<Real>& c, const Strain<V>
   f.q[2][1] = h.odd_upper[8] * z3 + h.odd_diagonal[2] * z2;
   f.q[2][2] = h.odd_upper[8] * z2 + h.odd_diagonal[4] * z3;
   f.q[2][3] = h.z4 * e.q[2][3];
+}
+
+/// Forces of an element conjugate to its strain. Components before `first`, 0 or 2, do not move.
+template <bool finite_rotation, int first = 0, class Element, class V, class Real>
+TREAD_INLINE void strain_forces(const SweptConstants<Real>& c, const Element& element, const Strain<V>& e,
+                                Strain<V>& f) {
+  if constexpr (first == 2) {
+    vertical_forces(c, e, f);
+  } else {
+    stress_forces<finite_rotation>(c, e, f);
+    hourglass_forces(c.hourglass, e, f);
+  }
+  element.template scale_by_volume<first>(f);
 }
 
 /// Rotation between the sum and difference a, b of a node's values at the two ends of an element, in the

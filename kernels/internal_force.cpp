@@ -668,9 +668,7 @@ ElementStiffness BasicInternalForce<Real, U>::stiffness(int block, const Place& 
           block, at, [&](int node, int i) { return Real(3 * node + i == column); }, s, d);
       const Strain<Real> strain = element_strain(element, s, d);
       Strain<Real> force;
-      stress_forces<false>(constants, strain, force);
-      element.scale_by_volume(force);
-      hourglass_forces(constants.hourglass, strain, force);
+      strain_forces<false>(constants, element, strain, force);
       element_forces(element, force, s, d);
       for (int j = 0; j < 4; ++j) {
         if (mesh_.blocks[index(block)].sweep == Sweep::revolved)
@@ -711,16 +709,6 @@ double BasicInternalForce<Real, U>::element_frequency(int block, int quad, int s
 }
 
 template <class Real, class U>
-ElementFrequency BasicInternalForce<Real, U>::max_frequency() const {
-  ElementFrequency highest;
-  for (int block = 0; block < static_cast<int>(blocks_.size()); ++block) {
-    const ElementFrequency of_block = max_frequency(block);
-    if (of_block.omega > highest.omega) highest = of_block;
-  }
-  return highest;
-}
-
-template <class Real, class U>
 ElementFrequency BasicInternalForce<Real, U>::max_frequency(int block) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::size_t quads = swept.section.quads.size();
@@ -747,7 +735,7 @@ ElementFrequency BasicInternalForce<Real, U>::max_frequency(int block) const {
   const auto highest = std::max_element(omega.begin(), omega.end());
   if (highest == omega.end()) return {};
   const Place& at = candidates[static_cast<std::size_t>(highest - omega.begin())];
-  return {*highest, block, at.quad, at.station};
+  return {*highest, at.quad, at.station};
 }
 
 template <class Real, class U>

@@ -19,10 +19,9 @@ namespace tread {
 /// local bases. [N/m]
 using ElementStiffness = std::array<std::array<double, 24>, 24>;
 
-/// The element with the largest natural frequency.
+/// The element of a block with the largest natural frequency.
 struct ElementFrequency {
   double omega = 0;  ///< [rad/s]
-  int block = -1;
   int quad = -1;
   int station = -1;  ///< where the element starts
 };
@@ -113,8 +112,7 @@ class BasicInternalForce {
   /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
   double element_frequency(int block, int quad, int station) const;
 
-  /// Maximum over all elements, or those of one block: a bound from above on the frequencies when assembled.
-  ElementFrequency max_frequency() const;
+  /// Maximum over the elements of a block: a bound from above on its frequencies when assembled.
   ElementFrequency max_frequency(int block) const;
 
   /// Elements whose shape is their own (whole lanes of a tile's quad), of all blocks or of one.

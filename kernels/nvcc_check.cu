@@ -29,13 +29,7 @@ __device__ void element_forces(const SweptConstants<Real>& constants, const Elem
     to_modes(values.s[i], values.d[i], a);
     element.strain(i, a, strain);
   }
-  if constexpr (first == 2) {
-    vertical_forces(constants, strain, force);
-  } else {
-    stress_forces<finite_rotation>(constants, strain, force);
-    hourglass_forces(constants.hourglass, strain, force);
-  }
-  element.template scale_by_volume<first>(force);
+  strain_forces<finite_rotation, first>(constants, element, strain, force);
   for (int i = first; i < 3; ++i) {
     element.forces(i, force, a);
     from_modes(a, values.s[i], values.d[i]);

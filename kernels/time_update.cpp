@@ -90,7 +90,7 @@ void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFie
                  deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
       if (nodes.empty()) continue;
       const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-      select({swept.sweep, false, false, swept.vertical_only})(
+      select({.sweep = swept.sweep, .vertical_only = swept.vertical_only})(
           motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
           fields.force + dof(slot, 0));
     }

@@ -27,13 +27,7 @@ void run_element(const Element& element, const SweptConstants<Counted>& constant
     to_modes(s, d, a);
     element.strain(i, a, strain);
   }
-  if constexpr (first == 2) {
-    vertical_forces(constants, strain, force);
-  } else {
-    stress_forces<finite_rotation>(constants, strain, force);
-    hourglass_forces(constants.hourglass, strain, force);
-  }
-  element.template scale_by_volume<first>(force);
+  strain_forces<finite_rotation, first>(constants, element, strain, force);
   for (int i = first; i < 3; ++i) {
     Counted a[kModes] = {};
     Counted s[kCorners] = {};

@@ -420,13 +420,7 @@ class TileLoop {
     const Strain<Register> strain = deformation(quad, lane, element);
     const SweptConstants<Real>& constants = elements_.swept[index];
     Strain<Register> force;
-    if constexpr (first == 2) {
-      vertical_forces(constants, strain, force);
-    } else {
-      stress_forces<finite_rotation>(constants, strain, force);
-      hourglass_forces(constants.hourglass, strain, force);
-    }
-    element.template scale_by_volume<first>(force);
+    strain_forces<finite_rotation, first>(constants, element, strain, force);
     const std::array<Real*, 4> at = corners(quad, lane);
     for (int i = first; i < 3; ++i) {
       Register s[4];

@@ -304,8 +304,10 @@ void expect_vertical_force_alone(double tolerance) {
   BasicInternalForce<Real, U> one(vertical);
   for (const double beta : {0.0, 0.25})
     for (const char* set : InternalForce::instruction_sets()) {
-      all.set_beta(0, beta);
-      one.set_beta(0, beta);
+      for (const int block : {0, 1}) {
+        all.set_beta(block, beta);
+        one.set_beta(block, beta);
+      }
       all.use_instruction_set(set);
       one.use_instruction_set(set);
       AlignedVector<Real> expected(u.size());

@@ -212,7 +212,7 @@ TEST_F(Spinning, UnsprungMassIsCarriedAlong) {
   const Vec3 push{1000, 0, 400};
   auto u = field(), w = field(), f = field();
   BodyFrame frame;
-  const double dt = 1.5 / internal_->max_frequency().omega;
+  const double dt = 1.5 / internal_->max_frequency(0).omega;
   constexpr int kSteps = 4000;
   const TimeUpdate update(mesh_, inverse_.data());
   for (int step = 0; step < kSteps; ++step) {

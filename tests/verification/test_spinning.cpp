@@ -49,7 +49,7 @@ class FreeRing {
     body_ = SpinningBody(mesh_, {0}, mass_.data());
     u_.assign(index(3 * mesh_.slots), 0.0);
     w_ = force_ = u_;
-    dt_ = 1.8 / internal_->max_frequency().omega;
+    dt_ = 1.8 / internal_->max_frequency(0).omega;
   }
 
   void step() {
