@@ -121,8 +121,9 @@ PatchSolver::Sweep PatchSolver::sweep(std::vector<ContactPoint>& points, const L
       by = pressure * point.normal - point.pressure * point.normal;
       point.pressure = pressure;
     }
-    push(point, links_[i], dt * point.area * by);
-    sweep.change = std::max(sweep.change, norm(by));
+    const double change = norm(by);
+    if (change > 0) push(point, links_[i], dt * point.area * by);  // else it stays out of contact
+    sweep.change = std::max(sweep.change, change);
     sweep.largest = std::max(sweep.largest, pressure);
   }
   return sweep;
@@ -149,9 +150,9 @@ void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const
   // Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
   const Law law{penalty, friction, dt};
   const bool rubs = friction.friction_coefficient > 0;
-  for (sweeps_ = 1;; ++sweeps_) {
+  for (int sweeps = 0; sweeps < kMaxSweeps; ++sweeps) {
     const Sweep last = rubs ? sweep<true>(points, law) : sweep<false>(points, law);
-    if (last.change <= kTolerance * last.largest || sweeps_ == kMaxSweeps) break;
+    if (last.change <= kTolerance * last.largest) break;
   }
   if (!rubs) slip_freely(points);
   write_back(motion, wheel.spin, dt);

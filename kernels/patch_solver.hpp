@@ -30,7 +30,6 @@ class PatchSolver {
   void solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
              const BodyFrame& wheel, const NodeMotion& motion, double dt);
 
-  int sweeps() const { return sweeps_; }  ///< over all points, of the last solution
   std::int64_t bytes() const;
 
  private:
@@ -82,7 +81,6 @@ class PatchSolver {
   std::vector<Padded> velocity_;      ///< of the nodes with contact, in their bases [m/s]
   std::vector<double> inverse_mass_;  ///< of the nodes [1/kg]
   std::vector<Link> links_;
-  int sweeps_ = 0;
 };
 
 }  // namespace tread
