@@ -2,6 +2,9 @@
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "kernels/element_body.hpp"
 #include "kernels/lanes/registers.hpp"
@@ -39,6 +42,15 @@ TREAD_INLINE auto abreast(const V& a, const V& b) {
     return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   if constexpr (sizeof a / sizeof a[0] == 4) return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 0, 1, 2, 3);
+}
+
+/// The same but for one lane; as it is where it has no such lane.
+template <class V, class Real>
+TREAD_INLINE V with_lane(const V& values, int lane, Real value) {
+  using Index = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
+  typename Vector<Index, sizeof(V) / sizeof(Real)>::type lanes;
+  for (std::size_t l = 0; l < sizeof(V) / sizeof(Real); ++l) lanes[l] = static_cast<Index>(l);
+  return lanes == static_cast<Index>(lane) ? V{} + value : values;
 }
 
 /// Differences of `lanes` values in U, rounded to Real.
@@ -259,20 +271,19 @@ class TileLoop {
     Register s[kParts][3];
     Register d[kParts][3];
     for (int i = from; i < 3; ++i) {
-      Register near[kParts + 1];
+      Register near[kParts];
       Register far[kParts];
-      for (int part = 0; part < kParts; ++part) near[part] = near_end(i, part);
-      near[kParts] = Register{};
-      near[kParts][0] = far_end(i);
-      if (count_ == kAbreast) [[likely]] {
-        for (int part = 0; part < kParts; ++part) far[part] = shift_down(near[part], near[part + 1]);
-      } else {
-        Real row[kAbreast + 1] = {};
-        for (int part = 0; part < kParts; ++part) store(row + part * kWidth, near[part]);
-        row[count_] = near[kParts][0];
-        for (int part = 0; part < kParts; ++part) far[part] = load<Register>(row + 1 + part * kWidth);
-      }
+      Register next[kParts + 1];
+      for (int part = 0; part < kParts; ++part) next[part] = near[part] = near_end(i, part);
+      next[kParts] = Register{};
+      const Real end = far_end(i);
+      if (count_ == kAbreast) [[likely]]
+        next[kParts][0] = end;
+      else
+        for (int part = 0; part < kParts; ++part)
+          next[part] = with_lane(near[part], count_ - part * kWidth, end);
       for (int part = 0; part < kParts; ++part) {
+        far[part] = shift_down(next[part], next[part + 1]);
         s[part][i] = near[part] + far[part];
         d[part][i] = far[part] - near[part];
       }
@@ -323,8 +334,8 @@ class TileLoop {
         Real row[kAbreast];
         for (int part = 0; part < kParts; ++part) store(row + part * kWidth, far[part + 1]);
         view_.carry_out[value] = row[count_ - 1];
-        row[count_ - 1] = 0;
-        for (int part = 0; part < kParts; ++part) far[part + 1] = load<Register>(row + part * kWidth);
+        for (int part = 0; part < kParts; ++part)
+          far[part + 1] = with_lane(far[part + 1], count_ - 1 - part * kWidth, Real{0});
       }
       for (int part = 0; part < kParts; ++part)
         force[part][i] = (s[part][i] - d[part][i]) + shift_up(far[part], far[part + 1]);
