@@ -107,11 +107,11 @@ std::string report_html(const Report& report) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n"
+      "<title>{0}</title>\n<style>\n{7}{1}</style>\n</head>\n<body>\n"
       "<header>\n<h1>{0}</h1>\n<p>{2}</p>\n<nav>\n{3}</nav>\n</header>\n{4}"
       "<footer>{5}</footer>\n<script>\n{6}</script>\n</body>\n</html>\n",
       html_text(report.title), kReportStyle, html_text(report.subtitle), nav, body, html_text(report.footer),
-      kReportScript);
+      kReportScript, kFigureStyle);
 }
 
 void write_report(const std::filesystem::path& path, const Report& report) {

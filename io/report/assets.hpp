@@ -1,9 +1,11 @@
 #pragma once
-// Style and script of reports, embedded at build time from report.css, chart.js, patch_movie.js and copy.js.
+// Style and script of reports, embedded at build time from report.css, figure.css, chart.js, patch_movie.js
+// and copy.js.
 
 namespace tread {
 
-extern const char* const kReportStyle;
+extern const char* const kReportStyle;  ///< of all but the figures
+extern const char* const kFigureStyle;  ///< in reports and in SVG files, without variables
 extern const char* const kReportScript;
 
 }  // namespace tread

@@ -8,7 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "io/report/assets.hpp"
 #include "io/report/markup.hpp"
 
 namespace tread {
@@ -373,12 +372,9 @@ std::string figure_svg(const Figure& figure) {
   const Legend legend = legend_svg(figure, kLine);
   head += legend.svg;
   const double height = legend.bottom + drawn.bottom + kBottom;
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}<g transform=\"translate(0 "
-      "{4:.0f})\">\n{5}</g>\n"
-      "</svg>\n",
-      kWidth, height, kReportStyle, head, legend.bottom, drawn.shapes);
+  return svg_file(
+      kWidth, height,
+      fmt::format("{}<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", head, legend.bottom, drawn.shapes));
 }
 
 }  // namespace tread

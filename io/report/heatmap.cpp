@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "io/report/assets.hpp"
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/shades.hpp"
@@ -216,11 +215,9 @@ std::string heatmap_svg(const Heatmap& map) {
     head +=
         fmt::format("<path class=\"outline\" d=\"M{0:.0f} 14h26\"/><text x=\"{1:.0f}\" y=\"18\">{2}</text>\n",
                     kLeft + kPlotWidth - 210, kLeft + kPlotWidth - 178, svg_text(map.marked_label));
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}<g transform=\"translate(0 {4:.0f})\">\n{5}"
-      "</g>\n</svg>\n",
-      kWidth, kHead + kTop + kPlotHeight + kBottom, kReportStyle, head, kHead, Plot(map).shapes());
+  return svg_file(
+      kWidth, kHead + kTop + kPlotHeight + kBottom,
+      fmt::format("{}<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", head, kHead, Plot(map).shapes()));
 }
 
 }  // namespace tread

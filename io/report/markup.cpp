@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "io/report/assets.hpp"
+
 namespace tread {
 
 namespace {
@@ -87,6 +89,13 @@ std::string svg_line(const char* style, double x1, double y1, double x2, double 
 
 std::string svg_label(const char* style, double x, double y, std::string_view text) {
   return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", style, x, y, svg_text(text));
+}
+
+std::string svg_file(double width, double height, std::string_view shapes) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{3}</svg>\n",
+      width, height, kFigureStyle, shapes);
 }
 
 std::string caption_html(std::string_view text) {

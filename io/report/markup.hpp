@@ -19,6 +19,9 @@ std::string svg_line(const char* style, double x1, double y1, double x2, double 
 /// An SVG text element at (x, y) [px].
 std::string svg_label(const char* style, double x, double y, std::string_view text);
 
+/// An SVG file that stands alone, `width` by `height` [px], from its shapes.
+std::string svg_file(double width, double height, std::string_view shapes);
+
 /// The paragraph under a figure; nothing where the text is empty.
 std::string caption_html(std::string_view text);
 

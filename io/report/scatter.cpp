@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "io/report/assets.hpp"
 #include "io/report/markup.hpp"
 
 namespace tread {
@@ -147,11 +146,11 @@ std::string scatter_html(const Scatter& scatter) {
 std::string scatter_svg(const Scatter& scatter) {
   constexpr double kHead = 26;
   const Plot drawing = plot(scatter);
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\"><style>{2}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<text x=\"{3:.0f}\" y=\"18\" "
-      "font-weight=\"bold\">{4}</text>\n<g transform=\"translate(0 {5:.0f})\">\n{6}</g>\n</svg>\n",
-      kWidth, kHead + drawing.height, kReportStyle, kLeft, svg_text(scatter.title), kHead, drawing.shapes);
+  return svg_file(
+      kWidth, kHead + drawing.height,
+      fmt::format("<text x=\"{:.0f}\" y=\"18\" font-weight=\"bold\">{}</text>\n<g transform=\"translate(0 "
+                  "{:.0f})\">\n{}</g>\n",
+                  kLeft, svg_text(scatter.title), kHead, drawing.shapes));
 }
 
 }  // namespace tread

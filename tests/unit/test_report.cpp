@@ -125,6 +125,9 @@ TEST(Heatmap, CellsStandAtTheirPlaces) {
   EXPECT_NE(html.find("cx=\"422.0\" cy=\"228.0\""), std::string::npos);
   EXPECT_NE(html.find("1 Hz"), std::string::npos);
   EXPECT_EQ(count(heatmap_svg(map), "xmlns"), 1U);
+  // Readers of SVG files know no variables of style sheets.
+  EXPECT_EQ(count(heatmap_svg(map), "var("), 0U) << heatmap_svg(map);
+  EXPECT_EQ(count(heatmap_svg(map), ".c0 { stroke: #1f5fa8; }"), 1U) << heatmap_svg(map);
   map.values.pop_back();
   EXPECT_THROW(heatmap_html(map), std::logic_error);
 }
