@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -18,22 +20,27 @@ namespace tread {
 
 namespace {
 
+/// Whether a figure is what the user names: "8" and "08" are Fig. 8, "17" is Figs. 17a and 17b.
+bool answers(const PaperFigure& figure, const std::string& id, bool parts) {
+  const std::string shown = shown_id(figure.id);
+  return parts ? std::to_string(std::atoi(shown.c_str())) == shown_id(id) : shown == shown_id(id);
+}
+
 std::vector<PaperFigure> chosen_figures(const std::vector<std::string>& ids) {
   if (ids.empty()) return paper_figures();
   std::vector<PaperFigure> chosen;
   for (const std::string& id : ids) {
-    const auto found =
-        std::find_if(paper_figures().begin(), paper_figures().end(),
-                     [&](const PaperFigure& figure) { return shown_id(figure.id) == shown_id(id); });
-    if (found == paper_figures().end()) {
-      std::vector<std::string> known;
-      for (const PaperFigure& figure : paper_figures()) known.push_back(shown_id(figure.id));
-      throw InputError(
-          fmt::format("--fig {}: not among the figures {}; 14 is made by `tread roughness`, 16 and 17 "
-                      "stand in every run's report",
-                      id, fmt::join(known, ", ")));
+    const std::size_t before = chosen.size();
+    for (const bool parts : {false, true}) {
+      if (chosen.size() > before) break;
+      std::copy_if(paper_figures().begin(), paper_figures().end(), std::back_inserter(chosen),
+                   [&](const PaperFigure& figure) { return answers(figure, id, parts); });
     }
-    chosen.push_back(*found);
+    if (chosen.size() > before) continue;
+    std::vector<std::string> known;
+    for (const PaperFigure& figure : paper_figures()) known.push_back(shown_id(figure.id));
+    throw InputError(fmt::format("--fig {}: not among the figures {}; 14 is made by `tread roughness`", id,
+                                 fmt::join(known, ", ")));
   }
   return chosen;
 }
@@ -72,7 +79,7 @@ Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& 
   report.chapters.push_back({"Numbers", {number_table(runs)}});
   for (const PaperFigure& figure : figures) {
     Chapter chapter{fmt::format("Fig. {}", shown_id(figure.id)), {}};
-    chapter.blocks.emplace_back(draw(figure, runs));
+    chapter.blocks.push_back(draw(figure, runs).block);
     chapter.blocks.emplace_back(missing_passages(figure, runs));
     report.chapters.push_back(std::move(chapter));
   }
@@ -98,9 +105,10 @@ std::optional<Error> reproduce_paper(const PaperOptions& options) {
     PassageRuns runs;
     for (const FinishedRun& run : finished) runs.add(passages.at(run.label), run);
     for (const PaperFigure& figure : figures) {
-      const Figure drawn = draw(figure, runs);
-      write_text_file(plan.folder / fmt::format("fig{}.csv", figure.id), figure_csv(drawn));
-      write_text_file(plan.folder / fmt::format("fig{}.svg", figure.id), figure_svg(drawn));
+      const DrawnFigure drawn = draw(figure, runs);
+      if (drawn.csv.empty()) continue;
+      write_text_file(plan.folder / fmt::format("fig{}.csv", figure.id), drawn.csv);
+      write_text_file(plan.folder / fmt::format("fig{}.svg", figure.id), drawn.svg);
     }
     write_text_file(plan.folder / "numbers.csv", number_csv(runs));
     write_text_file(plan.folder / "results.md",

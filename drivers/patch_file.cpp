@@ -118,15 +118,39 @@ std::int64_t PatchFile::sample_bytes(const PatchNodes& nodes) {
   return window * static_cast<std::int64_t>(patch_fields().size() * sizeof(float) + 1);
 }
 
-std::vector<PatchSample> read_patch(const std::filesystem::path& path, double first, double last, int count) {
+double PatchWindow::x(int i) const {
+  return axes_.x[std::min(static_cast<std::size_t>(sample_.first + i), axes_.x.size() - 1)];
+}
+
+double PatchWindow::shear(int i, int row) const {
+  return std::hypot(value(1, i, row), value(2, i, row));
+}
+
+double PatchWindow::slip_speed(int i, int row) const {
+  return std::hypot(value(3, i, row), value(4, i, row));
+}
+
+PatchAxes read_patch_axes(const std::filesystem::path& path) {
+  const Hdf5File file = Hdf5File::open_to_read(path);
+  PatchAxes axes{file.read<double>("/x"), file.read<double>("/y")};
+  if (axes.x.empty() || axes.y.empty())
+    throw InputError(fmt::format("{} holds no surface: run the scene again", path.string()));
+  return axes;
+}
+
+std::vector<PatchSample> read_patch(const std::filesystem::path& path, const std::vector<double>& places) {
   const Hdf5File file = Hdf5File::open_to_read(path);
   const std::vector<double> time = file.read<double>("/time");
   const std::vector<double> wheel_x = file.read<double>("/wheel_x");
   const std::vector<std::int32_t> station = file.read<std::int32_t>("/first_station");
+  const auto foreign = [&] {
+    return InputError(fmt::format("{}: its fields have not the same samples and nodes; run the scene again",
+                                  path.string()));
+  };
+  if (time.size() != wheel_x.size() || station.size() != wheel_x.size()) throw foreign();
   std::vector<PatchSample> samples;
   std::size_t before = wheel_x.size();
-  for (int k = 0; k < count; ++k) {
-    const double place = first + (last - first) * (k + 0.5) / count;
+  for (const double place : places) {
     std::size_t nearest = 0;
     for (std::size_t i = 0; i < wheel_x.size(); ++i)
       if (std::abs(wheel_x[i] - place) < std::abs(wheel_x[nearest] - place)) nearest = i;
@@ -137,6 +161,7 @@ std::vector<PatchSample> read_patch(const std::filesystem::path& path, double fi
       sample.fields.insert(sample.fields.end(), values.begin(), values.end());
     }
     sample.state = file.read_row<std::uint8_t>("/state", nearest);
+    if (sample.fields.size() != patch_fields().size() * sample.state.size()) throw foreign();
     samples.push_back(std::move(sample));
   }
   return samples;

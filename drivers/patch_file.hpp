@@ -62,8 +62,43 @@ class PatchFile {
   bool open_ = true;
 };
 
-/// Of patch.h5: the samples whose wheel_x lies nearest to `count` places spread evenly over [first, last]
-/// [m], each once.
-std::vector<PatchSample> read_patch(const std::filesystem::path& path, double first, double last, int count);
+/// The rail's surface in patch.h5. [m]
+struct PatchAxes {
+  std::vector<double> x;  ///< by station
+  std::vector<double> y;  ///< by row
+};
+
+/// The window of a sample; both must outlive it.
+class PatchWindow {
+ public:
+  PatchWindow(const PatchAxes& axes, const PatchSample& sample) : axes_(axes), sample_(sample) {}
+
+  int stations() const { return static_cast<int>(sample_.state.size() / axes_.y.size()); }
+  /// Of a station of the window; the rail's end where it ends within [m].
+  double x(int i) const;
+  double pressure(int i, int row) const { return value(0, i, row); }  ///< [Pa]
+  double shear(int i, int row) const;                                 ///< size [Pa]
+  double slip_speed(int i, int row) const;                            ///< [m/s]
+  PatchState state(int i, int row) const { return static_cast<PatchState>(sample_.state[node(i, row)]); }
+
+ private:
+  std::size_t node(int i, int row) const {
+    return static_cast<std::size_t>(i) * axes_.y.size() + static_cast<std::size_t>(row);
+  }
+  /// Fields as in patch_fields().
+  double value(std::size_t field, int i, int row) const {
+    return sample_.fields[field * sample_.state.size() + node(i, row)];
+  }
+
+  const PatchAxes& axes_;
+  const PatchSample& sample_;
+};
+
+/// InputError where the file does not hold them.
+PatchAxes read_patch_axes(const std::filesystem::path& path);
+
+/// Of patch.h5: the samples whose wheel_x lies nearest to the places [m], each once. InputError where the
+/// file is damaged.
+std::vector<PatchSample> read_patch(const std::filesystem::path& path, const std::vector<double>& places);
 
 }  // namespace tread

@@ -12,6 +12,7 @@
 #include "drivers/disk_use.hpp"
 #include "drivers/fork.hpp"
 #include "drivers/frame_files.hpp"
+#include "drivers/instants.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/preload_cache.hpp"
@@ -25,23 +26,25 @@ namespace tread {
 
 namespace {
 
-constexpr int kInstants = 10;  ///< [paper, Fig. 16]
 constexpr int kMovieFrames = 200;
 
-/// The fields of the rail's surface, and what of the patch the report shows: instants of the last wave of a
-/// corrugation, of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
+/// The fields of the rail's surface, and what of the patch the report shows: instants of a wave,
+/// or of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
 void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
   if (!results.surface_fields) return;
   write_surface(directory / "surface.h5", *results.surface_fields);
   write_axis(directory / "surface_axis.csv", results.surface);
   write_deflection(directory / "deflection.csv", deflection(*results.rail_line));
-  const Scene& scene = model.scene;
-  const bool waves = !model.contact->corrugation().smooth() && scene.corrugation->kind == "sine";
-  const double stretch = waves ? scene.corrugation->wavelength : 4 * model.contact->reach();
-  const double last = results.evaluated_last;
+  const Span stretch{results.evaluated_first, results.evaluated_last};
+  std::vector<double> x, pressure;
+  for (const Sample& sample : results.samples) {
+    x.push_back(sample.wheel_x);
+    pressure.push_back(sample.max_pressure);
+  }
+  const std::filesystem::path patch = directory / kPatchFile;
   results.instants =
-      read_patch(directory / kPatchFile, std::max(last - stretch, results.evaluated_first), last, kInstants);
-  results.movie = read_patch(directory / kPatchFile, results.evaluated_first, last, kMovieFrames);
+      read_patch(patch, typical_places(model.scene, stretch, 4 * model.contact->reach(), x, pressure));
+  results.movie = read_patch(patch, even_places(stretch, kMovieFrames));
 }
 
 /// Changes of the run, as later values of the keys that a run may change.

@@ -4,10 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
+#include "drivers/evaluated_stretch.hpp"
 #include "drivers/figure_parts.hpp"
+#include "drivers/growing_files.hpp"
+#include "drivers/instants.hpp"
 #include "drivers/multibody/multibody_run.hpp"
+#include "drivers/paper/curve_measures.hpp"
+#include "drivers/surface_map.hpp"
 
 namespace tread {
 
@@ -168,6 +175,24 @@ std::vector<PaperFigure> corrugation_d_figures() {
        {d},
        name,
        {"", way, {longitudinal_with_limit(), vertical()}}},
+      {.id = "16",
+       .title = "The patch's longitudinal axis at ten instants, corrugation D, mu 0.3, 300 km/h",
+       .section = "4.2",
+       .passages = {d},
+       .label = name,
+       .instants = true},
+      {.id = "17a",
+       .title = "Largest pressure, corrugation D, mu 0.3, 300 km/h",
+       .section = "4.2",
+       .passages = {d},
+       .label = name,
+       .map = true},
+      {.id = "17b",
+       .title = "Largest pressure, smooth rail, mu 0.3, 300 km/h",
+       .section = "4.2",
+       .passages = {smooth_rail()},
+       .label = name,
+       .map = true},
       {"18",
        "Creepage over corrugation D, mu 0.3, 300 km/h",
        "4.2",
@@ -301,6 +326,72 @@ void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
 }
 
+/// Runs of a figure and where they stand on the abscissa of its trends.
+struct FoundRuns {
+  std::vector<FinishedRun> runs;
+  std::vector<double> places;
+};
+
+FoundRuns find_runs(const PaperFigure& wanted, const PassageRuns& runs) {
+  FoundRuns found;
+  for (const Passage& passage : wanted.passages)
+    if (const FinishedRun* run = runs.find(passage)) {
+      found.runs.push_back(*run);
+      found.runs.back().label = wanted.label(passage);
+      found.places.push_back(wanted.x ? wanted.x(passage) : 0);
+    }
+  return found;
+}
+
+Figure drawn_trend(const std::string& title, const PaperFigure& wanted, const PassageRuns& runs) {
+  const FoundRuns found = find_runs(wanted, runs);
+  std::vector<TrendRun> trend;
+  for (std::size_t i = 0; i < found.runs.size(); ++i) trend.push_back({&found.runs[i], found.places[i], ""});
+  return trend_figure(title, wanted.x_label, wanted.trends, trend);
+}
+
+Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const PassageRuns& runs) {
+  const std::vector<FinishedRun> found = find_runs(wanted, runs).runs;
+  CurvesSpec spec = wanted.curves;
+  spec.title = title;
+  Figure figure = curves_figure(spec, found);
+  if (found.empty()) return figure;
+  if (wanted.one_panel) overlay(figure);
+  if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
+  add_surface(found, figure);
+  return figure;
+}
+
+/// Of the run's instants; the last 0.12 m of a smooth rail, as many as the paper shows.
+std::vector<double> places_of(const FinishedRun& run) {
+  const CurvePoints pressure = history_over_way(run, "max_pressure", "Pa");
+  return typical_places(run.scene, evaluated_stretch(run.scene, run.corrugation()), 0.12, pressure.x,
+                        pressure.y);
+}
+
+DrawnFigure drawn_instants(const std::string& title, const FinishedRun& run) {
+  const std::filesystem::path path = run.folder / kPatchFile;
+  Instants instants{read_patch_axes(path), 0, run.scene.contact->friction, run.corrugation(),
+                    read_patch(path, places_of(run))};
+  if (instants.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
+  const double axis = run.number("surface.axis_y_m").value_or(0);
+  const std::vector<double>& y = instants.axes.y;
+  for (std::size_t row = 0; row < y.size(); ++row)
+    if (std::abs(y[row] - axis) < std::abs(y[static_cast<std::size_t>(instants.axis_row)] - axis))
+      instants.axis_row = static_cast<int>(row);
+  Figure figure = instants_figure(instants);
+  figure.title = title;
+  return {figure, instants_csv(instants), figure_svg(figure)};
+}
+
+DrawnFigure drawn_map(const std::string& title, const FinishedRun& run) {
+  const std::vector<double> places = places_of(run);
+  const SurfaceMap map =
+      read_surface_map(run.folder / "surface.h5", "max_pressure", {places.front(), places.back()});
+  const Heatmap heat = heatmap(map, title, "Largest pressure [MPa]", 1e-6);
+  return {heat, surface_map_csv(map, "max_pressure [Pa]"), heatmap_svg(heat)};
+}
+
 }  // namespace
 
 const std::vector<PaperFigure>& paper_figures() {
@@ -317,29 +408,16 @@ std::string shown_id(const std::string& id) {
   return id.substr(std::min(id.find_first_not_of('0'), id.size()));
 }
 
-Figure draw(const PaperFigure& wanted, const PassageRuns& runs) {
-  std::vector<FinishedRun> found;
-  std::vector<double> places;
-  for (const Passage& passage : wanted.passages)
-    if (const FinishedRun* run = runs.find(passage)) {
-      found.push_back(*run);
-      found.back().label = wanted.label(passage);
-      places.push_back(wanted.x ? wanted.x(passage) : 0);
-    }
+DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   const std::string title = fmt::format("Fig. {}: {}", shown_id(wanted.id), wanted.title);
-  if (!wanted.trends.empty()) {
-    std::vector<TrendRun> trend;
-    for (std::size_t i = 0; i < found.size(); ++i) trend.push_back({&found[i], places[i], ""});
-    return trend_figure(title, wanted.x_label, wanted.trends, trend);
+  if (wanted.instants || wanted.map) {
+    const FinishedRun* run = runs.find(wanted.passages.front());
+    if (!run) return {Text{title + "."}, "", ""};
+    return wanted.map ? drawn_map(title, *run) : drawn_instants(title, *run);
   }
-  CurvesSpec spec = wanted.curves;
-  spec.title = title;
-  Figure figure = curves_figure(spec, found);
-  if (found.empty()) return figure;
-  if (wanted.one_panel) overlay(figure);
-  if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
-  add_surface(found, figure);
-  return figure;
+  const Figure figure =
+      wanted.trends.empty() ? drawn_curves(title, wanted, runs) : drawn_trend(title, wanted, runs);
+  return {figure, figure_csv(figure), figure_svg(figure)};
 }
 
 }  // namespace tread

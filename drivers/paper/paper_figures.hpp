@@ -23,6 +23,8 @@ struct PaperFigure {
   std::vector<TrendPanel> trends = {};
   bool multibody = false;  ///< F_N by the multi-body approach beside the run's
   bool one_panel = false;  ///< all curves in one panel
+  bool instants = false;   ///< the patch at t1 to t10 of the one passage
+  bool map = false;        ///< the largest pressure seen from above, of the one passage
 };
 
 /// In the paper's order.
@@ -31,7 +33,14 @@ const std::vector<PaperFigure>& paper_figures();
 /// The id without zeros before it: "8".
 std::string shown_id(const std::string& id);
 
-/// From those of its passages that have been run. InputError where a table does not read.
-Figure draw(const PaperFigure& figure, const PassageRuns& runs);
+/// A figure for the report, as a table and as a picture of its own; a text and nothing else where none of its
+/// passages has been run that it cannot be drawn without.
+struct DrawnFigure {
+  Block block;
+  std::string csv, svg;
+};
+
+/// From those of its passages that have been run. InputError where a file does not read.
+DrawnFigure draw(const PaperFigure& figure, const PassageRuns& runs);
 
 }  // namespace tread

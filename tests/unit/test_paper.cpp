@@ -128,9 +128,9 @@ TEST_F(MadeUpRun, AFigureBecomesColumns) {
   runs.add(corrugated(), d);
   const auto figure = std::find_if(paper_figures().begin(), paper_figures().end(),
                                    [](const PaperFigure& f) { return f.id == "20"; });
-  const Figure drawn = draw(*figure, runs);
-  EXPECT_EQ(drawn.panels.size(), 3U);
-  const std::string csv = figure_csv(drawn);
+  const DrawnFigure drawn = draw(*figure, runs);
+  EXPECT_EQ(std::get<Figure>(drawn.block).panels.size(), 3U);
+  const std::string& csv = drawn.csv;
   EXPECT_TRUE(csv.starts_with("Position of the wheel [m],\"F_N, 80 mm: F_N [kN]\",\"F_L, 80 mm: F_L [kN]\","))
       << csv.substr(0, 200);
   EXPECT_TRUE(samples::has(csv, "\n2.48,137.56,1,")) << csv.substr(0, 4000);
@@ -193,9 +193,11 @@ TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
   for (const Conclusion& conclusion : paper_conclusions())
     EXPECT_EQ(conclusion.judge(none).verdict, Verdict::not_run) << conclusion.number;
   for (const PaperFigure& figure : paper_figures()) {
-    const Figure drawn = draw(figure, none);
-    EXPECT_FALSE(figure_svg(drawn).empty()) << figure.id;
-    EXPECT_FALSE(figure_csv(drawn).empty()) << figure.id;
+    const DrawnFigure drawn = draw(figure, none);
+    const bool of_one_run = figure.instants || figure.map;
+    EXPECT_EQ(std::holds_alternative<Text>(drawn.block), of_one_run) << figure.id;
+    EXPECT_EQ(drawn.csv.empty(), of_one_run) << figure.id;
+    EXPECT_EQ(drawn.svg.empty(), of_one_run) << figure.id;
   }
 }
 

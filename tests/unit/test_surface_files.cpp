@@ -2,14 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+#include "drivers/instants.hpp"
 #include "drivers/patch_file.hpp"
+#include "drivers/surface_map.hpp"
 #include "drivers/surface_results.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -72,7 +78,8 @@ TEST_F(SurfaceFiles, PatchIsReadBackSampleBySample) {
     EXPECT_EQ(file.read_text_attribute(std::string("/") + field.name, "unit"), field.unit);
   EXPECT_EQ(file.read_text_attribute("/time", "unit"), "s");
 
-  const std::vector<PatchSample> samples = read_patch(folder_ / "patch.h5", 0, 1e-4 * kSamples, 3);
+  const std::vector<PatchSample> samples =
+      read_patch(folder_ / "patch.h5", even_places({0, 1e-4 * kSamples}, 3));
   ASSERT_EQ(samples.size(), 3U);
   const PatchSample& last = samples[2];
   EXPECT_DOUBLE_EQ(last.wheel_x, 125e-4);
@@ -95,7 +102,80 @@ TEST_F(SurfaceFiles, InstantsAreNotRepeated) {
     file.append(1e-5 * i, 1e-3 * i, patch);
   }
   file.close();
-  EXPECT_EQ(read_patch(folder_ / "patch.h5", 0, 2e-3, 10).size(), 3U);
+  EXPECT_EQ(read_patch(folder_ / "patch.h5", even_places({0, 2e-3}, 10)).size(), 3U);
+}
+
+/// 0.5 mm apart; the pressure is largest 10 mm before every crest, a wave after 2.4 m at first, and least of
+/// all before the fourth.
+struct Waves {
+  std::vector<double> x, pressure;
+  Waves() {
+    for (int i = 0; i < 2000; ++i) {
+      x.push_back(2.2 + 5e-4 * i);
+      const double phase = 2 * std::numbers::pi * (x.back() + 0.01 - 2.4) / 0.08;
+      pressure.push_back(1e9 + 3e8 * std::cos(phase) - (x.back() > 2.6 && x.back() < 2.68 ? 1e8 : 0));
+    }
+  }
+};
+
+TEST(TypicalPlaces, ArePressuresLargestAndLeast) {
+  const Waves waves;
+  const std::vector<double> places = typical_places({2.44, 2.92}, 0.08, waves.x, waves.pressure);
+  ASSERT_EQ(places.size(), 10U);
+  EXPECT_NEAR(places[0], 2.63, 3e-4);
+  EXPECT_NEAR(places[3], 2.67, 3e-4);
+  EXPECT_NEAR(places[6], 2.71, 3e-4);
+  EXPECT_NEAR(places[9], 2.75, 3e-4);
+  for (std::size_t part : {0U, 3U, 6U}) {
+    EXPECT_NEAR(places[part + 1], places[part] + (places[part + 3] - places[part]) / 3, 1e-12);
+    EXPECT_NEAR(places[part + 2], places[part] + 2 * (places[part + 3] - places[part]) / 3, 1e-12);
+  }
+}
+
+TEST(TypicalPlaces, OfFewWavesAreThoseOfTheLast) {
+  const Waves waves;
+  EXPECT_EQ(typical_places({2.44, 2.6}, 0.08, waves.x, waves.pressure), even_places({2.52, 2.6}, 10));
+  EXPECT_EQ(typical_places({2.44, 2.92}, 0.08, {}, {}), even_places({2.84, 2.92}, 10));
+  EXPECT_DOUBLE_EQ(even_places({2.0, 3.0}, 10).front(), 2.05);
+}
+
+TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
+  PatchNodes patch(grid_, 5);
+  PatchFile file(folder_ / "patch.h5", patch);
+  patch.average(2, 5, {point_on({3, 1}, 4e8)});
+  file.append(0, 6e-3, patch);
+  file.close();
+  const Instants instants{
+      read_patch_axes(folder_ / "patch.h5"), 1, 0.5, {}, read_patch(folder_ / "patch.h5", {6e-3})};
+  const std::string csv = instants_csv(instants);
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "instant,wheel_x [m],x [m],pressure [Pa],shear [Pa],friction_limit [Pa]");
+  EXPECT_NE(csv.find("\nt1,0.006,0.006,1e+08,3.1623e+07,5e+07\n"), std::string::npos) << csv;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);  // two nodes, one beside each
+  EXPECT_EQ(instants_figure(instants).panels.size(), 2U);
+}
+
+TEST_F(SurfaceFiles, MapShowsWhatWasInContact) {
+  PatchNodes patch(grid_, 5);
+  SurfaceFields fields(grid_);
+  for (int station = 3; station < 7; ++station) {
+    patch.average(station - 1, station + 2, {point_on({station, 1}, 4e8)});
+    fields.add_step(patch);
+  }
+  write_surface(folder_ / "surface.h5", fields);
+  const SurfaceMap map = read_surface_map(folder_ / "surface.h5", "max_pressure", {7e-3, 12.5e-3});
+  EXPECT_EQ(map.x, (std::vector<double>{grid_.x[4], grid_.x[5], grid_.x[6]}));
+  EXPECT_EQ(map.y, grid_.y);  // two rows and one more on either side
+  ASSERT_EQ(map.values.size(), 12U);
+  EXPECT_EQ(map.values[0], 0);
+  EXPECT_NEAR(map.values[1], 1e8, 1e-6);
+  const Heatmap heat = heatmap(map, "Title", "Pressure [MPa]", 1e-6);
+  EXPECT_NEAR(heat.at(2, 1), 100, 1e-9);
+  EXPECT_EQ(heat.at(2, 0), 0);
+  EXPECT_TRUE(surface_map_csv(map, "max_pressure [Pa]")
+                  .starts_with("x [m],y [m],max_pressure [Pa]\n0.008,-0.004,0\n"));
+  EXPECT_THROW(read_surface_map(folder_ / "surface.h5", "max_pressure", {1, 2}), InputError);
+  EXPECT_THROW(read_surface_map(folder_ / "surface.h5", "width", {7e-3, 12.5e-3}), InputError);
 }
 
 TEST_F(SurfaceFiles, SurfaceHoldsTheStretchInContact) {
