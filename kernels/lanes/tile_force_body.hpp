@@ -44,7 +44,7 @@ TREAD_INLINE auto abreast(const V& a, const V& b) {
   if constexpr (sizeof a / sizeof a[0] == 2) return __builtin_shufflevector(a, b, 0, 1, 2, 3);
 }
 
-/// The same but for one lane; as it is where it has no such lane.
+/// `values` with another one in a lane; as they are where they have no such lane.
 template <class V, class Real>
 TREAD_INLINE V with_lane(const V& values, int lane, Real value) {
   using Index = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
