@@ -1,7 +1,8 @@
 #pragma once
-// Values of curves between their points.
+// Values of curves between their points, and the points about a value.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -16,6 +17,15 @@ inline double value_at(const std::vector<double>& x, const std::vector<double>& 
   const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
   const double share = (place - x[i]) / (x[i + 1] - x[i]);
   return (1 - share) * y[i] + share * y[i + 1];
+}
+
+/// Place of the value nearest to `wanted`, the first of those that are equally near; the size where there is
+/// none.
+inline std::size_t nearest(const std::vector<double>& values, double wanted) {
+  const auto found = std::min_element(values.begin(), values.end(), [wanted](double a, double b) {
+    return std::abs(a - wanted) < std::abs(b - wanted);
+  });
+  return static_cast<std::size_t>(found - values.begin());
 }
 
 }  // namespace tread

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/interpolation.hpp"
 
 namespace tread {
 
@@ -151,16 +152,14 @@ std::vector<PatchSample> read_patch(const std::filesystem::path& path, const std
   std::vector<PatchSample> samples;
   std::size_t before = wheel_x.size();
   for (const double place : places) {
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < wheel_x.size(); ++i)
-      if (std::abs(wheel_x[i] - place) < std::abs(wheel_x[nearest] - place)) nearest = i;
-    if (wheel_x.empty() || std::exchange(before, nearest) == nearest) continue;
-    PatchSample sample{time[nearest], wheel_x[nearest], station[nearest], {}, {}};
+    const std::size_t at = nearest(wheel_x, place);
+    if (std::exchange(before, at) == at) continue;  // there is none, too
+    PatchSample sample{time[at], wheel_x[at], station[at], {}, {}};
     for (const PatchField& field : patch_fields()) {
-      const std::vector<float> values = file.read_row<float>(dataset(field), nearest);
+      const std::vector<float> values = file.read_row<float>(dataset(field), at);
       sample.fields.insert(sample.fields.end(), values.begin(), values.end());
     }
-    sample.state = file.read_row<std::uint8_t>("/state", nearest);
+    sample.state = file.read_row<std::uint8_t>("/state", at);
     if (sample.fields.size() != patch_fields().size() * sample.state.size()) throw foreign();
     samples.push_back(std::move(sample));
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "drivers/figure_parts.hpp"
+#include "drivers/interpolation.hpp"
 #include "drivers/progress.hpp"
 #include "io/report/markup.hpp"
 
@@ -114,11 +115,6 @@ Chapter map_chapter(const MultibodyOutcome& o) {
                {"Remark"}},
               {}};
   const ResponseMap& map = *o.map;
-  const auto nearest = [](const std::vector<double>& values, double v) {
-    const auto at = std::min_element(values.begin(), values.end(),
-                                     [v](double a, double b) { return std::abs(a - v) < std::abs(b - v); });
-    return static_cast<std::size_t>(at - values.begin());
-  };
   for (const MapDot& dot : o.dots) {
     const MapPoint& point = map.at(nearest(map.axes.speed.values, dot.speed),
                                    nearest(map.axes.wavelength.values, dot.wavelength));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -12,6 +11,7 @@
 #include "drivers/figure_parts.hpp"
 #include "drivers/growing_files.hpp"
 #include "drivers/instants.hpp"
+#include "drivers/interpolation.hpp"
 #include "drivers/multibody/multibody_run.hpp"
 #include "drivers/paper/curve_measures.hpp"
 #include "drivers/surface_map.hpp"
@@ -179,19 +179,16 @@ std::vector<PaperFigure> corrugation_d_figures() {
        .title = "The patch's longitudinal axis at ten instants, corrugation D, mu 0.3, 300 km/h",
        .section = "4.2",
        .passages = {d},
-       .label = name,
        .instants = true},
       {.id = "17a",
        .title = "Largest pressure, corrugation D, mu 0.3, 300 km/h",
        .section = "4.2",
        .passages = {d},
-       .label = name,
        .map = true},
       {.id = "17b",
        .title = "Largest pressure, smooth rail, mu 0.3, 300 km/h",
        .section = "4.2",
        .passages = {smooth_rail()},
-       .label = name,
        .map = true},
       {"18",
        "Creepage over corrugation D, mu 0.3, 300 km/h",
@@ -371,14 +368,11 @@ std::vector<double> places_of(const FinishedRun& run) {
 
 DrawnFigure drawn_instants(const std::string& title, const FinishedRun& run) {
   const std::filesystem::path path = run.folder / kPatchFile;
-  Instants instants{read_patch_axes(path), 0, run.scene.contact->friction, run.corrugation(),
-                    read_patch(path, places_of(run))};
+  const PatchAxes axes = read_patch_axes(path);
+  const std::size_t axis = nearest(axes.y, run.number("surface.axis_y_m").value_or(0));
+  const Instants instants{axes, static_cast<int>(axis), run.scene.contact->friction, run.corrugation(),
+                          read_patch(path, places_of(run))};
   if (instants.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
-  const double axis = run.number("surface.axis_y_m").value_or(0);
-  const std::vector<double>& y = instants.axes.y;
-  for (std::size_t row = 0; row < y.size(); ++row)
-    if (std::abs(y[row] - axis) < std::abs(y[static_cast<std::size_t>(instants.axis_row)] - axis))
-      instants.axis_row = static_cast<int>(row);
   Figure figure = instants_figure(instants);
   figure.title = title;
   return {figure, instants_csv(instants), figure_svg(figure)};

@@ -16,9 +16,9 @@ struct PaperFigure {
   std::string title;    ///< what it shows, and under what
   std::string section;  ///< of the paper
   std::vector<Passage> passages;
-  std::function<std::string(const Passage&)> label;  ///< what tells the curves apart
-  CurvesSpec curves = {};                            ///< where it shows curves
-  std::string x_label = {};                          ///< where it shows a trend
+  std::function<std::string(const Passage&)> label = {};  ///< what tells the curves apart
+  CurvesSpec curves = {};                                 ///< where it shows curves
+  std::string x_label = {};                               ///< where it shows a trend
   std::function<double(const Passage&)> x = {};
   std::vector<TrendPanel> trends = {};
   bool multibody = false;  ///< F_N by the multi-body approach beside the run's
