@@ -4,19 +4,32 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "core/error.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace tread {
 
+namespace {
+
+std::vector<double> middles(const std::vector<double>& values) {
+  std::vector<double> between;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) between.push_back(0.5 * (values[i] + values[i + 1]));
+  return between;
+}
+
+}  // namespace
+
 SurfaceMap read_surface_map(const std::filesystem::path& path, const std::string& field,
                             const Span& stretch) {
   const Hdf5File file = Hdf5File::open_to_read(path);
-  const std::vector<double> x = file.read<double>("/x");
-  const std::vector<double> y = file.read<double>("/y");
+  std::vector<double> x = file.read<double>("/x");
+  std::vector<double> y = file.read<double>("/y");
   const std::vector<double> values = file.read<double>("/" + field);
+  if (values.size() + x.size() + y.size() == x.size() * y.size() + 1) {
+    x = middles(x);
+    y = middles(y);
+  }
   if (values.size() != x.size() * y.size())
     throw InputError(fmt::format("{}: {} has {} values for {} x {} nodes; run the scene again", path.string(),
                                  field, values.size(), x.size(), y.size()));
@@ -30,12 +43,14 @@ SurfaceMap read_surface_map(const std::filesystem::path& path, const std::string
         low = std::min(low, row);
         high = std::max(high, row);
       }
-  if (low > high)
-    throw InputError(fmt::format("{}: nothing has been in contact between x = {:g} and {:g} m", path.string(),
-                                 stretch.first, stretch.last));
+  if (low > high || end < begin + 2)
+    throw InputError(
+        fmt::format("{}: {} is not there between x = {:g} and {:g} m; let the wheel roll over them",
+                    path.string(), field, stretch.first, stretch.last));
   low -= low > 0 ? 1 : 0;
   high = std::min(high + 2, y.size());
   SurfaceMap map;
+  map.column = fmt::format("{} [{}]", field, file.read_text_attribute("/" + field, "unit"));
   const auto part = [](const std::vector<double>& all, std::size_t from, std::size_t to) {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(from),
                                all.begin() + static_cast<std::ptrdiff_t>(to));
@@ -49,27 +64,29 @@ SurfaceMap read_surface_map(const std::filesystem::path& path, const std::string
   return map;
 }
 
-Heatmap heatmap(const SurfaceMap& map, std::string title, std::string value_label, double scale) {
-  Heatmap heat;
-  heat.title = std::move(title);
-  heat.x_label = "Position on the rail [m]";
-  heat.y_label = "Across, field side positive [mm]";
-  heat.value_label = std::move(value_label);
-  heat.x = map.x;
-  for (const double y : map.y) heat.y.push_back(1e3 * y);
+Relief relief(const SurfaceMap& map, const SurfaceView& view) {
+  Relief relief;
+  relief.title = view.title;
+  relief.x_label = "Position on the rail [m]";
+  relief.y_label = "Across, + field side [mm]";
+  relief.value_label = view.value_label;
+  relief.x = map.x;
+  for (const double y : map.y) relief.y.push_back(1e3 * y);
   for (std::size_t row = 0; row < map.y.size(); ++row)
     for (std::size_t i = 0; i < map.x.size(); ++i)
-      heat.values.push_back(scale * map.values[i * map.y.size() + row]);
-  return heat;
+      relief.values.push_back(view.scale * map.values[i * map.y.size() + row]);
+  return relief;
 }
 
-std::string surface_map_csv(const SurfaceMap& map, const std::string& column) {
+std::string surface_maps_csv(const std::vector<SurfaceMap>& maps) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "x [m],y [m],{}\n", column);
-  for (std::size_t i = 0; i < map.x.size(); ++i)
-    for (std::size_t row = 0; row < map.y.size(); ++row)
-      fmt::format_to(out, "{:.6g},{:.6g},{:.5g}\n", map.x[i], map.y[row], map.values[i * map.y.size() + row]);
+  fmt::format_to(out, "field,x [m],y [m],value\n");
+  for (const SurfaceMap& map : maps)
+    for (std::size_t i = 0; i < map.x.size(); ++i)
+      for (std::size_t row = 0; row < map.y.size(); ++row)
+        fmt::format_to(out, "{},{:.6g},{:.6g},{:.5g}\n", map.column, map.x[i], map.y[row],
+                       map.values[i * map.y.size() + row]);
   return {text.data(), text.size()};
 }
 

@@ -1,29 +1,38 @@
 #pragma once
-// A field of surface.h5 over a stretch of the rail, seen from above. [paper, Fig. 17]
+// Fields of surface.h5 over a stretch of the rail, seen obliquely. [paper, Fig. 17]
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "drivers/station_plan.hpp"
-#include "io/report.hpp"
+#include "io/report/relief.hpp"
 
 namespace tread {
 
+/// What is shown of a surface.h5, and how.
+struct SurfaceView {
+  std::string field;        ///< "max_pressure"
+  std::string title;        ///< "Largest pressure"
+  std::string value_label;  ///< with unit: "p [MPa]"
+  double scale = 1;         ///< from the field's unit to that of the label
+};
+
 /// Only rows that have been in contact, and one more on either side.
 struct SurfaceMap {
-  std::vector<double> x, y;    ///< nodes along and across the rail [m]
+  std::string column;          ///< name and unit, "max_pressure [Pa]"
+  std::vector<double> x, y;    ///< nodes along and across the rail, middles of elements for their fields [m]
   std::vector<double> values;  ///< [station][row], in the field's unit
 };
 
-/// A field over the nodes, "max_pressure", within the stretch. InputError where the file does not hold it or
-/// nothing lies there.
+/// A field within the stretch. InputError where the file does not hold it over two stations or nothing lies
+/// there.
 SurfaceMap read_surface_map(const std::filesystem::path& path, const std::string& field, const Span& stretch);
 
-/// With values times `scale`.
-Heatmap heatmap(const SurfaceMap& map, std::string title, std::string value_label, double scale);
+/// With titles, labels and units of the view.
+Relief relief(const SurfaceMap& map, const SurfaceView& view);
 
-/// A row per node; `column`: name and unit of the values.
-std::string surface_map_csv(const SurfaceMap& map, const std::string& column);
+/// A row per value.
+std::string surface_maps_csv(const std::vector<SurfaceMap>& maps);
 
 }  // namespace tread

@@ -55,6 +55,10 @@ std::string html(const Heatmap& map) {
   return heatmap_html(map);
 }
 
+std::string html(const Reliefs& reliefs) {
+  return reliefs_html(reliefs);
+}
+
 std::string html(const Scatter& scatter) {
   return scatter_html(scatter);
 }

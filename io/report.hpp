@@ -11,6 +11,7 @@
 #include "io/report/drawing.hpp"
 #include "io/report/heatmap.hpp"
 #include "io/report/patch_movie.hpp"
+#include "io/report/relief.hpp"
 #include "io/report/scatter.hpp"
 
 namespace tread {
@@ -43,7 +44,7 @@ struct KeyFigure {
 using KeyFigures = std::vector<KeyFigure>;
 using Drawings = std::vector<Drawing>;  ///< side by side where the page is wide enough
 
-using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap, PatchMovie, Scatter>;
+using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap, Reliefs, PatchMovie, Scatter>;
 
 struct Chapter {
   std::string title;

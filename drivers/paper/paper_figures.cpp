@@ -14,7 +14,7 @@
 #include "drivers/interpolation.hpp"
 #include "drivers/multibody/multibody_run.hpp"
 #include "drivers/paper/curve_measures.hpp"
-#include "drivers/surface_map.hpp"
+#include "drivers/surface_results.hpp"
 
 namespace tread {
 
@@ -109,6 +109,17 @@ std::vector<TrendPanel> stresses_and_work() {
   return panels;
 }
 
+SurfaceView largest_pressure() {
+  return {"max_pressure", "Largest pressure", "[MPa]", 1e-6};
+}
+
+std::vector<SurfaceView> surface_views() {
+  return {largest_pressure(),
+          {"max_shear", "Largest surface shear stress", "[MPa]", 1e-6},
+          {"max_von_mises", "Largest Von Mises stress", "[MPa]", 1e-6},
+          {"frictional_work", "Frictional work in a cell of 1.1 mm x 1.1 mm", "[mJ]", 1e3 * kPaperCell}};
+}
+
 std::vector<PaperFigure> smooth_figures() {
   const Passage smooth = smooth_rail();
   const auto by_speed = labelled(&Passage::speed, "{:g} km/h");
@@ -153,6 +164,11 @@ std::vector<PaperFigure> smooth_figures() {
        {smooth},
        by_speed,
        {"", "Position on the rail [m]", along_the_axis()}},
+      {.id = "12b",
+       .title = "Largest stresses and frictional work along and across, smooth rail, mu 0.3, 300 km/h",
+       .section = "3.3",
+       .passages = {smooth},
+       .surface = surface_views()},
       {.id = "13",
        .title = "Stresses and frictional work against mu, smooth rail, 300 km/h",
        .section = "3.3",
@@ -184,12 +200,12 @@ std::vector<PaperFigure> corrugation_d_figures() {
        .title = "Largest pressure, corrugation D, mu 0.3, 300 km/h",
        .section = "4.2",
        .passages = {d},
-       .map = true},
+       .surface = {largest_pressure()}},
       {.id = "17b",
        .title = "Largest pressure, smooth rail, mu 0.3, 300 km/h",
        .section = "4.2",
        .passages = {smooth_rail()},
-       .map = true},
+       .surface = {largest_pressure()}},
       {"18",
        "Creepage over corrugation D, mu 0.3, 300 km/h",
        "4.2",
@@ -202,6 +218,11 @@ std::vector<PaperFigure> corrugation_d_figures() {
        {d},
        name,
        {"", "Position on the rail [m]", along_the_axis()}},
+      {.id = "19b",
+       .title = "Largest stresses and frictional work along and across, corrugation D, mu 0.3, 300 km/h",
+       .section = "4.2",
+       .passages = {d},
+       .surface = surface_views()},
   };
 }
 
@@ -378,12 +399,15 @@ DrawnFigure drawn_instants(const std::string& title, const FinishedRun& run) {
   return {figure, instants_csv(instants), figure_svg(figure)};
 }
 
-DrawnFigure drawn_map(const std::string& title, const FinishedRun& run) {
+DrawnFigure drawn_surface(const std::string& title, const PaperFigure& wanted, const FinishedRun& run) {
   const std::vector<double> places = places_of(run);
-  const SurfaceMap map =
-      read_surface_map(run.folder / "surface.h5", "max_pressure", {places.front(), places.back()});
-  const Heatmap heat = heatmap(map, title, "Largest pressure [MPa]", 1e-6);
-  return {heat, surface_map_csv(map, "max_pressure [Pa]"), heatmap_svg(heat)};
+  std::vector<SurfaceMap> maps;
+  Reliefs reliefs{title, {}, {}};
+  for (const SurfaceView& view : wanted.surface) {
+    maps.push_back(read_surface_map(run.folder / "surface.h5", view.field, {places.front(), places.back()}));
+    reliefs.reliefs.push_back(relief(maps.back(), view));
+  }
+  return {reliefs, surface_maps_csv(maps), reliefs_svg(reliefs)};
 }
 
 }  // namespace
@@ -404,10 +428,10 @@ std::string shown_id(const std::string& id) {
 
 DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   const std::string title = fmt::format("Fig. {}: {}", shown_id(wanted.id), wanted.title);
-  if (wanted.instants || wanted.map) {
+  if (wanted.instants || !wanted.surface.empty()) {
     const FinishedRun* run = runs.find(wanted.passages.front());
     if (!run) return {Text{title + "."}, "", ""};
-    return wanted.map ? drawn_map(title, *run) : drawn_instants(title, *run);
+    return wanted.instants ? drawn_instants(title, *run) : drawn_surface(title, wanted, *run);
   }
   const Figure figure =
       wanted.trends.empty() ? drawn_curves(title, wanted, runs) : drawn_trend(title, wanted, runs);

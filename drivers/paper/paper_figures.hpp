@@ -7,6 +7,7 @@
 
 #include "drivers/paper/passage.hpp"
 #include "drivers/study/study_figures.hpp"
+#include "drivers/surface_map.hpp"
 #include "io/report.hpp"
 
 namespace tread {
@@ -21,10 +22,10 @@ struct PaperFigure {
   std::string x_label = {};                               ///< where it shows a trend
   std::function<double(const Passage&)> x = {};
   std::vector<TrendPanel> trends = {};
-  bool multibody = false;  ///< F_N by the multi-body approach beside the run's
-  bool one_panel = false;  ///< all curves in one panel
-  bool instants = false;   ///< the patch at t1 to t10 of the one passage
-  bool map = false;        ///< the largest pressure seen from above, of the one passage
+  bool multibody = false;                 ///< F_N by the multi-body approach beside the run's
+  bool one_panel = false;                 ///< all curves in one panel
+  bool instants = false;                  ///< the patch at t1 to t10 of the one passage
+  std::vector<SurfaceView> surface = {};  ///< between t1 and t10 of the one passage
 };
 
 /// In the paper's order.

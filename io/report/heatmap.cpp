@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <stdexcept>
 
 #include "io/report/chart.hpp"
@@ -25,16 +23,6 @@ constexpr double kBottom = 46;
 constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // of the colour scale
 constexpr double kScaleWidth = 18;
 constexpr int kShades = 48;  // of the colour scale
-
-std::string colour(double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (kShadeStops.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(at), kShadeStops.size() - 2);
-  const double part = at - static_cast<double>(i);
-  std::array<int, 3> rgb{};
-  for (std::size_t c = 0; c < 3; ++c)
-    rgb[c] = static_cast<int>(std::lround((1 - part) * kShadeStops[i][c] + part * kShadeStops[i + 1][c]));
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
 
 /// Borders of the cells about evenly spaced values.
 struct Cells {
@@ -88,7 +76,7 @@ class Plot {
         const double top = y(up_.border(j + 1));
         out += fmt::format(
             "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n", left, top,
-            x(along_.border(i + 1)) - left, y(up_.border(j)) - top, colour(share(map_.at(i, j))));
+            x(along_.border(i + 1)) - left, y(up_.border(j)) - top, shade(share(map_.at(i, j))));
       }
     return out;
   }
@@ -166,7 +154,7 @@ class Plot {
     for (int i = 0; i < kShades; ++i)
       out += fmt::format("<rect x=\"{:.0f}\" y=\"{:.2f}\" width=\"{:.0f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
                          kScaleLeft, kTop + kPlotHeight - (i + 1) * height, kScaleWidth, height,
-                         colour((i + 0.5) / kShades));
+                         shade((i + 0.5) / kShades));
     out += "</g>\n";
     for (const double v : ticks(low_, high_, 8))
       out += fmt::format("<text class=\"tick\" x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n",
@@ -183,7 +171,7 @@ class Plot {
       out += fmt::format(
           "<circle class=\"dot\" cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"7\" fill=\"{2}\"/><text class=\"dot\" "
           "x=\"{3:.1f}\" y=\"{4:.1f}\">{5}</text>\n",
-          x(dot.x), y(dot.y), colour(share(dot.value)), x(dot.x) + 11, y(dot.y) + 4, svg_text(dot.label));
+          x(dot.x), y(dot.y), shade(share(dot.value)), x(dot.x) + 11, y(dot.y) + 4, svg_text(dot.label));
     return out;
   }
 

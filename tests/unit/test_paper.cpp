@@ -194,7 +194,7 @@ TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
     EXPECT_EQ(conclusion.judge(none).verdict, Verdict::not_run) << conclusion.number;
   for (const PaperFigure& figure : paper_figures()) {
     const DrawnFigure drawn = draw(figure, none);
-    const bool of_one_run = figure.instants || figure.map;
+    const bool of_one_run = figure.instants || !figure.surface.empty();
     EXPECT_EQ(std::holds_alternative<Text>(drawn.block), of_one_run) << figure.id;
     EXPECT_EQ(drawn.csv.empty(), of_one_run) << figure.id;
     EXPECT_EQ(drawn.svg.empty(), of_one_run) << figure.id;

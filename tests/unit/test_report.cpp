@@ -132,6 +132,25 @@ TEST(Heatmap, CellsStandAtTheirPlaces) {
   EXPECT_THROW(heatmap_html(map), std::logic_error);
 }
 
+TEST(Relief, WhatStandsBeforeIsDrawnLast) {
+  Reliefs reliefs{
+      "Fig. <1>", {{"Pressure", "x [m]", "y [mm]", "[MPa]", {0, 1, 3}, {0, 2}, {0, 12, 0, 0, 0, 0}}}, ""};
+  const std::string html = reliefs_html(reliefs);
+  EXPECT_NE(html.find("Fig. &lt;1&gt;"), std::string::npos);
+  // The peak, a third of the way along the front: x = 62 + 0.8 x 796 / 3, y = 282 - 0.58 x 248.
+  EXPECT_EQ(count(html, "274.3 138.2"), 2U) << html;  // in the two quads beside it
+  reliefs.reliefs.front().y = {0, 2, 4};
+  reliefs.reliefs.front().values = {0, 0, 0, 12, 12, 12, 0, 0, 0};
+  const std::string rows = reliefs_html(reliefs);
+  EXPECT_LT(rows.find("M141.6 86.1"), rows.find("M62.0 282.0L274.3 282.0"))
+      << rows;  // the strip behind first
+  EXPECT_EQ(count(reliefs_svg(reliefs), "xmlns"), 1U);
+  reliefs.reliefs.push_back(reliefs.reliefs.front());
+  EXPECT_NE(reliefs_svg(reliefs).find("M522.0 282.0"), std::string::npos);  // beside the first
+  reliefs.reliefs.back().values.pop_back();
+  EXPECT_THROW(reliefs_html(reliefs), std::logic_error);
+}
+
 /// Two stations, four rows; only the second row touches.
 PatchMovie one_frame() {
   MovieFrame frame;

@@ -17,6 +17,7 @@
 #include "drivers/patch_file.hpp"
 #include "drivers/surface_map.hpp"
 #include "drivers/surface_results.hpp"
+#include "io/hdf5_file.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -175,13 +176,28 @@ TEST_F(SurfaceFiles, MapShowsWhatWasInContact) {
   ASSERT_EQ(map.values.size(), 12U);
   EXPECT_EQ(map.values[0], 0);
   EXPECT_NEAR(map.values[1], 1e8, 1e-6);
-  const Heatmap heat = heatmap(map, "Title", "Pressure [MPa]", 1e-6);
-  EXPECT_NEAR(heat.at(2, 1), 100, 1e-9);
-  EXPECT_EQ(heat.at(2, 0), 0);
-  EXPECT_TRUE(surface_map_csv(map, "max_pressure [Pa]")
-                  .starts_with("x [m],y [m],max_pressure [Pa]\n0.008,-0.004,0\n"));
+  const Relief shown = relief(map, {"max_pressure", "Title", "[MPa]", 1e-6});
+  EXPECT_NEAR(shown.values[1 * 3 + 2], 100, 1e-9);
+  EXPECT_EQ(shown.values[0 * 3 + 2], 0);
+  EXPECT_TRUE(
+      surface_maps_csv({map}).starts_with("field,x [m],y [m],value\nmax_pressure [Pa],0.008,-0.004,0\n"));
   EXPECT_THROW(read_surface_map(folder_ / "surface.h5", "max_pressure", {1, 2}), InputError);
+  EXPECT_THROW(read_surface_map(folder_ / "surface.h5", "max_pressure", {8e-3, 8e-3}), InputError);
   EXPECT_THROW(read_surface_map(folder_ / "surface.h5", "width", {7e-3, 12.5e-3}), InputError);
+}
+
+TEST_F(SurfaceFiles, FieldsOfElementsStandBetweenTheNodes) {
+  Hdf5File file = Hdf5File::create(folder_ / "surface.h5");
+  file.write<double>("/x", std::vector<double>{0, 2, 4, 8});
+  file.write<double>("/y", std::vector<double>{-1, 1, 2});
+  file.write<double>("/max_von_mises", std::vector<double>{1, 2, 3, 4, 5, 6}, {3, 2});
+  file.write_attribute("/max_von_mises", "unit", "Pa");
+  file.close();
+  const SurfaceMap map = read_surface_map(folder_ / "surface.h5", "max_von_mises", {2, 8});
+  EXPECT_EQ(map.column, "max_von_mises [Pa]");
+  EXPECT_EQ(map.x, (std::vector<double>{3, 6}));
+  EXPECT_EQ(map.y, (std::vector<double>{0, 1.5}));
+  EXPECT_EQ(map.values, (std::vector<double>{3, 4, 5, 6}));
 }
 
 TEST_F(SurfaceFiles, SurfaceHoldsTheStretchInContact) {
