@@ -1,4 +1,5 @@
-// Reading values off the curves, and zooming along the abscissa: drag to zoom, double-click to go back.
+// Reading values off the curves, and zooming along the abscissa: drag to zoom, double-click to go back. Figures of a
+// chapter over the same abscissa zoom together.
 "use strict";
 for (const figure of document.querySelectorAll("figure.chart")) {
   const svg = figure.querySelector(":scope > svg");
@@ -92,6 +93,16 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     }
   };
 
+  figure.abscissa = [...svg.querySelectorAll(".abscissa .name")].pop().textContent;
+  // As much of it as the figure has.
+  figure.zoom = (from, to) => {
+    if (from < high && to > low) show(Math.max(from, low), Math.min(to, high));
+  };
+  const zoomAll = (from, to) => {
+    for (const other of figure.closest("section").querySelectorAll("figure.chart"))
+      if (other.abscissa === figure.abscissa) other.zoom(from, to);
+  };
+
   let start = null;
   svg.addEventListener("pointerdown", (event) => {
     start = pixel(event);
@@ -109,15 +120,14 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     const ends = [start, pixel(event)].sort((a, b) => a - b);
     start = null;
     chosen.setAttribute("width", 0);
-    if (ends[1] - ends[0] > 5) show(abscissa(ends[0]), abscissa(ends[1]));
+    if (ends[1] - ends[0] > 5) zoomAll(abscissa(ends[0]), abscissa(ends[1]));
   });
   svg.addEventListener("pointerleave", leave);
   // The points as drawn, to five digits of the range shown.
   figure.curvesAsCsv = (quoted) => {
-    const xLabel = [...svg.querySelectorAll(".abscissa .name")].pop().textContent;
     const names = [...figure.querySelectorAll(".legend .key:not(.at)")].filter((key) => key.querySelector("output"))
         .map((key) => key.firstChild.nextSibling.textContent);
-    const lines = [["curve", "axis", xLabel, "value"].map(quoted).join()];
+    const lines = [["curve", "axis", figure.abscissa, "value"].map(quoted).join()];
     curves.forEach((curve, i) => {
       for (const point of curve.points) {
         if (point.length !== 2) continue;
@@ -127,6 +137,6 @@ for (const figure of document.querySelectorAll("figure.chart")) {
     });
     return lines.join("\n") + "\n";
   };
-  svg.addEventListener("dblclick", () => show(low, high));
+  svg.addEventListener("dblclick", () => zoomAll(-Infinity, Infinity));
   figure.classList.add("live");
 }

@@ -30,6 +30,21 @@ addEventListener("load", () => {
   const charts = [...document.querySelectorAll("figure.chart")];
   const rows = charts.map((figure) => figure.curvesAsCsv ? figure.curvesAsCsv((t) => t).trim().split("\n") : []);
   const broken = rows.flat().filter((row) => /NaN|undefined/.test(row));
+  // Figures of a chapter over one abscissa zoom together, each as far as it goes, and go back together.
+  const ticks = (chart) => [...chart.querySelectorAll(".xtick")].map((mark) => mark.textContent).join();
+  const alike = charts.map((chart) => [...chart.closest("section").querySelectorAll("figure.chart")]
+    .filter((other) => other.abscissa === chart.abscissa)).find((group) => group.length > 1) ?? [];
+  if (alike.length > 0) {
+    const [before, svg] = [alike.map(ticks), alike[0].querySelector(":scope > svg")];
+    const box = svg.getBoundingClientRect();
+    const at = (share) => ({clientX: box.left + share * box.width, pointerId: 1, bubbles: true});
+    svg.setPointerCapture = () => {};
+    svg.dispatchEvent(new PointerEvent("pointerdown", at(.4)));
+    svg.dispatchEvent(new PointerEvent("pointerup", at(.5)));
+    if (alike.some((chart, i) => ticks(chart) === before[i])) faults.push("figures do not zoom together");
+    svg.dispatchEvent(new MouseEvent("dblclick"));
+    if (alike.some((chart, i) => ticks(chart) !== before[i])) faults.push("figures do not go back together");
+  }
   const movie = document.querySelector("figure.movie");
   if (movie) {
     const slider = movie.querySelector("input");
@@ -37,7 +52,7 @@ addEventListener("load", () => {
     slider.dispatchEvent(new Event("input"));
     if (movie.dataset.drawn !== slider.max) faults.push("the slider does not move the movie");
   }
-  const list = [["faults", faults.join("; ") || "none"], ["charts", charts.length],
+  const list = [["faults", faults.join("; ") || "none"], ["charts", charts.length], ["zoom together", alike.length],
     ["live", document.querySelectorAll("figure.chart.live").length],
     ["curves without points", rows.filter((r) => r.length < 2).length], ["broken rows", broken.length],
     ["canvases", document.querySelectorAll("canvas").length],
