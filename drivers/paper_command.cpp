@@ -39,8 +39,7 @@ std::vector<PaperFigure> chosen_figures(const std::vector<std::string>& ids) {
     if (chosen.size() > before) continue;
     std::vector<std::string> known;
     for (const PaperFigure& figure : paper_figures()) known.push_back(shown_id(figure.id));
-    throw InputError(fmt::format("--fig {}: not among the figures {}; 14 is made by `tread roughness`", id,
-                                 fmt::join(known, ", ")));
+    throw InputError(fmt::format("--fig {}: not among the figures {}", id, fmt::join(known, ", ")));
   }
   return chosen;
 }
@@ -80,7 +79,7 @@ Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& 
   for (const PaperFigure& figure : figures) {
     Chapter chapter{fmt::format("Fig. {}", shown_id(figure.id)), {}};
     chapter.blocks.push_back(draw(figure, runs).block);
-    chapter.blocks.emplace_back(missing_passages(figure, runs));
+    if (!figure.passages.empty()) chapter.blocks.emplace_back(missing_passages(figure, runs));
     report.chapters.push_back(std::move(chapter));
   }
   report.chapters.push_back({"Passages", {result_table(finished)}});

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "drivers/machine.hpp"
 #include "drivers/plain_text.hpp"
+#include "drivers/roughness/level_figure.hpp"
 #include "drivers/roughness/roughness_levels.hpp"
 #include "io/json_writer.hpp"
 #include "io/output_file.hpp"
@@ -103,26 +104,6 @@ std::string levels_json(const Outcome& o, const RoughnessOptions& options) {
   return json.end_array().end_object().text();
 }
 
-Figure level_figure(const Outcome& o) {
-  Series level{"rail", {}, {}, Stroke::solid};
-  Series limit{"limit of ISO 3095:2013", {}, {}, Stroke::dashed};
-  Figure figure;
-  figure.title = "Roughness level in one-third octave bands";
-  figure.x_label = "n of the band's middle 10^(n/10) mm";
-  const std::vector<RoughnessBand>& bands = roughness_bands();
-  for (std::size_t i = bands.size(); i-- > 0;) {
-    const double n = std::round(10 * std::log10(1e3 * bands[i].middle));
-    limit.x.push_back(n);
-    limit.y.push_back(bands[i].limit);
-    if (i % 3 == 1) figure.positions.push_back({n, readable(1e3 * bands[i].nominal) + " mm"});
-    if (!o.levels.level[i]) continue;
-    level.x.push_back(n);
-    level.y.push_back(*o.levels.level[i]);
-  }
-  figure.panels = {{"dB re 1 µm", {level, limit}, {}, 300, std::nullopt}};
-  return figure;
-}
-
 Figure profile_figure(const Outcome& o) {
   Series line{"profile, processed", {}, {}, Stroke::solid};
   for (std::size_t i = 0; i < o.profile.height.size(); ++i) {
@@ -141,7 +122,8 @@ Report report_of(const Outcome& o, const RoughnessOptions& options) {
   report.title = "Roughness of " + options.file.filename().string();
   report.subtitle = "Processing after EN 15610";
   report.footer = options.command;
-  report.chapters.push_back({"Levels", {level_figure(o), Text{account(o, options)}, level_table(o)}});
+  report.chapters.push_back(
+      {"Levels", {level_figure({{"rail", o.levels}}), Text{account(o, options)}, level_table(o)}});
   report.chapters.push_back({"Profile", {profile_figure(o)}});
   return report;
 }
@@ -186,7 +168,7 @@ void roughness(const RoughnessOptions& options) {
   if (!options.output.empty()) {
     make_directory(options.output);
     write_text_file(options.output / "levels.csv", levels_csv(outcome));
-    write_text_file(options.output / "levels.svg", figure_svg(level_figure(outcome)));
+    write_text_file(options.output / "levels.svg", figure_svg(level_figure({{"rail", outcome.levels}})));
     write_report(options.output / "report.html", report_of(outcome, options));
   }
   if (options.json) {

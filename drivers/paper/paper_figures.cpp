@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,6 +16,7 @@
 #include "drivers/interpolation.hpp"
 #include "drivers/multibody/multibody_run.hpp"
 #include "drivers/paper/curve_measures.hpp"
+#include "drivers/roughness/level_figure.hpp"
 #include "drivers/surface_results.hpp"
 
 namespace tread {
@@ -185,6 +188,10 @@ std::vector<PaperFigure> corrugation_d_figures() {
   const auto name = [](const Passage&) { return std::string("corrugation D"); };
   const std::string way = "Position of the wheel [m]";
   return {
+      {.id = "14",
+       .title = "Roughness levels of waves 0.14 mm deep, 65, 80 and 95 mm long",
+       .section = "4.1",
+       .levels = true},
       {"15",
        "Forces over corrugation D, mu 0.3, 300 km/h",
        "4.2",
@@ -226,9 +233,14 @@ std::vector<PaperFigure> corrugation_d_figures() {
   };
 }
 
+/// Of Figs. 20 to 22.
+std::vector<Passage> wave_passages() {
+  return varied(corrugated(), &Passage::wavelength, kWavelengths);
+}
+
 std::vector<PaperFigure> geometry_figures() {
   const Passage d = corrugated();
-  const std::vector<Passage> waves = varied(d, &Passage::wavelength, kWavelengths);
+  const std::vector<Passage> waves = wave_passages();
   const auto by_wave = labelled(&Passage::wavelength, "{:g} mm");
   const auto by_depth = labelled(&Passage::depth, "{:g} mm");
   const std::string way = "Position of the wheel [m]";
@@ -380,6 +392,23 @@ Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const P
   return figure;
 }
 
+/// Levels of 40 m of each wave of Fig. 20: the paper's are measured, and it does not list them.
+DrawnFigure drawn_levels(const std::string& title) {
+  constexpr double kSpacing = 1e-3, kLength = 40, kSegment = 2;  // [m]
+  std::vector<NamedLevels> rails;
+  for (const Passage& wave : wave_passages()) {
+    RoughnessProfile profile{kSpacing, {}, false};
+    const double angle = 2 * std::numbers::pi * kSpacing / (1e-3 * wave.wavelength);
+    for (int i = 0; i < std::lround(kLength / kSpacing); ++i)
+      profile.height.push_back(0.5e-3 * wave.depth * std::cos(angle * i));
+    rails.push_back({fmt::format("{:g} mm", wave.wavelength), roughness_levels(profile, kSegment)});
+  }
+  Figure figure = level_figure(rails);
+  figure.title = title;
+  figure.panels.front().y_range = Range{-20, 40};  // what lies below leaks out of the window
+  return {figure, figure_csv(figure), figure_svg(figure)};
+}
+
 /// Of the run's instants; the last 0.12 m of a smooth rail, as many as the paper shows.
 std::vector<double> places_of(const FinishedRun& run) {
   const CurvePoints pressure = history_over_way(run, "max_pressure", "Pa");
@@ -428,6 +457,7 @@ std::string shown_id(const std::string& id) {
 
 DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   const std::string title = fmt::format("Fig. {}: {}", shown_id(wanted.id), wanted.title);
+  if (wanted.levels) return drawn_levels(title);
   if (wanted.instants || !wanted.surface.empty()) {
     const FinishedRun* run = runs.find(wanted.passages.front());
     if (!run) return {Text{title + "."}, "", ""};

@@ -16,7 +16,7 @@ struct PaperFigure {
   std::string id;       ///< "26"; "24b" has no figure of its own in the paper
   std::string title;    ///< what it shows, and under what
   std::string section;  ///< of the paper
-  std::vector<Passage> passages;
+  std::vector<Passage> passages = {};
   std::function<std::string(const Passage&)> label = {};  ///< what tells the curves apart
   CurvesSpec curves = {};                                 ///< where it shows curves
   std::string x_label = {};                               ///< where it shows a trend
@@ -24,6 +24,7 @@ struct PaperFigure {
   std::vector<TrendPanel> trends = {};
   bool multibody = false;                 ///< F_N by the multi-body approach beside the run's
   bool one_panel = false;                 ///< all curves in one panel
+  bool levels = false;                    ///< roughness of endless waves, without passages
   bool instants = false;                  ///< the patch at t1 to t10 of the one passage
   std::vector<SurfaceView> surface = {};  ///< between t1 and t10 of the one passage
 };

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -199,6 +200,19 @@ TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
     EXPECT_EQ(drawn.csv.empty(), of_one_run) << figure.id;
     EXPECT_EQ(drawn.svg.empty(), of_one_run) << figure.id;
   }
+}
+
+TEST(PaperFigures, WavesHaveTheLevelOfASine) {
+  const auto fig14 = std::find_if(paper_figures().begin(), paper_figures().end(),
+                                  [](const PaperFigure& figure) { return figure.levels; });
+  ASSERT_NE(fig14, paper_figures().end());
+  EXPECT_TRUE(fig14->passages.empty());
+  const Figure figure = std::get<Figure>(draw(*fig14, {}).block);
+  const std::vector<Series>& curves = figure.panels.front().series;
+  ASSERT_EQ(curves.size(), 4U);
+  EXPECT_EQ(curves[1].label, "80 mm");
+  // 0.07 mm / sqrt 2: 33.9 dB.
+  EXPECT_NEAR(*std::max_element(curves[1].y.begin(), curves[1].y.end()), 33.9, 0.05);
 }
 
 TEST(PaperFigures, AVerdictNamesThePassagesThatItLacksOnce) {
