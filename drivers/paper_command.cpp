@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/paper/drawn_figure.hpp"
 #include "drivers/paper/paper_figures.hpp"
 #include "drivers/paper/paper_numbers.hpp"
 #include "drivers/paper/paper_verdicts.hpp"

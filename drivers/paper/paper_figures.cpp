@@ -4,19 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "core/error.hpp"
-#include "drivers/evaluated_stretch.hpp"
-#include "drivers/figure_parts.hpp"
-#include "drivers/growing_files.hpp"
-#include "drivers/instants.hpp"
-#include "drivers/interpolation.hpp"
-#include "drivers/multibody/multibody_run.hpp"
-#include "drivers/paper/curve_measures.hpp"
-#include "drivers/roughness/level_figure.hpp"
 #include "drivers/surface_results.hpp"
 
 namespace tread {
@@ -123,6 +112,11 @@ std::vector<SurfaceView> surface_views() {
           {"frictional_work", "Frictional work in a cell of 1.1 mm x 1.1 mm", "[mJ]", 1e3 * kPaperCell}};
 }
 
+/// The waves of Figs. 14 and 20 to 22.
+std::vector<Passage> wave_passages() {
+  return varied(corrugated(), &Passage::wavelength, kWavelengths);
+}
+
 std::vector<PaperFigure> smooth_figures() {
   const Passage smooth = smooth_rail();
   const auto by_speed = labelled(&Passage::speed, "{:g} km/h");
@@ -191,7 +185,7 @@ std::vector<PaperFigure> corrugation_d_figures() {
       {.id = "14",
        .title = "Roughness levels of waves 0.14 mm deep, 65, 80 and 95 mm long",
        .section = "4.1",
-       .levels = true},
+       .waves = wave_passages()},
       {"15",
        "Forces over corrugation D, mu 0.3, 300 km/h",
        "4.2",
@@ -231,11 +225,6 @@ std::vector<PaperFigure> corrugation_d_figures() {
        .passages = {d},
        .surface = surface_views()},
   };
-}
-
-/// Of Figs. 20 to 22.
-std::vector<Passage> wave_passages() {
-  return varied(corrugated(), &Passage::wavelength, kWavelengths);
 }
 
 std::vector<PaperFigure> geometry_figures() {
@@ -327,118 +316,6 @@ std::vector<PaperFigure> operation_figures() {
   };
 }
 
-Series multibody_force(const FinishedRun& run) {
-  const MultibodyResult result = run_multibody(multibody_model(run.scene, BeamTheory::euler), {});
-  Series series{"F_N, multi-body approach", {}, {}, Stroke::dashed};
-  for (const MultibodySample& s : result.samples) {
-    series.x.push_back(s.x);
-    series.y.push_back(1e-3 * s.force);
-  }
-  return series;
-}
-
-/// Puts the curves of all panels into the first; the later ones are dashed.
-void overlay(Figure& figure) {
-  for (std::size_t i = 1; i < figure.panels.size(); ++i)
-    for (Series& series : figure.panels[i].series) {
-      series.stroke = Stroke::dashed;
-      figure.panels.front().series.push_back(std::move(series));
-    }
-  figure.panels.resize(1);
-}
-
-/// The corrugated surface below the curves, where they all have the same.
-void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
-  const Corrugation first = runs.front().corrugation();
-  if (first.smooth() || !figure.x_range || figure.x_label.find("[m]") == std::string::npos) return;
-  for (const FinishedRun& run : runs)
-    if (run.corrugation().last() != first.last() || run.corrugation().deepest() != first.deepest()) return;
-  figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
-}
-
-/// Runs of a figure and where they stand on the abscissa of its trends.
-struct FoundRuns {
-  std::vector<FinishedRun> runs;
-  std::vector<double> places;
-};
-
-FoundRuns find_runs(const PaperFigure& wanted, const PassageRuns& runs) {
-  FoundRuns found;
-  for (const Passage& passage : wanted.passages)
-    if (const FinishedRun* run = runs.find(passage)) {
-      found.runs.push_back(*run);
-      found.runs.back().label = wanted.label(passage);
-      found.places.push_back(wanted.x ? wanted.x(passage) : 0);
-    }
-  return found;
-}
-
-Figure drawn_trend(const std::string& title, const PaperFigure& wanted, const PassageRuns& runs) {
-  const FoundRuns found = find_runs(wanted, runs);
-  std::vector<TrendRun> trend;
-  for (std::size_t i = 0; i < found.runs.size(); ++i) trend.push_back({&found.runs[i], found.places[i], ""});
-  return trend_figure(title, wanted.x_label, wanted.trends, trend);
-}
-
-Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const PassageRuns& runs) {
-  const std::vector<FinishedRun> found = find_runs(wanted, runs).runs;
-  CurvesSpec spec = wanted.curves;
-  spec.title = title;
-  Figure figure = curves_figure(spec, found);
-  if (found.empty()) return figure;
-  if (wanted.one_panel) overlay(figure);
-  if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
-  add_surface(found, figure);
-  return figure;
-}
-
-/// Levels of 40 m of each wave of Fig. 20: the paper's are measured, and it does not list them.
-DrawnFigure drawn_levels(const std::string& title) {
-  constexpr double kSpacing = 1e-3, kLength = 40, kSegment = 2;  // [m]
-  std::vector<NamedLevels> rails;
-  for (const Passage& wave : wave_passages()) {
-    RoughnessProfile profile{kSpacing, {}, false};
-    const double angle = 2 * std::numbers::pi * kSpacing / (1e-3 * wave.wavelength);
-    for (int i = 0; i < std::lround(kLength / kSpacing); ++i)
-      profile.height.push_back(0.5e-3 * wave.depth * std::cos(angle * i));
-    rails.push_back({fmt::format("{:g} mm", wave.wavelength), roughness_levels(profile, kSegment)});
-  }
-  Figure figure = level_figure(rails);
-  figure.title = title;
-  figure.panels.front().y_range = Range{-20, 40};  // what lies below leaks out of the window
-  return {figure, figure_csv(figure), figure_svg(figure)};
-}
-
-/// Of the run's instants; the last 0.12 m of a smooth rail, as many as the paper shows.
-std::vector<double> places_of(const FinishedRun& run) {
-  const CurvePoints pressure = history_over_way(run, "max_pressure", "Pa");
-  return typical_places(run.scene, evaluated_stretch(run.scene, run.corrugation()), 0.12, pressure.x,
-                        pressure.y);
-}
-
-DrawnFigure drawn_instants(const std::string& title, const FinishedRun& run) {
-  const std::filesystem::path path = run.folder / kPatchFile;
-  const PatchAxes axes = read_patch_axes(path);
-  const std::size_t axis = nearest(axes.y, run.number("surface.axis_y_m").value_or(0));
-  const Instants instants{axes, static_cast<int>(axis), run.scene.contact->friction, run.corrugation(),
-                          read_patch(path, places_of(run))};
-  if (instants.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
-  Figure figure = instants_figure(instants);
-  figure.title = title;
-  return {figure, instants_csv(instants), figure_svg(figure)};
-}
-
-DrawnFigure drawn_surface(const std::string& title, const PaperFigure& wanted, const FinishedRun& run) {
-  const std::vector<double> places = places_of(run);
-  std::vector<SurfaceMap> maps;
-  Reliefs reliefs{title, {}, {}};
-  for (const SurfaceView& view : wanted.surface) {
-    maps.push_back(read_surface_map(run.folder / "surface.h5", view.field, {places.front(), places.back()}));
-    reliefs.reliefs.push_back(relief(maps.back(), view));
-  }
-  return {reliefs, surface_maps_csv(maps), reliefs_svg(reliefs)};
-}
-
 }  // namespace
 
 const std::vector<PaperFigure>& paper_figures() {
@@ -453,19 +330,6 @@ const std::vector<PaperFigure>& paper_figures() {
 
 std::string shown_id(const std::string& id) {
   return id.substr(std::min(id.find_first_not_of('0'), id.size()));
-}
-
-DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
-  const std::string title = fmt::format("Fig. {}: {}", shown_id(wanted.id), wanted.title);
-  if (wanted.levels) return drawn_levels(title);
-  if (wanted.instants || !wanted.surface.empty()) {
-    const FinishedRun* run = runs.find(wanted.passages.front());
-    if (!run) return {Text{title + "."}, "", ""};
-    return wanted.instants ? drawn_instants(title, *run) : drawn_surface(title, wanted, *run);
-  }
-  const Figure figure =
-      wanted.trends.empty() ? drawn_curves(title, wanted, runs) : drawn_trend(title, wanted, runs);
-  return {figure, figure_csv(figure), figure_svg(figure)};
 }
 
 }  // namespace tread

@@ -8,7 +8,6 @@
 #include "drivers/paper/passage.hpp"
 #include "drivers/study/study_figures.hpp"
 #include "drivers/surface_map.hpp"
-#include "io/report.hpp"
 
 namespace tread {
 
@@ -24,8 +23,8 @@ struct PaperFigure {
   std::vector<TrendPanel> trends = {};
   bool multibody = false;                 ///< F_N by the multi-body approach beside the run's
   bool one_panel = false;                 ///< all curves in one panel
-  bool levels = false;                    ///< roughness of endless waves, without passages
   bool instants = false;                  ///< the patch at t1 to t10 of the one passage
+  std::vector<Passage> waves = {};        ///< whose roughness levels it shows; none of them is run
   std::vector<SurfaceView> surface = {};  ///< between t1 and t10 of the one passage
 };
 
@@ -34,15 +33,5 @@ const std::vector<PaperFigure>& paper_figures();
 
 /// The id without zeros before it: "8".
 std::string shown_id(const std::string& id);
-
-/// A figure for the report, as a table and as a picture of its own; a text and nothing else where none of its
-/// passages has been run that it cannot be drawn without.
-struct DrawnFigure {
-  Block block;
-  std::string csv, svg;
-};
-
-/// From those of its passages that have been run. InputError where a file does not read.
-DrawnFigure draw(const PaperFigure& figure, const PassageRuns& runs);
 
 }  // namespace tread

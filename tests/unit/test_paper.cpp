@@ -11,6 +11,7 @@
 #include <string>
 
 #include "drivers/paper/curve_measures.hpp"
+#include "drivers/paper/drawn_figure.hpp"
 #include "drivers/paper/paper_figures.hpp"
 #include "drivers/paper/paper_numbers.hpp"
 #include "drivers/paper/paper_verdicts.hpp"
@@ -204,7 +205,7 @@ TEST(PaperFigures, WithoutRunsNothingIsClaimed) {
 
 TEST(PaperFigures, WavesHaveTheLevelOfASine) {
   const auto fig14 = std::find_if(paper_figures().begin(), paper_figures().end(),
-                                  [](const PaperFigure& figure) { return figure.levels; });
+                                  [](const PaperFigure& figure) { return !figure.waves.empty(); });
   ASSERT_NE(fig14, paper_figures().end());
   EXPECT_TRUE(fig14->passages.empty());
   const Figure figure = std::get<Figure>(draw(*fig14, {}).block);
