@@ -9,13 +9,13 @@
 #include <stdexcept>
 
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 
 namespace tread {
 
 namespace {
 
 // Page geometry [px].
-constexpr double kWidth = 920;
 constexpr double kLeft = 72;
 constexpr double kRight = 14;
 constexpr double kTop = 18;     // holds the labels of bands and positions
@@ -158,7 +158,7 @@ std::string clipped(double top, double bottom, const std::string& content) {
   return fmt::format(
       "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
       "viewBox=\"{0:.1f} {1:.1f} {2:.1f} {3:.1f}\"><g class=\"moves\">\n{4}</g></svg>\n",
-      kLeft, top, kWidth - kLeft - kRight, bottom - top, content);
+      kLeft, top, kPageWidth - kLeft - kRight, bottom - top, content);
 }
 
 std::string curves_svg(const Panel& panel, const Layout& at, const Scale& y) {
@@ -179,14 +179,14 @@ std::string panel_svg(const Panel& panel, const Layout& at) {
   const std::vector<double> values = ticks(y.value[0], y.value[1], tick_count(panel.height));
   const TickFormat format(values);
   for (const double v : values) {
-    svg += svg_line("grid", kLeft, y(v), kWidth - kRight, y(v));
+    svg += svg_line("grid", kLeft, y(v), kPageWidth - kRight, y(v));
     svg += svg_label("tick right", kLeft - 8, y(v) + 4, format(v));
   }
   svg += curves_svg(panel, at, y);
   for (const Marker& level : panel.levels)
-    svg += svg_line("level", kLeft, y(level.at), kWidth - kRight, y(level.at));
+    svg += svg_line("level", kLeft, y(level.at), kPageWidth - kRight, y(level.at));
   svg += svg_line("axis", kLeft, at.top, kLeft, at.bottom) +
-         svg_line("axis", kLeft, at.bottom, kWidth - kRight, at.bottom);
+         svg_line("axis", kLeft, at.bottom, kPageWidth - kRight, at.bottom);
   svg += fmt::format("<text class=\"name middle\" transform=\"translate(15 {:.1f}) rotate(-90)\">{}</text>\n",
                      (at.top + at.bottom) / 2, svg_text(panel.y_label + format.factor_text()));
   return svg + "</g>\n";
@@ -200,7 +200,7 @@ std::string abscissa_svg(const Figure& figure, const Scale& x, double bottom) {
     svg += svg_line("axis xtick", x(v), bottom, x(v), bottom + 5);
     svg += svg_label("tick middle xtick", x(v), bottom + 18, format(v));
   }
-  svg += svg_label("name middle", (kLeft + kWidth - kRight) / 2, bottom + 38,
+  svg += svg_label("name middle", (kLeft + kPageWidth - kRight) / 2, bottom + 38,
                    figure.x_label + format.factor_text());
   return svg + "</g>\n";
 }
@@ -209,13 +209,14 @@ std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
   std::string shapes;
   std::string labels;
   const auto note = [&](double at, const std::string& text) {
-    if (at > kLeft && at < kWidth - kRight) labels += svg_label("note middle follows", at, kTop - 5, text);
+    if (at > kLeft && at < kPageWidth - kRight)
+      labels += svg_label("note middle follows", at, kTop - 5, text);
   };
   for (const Band& band : figure.bands) {
     shapes +=
         fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
                     x(band.from), kTop, x(band.to) - x(band.from), bottom - kTop);
-    note((std::max(x(band.from), kLeft) + std::min(x(band.to), kWidth - kRight)) / 2, band.label);
+    note((std::max(x(band.from), kLeft) + std::min(x(band.to), kPageWidth - kRight)) / 2, band.label);
   }
   for (const Marker& position : figure.positions) {
     shapes += svg_line("position", x(position.at), kTop, x(position.at), bottom);
@@ -302,7 +303,7 @@ Plot plot(const Figure& figure) {
         throw std::logic_error("figure '" + figure.title + "': x and y of '" + series.label +
                                "' differ in length");
 
-  const Scale x{x_range(figure), {kLeft, kWidth - kRight}};
+  const Scale x{x_range(figure), {kLeft, kPageWidth - kRight}};
   std::string panels;
   Layout at{x, kTop, kTop, 0};
   for (const Panel& panel : figure.panels) {
@@ -322,8 +323,8 @@ std::string figure_html(const Figure& figure) {
       "<figure class=\"chart\">\n<figcaption>{}</figcaption>\n{}"
       "<svg viewBox=\"0 0 {:.0f} {:.0f}\" data-low=\"{:.9g}\" data-high=\"{:.9g}\" data-left=\"{:.0f}\" "
       "data-right=\"{:.0f}\">\n{}</svg>\n{}</figure>\n",
-      html_text(figure.title), legend_html(figure), kWidth, drawn.bottom + kBottom, drawn.x.value[0],
-      drawn.x.value[1], kLeft, kWidth - kRight, drawn.shapes, caption_html(figure.caption));
+      html_text(figure.title), legend_html(figure), kPageWidth, drawn.bottom + kBottom, drawn.x.value[0],
+      drawn.x.value[1], kLeft, kPageWidth - kRight, drawn.shapes, caption_html(figure.caption));
 }
 
 namespace {
@@ -341,7 +342,7 @@ Legend legend_svg(const Figure& figure, double y) {
   std::size_t longest = 1;
   for (const Panel& panel : figure.panels)
     for (const Series& series : panel.series) longest = std::max(longest, series.label.size());
-  const double room = kWidth - kLeft - kRight;
+  const double room = kPageWidth - kLeft - kRight;
   const int fit = std::max(1, static_cast<int>(room / (kLead + kLetter * static_cast<double>(longest))));
   const bool by_panel = static_cast<int>(figure.panels.size()) <= fit;
   const int columns = by_panel ? std::max(1, static_cast<int>(figure.panels.size())) : fit;
@@ -373,7 +374,7 @@ std::string figure_svg(const Figure& figure) {
   head += legend.svg;
   const double height = legend.bottom + drawn.bottom + kBottom;
   return svg_file(
-      kWidth, height,
+      kPageWidth, height,
       fmt::format("{}<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", head, legend.bottom, drawn.shapes));
 }
 

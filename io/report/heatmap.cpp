@@ -7,6 +7,7 @@
 
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 #include "io/report/shades.hpp"
 
 namespace tread {
@@ -14,7 +15,6 @@ namespace tread {
 namespace {
 
 // Page geometry [px].
-constexpr double kWidth = 920;
 constexpr double kLeft = 72;
 constexpr double kTop = 18;
 constexpr double kPlotWidth = 700;
@@ -180,6 +180,10 @@ class Plot {
   double low_ = 0, high_ = 1;
 };
 
+Picture picture(const Heatmap& map) {
+  return {Plot(map).shapes(), kTop + kPlotHeight + kBottom};
+}
+
 }  // namespace
 
 std::string heatmap_html(const Heatmap& map) {
@@ -188,24 +192,16 @@ std::string heatmap_html(const Heatmap& map) {
                                                         "width=\"26\" height=\"8\"><path class=\"outline\" "
                                                         "d=\"M0 4H26\"/></svg>" +
                                                             html_text(map.marked_label) + "</span></div>\n";
-  return fmt::format(
-      "<figure>\n<figcaption>{}</figcaption>\n{}<svg viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n{}"
-      "</figure>\n",
-      html_text(map.title), legend, kWidth, kTop + kPlotHeight + kBottom, Plot(map).shapes(),
-      caption_html(map.caption));
+  return picture_html(picture(map), map.title, map.caption, legend);
 }
 
 std::string heatmap_svg(const Heatmap& map) {
-  constexpr double kHead = 26;
-  std::string head =
-      fmt::format("<text x=\"{:.0f}\" y=\"18\" font-weight=\"bold\">{}</text>\n", kLeft, svg_text(map.title));
+  std::string legend;
   if (!map.marked_label.empty())
-    head +=
+    legend =
         fmt::format("<path class=\"outline\" d=\"M{0:.0f} 14h26\"/><text x=\"{1:.0f}\" y=\"18\">{2}</text>\n",
                     kLeft + kPlotWidth - 210, kLeft + kPlotWidth - 178, svg_text(map.marked_label));
-  return svg_file(
-      kWidth, kHead + kTop + kPlotHeight + kBottom,
-      fmt::format("{}<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", head, kHead, Plot(map).shapes()));
+  return picture_svg(picture(map), map.title, kLeft, legend);
 }
 
 }  // namespace tread

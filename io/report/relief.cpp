@@ -9,6 +9,7 @@
 
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 #include "io/report/shades.hpp"
 
 namespace tread {
@@ -16,7 +17,6 @@ namespace tread {
 namespace {
 
 // Page geometry [px].
-constexpr double kWidth = 920;
 constexpr double kHeight = 330;  // of a row of reliefs
 constexpr double kLeft = 62, kRight = 62, kTop = 34, kBottom = 48;
 constexpr int kShades = 24;
@@ -135,15 +135,10 @@ class Plot {
   double low_ = 0, high_ = 1;
 };
 
-struct Picture {
-  std::string shapes;
-  double height;
-};
-
 Picture picture(const Reliefs& reliefs) {
   const std::size_t columns = reliefs.reliefs.size() > 1 ? 2 : 1;
-  const double width = kWidth / static_cast<double>(columns);
-  Picture made{{}, 0};
+  const double width = kPageWidth / static_cast<double>(columns);
+  Picture made;
   for (std::size_t i = 0; i < reliefs.reliefs.size(); ++i) {
     const double top = static_cast<double>(i / columns) * kHeight;
     made.shapes += Plot(reliefs.reliefs[i], static_cast<double>(i % columns) * width, top, width).shapes();
@@ -155,20 +150,11 @@ Picture picture(const Reliefs& reliefs) {
 }  // namespace
 
 std::string reliefs_html(const Reliefs& reliefs) {
-  const Picture made = picture(reliefs);
-  return fmt::format(
-      "<figure>\n<figcaption>{}</figcaption>\n<svg viewBox=\"0 0 {:.0f} {:.0f}\">\n{}</svg>\n{}</figure>\n",
-      html_text(reliefs.title), kWidth, made.height, made.shapes, caption_html(reliefs.caption));
+  return picture_html(picture(reliefs), reliefs.title, reliefs.caption);
 }
 
 std::string reliefs_svg(const Reliefs& reliefs) {
-  constexpr double kHead = 26;
-  const Picture made = picture(reliefs);
-  return svg_file(
-      kWidth, kHead + made.height,
-      fmt::format("<text x=\"18\" y=\"18\" font-weight=\"bold\">{}</text>\n<g transform=\"translate(0 "
-                  "{:.0f})\">\n{}</g>\n",
-                  svg_text(reliefs.title), kHead, made.shapes));
+  return picture_svg(picture(reliefs), reliefs.title, 18);
 }
 
 }  // namespace tread

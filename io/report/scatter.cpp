@@ -8,20 +8,20 @@
 #include <limits>
 
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 
 namespace tread {
 
 namespace {
 
 // Page geometry [px].
-constexpr double kWidth = 920;
 constexpr double kLeft = 58;     // of a panel: tick labels
 constexpr double kRight = 30;    // room for a label beside the last dot
 constexpr double kTop = 24;      // a panel's title
 constexpr double kBottom = 26;   // tick labels
 constexpr double kHeight = 190;  // of a plot
 constexpr double kFoot = 24;     // label of the abscissa
-constexpr double kPlotWidth = kWidth / 2 - kLeft - kRight;
+constexpr double kPlotWidth = kPageWidth / 2 - kLeft - kRight;
 
 bool drawn(const ScatterDot& dot) {
   return std::isfinite(dot.x) && std::isfinite(dot.y) && dot.x > 0 && dot.y > 0;
@@ -107,18 +107,13 @@ std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
   return fmt::format("<path class=\"curve c0\" d=\"{}\"/>\n{}", path, dots);
 }
 
-/// All panels from the top of the picture on, and its height.
-struct Plot {
-  std::string shapes;
-  double height;
-};
-
-Plot plot(const Scatter& scatter) {
+/// All panels from the top on.
+Picture picture(const Scatter& scatter) {
   Axes axes = axes_of(scatter);
   std::string svg;
   double bottom = 0;
   for (std::size_t i = 0; i < scatter.panels.size(); ++i) {
-    const double left = kLeft + (i % 2 == 0 ? 0 : kWidth / 2);
+    const double left = kLeft + (i % 2 == 0 ? 0 : kPageWidth / 2);
     const std::size_t row = i / 2;
     const double top = kTop + static_cast<double>(row) * (kTop + kHeight + kBottom);
     bottom = top + kHeight;
@@ -129,28 +124,18 @@ Plot plot(const Scatter& scatter) {
   }
   svg += fmt::format("<text class=\"name middle\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>\n",
                      (kTop + bottom) / 2, svg_text(scatter.y_label));
-  svg += svg_label("name middle", kWidth / 2, bottom + kBottom + 16, scatter.x_label);
+  svg += svg_label("name middle", kPageWidth / 2, bottom + kBottom + 16, scatter.x_label);
   return {svg, bottom + kBottom + kFoot};
 }
 
 }  // namespace
 
 std::string scatter_html(const Scatter& scatter) {
-  const Plot drawing = plot(scatter);
-  return fmt::format(
-      "<figure class=\"scatter\">\n<figcaption>{}</figcaption>\n<svg viewBox=\"0 0 {:.0f} "
-      "{:.0f}\">\n{}</svg>\n{}</figure>\n",
-      html_text(scatter.title), kWidth, drawing.height, drawing.shapes, caption_html(scatter.caption));
+  return picture_html(picture(scatter), scatter.title, scatter.caption);
 }
 
 std::string scatter_svg(const Scatter& scatter) {
-  constexpr double kHead = 26;
-  const Plot drawing = plot(scatter);
-  return svg_file(
-      kWidth, kHead + drawing.height,
-      fmt::format("<text x=\"{:.0f}\" y=\"18\" font-weight=\"bold\">{}</text>\n<g transform=\"translate(0 "
-                  "{:.0f})\">\n{}</g>\n",
-                  kLeft, svg_text(scatter.title), kHead, drawing.shapes));
+  return picture_svg(picture(scatter), scatter.title, kLeft);
 }
 
 }  // namespace tread
