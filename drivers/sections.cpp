@@ -76,6 +76,9 @@ Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes&
   return section;
 }
 
+/// Brake rings that a mass may ask for [m].
+constexpr double kThinnest = 2e-3, kThickest = 0.08;
+
 SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
   const WheelSpec& wheel = *scene.wheel;
   WheelShape shape;
@@ -109,11 +112,12 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
     last_thickness = thickness;
     last_mass = m;
     thickness += (wheel.mass - m) / slope;
-    if (!(thickness > 2e-3 && thickness < 0.08))
+    if (!(thickness > kThinnest && thickness < kThickest))
       throw InputError(fmt::format(
-          "wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; without "
-          "rings the half wheelset weighs {:.1f} kg",
-          wheel.mass, 1e3 * thickness, mass(0)));
+          "wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; those of {:g} to "
+          "{:g} mm make half wheelsets of {:.1f} to {:.1f} kg: state a mass between, or another "
+          "wheel.diameter",
+          wheel.mass, 1e3 * thickness, 1e3 * kThinnest, 1e3 * kThickest, mass(kThinnest), mass(kThickest)));
   }
   shape.brake_ring_thickness = thickness;
   return {make_wheel_sections(profile, shape, size), thickness};
