@@ -185,8 +185,17 @@ void require_one_sum_per_node(const TieSums& sums) {
     throw InputError("a node belongs to two ties; tie their blocks on lines without common nodes");
 }
 
-/// Adds the tiles of `own`, whose section nodes from `first_node` on are linked.
-void add_items(TieSums& sums, std::size_t first_node, const SweptBlock& own, const SweptBlock& other,
+/// Section nodes of a tie's side.
+struct LinkedLine {
+  std::size_t first_other, first_node;  ///< into TieSums
+};
+
+LinkedLine next_line(const TieSums& sums) {
+  return {sums.others.size(), sums.nodes.size()};
+}
+
+/// Adds the tiles of `own`, whose section nodes from `line` on are linked to those of `other`.
+void add_items(TieSums& sums, const LinkedLine& line, const SweptBlock& own, const SweptBlock& other,
                const std::vector<std::vector<StationShare>>& shares) {
   const auto place = [&](const SweptBlock& block, int station) {
     return dof(block.base + block.slot(0, station), 0);
@@ -197,7 +206,8 @@ void add_items(TieSums& sums, std::size_t first_node, const SweptBlock& own, con
     for (auto it = begin; it != begin + tile.stations; ++it) most = std::max(most, it->size());
     if (most == 0) continue;
     sums.items.push_back({place(own, tile.first_station), sums.stations.size(), static_cast<int>(most),
-                          first_node, static_cast<int>(sums.nodes.size() - first_node)});
+                          line.first_other, static_cast<int>(sums.others.size() - line.first_other),
+                          line.first_node, static_cast<int>(sums.nodes.size() - line.first_node)});
     for (std::size_t k = 0; k < most; ++k) {
       StationLink& link = sums.stations.emplace_back();
       std::fill_n(link.at, kLanes, place(other, 0));  // without a share any will do
@@ -206,8 +216,8 @@ void add_items(TieSums& sums, std::size_t first_node, const SweptBlock& own, con
         const StationShare& share = begin[lane][k];
         link.at[lane] = place(other, share.station);
         link.share[lane] = share.share;
-        link.cosine[lane] = std::cos(share.turn);
-        link.sine[lane] = std::sin(share.turn);
+        link.cosine[lane] = share.share * std::cos(share.turn);
+        link.sine[lane] = share.share * std::sin(share.turn);
       }
     }
   }
@@ -231,7 +241,9 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
             const double weight = link.share * station.share[lane];
             if (weight > 0)
               visit(slot_of(item.own + lane) + std::int64_t{node.node} * kLanes,
-                    slot_of(station.at[lane]) + std::int64_t{link.node} * kLanes, weight);
+                    slot_of(station.at[lane]) +
+                        std::int64_t{sums.others[item.first_other + index(link.other)]} * kLanes,
+                    weight);
           }
         }
 }
@@ -245,6 +257,8 @@ void sum_up(const TieSums& sums, bool add, std::initializer_list<NodeField> fiel
       tile.own = item.own;
       tile.stations = sums.stations.data() + item.first_station;
       tile.station_count = item.station_count;
+      tile.others = sums.others.data() + item.first_other;
+      tile.other_count = item.other_count;
       tile.nodes = sums.nodes.data() + item.first_node;
       tile.node_count = item.node_count;
       tile.links = sums.links.data();
@@ -279,10 +293,16 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
   const auto& fine_path = path_of(fine, spec.secondary_path);
   const auto& coarse_path = path_of(coarse, spec.primary_path);
   const auto points = locate_in_section(fine, fine_path, coarse, coarse_path);
+  for (const std::vector<int>* path : {&fine_path, &coarse_path})
+    if (path->size() > index(kMostTiedNodes))
+      throw InputError(
+          fmt::format("tie of '{}' to '{}': {} section nodes on a line, at most {} are possible; make "
+                      "the elements larger",
+                      fine.name, coarse.name, path->size(), kMostTiedNodes));
 
   const SharesAlong shares = shares_along(fine, coarse);
-  const std::size_t first_fine = to_secondary_.nodes.size();
-  const std::size_t first_coarse = to_primary_.nodes.size();
+  const LinkedLine fine_line = next_line(to_secondary_);
+  const LinkedLine coarse_line = next_line(to_primary_);
   const auto across = [](const SectionPoint& point, std::size_t end) {
     return end == 0 ? 1 - point.fraction : point.fraction;
   };
@@ -292,10 +312,14 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
     sums.links.insert(sums.links.end(), links.begin(), links.end());
     sums.nodes.push_back({node, first, static_cast<int>(sums.links.size())});
   };
+  const auto place_in = [](const std::vector<int>& path, int node) {
+    return static_cast<int>(std::find(path.begin(), path.end(), node) - path.begin());
+  };
   for (std::size_t i = 0; i < fine_path.size(); ++i) {
     std::vector<NodeLink> links;
     for (std::size_t end = 0; end < 2; ++end)
-      if (across(points[i], end) > 0) links.push_back({points[i].node[end], across(points[i], end)});
+      if (across(points[i], end) > 0)
+        links.push_back({place_in(coarse_path, points[i].node[end]), across(points[i], end)});
     add_node(to_secondary_, fine_path[i], links);
   }
   for (const int node : coarse_path) {
@@ -303,11 +327,13 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
     for (std::size_t i = 0; i < fine_path.size(); ++i)
       for (std::size_t end = 0; end < 2; ++end)
         if (points[i].node[end] == node && across(points[i], end) > 0)
-          links.push_back({fine_path[i], across(points[i], end)});
+          links.push_back({static_cast<int>(i), across(points[i], end)});
     add_node(to_primary_, node, links);
   }
-  add_items(to_secondary_, first_fine, fine, coarse, shares.of_fine);
-  add_items(to_primary_, first_coarse, coarse, fine, shares.of_coarse);
+  to_secondary_.others.insert(to_secondary_.others.end(), coarse_path.begin(), coarse_path.end());
+  to_primary_.others.insert(to_primary_.others.end(), fine_path.begin(), fine_path.end());
+  add_items(to_secondary_, fine_line, fine, coarse, shares.of_fine);
+  add_items(to_primary_, coarse_line, coarse, fine, shares.of_coarse);
 }
 
 std::vector<TiedSlot> Ties::tied_slots() const {
@@ -324,7 +350,8 @@ std::int64_t Ties::bytes() const {
   std::size_t sum = (secondary_.size() + primary_.size()) * sizeof(std::int64_t);
   for (const TieSums* sums : {&to_secondary_, &to_primary_})
     sum += sums->items.size() * sizeof(TieSums::Item) + sums->stations.size() * sizeof(sums->stations[0]) +
-           sums->nodes.size() * sizeof(LinkedNode) + sums->links.size() * sizeof(sums->links[0]);
+           sums->others.size() * sizeof(int) + sums->nodes.size() * sizeof(LinkedNode) +
+           sums->links.size() * sizeof(sums->links[0]);
   return static_cast<std::int64_t>(sum);
 }
 

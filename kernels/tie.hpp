@@ -35,11 +35,14 @@ struct TieSums {
     std::int64_t own = 0;           ///< as TieTile::own
     std::size_t first_station = 0;  ///< into `stations`
     int station_count = 0;
+    std::size_t first_other = 0;  ///< into `others`
+    int other_count = 0;
     std::size_t first_node = 0;  ///< into `nodes`
     int node_count = 0;
   };
   std::vector<Item> items;
   std::vector<StationLink> stations;
+  std::vector<int> others;  ///< section nodes of the other block
   std::vector<LinkedNode> nodes;
   std::vector<NodeLink> links;
 };

@@ -113,23 +113,25 @@ Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
 
 namespace {
 
-// Of one to three: a primary node has 5 x 5 secondary ones, nine times as many there are in all; a secondary
-// node has one or two primary ones across, always two along, some of them without weight.
-constexpr double kHandedOver = 25.0 / 9;
-constexpr double kFollowed = 5.0 / 3 * 2;
+// Of one to three: a secondary node is one of nine to a primary one and takes from a third of a primary
+// section node, for what its lane takes is shared across; along from two stations, across from five thirds. A
+// primary node takes from three secondary section nodes, along from five stations, across from five.
 constexpr double kPrimaries = 1.0 / 9;
-constexpr double kLinkFlops = 13;  ///< weight; four products and two sums of t and r with the turn, two of y
+constexpr double kStationFlops = 10;  ///< four products and four sums of t and r with the turn, two of y
+constexpr double kAcrossFlops = 6;
 
 }  // namespace
 
 Work tie_hand_over_work(ValueBytes bytes) {
   // Secondary forces in, primary ones in and out.
-  return {kHandedOver * kLinkFlops, kComponents * bytes.other * (1 + 2 * kPrimaries)};
+  return {kPrimaries * (3 * 5 * kStationFlops + 5 * kAcrossFlops),
+          kComponents * bytes.other * (1 + 2 * kPrimaries)};
 }
 
 Work tie_follow_work(ValueBytes bytes) {
   // Secondary values fetched and written, primary ones in.
-  return {2 * kFollowed * kLinkFlops, kComponents * (bytes.displacement + bytes.other) * (2 + kPrimaries)};
+  return {2 * (2.0 / 3 * kStationFlops + 5.0 / 3 * kAcrossFlops),
+          kComponents * (bytes.displacement + bytes.other) * (2 + kPrimaries)};
 }
 
 }  // namespace tread

@@ -17,53 +17,90 @@ TREAD_INLINE TieRegister pick(const Real* field, const std::int64_t* at) {
   return value;
 }
 
+/// Adds what a station has of a section node's values.
 template <class Real>
-TREAD_INLINE void add_link(const StationLink& station, int lane, const NodeLink& link, const Real* field,
-                           TieRegister (&sum)[3]) {
+TREAD_INLINE void add_station(const StationLink& station, int lane, const Real* values,
+                              TieRegister (&sum)[3]) {
+  const auto share = load<TieRegister>(station.share + lane);
   const auto c = load<TieRegister>(station.cosine + lane);
   const auto s = load<TieRegister>(station.sine + lane);
-  const TieRegister weight = link.share * load<TieRegister>(station.share + lane);
-  const Real* values = field + static_cast<std::ptrdiff_t>(link.node) * 3 * kLanes;
   const TieRegister t = pick(values, station.at + lane);
   const TieRegister y = pick(values + kLanes, station.at + lane);
   const TieRegister r = pick(values + 2 * kLanes, station.at + lane);
-  sum[0] += product(weight, product(c, t) - product(s, r));
-  sum[1] += product(weight, y);
-  sum[2] += product(weight, product(s, t) + product(c, r));
+  sum[0] += product(c, t) - product(s, r);
+  sum[1] += product(share, y);
+  sum[2] += product(s, t) + product(c, r);
 }
 
-/// A node's own values and what it takes from the outermost stations: from memory, in an order that the
-/// processor does not foresee.
+/// What the tile's lanes take from the other block's section nodes.
+using TakenValues = double[kMostTiedNodes][3][kLanes];
+
+constexpr std::ptrdiff_t kNodeValues = 3 * kLanes;
+constexpr int kTieAhead = 4;  // nodes come from memory, in an order that the processor does not foresee
+
+/// Where the tiles of the other block begin that a tile takes from, but for their section nodes.
+struct OtherTiles {
+  std::int64_t at[kLanes + 1];
+  int count = 0;
+
+  explicit OtherTiles(const TieTile& tile) {
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (tile.stations[0].share[lane] > 0) add(tile.stations[0].at[lane]);
+    add(tile.stations[tile.station_count - 1].at[kLanes - 1]);
+  }
+  void add(std::int64_t station) {
+    constexpr std::int64_t kTileOfLane = ~std::int64_t{kLanes - 1};
+    const std::int64_t begin = station & kTileOfLane;
+    if (count == 0 || at[count - 1] != begin) at[count++] = begin;
+  }
+};
+
 template <class Real>
-TREAD_INLINE void prefetch_node(const TieTile& tile, const LinkedNode& own, const Real* field) {
-  constexpr std::ptrdiff_t kValues = 3 * kLanes;
-  constexpr std::int64_t kTileOfLane = ~std::int64_t{kLanes - 1};
-  prefetch_vector<0>(field + tile.own + own.node * kValues);
-  const std::int64_t first = tile.stations[0].at[0] & kTileOfLane;
-  const std::int64_t last = tile.stations[tile.station_count - 1].at[kLanes - 1] & kTileOfLane;
-  for (int link = own.first; link < own.last; ++link) {
-    const std::ptrdiff_t node = tile.links[link].node * kValues;
-    prefetch_vector<0>(field + first + node);
-    if (last != first) prefetch_vector<0>(field + last + node);
+TREAD_INLINE void prefetch_other(const TieTile& tile, const OtherTiles& tiles, int other, const Real* field) {
+  if (other >= tile.other_count) return;
+  for (int i = 0; i < tiles.count; ++i)
+    prefetch_vector<0>(field + tiles.at[i] + tile.others[other] * kNodeValues);
+}
+
+template <class Real>
+TREAD_INLINE void prefetch_own(const TieTile& tile, int node, const Real* field) {
+  if (node < tile.node_count) prefetch_vector<1>(field + tile.own + tile.nodes[node].node * kNodeValues);
+}
+
+template <class Real>
+TREAD_INLINE void take(const TieTile& tile, const Real* field, TakenValues& taken) {
+  const OtherTiles tiles(tile);
+  for (int i = 0; i < kTieAhead; ++i) prefetch_other(tile, tiles, i, field);
+  for (int i = 0; i < tile.other_count; ++i) {
+    prefetch_other(tile, tiles, i + kTieAhead, field);
+    const Real* values = field + tile.others[i] * kNodeValues;
+    for (int lane = 0; lane < kLanes; lane += Lanes<double>::kWidth) {
+      TieRegister sum[3] = {};
+      for (int k = 0; k < tile.station_count; ++k) add_station(tile.stations[k], lane, values, sum);
+      for (int c = 0; c < 3; ++c) store(taken[i][c] + lane, sum[c]);
+    }
   }
 }
 
 template <class Real>
 void tie_sum(const TieTile& tile, bool add, Real* field) {
   using Stored = typename Vector<Real, Lanes<double>::kWidth>::type;
-  constexpr int kAhead = 4;
+  TakenValues taken;
+  for (int n = 0; n < kTieAhead; ++n) prefetch_own(tile, n, field);
+  take(tile, field, taken);
   for (int n = 0; n < tile.node_count; ++n) {
-    if (n + kAhead < tile.node_count) prefetch_node(tile, tile.nodes[n + kAhead], field);
+    prefetch_own(tile, n + kTieAhead, field);
     const LinkedNode& own = tile.nodes[n];
     for (int lane = 0; lane < kLanes; lane += Lanes<double>::kWidth) {
       TieRegister sum[3] = {};
-      for (int k = 0; k < tile.station_count; ++k)
-        for (int link = own.first; link < own.last; ++link)
-          add_link(tile.stations[k], lane, tile.links[link], field, sum);
-      Real* at = field + tile.own + static_cast<std::ptrdiff_t>(own.node) * 3 * kLanes + lane;
-      for (int i = 0; i < 3; ++i, at += kLanes) {
-        if (add) sum[i] += converted<TieRegister>(load<Stored>(at));
-        store(at, converted<Stored>(sum[i]));
+      for (int link = own.first; link < own.last; ++link)
+        for (int c = 0; c < 3; ++c)
+          sum[c] +=
+              product(tile.links[link].share, load<TieRegister>(taken[tile.links[link].other][c] + lane));
+      Real* at = field + tile.own + own.node * kNodeValues + lane;
+      for (int c = 0; c < 3; ++c, at += kLanes) {
+        if (add) sum[c] += converted<TieRegister>(load<Stored>(at));
+        store(at, converted<Stored>(sum[c]));
       }
     }
   }
