@@ -312,14 +312,18 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
     sums.links.insert(sums.links.end(), links.begin(), links.end());
     sums.nodes.push_back({node, first, static_cast<int>(sums.links.size())});
   };
-  const auto place_in = [](const std::vector<int>& path, int node) {
-    return static_cast<int>(std::find(path.begin(), path.end(), node) - path.begin());
+  const auto other_of = [](TieSums& sums, const LinkedLine& line, int node) {
+    const auto begin = sums.others.begin() + static_cast<std::ptrdiff_t>(line.first_other);
+    const auto known = std::find(begin, sums.others.end(), node);
+    const int other = static_cast<int>(known - begin);
+    if (known == sums.others.end()) sums.others.push_back(node);
+    return other;
   };
   for (std::size_t i = 0; i < fine_path.size(); ++i) {
     std::vector<NodeLink> links;
     for (std::size_t end = 0; end < 2; ++end)
       if (across(points[i], end) > 0)
-        links.push_back({place_in(coarse_path, points[i].node[end]), across(points[i], end)});
+        links.push_back({other_of(to_secondary_, fine_line, points[i].node[end]), across(points[i], end)});
     add_node(to_secondary_, fine_path[i], links);
   }
   for (const int node : coarse_path) {
@@ -327,11 +331,9 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
     for (std::size_t i = 0; i < fine_path.size(); ++i)
       for (std::size_t end = 0; end < 2; ++end)
         if (points[i].node[end] == node && across(points[i], end) > 0)
-          links.push_back({static_cast<int>(i), across(points[i], end)});
+          links.push_back({other_of(to_primary_, coarse_line, fine_path[i]), across(points[i], end)});
     add_node(to_primary_, node, links);
   }
-  to_secondary_.others.insert(to_secondary_.others.end(), coarse_path.begin(), coarse_path.end());
-  to_primary_.others.insert(to_primary_.others.end(), fine_path.begin(), fine_path.end());
   add_items(to_secondary_, fine_line, fine, coarse, shares.of_fine);
   add_items(to_primary_, coarse_line, coarse, fine, shares.of_coarse);
 }
