@@ -12,7 +12,7 @@ struct DevelopOptions {
   std::filesystem::path output;  ///< directory
   int passages = 10;             ///< simulated in all, those of earlier calls included
   std::string from;              ///< a run whose state all passages begin with, as in fork_from(); or empty
-  int threads = 1;               ///< of a passage
+  int threads = 0;               ///< of a passage; 0: all
   bool json = false;             ///< instead of a table
   bool quiet = false;
   std::string command;  ///< as typed, for the report

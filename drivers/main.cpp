@@ -258,7 +258,9 @@ void add_study_options(CLI::App& command, tread::StudyOptions& options) {
       ->allow_extra_args(false);
   command.add_option("-j,--jobs", options.jobs, "runs at once (default: as many as cores and memory allow)")
       ->check(CLI::PositiveNumber);
-  command.add_option("-t,--threads", options.threads, "threads of one run (default: 1)")
+  command
+      .add_option("-t,--threads", options.threads,
+                  "threads of one run (default: its share of the cores that are idle when it begins)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--retry", options.retry, "points that failed, too");
   command.add_flag("--no-share", options.no_share,
@@ -332,7 +334,7 @@ void add_develop(CLI::App& app, const std::string& command_line) {
   command.add_option("-o,--output", options.output, "directory")->required();
   command.add_option("--from", options.from,
                      "begin all passages with the state of a run over the smooth rail, DIR or DIR@TIME");
-  command.add_option("-t,--threads", options.threads, "threads of a passage (default: 1)")
+  command.add_option("-t,--threads", options.threads, "threads of a passage (default: all)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");

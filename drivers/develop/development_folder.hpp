@@ -17,7 +17,7 @@ class DevelopmentFolder {
  public:
   struct Options {
     std::string from;  ///< a run whose state all passages begin with, as in fork_from(); empty: passage 0
-    int threads = 1;
+    int threads = 0;   ///< of a passage; 0: all
   };
 
   /// Makes the folder and takes it; leaves the scenes that the passages roll through. InputError where it

@@ -25,17 +25,18 @@ int stated(int option, int study) {
   return option > 0 ? option : study;
 }
 
-/// Before the cost is known: as many runs as cores.
+/// Before the cost is known: as many runs as cores have room for.
 void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
-  plan.threads = std::max(1, stated(options.threads, plan.study.threads));
+  plan.threads = stated(options.threads, plan.study.threads);
+  const int each = std::max(1, plan.threads);
   const int jobs = stated(options.jobs, plan.study.jobs);
-  plan.jobs = jobs > 0 ? jobs : std::max(1, cores / plan.threads);
-  if (plan.jobs * plan.threads > cores)
+  plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
+  if (plan.jobs * each > cores)
     throw InputError(
         fmt::format("{} runs at once with {} threads each need {} cores, this machine has {}: lower --jobs "
                     "or --threads (study.jobs, study.threads)",
-                    plan.jobs, plan.threads, plan.jobs * plan.threads, cores));
+                    plan.jobs, each, plan.jobs * each, cores));
 }
 
 /// Fewer runs at once where memory is short and their number was not stated.
@@ -47,13 +48,14 @@ void mind_memory(StudyPlan& plan, const StudyOptions& options) {
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
   const std::string saved =
       cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
+  const std::string threads =
+      plan.threads > 0 ? fmt::format("{} thread{} each", plan.threads, plan.threads == 1 ? "" : "s")
+                       : fmt::format("all {} cores", machine_cores());
   return fmt::format(
-      "{} run{} at once, {} thread{} each: about {} ({} one after the other{}), {} on the disk, {} of "
-      "memory "
-      "(the machine has {})",
-      plan.jobs, plan.jobs == 1 ? "" : "s", plan.threads, plan.threads == 1 ? "" : "s",
-      duration_text(cost.wall), duration_text(cost.seconds), saved, bytes_text(cost.disk),
-      bytes_text(cost.memory), bytes_text(machine_memory()));
+      "{} run{} at once, {}: about {} ({} one after the other{}), {} on the disk, {} of memory (the machine "
+      "has {})",
+      plan.jobs, plan.jobs == 1 ? "" : "s", threads, duration_text(cost.wall), duration_text(cost.seconds),
+      saved, bytes_text(cost.disk), bytes_text(cost.memory), bytes_text(machine_memory()));
 }
 
 std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {

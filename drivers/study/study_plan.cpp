@@ -214,7 +214,7 @@ void look_into_folders(StudyPlan& plan) {
 }
 
 void project_cost(StudyPlan& plan, bool retry) {
-  use_threads({plan.threads, ""});
+  use_threads({std::max(1, plan.threads), ""});
   PointProblems problems(plan.study);
   struct Built {
     const PlannedPoint* point;
@@ -261,7 +261,7 @@ StudyCost total_cost(const StudyPlan& plan) {
     return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
                            std::int64_t{0});
   };
-  cost.wall = std::max(longest, cost.seconds / plan.jobs);
+  cost.wall = plan.threads > 0 ? std::max(longest, cost.seconds / plan.jobs) : cost.seconds / machine_cores();
   cost.disk += of_the_largest(checkpoints);
   cost.memory = of_the_largest(memory);
   return cost;

@@ -54,7 +54,7 @@ struct StudyPlan {
   std::vector<PlannedPoint> points;
   std::vector<SharedRolling> shared;
   int jobs = 1;     ///< runs at once
-  int threads = 1;  ///< of one run
+  int threads = 0;  ///< of one run; 0: its share of the cores that are idle when it begins
 
   /// What the first failed point's process exited with; resources where a signal ended it.
   ExitCode failure_code() const;
@@ -72,8 +72,8 @@ StudyPlan plan_study(const Study& study, const std::filesystem::path& folder);
 void look_into_folders(StudyPlan& plan);
 
 /// Builds the model of every point that is to run, says until when points share their rolling and which one
-/// of them keeps the state, and projects the cost with the plan's threads; ProblemsError where a model cannot
-/// be built.
+/// of them keeps the state, and projects the cost with the plan's threads or one; ProblemsError where a model
+/// cannot be built.
 void project_cost(StudyPlan& plan, bool retry);
 
 /// Sums over the points with a cost.

@@ -40,9 +40,9 @@ int count(const StudyPlan& plan, PointState state) {
 
 }  // namespace
 
-std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point) {
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count) {
   const PointStatus& status = point.status;
-  const std::string threads = std::to_string(plan.threads);
+  const std::string threads = std::to_string(count);
   const bool failed = status.state == PointState::failed;
   if (status.state == PointState::interrupted || (failed && !status.anew))
     return {"resume", point.folder.string(), "-t", threads};
@@ -64,10 +64,11 @@ std::string StudyRunner::run(bool retry) {
     if (point.to_run(retry)) queue_.push_back(&point);
   for (;;) {
     obey();
-    while (stopped_by_.empty() && running_.size() < static_cast<std::size_t>(plan_->jobs)) {
-      PlannedPoint* point = take_next();
+    while (stopped_by_.empty()) {
+      const int threads = threads_for_next();
+      PlannedPoint* point = threads > 0 ? take_next() : nullptr;
       if (!point) break;
-      start(*point);
+      start(*point, threads);
     }
     if (progress_->due(kShowInterval)) show();
     if (running_.empty()) break;
@@ -76,6 +77,18 @@ std::string StudyRunner::run(bool retry) {
   }
   show();
   return stopped_by_;
+}
+
+/// The idle cores are dealt out among the points that can begin now; 0: none can.
+int StudyRunner::threads_for_next() const {
+  const auto ready = std::count_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
+    return !waits_for_state(*plan_, *point);
+  });
+  const int beginning = std::min(static_cast<int>(ready), plan_->jobs - static_cast<int>(running_.size()));
+  if (beginning <= 0 || plan_->threads > 0) return beginning > 0 ? plan_->threads : 0;
+  int idle = machine_cores();
+  for (const Running& running : running_) idle -= running.threads;
+  return idle > 0 ? std::max(1, idle / beginning) : 0;
 }
 
 /// The first that waits for nobody; nullptr: none, now.
@@ -89,16 +102,16 @@ PlannedPoint* StudyRunner::take_next() {
   return point;
 }
 
-void StudyRunner::start(PlannedPoint& point) {
+void StudyRunner::start(PlannedPoint& point, int threads) {
   make_directory(point.folder);
   if (is_taken(point.folder)) {
     point.status = {PointState::running, "another process works on its folder"};
     progress_->say(fmt::format("[{}] left alone: {}", point.name, point.status.why));
     return;
   }
-  const std::vector<std::string> arguments = point_arguments(*plan_, point);
+  const std::vector<std::string> arguments = point_arguments(*plan_, point, threads);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
-  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder)), progress_->seconds()});
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder)), threads, progress_->seconds()});
   point.status = {PointState::running, ""};
 }
 
@@ -158,19 +171,26 @@ void StudyRunner::stop(const std::string& why) {
 }
 
 double StudyRunner::seconds_left() const {
+  // Threads that work, and what one of them alone would take; costs are those of the plan's threads, or one.
+  const int each = std::max(1, plan_->threads);
+  const int workers = plan_->threads > 0 ? plan_->jobs * each : machine_cores();
   double sum = 0;
   double longest = 0;
-  const auto add = [&](double seconds) {
-    sum += seconds;
+  const auto add = [&](double seconds, int threads) {
+    sum += seconds * threads;
     longest = std::max(longest, seconds);
   };
-  for (const PlannedPoint* point : queue_) add(point->cost ? point->cost->seconds() : 0);
+  for (const PlannedPoint* point : queue_) {
+    const double seconds = point->cost ? point->cost->seconds() : 0;
+    plan_->threads > 0 ? add(seconds, each) : add(seconds / workers, workers);
+  }
   for (const Running& running : running_) {
     const double whole = running.point->cost ? running.point->cost->seconds() : 0;
-    const double guess = std::max(0.0, whole - (progress_->seconds() - running.started));
-    add(number_in(status_of(*running.point), "left_s").value_or(guess));
+    const double guess =
+        std::max(0.0, whole * each / running.threads - (progress_->seconds() - running.started));
+    add(number_in(status_of(*running.point), "left_s").value_or(guess), running.threads);
   }
-  return std::max(longest, sum / plan_->jobs);
+  return std::max(longest, sum / workers);
 }
 
 void StudyRunner::show() {

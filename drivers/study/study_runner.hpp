@@ -26,10 +26,12 @@ class StudyRunner {
   struct Running {
     PlannedPoint* point;
     ChildProcess process;
+    int threads;
     double started;  ///< on the progress' clock [s]
   };
+  int threads_for_next() const;
   PlannedPoint* take_next();
-  void start(PlannedPoint& point);
+  void start(PlannedPoint& point, int threads);
   void collect_ended();
   void note_ended(const Running& running, const ProcessEnd& end);
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
@@ -47,6 +49,6 @@ class StudyRunner {
 };
 
 /// The command line of a point after "tread".
-std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point);
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads);
 
 }  // namespace tread

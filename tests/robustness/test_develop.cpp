@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "drivers/study/study_plan.hpp"
 #include "io/json_reader.hpp"
 #include "tests/program_test.hpp"
 
@@ -67,6 +68,8 @@ TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
   EXPECT_FALSE(fs::exists(whole / "passage-0001"));
   EXPECT_TRUE(fs::exists(whole / "passage-0002/report.html"));
   EXPECT_TRUE(has(content_of(whole / "passage-0002/report.html"), "fork of"));
+  // Passages come one after the other, each on all cores.
+  EXPECT_EQ(number_in(read_json(whole / "passage-0002/summary.json"), "threads"), machine_cores());
 }
 
 TEST_F(Develop, GoesOnWhereItWasStopped) {

@@ -237,7 +237,7 @@ TEST_F(SharedRollingPlan, ADeepCorrugationNeedsRoomAndANearOneSharesNothing) {
     return plan;
   };
   const StudyPlan deep = plan_of(waves("a", "0.02") + waves("b", "0.4"));
-  const std::vector<std::string> arguments = point_arguments(deep, deep.points[0]);
+  const std::vector<std::string> arguments = point_arguments(deep, deep.points[0], 1);
   EXPECT_NE(std::find(arguments.begin(), arguments.end(), "contact.depth_room=0.0004 m"), arguments.end());
   EXPECT_TRUE(waits_for_state(deep, deep.points[1]));
   EXPECT_FALSE(waits_for_state(deep, deep.points[0]));
@@ -249,7 +249,7 @@ TEST_F(SharedRollingPlan, ADeepCorrugationNeedsRoomAndANearOneSharesNothing) {
               near);
   EXPECT_FALSE(at_once.points[0].shared);
   EXPECT_FALSE(waits_for_state(at_once, at_once.points[0]));
-  for (const std::string& argument : point_arguments(at_once, at_once.points[0]))
+  for (const std::string& argument : point_arguments(at_once, at_once.points[0], 1))
     EXPECT_FALSE(has(argument, "forks")) << argument;
 }
 
