@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -49,6 +50,14 @@ void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
 }
 
+/// The mesh is fine up to the end of the solution zone, as the paper's, and traction carries slow wheels past
+/// it.
+void end_with_solution_zone(const Scene& scene, Figure& figure) {
+  if (!figure.x_range || figure.x_label.find("[m]") == std::string::npos) return;
+  double& last = (*figure.x_range)[1];
+  last = std::min(last, scene.zone_start + scene.zone_length);
+}
+
 /// Runs of a figure and where they stand on the abscissa of its trends.
 struct FoundRuns {
   std::vector<FinishedRun> runs;
@@ -79,6 +88,7 @@ Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const P
   spec.title = title;
   Figure figure = curves_figure(spec, found);
   if (found.empty()) return figure;
+  end_with_solution_zone(found.front().scene, figure);
   if (wanted.one_panel) overlay(figure);
   if (wanted.multibody) figure.panels.front().series.push_back(multibody_force(found.front()));
   add_surface(found, figure);
