@@ -59,6 +59,7 @@ Series every_second(const std::string& label, const Instants& instants, std::siz
 
 std::vector<double> even_places(const Span& stretch, int count) {
   std::vector<double> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k)
     places.push_back(stretch.first + (stretch.last - stretch.first) * (k + 0.5) / count);
   return places;

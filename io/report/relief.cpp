@@ -140,8 +140,9 @@ Picture picture(const Reliefs& reliefs) {
   const double width = kPageWidth / static_cast<double>(columns);
   Picture made;
   for (std::size_t i = 0; i < reliefs.reliefs.size(); ++i) {
-    const double top = static_cast<double>(i / columns) * kHeight;
-    made.shapes += Plot(reliefs.reliefs[i], static_cast<double>(i % columns) * width, top, width).shapes();
+    const std::size_t row = i / columns, column = i % columns;
+    const double top = static_cast<double>(row) * kHeight;
+    made.shapes += Plot(reliefs.reliefs[i], static_cast<double>(column) * width, top, width).shapes();
     made.height = top + kHeight;
   }
   return made;
