@@ -41,10 +41,14 @@ void overlay(Figure& figure) {
   figure.panels.resize(1);
 }
 
+bool along_the_rail(const Figure& figure) {
+  return figure.x_range && figure.x_label.find("[m]") != std::string::npos;
+}
+
 /// The corrugated surface below the curves, where they all have the same.
 void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   const Corrugation first = runs.front().corrugation();
-  if (first.smooth() || !figure.x_range || figure.x_label.find("[m]") == std::string::npos) return;
+  if (first.smooth() || !along_the_rail(figure)) return;
   for (const FinishedRun& run : runs)
     if (run.corrugation().last() != first.last() || run.corrugation().deepest() != first.deepest()) return;
   figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
@@ -53,7 +57,7 @@ void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
 /// The mesh is fine up to the end of the solution zone, as the paper's, and traction carries slow wheels past
 /// it.
 void end_with_solution_zone(const Scene& scene, Figure& figure) {
-  if (!figure.x_range || figure.x_label.find("[m]") == std::string::npos) return;
+  if (!along_the_rail(figure)) return;
   double& last = (*figure.x_range)[1];
   last = std::min(last, scene.zone_start + scene.zone_length);
 }

@@ -85,7 +85,8 @@ int StudyRunner::threads_for_next() const {
     return !waits_for_state(*plan_, *point);
   });
   const int beginning = std::min(static_cast<int>(ready), plan_->jobs - static_cast<int>(running_.size()));
-  if (beginning <= 0 || plan_->threads > 0) return beginning > 0 ? plan_->threads : 0;
+  if (beginning <= 0) return 0;
+  if (plan_->threads > 0) return plan_->threads;
   int idle = machine_cores();
   for (const Running& running : running_) idle -= running.threads;
   return idle > 0 ? std::max(1, idle / beginning) : 0;
