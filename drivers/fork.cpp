@@ -223,9 +223,7 @@ void require_same_past(const Fork& fork, const Model& model) {
 }
 
 double Approach::time(const MotionSpec& motion, double x) const {
-  const double torque = motion.traction_torque.value_or(0);
-  const double traction = std::abs(motion.traction_mu ? *motion.traction_mu * force : torque / wheel_radius);
-  const double acceleration = guided ? 0 : traction / mass;
+  const double acceleration = std::abs(wheel.acceleration(motion));  // reversals drive a braked wheel
   const double way = x - before;
   if (way <= 0 || motion.speed <= 0) return 0;
   return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
@@ -233,10 +231,7 @@ double Approach::time(const MotionSpec& motion, double x) const {
 
 Approach approach_of(const Model& model) {
   constexpr double kMargin = 0.02;  // [m]
-  const auto& vehicle = model.scene.vehicle;
-  return {model.contact->reach() + kMargin, model.wheel_load(),
-          model.wheelset->mass() + (vehicle ? vehicle->unsprung_mass : 0.0), model.wheel_radius(),
-          model.guide.has_value()};
+  return {model.contact->reach() + kMargin, driven_wheel(model.scene)};
 }
 
 std::optional<std::int64_t> fork_step(const Model& model, double dt) {

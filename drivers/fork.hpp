@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/corrugation.hpp"
+#include "core/travel.hpp"
 #include "drivers/model.hpp"
 #include "drivers/progress.hpp"
 #include "drivers/run_checkpoint.hpp"
@@ -33,10 +34,7 @@ void require_same_past(const Fork& fork, const Model& model);
 /// What tells when the wheel of a run with [forks] comes near a place.
 struct Approach {
   double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
-  double force = 0;   ///< static wheel load [N]
-  double mass = 1;    ///< that traction accelerates [kg]
-  double wheel_radius = 1;  ///< [m]
-  bool guided = false;      ///< at constant speed
+  DrivenWheel wheel;
 
   /// By which the wheel is surely not nearer, traction included; not positive where it begins nearer. [s]
   double time(const MotionSpec& motion, double x) const;

@@ -15,6 +15,7 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "core/travel.hpp"
 #include "drivers/lateral_gap.hpp"
 #include "drivers/sections.hpp"
 #include "kernels/front_plan.hpp"
@@ -102,9 +103,12 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
 }
 
 Span Model::run_span() const {
-  const double reach = scene.wheel ? patch_reach(wheel_radius()) + 0.02 : 0;
+  if (!scene.wheel) return {0, 0};
+  constexpr double kMargin = 0.02;  // [m]
+  const double reach = patch_reach(wheel_radius());
   const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-  return {-reach, run + reach};
+  const Travel travel = travel_of(scene);  // what traction adds uses the margin first
+  return {std::min(travel.first, -kMargin) - reach, std::max(travel.last, run + kMargin) + reach};
 }
 
 Span Model::zone_span() const {

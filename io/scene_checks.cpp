@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "core/travel.hpp"
 #include "io/schema.hpp"
 
 namespace tread {
@@ -174,11 +175,16 @@ class Checker {
                 scene_.zone_start, zone_end, left, right));
     require(rail.origin >= kRailEndMargin, {"rail.origin"},
             fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
-    const double run = scene_.motion ? scene_.motion->speed * scene_.motion->duration : 0;
-    require(run <= right - kRailEndMargin, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
-            fmt::format(
-                "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
-                run, right - kRailEndMargin, kRailEndMargin));
+    const Travel travel = travel_of(scene_);
+    const auto require_on_rail = [&](double x, double end) {
+      require(std::abs(x) <= std::abs(end) + kLengthTolerance,
+              {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
+              fmt::format(
+                  "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
+                  x, end, kRailEndMargin));
+    };
+    require_on_rail(travel.last, right - kRailEndMargin);
+    require_on_rail(travel.first, left + kRailEndMargin);
   }
 
   void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {

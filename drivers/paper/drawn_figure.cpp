@@ -54,8 +54,7 @@ void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
 }
 
-/// The mesh is fine up to the end of the solution zone, as the paper's, and traction carries slow wheels past
-/// it.
+/// As the paper's: traction carries slow wheels farther than fast ones.
 void end_with_solution_zone(const Scene& scene, Figure& figure) {
   if (!along_the_rail(figure)) return;
   double& last = (*figure.x_range)[1];

@@ -120,7 +120,8 @@ TEST_F(SharedRollingStudy, WhereTheRollingFailsTheOthersAreNotTried) {
 
 /// A wheel under traction gets ahead of its first speed: by 90 mm on its way to the corrugation at 100 km/h.
 TEST(Approach, CountsTractionIn) {
-  const Approach approach{.before = 0.04, .force = 88e3, .mass = 926, .wheel_radius = 0.43};
+  const Approach approach{
+      .before = 0.04, .wheel = {.load = 88e3, .mass = 926, .radius = 0.43, .friction = 0.5}};
   MotionSpec motion;
   motion.speed = 100 / 3.6;
   EXPECT_NEAR(approach.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
@@ -133,7 +134,7 @@ TEST(Approach, CountsTractionIn) {
   motion.traction_torque = 0.3 * 88e3 * 0.43;
   EXPECT_NEAR(approach.time(motion, 2.4), time, 1e-12);
   Approach guided = approach;
-  guided.guided = true;
+  guided.wheel.guided = true;
   EXPECT_NEAR(guided.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
 }
 

@@ -1,0 +1,57 @@
+#include "core/travel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tread {
+namespace {
+
+double mass_of(const WheelSpec& wheel, double density) {
+  if (wheel.shape == "half_wheelset") return wheel.mass;
+  const double outer = 0.5 * wheel.diameter;
+  const double inner = outer - wheel.thickness;
+  return density * std::numbers::pi * (outer * outer - inner * inner) * wheel.width;
+}
+
+}  // namespace
+
+double DrivenWheel::acceleration(const MotionSpec& motion) const {
+  if (guided) return 0;
+  const double wanted =
+      motion.traction_mu ? *motion.traction_mu * load : motion.traction_torque.value_or(0) / radius;
+  return std::clamp(wanted, -friction * load, friction * load) / mass;
+}
+
+DrivenWheel driven_wheel(const Scene& scene) {
+  const WheelSpec& wheel = *scene.wheel;
+  const auto& vehicle = scene.vehicle;
+  const double own = mass_of(wheel, scene.steel.density);
+  const double carried = vehicle      ? (vehicle->sprung_mass + vehicle->unsprung_mass) * scene.gravity
+                         : scene.load ? scene.load->wheel_load
+                                      : 0;
+  return {carried + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0), 0.5 * wheel.diameter,
+          scene.contact ? scene.contact->friction : 0, wheel.bore == "guided"};
+}
+
+Travel travel_of(const Scene& scene) {
+  constexpr int kParts = 1000;
+  Travel travel;
+  if (!scene.wheel || !scene.motion) return travel;
+  const MotionSpec& motion = *scene.motion;
+  const double acceleration = driven_wheel(scene).acceleration(motion);
+  const double dt = motion.duration / kParts;
+  double gained_speed = 0;
+  double gained_way = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double gain = acceleration * motion.torque_share((i + 0.5) * dt) * dt;
+    gained_way += (gained_speed + 0.5 * gain) * dt;
+    gained_speed += gain;
+    const double x = motion.speed * (i + 1) * dt + gained_way;
+    travel.first = std::min(travel.first, x);
+    travel.last = std::max(travel.last, x);
+  }
+  return travel;
+}
+
+}  // namespace tread

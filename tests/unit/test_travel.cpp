@@ -1,0 +1,96 @@
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+
+#include "core/travel.hpp"
+#include "drivers/model.hpp"
+#include "io/scene_reader.hpp"
+
+namespace tread {
+namespace {
+
+Scene scene_of(const std::string& text) {
+  return resolve_scene(SceneSource{"scene.toml", text, "."}, {}).scene;
+}
+
+/// The paper's wheelset carries 8340 kg, of which M_a = 340 kg moves along with it.
+Scene wheelset(const std::string& motion) {
+  return scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"8 mm\"\n[motion]\n" +
+                  motion);
+}
+
+constexpr double kLoad = (8340 + 586) * 9.81;
+
+TEST(Travel, IsSpeedTimesDurationWithoutTraction) {
+  const Travel travel = travel_of(wheelset("speed = \"300 km/h\"\nduration = \"40 ms\""));
+  EXPECT_EQ(travel.first, 0);
+  EXPECT_NEAR(travel.last, 300 / 3.6 * 0.04, 1e-12);
+  EXPECT_EQ(
+      travel_of(scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\n[motion]\npresent = false")).last, 0);
+}
+
+/// The speed gained is a (t - T1/2) from T1 on.
+TEST(Travel, TractionAddsToIt) {
+  const double a = 0.3 * kLoad / 926;
+  const double ramp = 0.01;
+  const double rest = 0.1 - ramp;
+  const double gained = a * (ramp * ramp / 6 + ramp / 2 * rest + rest * rest / 2);
+  const std::string motion = "speed = \"100 km/h\"\nduration = \"100 ms\"\ntraction.ramp = \"10 ms\"\n";
+  const double way = travel_of(wheelset(motion + "traction.mu = 0.3")).last;
+  EXPECT_NEAR(way - 100 / 3.6 * 0.1, gained, 1e-6);
+  EXPECT_NEAR(travel_of(wheelset(motion + "traction.mu = -0.3")).last, 100 / 3.6 * 0.1 - gained, 1e-6);
+  const std::string torque = fmt::format("traction.torque = \"{} N m\"", 0.3 * kLoad * 0.43);
+  EXPECT_NEAR(travel_of(wheelset(motion + torque)).last, way, 1e-9);
+}
+
+TEST(Travel, NoTorqueDrivesBeyondFriction) {
+  const std::string motion = "speed = \"100 km/h\"\nduration = \"100 ms\"\n";
+  const Travel bounded = travel_of(wheelset(motion + "traction.torque = \"200 kN m\""));
+  EXPECT_NEAR(bounded.last, travel_of(wheelset(motion + "traction.mu = 0.5")).last, 1e-9);
+}
+
+/// Brakes from 1 m/s at 0.5 g' end in the way back: 1 t - a t^2/2.
+TEST(Travel, BrakesTurnASlowWheelBack) {
+  const double a = 0.5 * kLoad / 926;
+  const Travel travel = travel_of(
+      wheelset("speed = \"1 m/s\"\nduration = \"100 ms\"\ntraction.ramp = \"0 ms\"\ntraction.mu = -0.5"));
+  EXPECT_NEAR(travel.last, 0.5 / a, 1e-5);
+  EXPECT_NEAR(travel.first, 0.1 - 0.5 * a * 0.01, 1e-12);
+}
+
+/// A ring of steel, 60 mm wide and thick, under 10 kN; its bore moves at the motion's speed or is free.
+TEST(Travel, RingsKeepTheirSpeedWhenGuided) {
+  const auto ring = [](const std::string& bore) {
+    return scene_of(
+        "[scene]\n[material.steel]\ndensity = \"7850 kg/m3\"\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = "
+        "0.3\n[rail]\nprofile = \"box\"\nsupport = \"rigid\"\nlength = \"2 m\"\norigin = \"0.5 "
+        "m\"\n"
+        "[solution_zone]\nstart = \"0.1 m\"\nlength = \"0.2 m\"\n"
+        "[wheel]\nshape = \"tyre\"\nprofile = \"arc\"\nbore = \"" +
+        bore +
+        "\"\n[load]\nwheel_load = \"10 kN\"\n"
+        "[contact]\n[motion]\nspeed = \"10 m/s\"\nduration = \"20 ms\"\ntraction.mu = 0.2\ntraction.ramp = "
+        "\"0 ms\"");
+  };
+  EXPECT_NEAR(travel_of(ring("guided")).last, 0.2, 1e-12);
+  const double mass = 7850 * std::numbers::pi * (0.43 * 0.43 - 0.37 * 0.37) * 0.06;
+  const double a = 0.2 * (10e3 + mass * 9.81) / mass;
+  EXPECT_NEAR(travel_of(ring("free")).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
+}
+
+/// Where it gets to, the rail is divided as on the way there.
+TEST(Travel, TheRailIsFineWhereItEnds) {
+  const Scene scene = wheelset("speed = \"60 km/h\"\nduration = \"200 ms\"\ntraction.mu = 0.4");
+  const Model model(scene);
+  const double last = travel_of(scene).last;
+  ASSERT_GT(last, 60 / 3.6 * 0.2 + 0.4);
+  const SweptBlock& head = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
+  const auto pitch_at = [&](double x) { return StationFinder(head).find(x).pitch; };
+  EXPECT_LE(pitch_at(last), 1.02 * pitch_at(1.5));
+  EXPECT_GT(pitch_at(last + 1), 2 * pitch_at(last));
+}
+
+}  // namespace
+}  // namespace tread
