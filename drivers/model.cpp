@@ -15,7 +15,6 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
-#include "core/travel.hpp"
 #include "drivers/lateral_gap.hpp"
 #include "drivers/sections.hpp"
 #include "kernels/front_plan.hpp"
@@ -102,22 +101,6 @@ Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
   if (scene.contact && scene.rail && scene.wheel) build_contact();
 }
 
-Span Model::run_span() const {
-  if (!scene.wheel) return {0, 0};
-  constexpr double kMargin = 0.02;  // [m]
-  const double reach = patch_reach(wheel_radius());
-  const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-  const Travel travel = travel_of(scene);  // what traction adds uses the margin first
-  return {std::min(travel.first, -kMargin) - reach, std::max(travel.last, run + kMargin) + reach};
-}
-
-Span Model::zone_span() const {
-  const double margin = scene.wheel ? 0.7 * patch_reach(wheel_radius()) : 0;  // half a patch and more
-  const Span zone{scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
-  if (!scene.motion && (zone.first > 0 || zone.last < 0)) return run_span();  // the patch lies elsewhere
-  return zone;
-}
-
 int Model::add(SweptBlock block) {
   number_by_front(block.section);
   return mesh.add(std::move(block));
@@ -128,15 +111,15 @@ void Model::build_rail() {
   const Span length{-rail.origin, rail.length - rail.origin};
   if (rail.profile == "box") {
     const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
-    const std::vector<Segment> segments = scene.wheel
-                                              ? plan_rail(length, run_span(), zone_span(), sizes).fine
-                                              : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
+    const std::vector<Segment> segments =
+        scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes).fine
+                    : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
     index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
                                           {scene.steel}, length.first, segments));
     return;
   }
-  const NestedSegments plan =
-      scene.wheel ? plan_rail(length, run_span(), zone_span(), sizes) : plan_even_rail(length, sizes);
+  const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes)
+                                          : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
   index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
                                         length.first, plan.fine));
@@ -177,13 +160,14 @@ void Model::build_wheel() {
   if (scene.wheel->shape == "tyre") {
     const std::optional<double>& overhang = scene.wheel->overhang;
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(), *overhang, sizes)
-                                    : plan_tyre(wheel_radius(), run_span(), zone_span(), sizes);
+    const WheelPlan plan = overhang
+                               ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(scene), *overhang, sizes)
+                               : plan_tyre(wheel_radius(), run_span(scene), zone_span(scene), sizes);
     index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
                                        plan.start, plan.tread));
     return;
   }
-  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(), sizes);
+  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(scene), sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   brake_ring_thickness = sized.brake_ring_thickness;

@@ -94,8 +94,6 @@ struct Model {
   void build_wheel_parts();
   void build_contact();
   double penalty_stiffness(const ContactSpec& spec) const;  ///< per area [Pa/m]
-  Span run_span() const;
-  Span zone_span() const;
 };
 
 /// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "drivers/run_checkpoint.hpp"
+#include "drivers/station_plan.hpp"
 #include "io/text.hpp"
 #include "io/text_file.hpp"
 #include "io/units.hpp"
@@ -108,6 +109,8 @@ std::string preload_key(const ResolvedScene& resolved, const Model& model) {
   for (const Entry& entry : resolved.entries)
     if (!acts_on_rolling_alone(entry.path))
       key += fmt::format("{} = {} {}\n", entry.path, entry.value, entry.unit);
+  const Span run = run_span(resolved.scene);  // traction acts on the mesh, too
+  key += fmt::format("run {} m to {} m\n", run.first, run.last);
   for (const auto& [name, text] : resolved.source.files)
     if (!resolved.scene.corrugation || name != resolved.scene.corrugation->file)
       key += fmt::format("{}:\n{}\n", name, text);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/travel.hpp"
+
 namespace tread {
 
 MeshSizes mesh_sizes(const Scene& scene) {
@@ -26,6 +28,22 @@ MeshSizes mesh_sizes(const Scene& scene) {
 
 double patch_reach(double wheel_radius) {
   return std::sqrt(2 * wheel_radius * 6e-4);
+}
+
+Span run_span(const Scene& scene) {
+  constexpr double kMargin = 0.02;  // [m]
+  if (!scene.wheel) return {};
+  const double reach = patch_reach(0.5 * scene.wheel->diameter);
+  const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+  const Travel travel = travel_of(scene);
+  return {std::min(travel.first, -kMargin) - reach, std::max(travel.last, run + kMargin) + reach};
+}
+
+Span zone_span(const Scene& scene) {
+  const double margin = scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
+  const Span zone{scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
+  const bool elsewhere = !scene.motion && (zone.first > 0 || zone.last < 0);
+  return elsewhere ? run_span(scene) : zone;
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/error.hpp"
+#include "core/travel.hpp"
 #include "drivers/sections.hpp"
 #include "drivers/station_plan.hpp"
 
@@ -46,7 +47,7 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
   require(wear.longest <= length * (1 + 1e-9),
           fmt::format("wear.longest = {:.4g} mm is more than the corrugation's length, {:.4g} mm",
                       1e3 * wear.longest, 1e3 * length));
-  const double way = scene.motion->speed * scene.motion->duration;
+  const double way = travel_of(scene).last;
   require(way >= corrugation.last() + kWayBeyond,
           fmt::format("the wheel rolls to x = {:.4g} m and so does not pass the corrugation, which ends at "
                       "{:.4g} m; motion.duration must be {:.4g} ms at least",

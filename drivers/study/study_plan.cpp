@@ -109,6 +109,12 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
   }
 }
 
+/// Traction acts on the mesh by it.
+std::string run_text(const PlannedPoint& point) {
+  const Span run = run_span(point.resolved.scene);
+  return fmt::format("{:.3f} m to {:.3f} m", run.first, run.last);
+}
+
 /// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
 /// wheel goes its way, and over what corrugation by gap.
 SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
@@ -119,14 +125,14 @@ SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
            (can_share(point.resolved.scene) && entry.first.starts_with("corrugation"));
   });
   if (const auto room = room_of(plan, point)) content["room"] = fmt::format("{}", *room);
-  if (const auto& motion = point.resolved.scene.motion)
-    content["way"] = fmt::format("{:.3f} m", motion->speed * motion->duration);
+  content["run"] = run_text(point);
   return content;
 }
 
 SceneContent preload_content(const PlannedPoint& point) {
   SceneContent content = point.content;
   std::erase_if(content, [](const auto& entry) { return acts_on_rolling_alone(entry.first); });
+  content["run"] = run_text(point);
   return content;
 }
 

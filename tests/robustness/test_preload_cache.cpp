@@ -74,6 +74,23 @@ TEST_F(PreloadCache, ServesWhatActsOnRollingAloneAndNothingElse) {
   EXPECT_EQ(entries().size(), 5U);
 }
 
+/// Along which the mesh is fine.
+TEST_F(PreloadCache, ServesTractionThatAddsLittleToTheWay) {
+  const auto slow = [&](const char* mu) {
+    return run_with(cache_, mu,
+                    fmt::format("--set \"motion.speed=1 m/s\" --set \"motion.duration=100 ms\" --set "
+                                "stop.steps=1 --set motion.traction.mu={}",
+                                mu));
+  };
+  call(slow("0"));
+  EXPECT_EQ(entries().size(), 1U) << errors();
+  call(slow("0.001"));
+  EXPECT_TRUE(found()) << errors();
+  call(slow("0.02"));
+  EXPECT_FALSE(found()) << errors();
+  EXPECT_EQ(entries().size(), 2U);
+}
+
 TEST_F(PreloadCache, OfAStaticSceneAndOfAWheelThatHasBeenRolling) {
   const std::string rolling = fmt::format(
       "run {}/scenes/smooth.toml -t 1 -o {}/{{}} --cache {} --set \"scene.element_size=8 mm\" --set "
