@@ -23,15 +23,17 @@ double DrivenWheel::acceleration(const MotionSpec& motion) const {
   return std::clamp(wanted, -friction * load, friction * load) / mass;
 }
 
+double carried_load(const Scene& scene) {
+  if (scene.vehicle) return (scene.vehicle->sprung_mass + scene.vehicle->unsprung_mass) * scene.gravity;
+  return scene.load ? scene.load->wheel_load : 0;
+}
+
 DrivenWheel driven_wheel(const Scene& scene) {
   const WheelSpec& wheel = *scene.wheel;
   const auto& vehicle = scene.vehicle;
   const double own = mass_of(wheel, scene.steel.density);
-  const double carried = vehicle      ? (vehicle->sprung_mass + vehicle->unsprung_mass) * scene.gravity
-                         : scene.load ? scene.load->wheel_load
-                                      : 0;
-  return {carried + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0), 0.5 * wheel.diameter,
-          scene.contact ? scene.contact->friction : 0, wheel.bore == "guided"};
+  return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0),
+          0.5 * wheel.diameter, scene.contact ? scene.contact->friction : 0, wheel.bore == "guided"};
 }
 
 Travel travel_of(const Scene& scene) {

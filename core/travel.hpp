@@ -17,6 +17,9 @@ struct DrivenWheel {
   double acceleration(const MotionSpec& motion) const;
 };
 
+/// Static force on the wheel's journal or bore [N]: the vehicle's weight, or [load].
+double carried_load(const Scene& scene);
+
 /// Of a scene with [wheel]. The mass of a ring is that of a rectangle revolved, its arc not cut.
 DrivenWheel driven_wheel(const Scene& scene);
 

@@ -15,6 +15,7 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "core/travel.hpp"
 #include "drivers/lateral_gap.hpp"
 #include "drivers/sections.hpp"
 #include "kernels/front_plan.hpp"
@@ -320,8 +321,7 @@ double Model::wheel_load() const {
 }
 
 double Model::journal_load() const {
-  if (scene.vehicle) return (scene.vehicle->sprung_mass + scene.vehicle->unsprung_mass) * scene.gravity;
-  return scene.load ? scene.load->wheel_load : 0;
+  return carried_load(scene);
 }
 
 double Model::penalty_stiffness(const ContactSpec& spec) const {
