@@ -176,15 +176,16 @@ class Checker {
     require(rail.origin >= kRailEndMargin, {"rail.origin"},
             fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
     const Travel travel = travel_of(scene_);
-    const auto require_on_rail = [&](double x, double end) {
-      require(std::abs(x) <= std::abs(end) + kLengthTolerance,
-              {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
+    const auto require_on_rail = [&](bool holds, double x, double end) {
+      require(holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
               fmt::format(
                   "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
                   x, end, kRailEndMargin));
     };
-    require_on_rail(travel.last, right - kRailEndMargin);
-    require_on_rail(travel.first, left + kRailEndMargin);
+    const double last = right - kRailEndMargin;
+    const double first = std::min(left + kRailEndMargin, 0.0);
+    require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
+    require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
   }
 
   void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {

@@ -48,11 +48,12 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
           fmt::format("wear.longest = {:.4g} mm is more than the corrugation's length, {:.4g} mm",
                       1e3 * wear.longest, 1e3 * length));
   const double way = travel_of(scene).last;
-  require(way >= corrugation.last() + kWayBeyond,
+  const double lacking = corrugation.last() + kWayBeyond - way;
+  require(lacking <= 0,
           fmt::format("the wheel rolls to x = {:.4g} m and so does not pass the corrugation, which ends at "
                       "{:.4g} m; motion.duration must be {:.4g} ms at least",
                       way, corrugation.last(),
-                      1e3 * (corrugation.last() + kWayBeyond) / std::max(scene.motion->speed, 1e-3)));
+                      1e3 * (scene.motion->duration + lacking / std::max(scene.motion->speed, 1e-3))));
 }
 
 WornProfile sampled(const Corrugation& corrugation) {

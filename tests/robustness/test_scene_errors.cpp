@@ -164,6 +164,10 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "x.toml:4:1: motion.duration: the wheel rolls to x = 16.6667 m, beyond 9.08 m, where it is 0.02 m "
        "from the "
        "rail's end"},
+      {"[motion]\nspeed = \"100 km/h\"\nduration = \"0.32 s\"\ntraction.mu = 0.3",
+       "x.toml:5:1: motion.duration: the wheel rolls to x = 10.3188 m, beyond 9.08 m, where it is 0.02 m "
+       "from the "
+       "rail's end"},
       {"[rail]\norigin = \"0 m\"",
        "x.toml:4:1: rail.origin: the wheel starts less than 0.02 m from the rail's left end"},
       {"[fastenings]\ncount = 25",
