@@ -106,7 +106,7 @@ TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kCorrugation + kWear, "state \"gap\"", "--set corrugation.apply=nodes");
   expect_refused(kCorrugation + kWear, "is below 4 elements, 32 mm", "--set \"wear.shortest=31 mm\"");
   expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=73 mm\"");
-  expect_refused(kCorrugation + kWear, "motion.duration must be 2.304 ms", "--set \"motion.duration=2 ms\"");
+  expect_refused(kCorrugation + kWear, "motion.duration must be 2.299 ms", "--set \"motion.duration=2 ms\"");
   expect_refused(kCorrugation + kWear, "not shorter than the longest", "--set \"wear.longest=32 mm\"");
   expect_refused(kCorrugation + kWear, "has an effect only with corrugation.kind = \"sine\" or \"random\"",
                  "--set corrugation.kind=table");
