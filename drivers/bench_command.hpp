@@ -39,11 +39,12 @@ void bench_scaling(const BenchScalingOptions& options);
 void bench_scaling(const ResolvedScene& scene, const BenchScalingOptions& options);
 
 struct BenchHotspotsOptions : BenchOptions {
-  std::int64_t steps = 500;  ///< measured, or fewer where the motion ends before
+  std::int64_t steps = 500;  ///< of a run, or fewer where the motion ends before the last one does
   bool quiet = false;        ///< no progress on stderr
 };
 
-/// Every phase of whole steps of a scene: time, work, limit, balance of the threads.
+/// Every phase of whole steps of a scene: time, work, limit, balance of the threads, in the run whose steps
+/// take the median time.
 void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& options);
 
 /// Compares two files of `bench kernels --json`. Returns whether no row of `after` is slower than its

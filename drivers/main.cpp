@@ -410,7 +410,7 @@ void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<tread::BenchHotspotsOptions>>();
   CLI::App& command = add_scene_command(bench, "hotspots", "time, work and balance of every phase of a step",
                                         tread::bench_hotspots, state);
-  command.add_option("--steps", state->options.steps, "measured (default: 500)")->check(CLI::PositiveNumber);
+  command.add_option("--steps", state->options.steps, "of a run (default: 500)")->check(CLI::PositiveNumber);
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }

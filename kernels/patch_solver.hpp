@@ -10,8 +10,11 @@
 #include "core/mesh/node_field.hpp"
 #include "kernels/contact_point.hpp"
 #include "kernels/friction.hpp"
+#include "kernels/lanes/patch_sum.hpp"
 
 namespace tread {
+
+struct TileForces;
 
 /// Nodal fields after a step without contact, components in the nodes' local bases.
 struct NodeMotion {
@@ -22,6 +25,7 @@ struct NodeMotion {
 
 class PatchSolver {
  public:
+  PatchSolver();
   /// Makes room for fields of `slots` nodes, of which `points` points carry `nodes` at once.
   void reserve(std::int64_t slots, std::size_t points, std::size_t nodes);
 
@@ -33,28 +37,17 @@ class PatchSolver {
   std::int64_t bytes() const;
 
  private:
-  /// A vector and a zero, in two registers of every processor.
-  struct Padded {
-    typedef double Half __attribute__((vector_size(2 * sizeof(double))));
-    Half xy, z0;
-
-    Padded() : xy{}, z0{} {}
-    explicit Padded(const Vec3& v) : xy{v.x, v.y}, z0{v.z, 0} {}
-    operator Vec3() const { return {xy[0], xy[1], z0[0]}; }
-    void add(double weight, const Padded& other) {
-      xy += weight * other.xy;
-      z0 += weight * other.z0;
-    }
-  };
   struct Node {
     std::int64_t slot;
     bool of_wheel;
-    Padded free;  ///< velocity without contact, in the node's basis [m/s]
+    double cosine, sine;  ///< of the space angle of its basis (wheel)
+    double mobility;      ///< square root of the inverse mass [kg^-1/2]
   };
   struct Link {
-    std::array<int, kSupport> rail, wheel;  ///< into nodes_
-    Padded frame_velocity;                  ///< of the wheel's frame at the point [m/s]
-    double compliance;                      ///< half of dt^2 A sum(w^2 / m) [m/Pa]
+    PatchLink nodes;    ///< into nodes_; weights of the wheel's against the rail's, times mobility [kg^-1/2]
+    PatchVector free;   ///< velocity of the wheel against the rail without contact [m/s]
+    Vec3 before;        ///< the same of the step before: closing, along, across [m/s]
+    double compliance;  ///< half of dt^2 A sum(w^2 / m) [m/Pa]
   };
   struct Law {
     double penalty;  ///< [Pa/m]
@@ -68,7 +61,9 @@ class PatchSolver {
   };
   void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion,
             double dt);
-  void push(const ContactPoint& point, const Link& link, const Vec3& impulse);
+  /// Adds an impulse on the rail, and its opposite on the wheel. [N s]
+  void push(const Link& link, const Vec3& impulse);
+  /// Of the wheel against the rail: closing, along, across. [m/s]
   Vec3 relative_velocity(const ContactPoint& point, const Link& link) const;
   template <bool rubs>
   Sweep sweep(std::vector<ContactPoint>& points, const Law& law);
@@ -76,10 +71,10 @@ class PatchSolver {
   void slip_freely(std::vector<ContactPoint>& points) const;
   void write_back(const NodeMotion& motion, double spin, double dt);
 
+  const TileForces* lanes_;   ///< the widest instruction set's loops
   std::vector<int> node_of_;  ///< by slot, -1: none
   std::vector<Node> nodes_;
-  std::vector<Padded> velocity_;      ///< of the nodes with contact, in their bases [m/s]
-  std::vector<double> inverse_mass_;  ///< of the nodes [1/kg]
+  std::vector<PatchVector> change_;  ///< of the nodes' velocities by contact, over their mobility
   std::vector<Link> links_;
 };
 

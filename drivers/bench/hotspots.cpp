@@ -1,10 +1,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "core/parallel.hpp"
 #include "drivers/bench/hardware_counters.hpp"
+#include "drivers/bench/measurement.hpp"
 #include "drivers/bench/rolling_scene.hpp"
 #include "drivers/bench/step_work.hpp"
 #include "drivers/bench_command.hpp"
@@ -116,7 +118,22 @@ Table hotspot_table(const std::vector<Hotspot>& spots, bool counted) {
   return table;
 }
 
-std::string json_lines(const std::vector<Hotspot>& spots, std::int64_t elements, bool counted) {
+/// The middle one of the runs by the time of their steps; of an even number the faster of both.
+const std::vector<Hotspot>& median_run(std::vector<std::vector<Hotspot>>& runs) {
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>((runs.size() - 1) / 2);
+  std::nth_element(runs.begin(), middle, runs.end(),
+                   [](const auto& a, const auto& b) { return a.back().seconds < b.back().seconds; });
+  return *middle;
+}
+
+Measurement of_whole_steps(const std::vector<std::vector<Hotspot>>& runs) {
+  std::vector<double> seconds;
+  for (const std::vector<Hotspot>& spots : runs) seconds.push_back(spots.back().seconds);
+  return summarise(std::move(seconds));
+}
+
+std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& measured, std::int64_t elements,
+                       bool counted) {
   std::string lines;
   for (const Hotspot& s : spots) {
     JsonWriter json(JsonWriter::Layout::line);
@@ -125,6 +142,8 @@ std::string json_lines(const std::vector<Hotspot>& spots, std::int64_t elements,
         .member("backend", backend())
         .member("threads", threads())
         .member("elements", elements)
+        .member("repetitions", measured.repetitions)
+        .member("spread", measured.spread)
         .member("seconds_per_step", s.seconds)
         .member("share", s.seconds / spots.back().seconds)
         .member("parallel_share", s.parallel_share)
@@ -153,28 +172,36 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   Simulation simulation = scene.start();
   const std::int64_t all = step_count(resolved.scene, scene.dt());
   const std::int64_t before = std::min(kWarmUpSteps, all / 2);
-  const std::int64_t last = std::min(all, before + options.steps);
+  const int repetitions = options.plan.repetitions;
+  const std::int64_t steps = std::clamp((all - before) / repetitions, std::int64_t{1}, options.steps);
   while (simulation.steps() < before) simulation.step();
-  PhaseClock clock(counters.available() ? std::function<CounterValues()>([&] { return counters.read(); })
-                                        : std::function<CounterValues()>());
-  simulation.observe(&clock);
-  while (simulation.steps() < last) simulation.step();
-  simulation.observe(nullptr);
-  clock.stop();
-
+  std::deque<PhaseClock> clocks;
+  while (clocks.size() < static_cast<std::size_t>(repetitions) && simulation.steps() + steps <= all) {
+    PhaseClock& clock = clocks.emplace_back(
+        counters.available() ? std::function<CounterValues()>([&] { return counters.read(); })
+                             : std::function<CounterValues()>());
+    simulation.observe(&clock);
+    for (std::int64_t i = 0; i < steps; ++i) simulation.step();
+    simulation.observe(nullptr);
+    clock.stop();
+  }
   Limits limits(options.plan);
-  const std::int64_t steps = last - before;
-  const std::vector<Hotspot> spots = hotspots_of(scene.model(), clock, steps, limits);
+  std::vector<std::vector<Hotspot>> runs;
+  for (const PhaseClock& clock : clocks) runs.push_back(hotspots_of(scene.model(), clock, steps, limits));
+  const Measurement measured = of_whole_steps(runs);
+  const std::vector<Hotspot>& spots = median_run(runs);
   const std::int64_t elements = scene.model().elements();
   if (options.json) {
-    fmt::print("{}", json_lines(spots, elements, counters.available()));
+    fmt::print("{}", json_lines(spots, measured, elements, counters.available()));
     return;
   }
   fmt::print(
-      "{} elements, {} steps, {} thread{} of {}, {}; {:.2f} ns an element-step, {:.2f} million a second\n",
+      "{} elements, {} steps, {} thread{} of {}, {}; {:.2f} ns an element-step, {:.2f} million a second "
+      "(median of {}, spread {:.0f} %)\n",
       grouped(elements), steps, threads(), threads() == 1 ? "" : "s", backend(),
       scene.model().internal->instruction_set(), 1e9 * spots.back().seconds / static_cast<double>(elements),
-      1e-6 * static_cast<double>(elements) / spots.back().seconds);
+      1e-6 * static_cast<double>(elements) / spots.back().seconds, measured.repetitions,
+      100 * measured.spread);
   fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
   fmt::print("Phases run one after the other: nothing overlaps.\n");
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());

@@ -14,6 +14,7 @@
 
 #include "kernels/element.hpp"
 #include "kernels/front_plan.hpp"
+#include "kernels/lanes/patch_sum.hpp"
 #include "kernels/lanes/tie_sum.hpp"
 #include "kernels/node_motion_body.hpp"
 
@@ -131,6 +132,8 @@ struct TileForces {
   TileLoops<float, float> single;
   TieSum<double> tie_in_double;
   TieSum<float> tie_in_float;
+  PatchTake patch_take;
+  PatchGive patch_give;
 
   template <class Real, class U>
   const TileLoops<Real, U>& loops() const {

@@ -8,6 +8,8 @@ const TileForces tile_forces_avx2 = {"avx2",
                                      tile_loops<float, double>,
                                      tile_loops<float, float>,
                                      tie_sum<double>,
-                                     tie_sum<float>};
+                                     tie_sum<float>,
+                                     patch_take,
+                                     patch_give};
 
 }  // namespace tread

@@ -130,6 +130,7 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
   std::set<std::string> phases;
   for (const JsonRecord& row : records()) {
     phases.insert(text(row, "phase"));
+    EXPECT_EQ(number(row, "repetitions"), 2);
     EXPECT_GT(number(row, "seconds_per_step"), 0) << text(row, "phase");
     if (text(row, "phase") != "whole step") shares += number(row, "share");
     if (text(row, "phase") != "force and motion") continue;
