@@ -224,7 +224,9 @@ double Contact::probe(const ContactState& state, const Candidate& where, Contact
       surface += around.value[i] * value;
       side += around.slope[i] * value;
       across_tangent += around.value[i] * turn(slope, -turned[i]);
-      point.wheel_angle[i] = phi - turned[i];
+      // Not by phi, so that all points of a station have the same bits.
+      point.wheel_angle[i] =
+          state.wheel->angle + wheel_->stations[static_cast<std::size_t>(around.ordinal[i])];
     }
 
     const Vec3 e = cartesian_to_cylindrical(phi, d) - surface;

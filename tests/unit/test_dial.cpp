@@ -194,14 +194,14 @@ class DialDesigns : public testing::Test {
 };
 
 TEST_F(DialDesigns, OneKeyAtATimeAboutTheBase) {
-  const DialAxes axes{{"scene.element_size=6 mm", "scene.precision=mixed"},
+  const DialAxes axes{{"scene.element_size=6 mm", "scene.precision=single"},
                       {"scene.element_size=8 mm,6 mm", "scene.quality=draft", "motion.start=rigid"}};
   EXPECT_EQ(points(axes),
-            (Names{"element_size=6mm,precision=mixed", "element_size=8mm", "quality=draft", "start=rigid"}));
+            (Names{"element_size=6mm,precision=single", "element_size=8mm", "quality=draft", "start=rigid"}));
   const Study study = design_dial(scene(), axes).study;
   // A quality is not hidden by the base's element size.
   ASSERT_EQ(study.points[2].own.size(), 1U);
-  EXPECT_EQ(study.points[2].own[0].as_override(), "scene.precision=mixed");
+  EXPECT_EQ(study.points[2].own[0].as_override(), "scene.precision=single");
   EXPECT_EQ(study.points[3].own.size(), 2U);
 }
 
