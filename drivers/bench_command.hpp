@@ -47,9 +47,17 @@ struct BenchHotspotsOptions : BenchOptions {
 /// take the median time.
 void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& options);
 
+/// What two files of `bench kernels --json` are compared by.
+enum class BenchMeasure {
+  rate,               ///< element-steps a second: two builds on one machine
+  fraction_of_limit,  ///< of what the machine bore in the same run: two machines
+  instructions,       ///< a unit, one thread: busy machines, the same instruction set and compiler
+};
+
 /// Compares two files of `bench kernels --json`. Returns whether no row of `after` is slower than its
 /// counterpart in `before` by more than the larger of both spreads. InputError where a file is no such file
 /// or no row has a counterpart.
-bool compare_benchmarks(const std::filesystem::path& before, const std::filesystem::path& after);
+bool compare_benchmarks(const std::filesystem::path& before, const std::filesystem::path& after,
+                        BenchMeasure measure);
 
 }  // namespace tread

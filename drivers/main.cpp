@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -417,12 +418,23 @@ void add_bench_hotspots(CLI::App& bench) {
 
 void add_bench_compare(CLI::App& bench) {
   auto files = std::make_shared<std::array<std::string, 2>>();
+  using tread::BenchMeasure;
+  auto measure = std::make_shared<BenchMeasure>(BenchMeasure::rate);
   CLI::App& command = *bench.add_subcommand(
       "compare", "two files of `bench kernels --json`; exits 3 where the second is slower beyond the spread");
   command.add_option("before", (*files)[0], "recorded before")->required();
   command.add_option("after", (*files)[1], "recorded after")->required();
-  command.callback([files] {
-    if (!tread::compare_benchmarks((*files)[0], (*files)[1]))
+  const std::map<std::string, BenchMeasure> measures = {{"rate", BenchMeasure::rate},
+                                                        {"limit", BenchMeasure::fraction_of_limit},
+                                                        {"instructions", BenchMeasure::instructions}};
+  command
+      .add_option("--by", *measure,
+                  "rate (default; one quiet machine), limit (shares of what each machine bore) or "
+                  "instructions (recorded with -t 1; busy machines)")
+      ->transform(CLI::CheckedTransformer(measures))
+      ->option_text("TEXT");
+  command.callback([files, measure] {
+    if (!tread::compare_benchmarks((*files)[0], (*files)[1], *measure))
       throw tread::NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");
   });
 }

@@ -27,9 +27,9 @@ std::string json_line(const BenchRow& row) {
       .member("bytes_per_element_step", row.work.bytes)
       .member("flops_per_element_step", row.work.flops)
       .member("spread", row.measured.spread)
-      .member("repetitions", row.measured.repetitions)
-      .end_object();
-  return json.text();
+      .member("repetitions", row.measured.repetitions);
+  if (row.instructions > 0) json.member("instructions_per_element_step", row.instructions);
+  return json.end_object().text();
 }
 
 std::vector<Column> key_columns() {

@@ -39,8 +39,9 @@ struct BenchRow {
   BenchKey key;
   std::string unit;  ///< what `elements` counts: "element", "node", ...
   Measurement measured;
-  Work work;    ///< by unit
-  Limit limit;  ///< of a step over all units
+  Work work;                ///< by unit
+  Limit limit;              ///< of a step over all units
+  double instructions = 0;  ///< a unit, by the hardware's counter; 0: not counted
 
   double rate() const { return static_cast<double>(key.elements) / measured.seconds; }  ///< units a second
   /// Of the rate that the binding limit allows; 0 where nothing is counted.

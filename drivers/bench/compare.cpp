@@ -15,9 +15,17 @@ namespace {
 
 /// What a comparison needs of a row.
 struct Recorded {
-  double rate;    ///< element-steps a second
+  double value;   ///< in the measure's unit
   double spread;  ///< [-]
 };
+
+constexpr const char* kInstructions = "instructions_per_element_step";
+constexpr double kInstructionSpread = 0.03;  ///< calls of contact_search are not alike
+
+const char* unit_of(BenchMeasure measure) {
+  if (measure == BenchMeasure::rate) return "1e6/s";
+  return measure == BenchMeasure::fraction_of_limit ? "of limit" : "instructions";
+}
 
 template <class T>
 T member(const JsonRecord& record, const std::string& name, const std::filesystem::path& path) {
@@ -29,7 +37,7 @@ T member(const JsonRecord& record, const std::string& name, const std::filesyste
   return std::get<T>(found->second);
 }
 
-std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path) {
+std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path, BenchMeasure measure) {
   std::map<BenchKey, Recorded> rows;
   for (const JsonRecord& record : read_json_lines(path)) {
     const auto text = [&](const char* name) { return member<std::string>(record, name, path); };
@@ -41,19 +49,28 @@ std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path) {
                        text("lanes"),
                        static_cast<int>(number("threads")),
                        static_cast<std::int64_t>(number("elements"))};
-    rows[key] = {number("element_steps_per_s"), number("spread")};
+    Recorded& row = rows[key];
+    if (measure == BenchMeasure::rate)
+      row = {1e-6 * number("element_steps_per_s"), number("spread")};
+    else if (measure == BenchMeasure::fraction_of_limit)
+      row = {number("fraction_of_limit"), number("spread")};
+    else if (record.contains(kInstructions))
+      row = {number(kInstructions), kInstructionSpread};
+    if (row.value <= 0) rows.erase(key);  // not counted
   }
   return rows;
 }
 
 }  // namespace
 
-bool compare_benchmarks(const std::filesystem::path& before_path, const std::filesystem::path& after_path) {
-  const auto before = read_rows(before_path);
-  const auto after = read_rows(after_path);
+bool compare_benchmarks(const std::filesystem::path& before_path, const std::filesystem::path& after_path,
+                        BenchMeasure measure) {
+  const auto before = read_rows(before_path, measure);
+  const auto after = read_rows(after_path, measure);
+  const char* const unit = unit_of(measure);
   Table table{"", key_columns(), {}};
-  table.columns.insert(table.columns.end(), {{"Before, 1e6/s", Align::right},
-                                             {"After, 1e6/s", Align::right},
+  table.columns.insert(table.columns.end(), {{fmt::format("Before, {}", unit), Align::right},
+                                             {fmt::format("After, {}", unit), Align::right},
                                              {"Change", Align::right},
                                              {"Spread", Align::right},
                                              {""}});
@@ -61,20 +78,20 @@ bool compare_benchmarks(const std::filesystem::path& before_path, const std::fil
   for (const auto& [key, now] : after) {
     const auto then = before.find(key);
     if (then == before.end()) continue;
-    const double change = now.rate / then->second.rate - 1;
+    const double ratio = now.value / then->second.value;
+    const double change = (measure == BenchMeasure::instructions ? 1 / ratio : ratio) - 1;
     const double spread = std::max(now.spread, then->second.spread);
     const bool slower = change < -spread;
     regressions += slower;
     std::vector<std::string>& cells = table.rows.emplace_back(key_cells(key));
-    cells.insert(cells.end(),
-                 {fmt::format("{:.4g}", 1e-6 * then->second.rate), fmt::format("{:.4g}", 1e-6 * now.rate),
-                  fmt::format("{:+.1f} %", 100 * change), fmt::format("{:.1f} %", 100 * spread),
-                  slower ? "SLOWER" : (change > spread ? "faster" : "")});
+    cells.insert(cells.end(), {fmt::format("{:.4g}", then->second.value), fmt::format("{:.4g}", now.value),
+                               fmt::format("{:+.1f} %", 100 * change), fmt::format("{:.1f} %", 100 * spread),
+                               slower ? "SLOWER" : (change > spread ? "faster" : "")});
   }
   if (table.rows.empty())
     throw InputError(fmt::format(
         "bench compare: no row of '{}' has a counterpart in '{}': same kernel, path, precision, backend, "
-        "lanes, threads and elements",
+        "lanes, threads and elements, and what is compared counted in both",
         after_path.string(), before_path.string()));
   fmt::print("{}{} rows compared, {} only before, {} only after, {} slower by more than the spread\n",
              plain_text(table), table.rows.size(), before.size() - table.rows.size(),

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "drivers/bench/bench_row.hpp"
+#include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/kernel_cases.hpp"
 #include "drivers/bench_command.hpp"
 #include "drivers/plain_text.hpp"
@@ -86,8 +87,24 @@ void add_limits(const BenchKernelsOptions& options, Limits& limits, Rows& rows) 
     }
 }
 
+/// Of a call; 0 where they are not counted, or threads that wait would count theirs.
+double instructions(const TimedCall& timed, const HardwareCounters& counters) {
+  if (!counters.available() || threads() > 1) return 0;
+  constexpr std::int64_t kEnough = 100'000'000;  // calls of a kernel need not be alike
+  std::int64_t sum = 0;
+  int calls = 0;
+  while (calls < 2 || (sum < kEnough && sum > 0)) {
+    if (timed.reset) timed.reset();
+    const std::int64_t before = counters.read().instructions;
+    timed.call();
+    sum += counters.read().instructions - before;
+    ++calls;
+  }
+  return static_cast<double>(sum) / calls;
+}
+
 void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, const PreparedKernel& kernel,
-                Limits& limits, Rows& rows) {
+                const HardwareCounters& counters, Limits& limits, Rows& rows) {
   for (const char* lanes : kernel.lanes) {
     if (kernel.use_lanes) {
       if (!chosen(options.lanes, lanes)) continue;
@@ -102,6 +119,7 @@ void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, 
     const auto units = static_cast<double>(kernel.units);
     row.limit = limits.of({kernel.work.flops * units, kernel.work.bytes * units, kernel.working_set},
                           measured.precision == "double", lanes);
+    row.instructions = instructions(kernel.timed, counters) / units;
     rows.add(std::move(row));
   }
 }
@@ -115,6 +133,7 @@ std::vector<std::string_view> backends_to_measure(const BenchOptions& options) {
 }  // namespace
 
 void bench_kernels(const BenchKernelsOptions& options) {
+  const HardwareCounters counters;
   use_threads(options.threads);
   const std::vector<KernelCase> cases = kernel_cases();
   check_options(options, cases);
@@ -132,7 +151,7 @@ void bench_kernels(const BenchKernelsOptions& options) {
       const PreparedKernel kernel = measured.prepare(elements);
       for (const std::string_view team : teams) {
         set_backend(team);
-        add_kernel(options, measured, kernel, limits, rows);
+        add_kernel(options, measured, kernel, counters, limits, rows);
       }
     }
   }

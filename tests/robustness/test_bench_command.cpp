@@ -90,20 +90,31 @@ TEST_F(Bench, KernelsRefuseUnknownNames) {
 }
 
 TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
-  const auto write = [&](const char* name, double rate, double spread) {
+  const auto write = [&](const char* name, double rate, double spread, double of_limit = 0.4,
+                         double instructions = 100) {
     std::ofstream(folder_ / name) << fmt::format(
         "{{\"kernel\": \"k\", \"path\": \"p\", \"precision\": \"double\", \"backend\": \"openmp\", "
         "\"lanes\": \"avx2\", \"threads\": 2, \"elements\": 10, \"element_steps_per_s\": {}, \"spread\": "
-        "{}}}\n",
-        rate, spread);
+        "{}, \"fraction_of_limit\": {}, \"instructions_per_element_step\": {}}}\n",
+        rate, spread, of_limit, instructions);
   };
   write("before", 100, 0.05);
   write("same", 96, 0.02);
   write("slow", 94, 0.02);
   write("noisy", 94, 0.1);
   write("fast", 200, 0.01);
+  write("wasteful", 200, 0.01, 0.3);
+  write("uncounted", 100, 0.01, 0);
   for (const auto& [after, code] : {std::pair{"same", 0}, {"slow", 3}, {"noisy", 0}, {"fast", 0}})
     EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path(after))), code) << after;
+  for (const auto& [after, code] : {std::pair{"slow", 0}, {"wasteful", 3}, {"uncounted", 2}})
+    EXPECT_EQ(call(fmt::format("compare --by limit {} {}", path("before"), path(after))), code) << after;
+  write("longer", 200, 0.01, 0.4, 105);
+  write("shorter", 50, 0.01, 0.1, 90);
+  for (const auto& [after, code] : {std::pair{"slow", 0}, {"shorter", 0}, {"longer", 3}})
+    EXPECT_EQ(call(fmt::format("compare --by instructions {} {}", path("before"), path(after))), code)
+        << after;
+  EXPECT_EQ(call(fmt::format("compare --by time {} {}", path("before"), path("same"))), 2);
   std::ofstream(folder_ / "other") << "{\"kernel\": \"k\"}\n";
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("other"))), 2);
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("none"))), 2);
