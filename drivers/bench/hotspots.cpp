@@ -128,6 +128,7 @@ const std::vector<Hotspot>& median_run(std::vector<std::vector<Hotspot>>& runs) 
 
 Measurement of_whole_steps(const std::vector<std::vector<Hotspot>>& runs) {
   std::vector<double> seconds;
+  seconds.reserve(runs.size());
   for (const std::vector<Hotspot>& spots : runs) seconds.push_back(spots.back().seconds);
   return summarise(std::move(seconds));
 }
@@ -187,6 +188,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   }
   Limits limits(options.plan);
   std::vector<std::vector<Hotspot>> runs;
+  runs.reserve(clocks.size());
   for (const PhaseClock& clock : clocks) runs.push_back(hotspots_of(scene.model(), clock, steps, limits));
   const Measurement measured = of_whole_steps(runs);
   const std::vector<Hotspot>& spots = median_run(runs);
