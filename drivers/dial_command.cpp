@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -55,6 +56,14 @@ SceneContent passage(SceneContent content, const std::vector<std::string>& varie
   return content;
 }
 
+std::vector<FinishedRun> on_the_mesh_of(const FinishedRun& one, const std::vector<FinishedRun>& runs) {
+  std::vector<FinishedRun> chosen;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen), [&](const FinishedRun& run) {
+    return run.scene.element_size == one.scene.element_size && run.scene.quality == one.scene.quality;
+  });
+  return chosen;
+}
+
 /// A finished run that is no point of the dial.
 FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
   const std::filesystem::path folder = options.reference;
@@ -98,7 +107,7 @@ DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const
   add_settings(plan.study, outcome.table);
   const std::string& against = options.against.empty() ? design.base : options.against;
   if (const FinishedRun* base = find_run(outcome.runs, against)) {
-    outcome.effects = dial_table(outcome.runs, *base);
+    outcome.effects = dial_table(on_the_mesh_of(*base, outcome.runs), *base);
     add_settings(plan.study, outcome.effects);
   }
   return outcome;
@@ -117,6 +126,7 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
   write_text_file(folder / "sweep.csv", sweep_csv(plan, finished_runs(plan)));
   write_text_file(folder / "dial.csv", dial_csv(outcome.table));
   write_text_file(folder / "dial.jsonl", dial_lines(outcome.table));
+  write_text_file(folder / "results.md", dial_markdown(outcome));
   write_text_file(folder / "dial.svg", scatter_svg(dial_picture(outcome.table, outcome.cost)));
   if (!outcome.effects.rows.empty()) write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
   write_report(folder / "report.html", dial_report(outcome, plan, options.common.command));

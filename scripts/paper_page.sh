@@ -4,19 +4,13 @@
 set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 results=${1:?which folder? see the head of this file}
-document="$root/docs/paper.md"
 
 mkdir -p "$root/docs/paper"
 cp "$results"/fig*.csv "$results"/fig*.svg "$results/numbers.csv" "$root/docs/paper/"
 {
-  sed '/<!-- tread paper: begin -->/q' "$document"
-  printf '\n'
   cat "$results/results.md"
-  printf '\n'
   for picture in "$results"/fig*.svg; do
     name=$(basename "$picture" .svg)
-    printf '![Fig. %s](paper/%s.svg)\n\n' "$(sed 's/^fig0*//' <<< "$name")" "$name"
+    printf '\n![Fig. %s](paper/%s.svg)\n' "$(sed 's/^fig0*//' <<< "$name")" "$name"
   done
-  sed -n '/<!-- tread paper: end -->/,$p' "$document"
-} > "$document.new"
-mv "$document.new" "$document"
+} | "$root/scripts/put_between_marks.sh" "$root/docs/paper.md" 'tread paper'

@@ -47,14 +47,10 @@ for run in "${runs[@]}"; do
 done
 
 order=$(printf '%s\n' "${runs[@]%% *}" | awk '!seen[$0]++')
-{
-  sed '/<!-- tread verify: begin -->/q' "$document"
-  for case in $order; do
-    printf '\n### %s\n\n' "$case"
-    for page in "$pages/$case".md "$pages/$case"-*.md; do
-      [[ -f $page ]] && sed 's#](#](verification/#' "$page"
-    done
+for case in $order; do
+  printf '### %s\n\n' "$case"
+  for page in "$pages/$case".md "$pages/$case"-*.md; do
+    [[ -f $page ]] && sed 's#](#](verification/#' "$page"
   done
-  sed -n '/<!-- tread verify: end -->/,$p' "$document"
-} > "$document.new"
-mv "$document.new" "$document"
+  printf '\n'
+done | "$root/scripts/put_between_marks.sh" "$document" 'tread verify'

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "drivers/plain_text.hpp"
 #include "drivers/study/study_report.hpp"
 #include "io/report/markup.hpp"
 
@@ -50,10 +51,21 @@ Table titled(std::string title, Table table) {
   return table;
 }
 
-/// Difference of means and of ranges [%].
-Table mean_table(const DialTable& table) {
-  return quantity_table(
-      table, [](const CurveDifference& d) { return percent_text(d.mean) + " / " + percent_text(d.range); });
+std::vector<Table> error_tables(const DialTable& table) {
+  const auto means = [](const CurveDifference& d) {
+    return percent_text(d.mean) + " / " + percent_text(d.range);
+  };
+  return {
+      titled("Error [%]", error_table(table)),
+      titled("Shift along the rail behind the reference [mm]; –: no pattern in common", shift_table(table)),
+      titled("Mean over the reference's quadratic mean / range over the reference's, difference [%]",
+             quantity_table(table, means))};
+}
+
+std::vector<Table> effect_tables(const DialTable& effects) {
+  return {
+      titled(fmt::format("Difference from {} [%]", effects.reference), error_table(effects)),
+      titled(fmt::format("Shift along the rail behind {} [mm]", effects.reference), shift_table(effects))};
 }
 
 std::vector<std::pair<std::string, std::string>> panels() {
@@ -69,21 +81,16 @@ Chapter error_chapter(const DialTable& table) {
       "Against {}. Error: quadratic mean of the difference of the curves over the evaluated stretch once "
       "the shift is taken out, over that of the reference's curve.",
       table.reference)});
-  chapter.blocks.emplace_back(titled("Error [%]", error_table(table)));
-  chapter.blocks.emplace_back(
-      titled("Shift along the rail behind the reference [mm]; –: no pattern in common", shift_table(table)));
-  chapter.blocks.emplace_back(
-      titled("Mean over the reference's quadratic mean / range over the reference's, difference [%]",
-             mean_table(table)));
+  for (Table& one : error_tables(table)) chapter.blocks.emplace_back(std::move(one));
   return chapter;
 }
 
 Chapter effect_chapter(const DialTable& effects) {
   Chapter chapter{"Single settings", {}};
-  chapter.blocks.emplace_back(Text{fmt::format(
-      "The same measures against {}: what a change of one key does by itself.", effects.reference)});
-  chapter.blocks.emplace_back(titled("Difference [%]", error_table(effects)));
-  chapter.blocks.emplace_back(titled("Shift along the rail [mm]", shift_table(effects)));
+  chapter.blocks.emplace_back(Text{
+      fmt::format("The same measures against {}, for the runs on its mesh: what settings do by themselves.",
+                  effects.reference)});
+  for (Table& one : effect_tables(effects)) chapter.blocks.emplace_back(std::move(one));
   return chapter;
 }
 
@@ -148,6 +155,17 @@ Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std:
   report.chapters.push_back(curve_chapter(outcome.runs));
   report.chapters.push_back({"Points", {point_table(plan)}});
   return report;
+}
+
+std::string dial_markdown(const DialOutcome& outcome) {
+  std::vector<Table> tables = error_tables(outcome.table);
+  if (!outcome.effects.rows.empty())
+    for (Table& one : effect_tables(outcome.effects)) tables.push_back(std::move(one));
+  tables.push_back(titled("Cheapest for an error", advice_table(outcome.table, outcome.cost)));
+  std::string text;
+  for (const Table& table : tables)
+    text += fmt::format("{}{}:\n\n{}", text.empty() ? "" : "\n", table.title, markdown(table));
+  return text;
 }
 
 }  // namespace tread

@@ -1,6 +1,7 @@
 #pragma once
 // What a dial shows: tables, picture, report.
 
+#include <string>
 #include <vector>
 
 #include "drivers/dial/dial_table.hpp"
@@ -24,10 +25,13 @@ Scatter dial_picture(const DialTable& table, DialCost cost);
 /// A dial as it stands in its folder.
 struct DialOutcome {
   DialTable table;
-  DialTable effects;  ///< beside the point that the axes start from; without rows where there is none
+  DialTable effects;  ///< on one mesh, beside the point that single settings are told against; or no rows
   std::vector<FinishedRun> runs;
   DialCost cost = DialCost::element_steps;
 };
+
+/// Its tables with their titles, for docs/dial.md.
+std::string dial_markdown(const DialOutcome& outcome);
 
 Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command);
 

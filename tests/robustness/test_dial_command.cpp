@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -38,7 +39,8 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   const std::string axes = "--axis \"scene.element_size=12 mm,8 mm\" --axis motion.start=rigid";
   ASSERT_EQ(call(tyres(axes)), 0) << errors();
   EXPECT_TRUE(has(program_.out(), "against element_size=8mm")) << program_.out();
-  for (const char* name : {"dial.csv", "dial.jsonl", "dial.svg", "effects.csv", "sweep.csv", "report.html"})
+  for (const char* name :
+       {"dial.csv", "dial.jsonl", "dial.svg", "effects.csv", "results.md", "sweep.csv", "report.html"})
     EXPECT_TRUE(fs::exists(runs_ / name)) << name;
   const std::vector<JsonRecord> rows = read_json_lines(runs_ / "dial.jsonl");
   ASSERT_EQ(rows.size(), 4U);
@@ -48,6 +50,11 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   for (const char* key : {"F_N_error", "creepage_error", "von_mises_error", "work_error", "shear_mean"})
     EXPECT_TRUE(number_in(rows[0], key)) << key;
   EXPECT_GT(number_in(rows[0], "F_N_error"), 0.001);
+
+  // Single settings stand beside the base, on whose mesh they are; other meshes do not.
+  const std::string effects = content_of(runs_ / "effects.csv");
+  EXPECT_EQ(std::count(effects.begin(), effects.end(), '\n'), 3) << effects;
+  EXPECT_TRUE(has(effects, "start=rigid,"));
 
   const std::string check =
       fmt::format("check {} -t 1 --dial {} --quantity F_N", scene("tyre.toml"), runs_.string());

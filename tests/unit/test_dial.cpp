@@ -183,6 +183,16 @@ TEST(DialReport, EveryQuantityHasAPanel) {
   EXPECT_FALSE(samples::has(svg, "nan"));
 }
 
+TEST(DialReport, EveryTableHasItsTitleInMarkdown) {
+  DialOutcome outcome{table(), {}, {}, DialCost::minutes};
+  const std::string text = dial_markdown(outcome);
+  EXPECT_TRUE(samples::has(text, "Error [%]:\n\n| Point |")) << text;
+  EXPECT_TRUE(samples::has(text, "\n\nCheapest for an error:\n\n| Wanted error |"));
+  EXPECT_FALSE(samples::has(text, "Difference from"));
+  outcome.effects = table();
+  EXPECT_TRUE(samples::has(dial_markdown(outcome), "Difference from 1mm [%]:"));
+}
+
 class DialDesigns : public testing::Test {
  protected:
   static std::string scene() { return std::string(TREAD_SOURCE_DIR) + "/scenes/corrugation-d.toml"; }
