@@ -26,6 +26,10 @@ SectionSize section_size(const MeshSizes& sizes, double coarse, double band_cent
   return size;
 }
 
+/// Coarse quads of the rail [m], whatever the element size: the fastenings' dampers act on points, and the
+/// nodes of a finer foot are too light for them at the step of the contact's elements.
+constexpr double kLeastRailCoarse = 8e-3;
+
 constexpr double kWheelToRailCoarse =
     1.4;  ///< disc elements may be larger than those of the rail's web and foot
 constexpr double kBandCentre = -2e-3;
@@ -43,7 +47,8 @@ RailSections rail_sections(const Scene& scene, const MeshSizes& sizes) {
   const RailSpec& rail = *scene.rail;
   const RailProfile profile =
       rail.profile_y.empty() ? cn60() : rail_with_head(rail.profile_y, rail.profile_z);
-  return make_rail_sections(profile, rail.inclination, section_size(sizes, sizes.section, kBandCentre));
+  return make_rail_sections(profile, rail.inclination,
+                            section_size(sizes, std::max(sizes.section, kLeastRailCoarse), kBandCentre));
 }
 
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes) {

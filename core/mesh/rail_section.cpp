@@ -196,8 +196,7 @@ Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSiz
   sides.left = along(running, edges.left_tie, edges.left, side_edges);
   sides.right = along(running, edges.right_tie, edges.right, side_edges);
   sides.bottom = at_height(nested(below(sides.top, tie.end), tie.x, "rail head"), -kTieDepth);
-  for (auto* side : {&sides.top, &sides.left, &sides.right}) side->push_back(side->back());
-  sides.top.insert(sides.top.begin(), sides.top.front());
+  collapse_upper_corners(sides);
   std::vector<double> weight;
   for (const Point2& point : sides.top)
     weight.push_back(size.layer_weight(point.x, sides.top.front().x, sides.top.back().x));

@@ -186,6 +186,11 @@ void check_sides(const PatchSides& s) {
 
 }  // namespace
 
+void collapse_upper_corners(PatchSides& sides) {
+  for (auto* side : {&sides.top, &sides.left, &sides.right}) side->push_back(side->back());
+  sides.top.insert(sides.top.begin(), sides.top.front());
+}
+
 Patch fill(const PatchSides& s) {
   check_sides(s);
   Patch patch(static_cast<int>(s.bottom.size()) - 1, static_cast<int>(s.left.size()) - 1);

@@ -75,6 +75,9 @@ struct PatchSides {
   std::vector<Point2> bottom, top, left, right;
 };
 
+/// The upper corners end both of their sides twice: see fill_layered().
+void collapse_upper_corners(PatchSides& sides);
+
 /// Transfinite interpolation between the sides.
 Patch fill(const PatchSides& sides);
 

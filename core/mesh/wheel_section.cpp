@@ -25,6 +25,7 @@ constexpr double kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
 constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // y_wheel [m]
 
 constexpr double kFlangeSize = 4.2e-3;  // on the flange and its root [m]: two elements on half of the R14
+constexpr double kFlangeRatio = 1.8;    // least ratio of that to surface size: the flange costs no time step
 constexpr double kCoarseRatio = 1.6;    // least ratio of coarse to surface size
 constexpr double kAxleRatio = 2.3;      // axle to disc size
 
@@ -47,15 +48,20 @@ struct Flange {
 };
 
 Flange find_flange(const PlaneCurve& profile) {
+  constexpr double kBack = 0.12, kFront = 0.5;  // sines of the inclination at the patch's upper corners
   const double length = profile.length(), steep = std::sqrt(0.5);
+  const auto falls = [&](double from, double sine) {
+    return profile.first(from, length, [&](const CurvePoint& point) { return -point.tangent.y - sine; });
+  };
   Flange flange;
-  flange.tip_back = profile.first(0, length, [](const CurvePoint& point) { return 0.43 - point.tangent.y; });
-  flange.tip_front =
-      profile.first(flange.tip_back, length, [&](const CurvePoint& p) { return -p.tangent.y - steep; });
-  flange.present = flange.tip_front < length;
+  flange.tip_back =
+      profile.first(0, length, [&](const CurvePoint& point) { return kBack - point.tangent.y; });
+  const double face = falls(flange.tip_back, steep);
+  flange.present = face < length;
   if (!flange.present) return flange;
-  flange.root = profile.first(flange.tip_front + 1e-4, length,
-                              [&](const CurvePoint& p) { return p.tangent.y + steep; });
+  flange.tip_front = falls(flange.tip_back, kFront);
+  flange.root =
+      profile.first(face + 1e-4, length, [&](const CurvePoint& point) { return point.tangent.y + steep; });
   if (!(flange.root < length) || profile.at(flange.root).position.x > 0)
     throw InputError(
         "wheel profile: no tread found beyond the flange; y has to grow from the flange back to the field "
@@ -79,7 +85,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
     const double x = profile.at(s).position.x;
     return size.column(x, x < size.band_centre ? kFlangeSize : largest);
   };
-  const auto flange_size = [&](double) { return std::max(kFlangeSize, size.surface); };
+  const auto flange_size = [&](double) { return std::max(kFlangeSize, kFlangeRatio * size.surface); };
 
   const auto tread = graded(breaks_on(profile, flange.root, profile.length()), column);
   const Point2 root = profile.at(flange.root).position;
@@ -108,10 +114,13 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
     sides.right = positions(profile, front);
     std::reverse(sides.right.begin(), sides.right.end());
     sides.left = along(outline, join, start + flange.tip_back, static_cast<int>(front.size()) - 1);
-    sides.bottom = straight(ring.left.back(), root, static_cast<int>(surface.size()) - 1);
-    builder.add(fill(sides));
+    collapse_upper_corners(sides);
+    const int columns = static_cast<int>(sides.top.size()) - 1;
+    sides.bottom = straight(ring.left.back(), root, columns);
+    builder.add(fill_layered(sides, evenly(0, 1, static_cast<int>(front.size())),
+                             std::vector<double>(sides.top.size(), 0.0)));
     ring.top.assign(sides.bottom.begin(), sides.bottom.end() - 1);
-    wanted = evenly(low_left.x, below(root, root), static_cast<int>(surface.size()) - 1);
+    wanted = evenly(low_left.x, below(root, root), columns);
     wanted.pop_back();
     append(surface, front);
   }

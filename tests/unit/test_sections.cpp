@@ -291,6 +291,13 @@ TEST(WheelSection, IsWellShapedAndNestedForAllSizes) {
       }
 }
 
+TEST(WheelSection, FlangeLeavesTheStepToThePitch) {
+  for (const double surface : {1.1, 2.2, 3.0, 4.0, 4.5, 5.0, 5.5, 6.0, 8.0}) {
+    const Section tread = make_wheel_sections(lma(), {}, size_of(surface, 13)).tread;
+    EXPECT_GT(step_by_pitch(tread, surface * mm), surface <= 5 ? 0.98 : 0.84) << surface << " mm";
+  }
+}
+
 TEST(WheelSection, KinkOfTheConesStaysAKink) {
   const WheelShape shape;
   const Section tread = make_wheel_sections(lma(), shape, size_of(2.2, 13)).tread;

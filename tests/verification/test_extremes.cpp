@@ -11,6 +11,7 @@
 #include "drivers/simulation.hpp"
 #include "drivers/static_system.hpp"
 #include "drivers/verify/small_models.hpp"
+#include "io/scene_reader.hpp"
 #include "tests/verified_case.hpp"
 
 namespace tread {
@@ -101,6 +102,21 @@ TEST(Extremes, Damping) {
 
 TEST(Extremes, Elements) {
   expect_bounds_hold("extremes_elements", {});
+}
+
+/// Whatever size the contact's elements have, the step is theirs: dampers act on single nodes of the rail's
+/// foot.
+TEST(Extremes, FastenersTakeNothingOfTheStepOfFineElements) {
+  const auto step = [](const std::string& size, const std::string& damping) {
+    const SceneSource hammer = load_scene_source(std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml");
+    const Model model(resolve_scene(hammer, {"rail.length=1.3 m", "rail.origin=0.65 m", "fastenings.count=2",
+                                             "hammer.position=0 m", "scene.element_size=" + size,
+                                             "fastenings.damping=" + damping})
+                          .scene);
+    return stable_step_of(model);
+  };
+  for (const char* size : {"1.1 mm", "1.6 mm"})
+    EXPECT_GT(step(size, "200 kN s/m"), 0.99 * step(size, "0 N s/m")) << size;
 }
 
 }  // namespace
