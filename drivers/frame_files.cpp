@@ -44,10 +44,18 @@ void append(std::vector<float>& values, const Vec3& vector) {
   for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(vector[i]));
 }
 
-Vec3 local_vector(const AlignedVector<double>& field, std::int64_t slot) {
+template <class Real>
+Vec3 local_vector(const AlignedVector<Real>& field, std::int64_t slot) {
   Vec3 value;
-  for (int i = 0; i < 3; ++i) value[i] = field[static_cast<std::size_t>(dof(slot, i))];
+  for (int i = 0; i < 3; ++i) value[i] = static_cast<double>(field[static_cast<std::size_t>(dof(slot, i))]);
   return value;
+}
+
+template <class Real>
+void copy_field(ConstNodeField from, std::int64_t slots, AlignedVector<Real>& to) {
+  to.resize(static_cast<std::size_t>(3 * slots));
+  std::int64_t i = 0;
+  for (Real& value : to) value = static_cast<Real>(from[i++]);
 }
 
 }  // namespace
@@ -113,14 +121,10 @@ std::size_t FrameFiles::count() const {
 void FrameFiles::copy(const Simulation& simulation) {
   at_.steps = simulation.steps();
   at_.time = simulation.time();
-  const auto copy_field = [this](ConstNodeField from, AlignedVector<double>& to) {
-    to.resize(static_cast<std::size_t>(3 * model_->mesh.slots));
-    std::int64_t i = 0;
-    for (double& value : to) value = from[i++];
-  };
-  copy_field(simulation.displacement(), at_.displacement);
-  copy_field(simulation.velocity(), at_.velocity);
-  if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, at_.lag);
+  const std::int64_t slots = model_->mesh.slots;
+  copy_field(simulation.displacement(), slots, at_.displacement);
+  copy_field(simulation.velocity(), slots, at_.velocity);
+  if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, slots, at_.lag);
   at_.wheel = simulation.wheel();
   if (model_->contact) at_.patch = model_->contact->nodes();
 }
@@ -133,6 +137,11 @@ void FrameFiles::begin() {
 }
 
 void FrameFiles::write() {
+  write_copy();
+  at_ = {};  // a field or two as large as the run's own
+}
+
+void FrameFiles::write_copy() {
   begin();
   places_.assign(model_->mesh.blocks.size(), {});
   for (const int block : model_->index.wheel())
@@ -177,7 +186,7 @@ std::vector<VtkArray> FrameFiles::arrays() const {
     const SweptBlock& block = model_->mesh.blocks[b];
     const Placement& place = places_[b];
     const std::int64_t slot = block.base + block.slot(point.node, point.station);
-    const auto turned = [&](const AlignedVector<double>& field) {
+    const auto turned = [&](const auto& field) {
       return to_cartesian(block, point.station, place.angle, local_vector(field, slot));
     };
     const Vec3 u = turned(at_.displacement);

@@ -25,7 +25,7 @@ class FrameFiles {
 
   /// Keeps what a frame of this instant needs. Not beside write().
   void copy(const Simulation& simulation);
-  /// Writes the frame of the last copy(); steps may go on meanwhile. Throws ResourceError.
+  /// Writes the frame of the last copy() and gives that up; steps may go on meanwhile. Throws ResourceError.
   void write();
 
   /// That lie in the folder.
@@ -43,7 +43,8 @@ class FrameFiles {
   struct Instant {
     std::int64_t steps = 0;
     double time = 0;  ///< [s]
-    AlignedVector<double> displacement, velocity;
+    AlignedVector<double> displacement;
+    AlignedVector<float> velocity;
     AlignedVector<double> lag;  ///< empty without Maxwell branches
     BodyFrame wheel;
     PatchNodes patch;  ///< empty without contact
@@ -51,6 +52,7 @@ class FrameFiles {
 
   std::filesystem::path folder() const;
   void begin();
+  void write_copy();
   void write_series() const;
   std::vector<VtkArray> arrays() const;
   VtkArray contact_pressure() const;

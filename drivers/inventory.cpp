@@ -66,13 +66,13 @@ class Phases {
   std::vector<PhaseInfo> list_;
 };
 
-/// Displacement, velocity and the branches' lag; grid, arrays, file and its image.
+/// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
+/// arrays, file and its image.
 std::int64_t frame_memory(const Model& model) {
   const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
   constexpr int kTimes = 3;
-  const int vectors = model.has_branches() ? 3 : 2;
-  return vectors * 3 * model.mesh.slots * static_cast<std::int64_t>(sizeof(double)) + bytes.mesh +
-         kTimes * bytes.frame;
+  const std::size_t component = (model.has_branches() ? 2 : 1) * sizeof(double) + sizeof(float);
+  return 3 * model.mesh.slots * static_cast<std::int64_t>(component) + bytes.mesh + kTimes * bytes.frame;
 }
 
 void add_preload(const Model& model, Phases& list) {
