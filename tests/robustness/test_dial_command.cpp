@@ -107,5 +107,14 @@ TEST_F(Dial, AReferenceIsOfTheSamePassage) {
   EXPECT_TRUE(has(errors(), "motion.traction.mu is 0.3 here and 0.1 there")) << errors();
 }
 
+TEST_F(Dial, TheKeptPassageIsOfTheDocumentedDial) {
+  const fs::path docs = fs::path(TREAD_SOURCE_DIR) / "docs";
+  ASSERT_EQ(call(fmt::format("dial {} -o {} --list --reference {}", (docs / "dial/corrugation-d.toml").string(),
+                             runs_.string(), (docs / "performance/paper-passage").string())),
+            0)
+      << errors();
+  EXPECT_TRUE(has(program_.out(), "4mm-facets")) << program_.out();
+}
+
 }  // namespace
 }  // namespace tread
