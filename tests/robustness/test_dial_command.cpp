@@ -109,9 +109,10 @@ TEST_F(Dial, AReferenceIsOfTheSamePassage) {
 
 TEST_F(Dial, TheKeptPassageIsOfTheDocumentedDial) {
   const fs::path docs = fs::path(TREAD_SOURCE_DIR) / "docs";
-  ASSERT_EQ(call(fmt::format("dial {} -o {} --list --reference {}", (docs / "dial/corrugation-d.toml").string(),
-                             runs_.string(), (docs / "performance/paper-passage").string())),
-            0)
+  ASSERT_EQ(
+      call(fmt::format("dial {} -o {} --list --reference {}", (docs / "dial/corrugation-d.toml").string(),
+                       runs_.string(), (docs / "performance/paper-passage").string())),
+      0)
       << errors();
   EXPECT_TRUE(has(program_.out(), "4mm-facets")) << program_.out();
 }
