@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -50,6 +51,14 @@ double required_number(const JsonRecord& record, const std::string& key, const s
     throw InputError(fmt::format(
         "{}: a line has no number \"{}\"; expected the dial.jsonl that `tread dial` leaves", name, key));
   return *number;
+}
+
+/// Those beside the reference that have an error in the quantity.
+std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity) {
+  std::vector<const DialRow*> rows;
+  for (const DialRow& row : table.rows)
+    if (row.point != table.reference && error_of(row, quantity)) rows.push_back(&row);
+  return rows;
 }
 
 DialRow row_of(const JsonRecord& record, const std::string& name) {
@@ -106,9 +115,7 @@ std::optional<double> error_of(const DialRow& row, const std::string& quantity) 
 }
 
 std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost) {
-  std::vector<const DialRow*> rows;
-  for (const DialRow& row : table.rows)
-    if (row.point != table.reference && error_of(row, quantity)) rows.push_back(&row);
+  std::vector<const DialRow*> rows = compared_rows(table, quantity);
   std::sort(rows.begin(), rows.end(), [&](const DialRow* a, const DialRow* b) {
     return std::pair(cost_of(*a, cost), *error_of(*a, quantity)) <
            std::pair(cost_of(*b, cost), *error_of(*b, quantity));
@@ -120,9 +127,14 @@ std::vector<const DialRow*> pareto_front(const DialTable& table, const std::stri
 }
 
 const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost) {
-  for (const DialRow* row : pareto_front(table, quantity, cost))
-    if (*error_of(*row, quantity) <= wanted) return row;
-  return nullptr;
+  std::vector<const DialRow*> rows = compared_rows(table, quantity);
+  std::erase_if(rows, [&](const DialRow* row) { return *error_of(*row, quantity) > wanted; });
+  const auto rank = [&](const DialRow* row) {
+    return std::tuple(cost_of(*row, cost), row->settings.size(), *error_of(*row, quantity));
+  };
+  const auto first = std::min_element(rows.begin(), rows.end(),
+                                      [&](const DialRow* a, const DialRow* b) { return rank(a) < rank(b); });
+  return first == rows.end() ? nullptr : *first;
 }
 
 DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& reference) {
