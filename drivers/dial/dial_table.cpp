@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -18,6 +17,7 @@ namespace tread {
 namespace {
 
 constexpr const char* kSeparator = "; ";  ///< between settings
+constexpr double kAsCheap = 1.01;         ///< of the least cost: as cheap
 
 DialRow row_of(const FinishedRun& run, const FinishedRun& reference) {
   const auto number = [&](const char* path) { return run.number(path).value_or(0); };
@@ -129,12 +129,16 @@ std::vector<const DialRow*> pareto_front(const DialTable& table, const std::stri
 const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost) {
   std::vector<const DialRow*> rows = compared_rows(table, quantity);
   std::erase_if(rows, [&](const DialRow* row) { return *error_of(*row, quantity) > wanted; });
-  const auto rank = [&](const DialRow* row) {
-    return std::tuple(cost_of(*row, cost), row->settings.size(), *error_of(*row, quantity));
+  const auto first = [&](const auto& rank) {
+    const auto found = std::min_element(
+        rows.begin(), rows.end(), [&](const DialRow* x, const DialRow* y) { return rank(*x) < rank(*y); });
+    return found == rows.end() ? nullptr : *found;
   };
-  const auto first = std::min_element(rows.begin(), rows.end(),
-                                      [&](const DialRow* a, const DialRow* b) { return rank(a) < rank(b); });
-  return first == rows.end() ? nullptr : *first;
+  const DialRow* least = first([&](const DialRow& row) { return cost_of(row, cost); });
+  if (!least) return nullptr;
+  const double most = kAsCheap * cost_of(*least, cost);
+  std::erase_if(rows, [&](const DialRow* row) { return cost_of(*row, cost) > most; });
+  return first([&](const DialRow& row) { return std::pair(row.settings.size(), *error_of(row, quantity)); });
 }
 
 DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& reference) {

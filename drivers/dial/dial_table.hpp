@@ -50,8 +50,8 @@ std::optional<double> error_of(const DialRow& row, const std::string& quantity);
 /// is not among them.
 std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost);
 
-/// The cheapest row whose error is `wanted` [-] at most, of several as cheap the one with the fewest
-/// settings, then the nearest; null where there is none.
+/// The cheapest row whose error is `wanted` [-] at most, of several as cheap within 1 % the one with the
+/// fewest settings, then the nearest; null where there is none.
 const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost);
 
 /// The runs beside the reference. InputError where their curves do not read.

@@ -142,7 +142,7 @@ TEST(DialTable, TheCheapestIsNearEnough) {
 
 TEST(DialTable, OfAsCheapOnesThePlainestIsNamed) {
   DialTable t = table();
-  t.rows.insert(t.rows.begin(), row("double", 2, 0.0999, 0.4));
+  t.rows.insert(t.rows.begin(), row("double", 1.99, 0.0999, 0.4));
   t.rows.front().settings.emplace_back("scene.precision=double");
   EXPECT_EQ(cheapest(t, "F_N", 0.12, DialCost::minutes)->point, "6mm");
   EXPECT_EQ(cheapest(t, "F_N", 0.09995, DialCost::minutes)->point, "double");
