@@ -15,8 +15,9 @@ namespace tread {
 namespace {
 
 // Page geometry [px].
-constexpr double kLeft = 58;     // of a panel: tick labels
-constexpr double kRight = 30;    // room for a label beside the last dot
+constexpr double kLeft = 58;  // of a panel: tick labels
+constexpr double kRight = 30;
+constexpr double kLabel = 60;    // of the plot's right end: labels stand left of their dots
 constexpr double kTop = 24;      // a panel's title
 constexpr double kBottom = 26;   // tick labels
 constexpr double kHeight = 190;  // of a plot
@@ -102,7 +103,8 @@ std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
         dot.marked ? "full" : "hollow", x, y, html_text(dot.label));
     if (!dot.marked) continue;
     above = !above;  // labels of neighbours on either side of the line
-    dots += svg_label("note", x + 6, y + (above ? -5 : 15), dot.label);
+    dots += x > at.x.last - kLabel ? svg_label("note right", x - 6, y + 15, dot.label)
+                                   : svg_label("note", x + 6, y + (above ? -5 : 15), dot.label);
   }
   return fmt::format("<path class=\"curve c0\" d=\"{}\"/>\n{}", path, dots);
 }
