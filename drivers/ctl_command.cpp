@@ -14,7 +14,7 @@ namespace tread {
 
 namespace {
 
-constexpr std::size_t kLargestStatus = 1 << 16;  // [B]
+constexpr std::size_t kLargestStatus = 1 << 24;  // [B]: a study has a line a point
 
 bool wait_until(const std::function<bool()>& condition, double patience) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);

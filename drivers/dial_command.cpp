@@ -72,14 +72,18 @@ FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
         fmt::format("--reference {}: neither a point of this dial nor the folder of a finished run (its "
                     "summary.json is missing); --list names the points",
                     options.reference));
-  const ResolvedScene resolved = resolve_scene(folder / "scene.resolved.toml");
+  const KeptScene kept = kept_scene(folder);
   const std::vector<std::string> varied = varied_keys(plan);
   const std::string apart =
-      difference(passage(plan.points.front().content, varied), passage(scene_content(resolved), varied));
+      difference(passage(plan.points.front().content, varied), passage(kept.content, varied));
   if (!apart.empty())
     throw InputError(fmt::format("--reference {}: another passage than this dial's (here: the dial): {}",
                                  options.reference, apart));
-  return read_finished_run(folder, resolved.scene, folder.lexically_normal().filename().string());
+  // The folder's own name, or as stated where a point has that name.
+  const std::filesystem::path last = folder.filename().empty() ? folder.parent_path() : folder;
+  const std::string name = last.lexically_normal().filename().string();
+  const bool own = !name.empty() && name != "." && name != ".." && !find_point(plan, name);
+  return read_finished_run(folder, kept.resolved.scene, own ? name : options.reference);
 }
 
 /// What tells the runs from the scene, outputs aside; a reference from elsewhere has none.
@@ -102,6 +106,12 @@ DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const
   if (!named && !options.reference.empty() && !find_point(plan, options.reference)) {
     outcome.runs.push_back(read_reference(options, plan));
     named = &outcome.runs.back();
+  }
+  if (!named && !options.reference.empty()) {
+    fmt::print(stderr, "tread: --reference {} is not done; there is nothing to compare with yet\n",
+               options.reference);
+    outcome.runs.clear();
+    return outcome;
   }
   outcome.table = dial_table(outcome.runs, named ? *named : finest(outcome.runs));
   add_settings(plan.study, outcome.table);

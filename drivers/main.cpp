@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <exception>
 #include <functional>
 #include <map>
@@ -81,8 +83,20 @@ void report_problems(bool json, const std::function<void()>& action) {
   }
 }
 
+/// Refuses what is no number, or one below `least`.
+CLI::Validator at_least(int least) {
+  const auto refusal = [least](const std::string& text) {
+    double value = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = failure == std::errc() && end == text.data() + text.size();
+    return number && value >= least ? std::string()
+                                    : fmt::format("\"{}\" is not a number of at least {}", text, least);
+  };
+  return {refusal, fmt::format(">= {}", least)};
+}
+
 void add_thread_options(CLI::App& command, tread::ThreadOptions& options) {
-  command.add_option("-t,--threads", options.number, "threads (default: all)")->check(CLI::PositiveNumber);
+  command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
   command.add_option("--backend", options.backend,
                      "library that runs them, openmp (default) or tbb; same bits");
 }
@@ -161,7 +175,7 @@ void add_ctl(CLI::App& app) {
       ->required()
       ->check(CLI::IsMember({"status", "checkpoint", "frame", "stop"}));
   command.add_option("--wait", options->patience, "longest time to wait for an answer [s]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   command.callback([options] { tread::control_run(*options); });
 }
 
@@ -258,11 +272,11 @@ void add_study_options(CLI::App& command, tread::StudyOptions& options) {
                   "key=value for all points, e.g. --set \"motion.duration=20 ms\"")
       ->allow_extra_args(false);
   command.add_option("-j,--jobs", options.jobs, "runs at once (default: as many as cores and memory allow)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least(1));
   command
       .add_option("-t,--threads", options.threads,
                   "threads of one run (default: its share of the cores that are idle when it begins)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least(1));
   command.add_flag("--retry", options.retry, "points that failed, too");
   command.add_flag("--no-share", options.no_share,
                    "each run begins at the start, also where corrugations by gap could share the rolling");
@@ -336,7 +350,7 @@ void add_develop(CLI::App& app, const std::string& command_line) {
   command.add_option("--from", options.from,
                      "begin all passages with the state of a run over the smooth rail, DIR or DIR@TIME");
   command.add_option("-t,--threads", options.threads, "threads of a passage (default: all)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least(1));
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
   command.callback([state] {
@@ -367,9 +381,8 @@ void add_verify(CLI::App& app) {
 
 void add_plan_options(CLI::App& command, tread::MeasurementPlan& plan) {
   command.add_option("--repetitions", plan.repetitions, "runs, of which the median counts")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(1));
+  command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")->check(at_least(0));
 }
 
 void add_bench_kernels(CLI::App& bench) {
@@ -411,7 +424,7 @@ void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<tread::BenchHotspotsOptions>>();
   CLI::App& command = add_scene_command(bench, "hotspots", "time, work and balance of every phase of a step",
                                         tread::bench_hotspots, state);
-  command.add_option("--steps", state->options.steps, "of a run (default: 500)")->check(CLI::PositiveNumber);
+  command.add_option("--steps", state->options.steps, "of a run (default: 500)")->check(at_least(1));
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }
@@ -479,8 +492,16 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(tread::ExitCode::input);
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    // A misspelt word may be why another one is missing.
+    const std::vector<std::string> unknown = app.remaining(true);
+    char** const end = argv + argc;
+    char** const word = std::find_first_of(argv + 1, end, unknown.begin(), unknown.end());
+    if (word == end)
+      app.exit(error);
+    else
+      fmt::print(stderr, "tread: {} was not expected here; --help lists what is\n", *word);
+    return static_cast<int>(tread::ExitCode::input);
   }
   return 0;
 }

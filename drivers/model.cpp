@@ -327,7 +327,7 @@ double Model::journal_load() const {
 double Model::penalty_stiffness(const ContactSpec& spec) const {
   const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
   // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
-  // [verification.md]
+  // [limits.md, Penalty]
   constexpr double kPerElement = 10;
   const double preferred =
       std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, unit_ratio / 0.02);

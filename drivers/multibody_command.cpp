@@ -7,6 +7,8 @@
 #include "drivers/multibody/multibody_report.hpp"
 #include "drivers/plain_text.hpp"
 #include "drivers/progress.hpp"
+#include "drivers/run_folder.hpp"
+#include "drivers/study/scene_content.hpp"
 #include "io/output_file.hpp"
 #include "io/units.hpp"
 
@@ -43,7 +45,7 @@ void check(const MultibodyOptions& options) {
 void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
                  const MultibodyOptions& options) {
   const std::filesystem::path& directory = options.output;
-  write_text_file(directory / "scene.resolved.toml", resolved_toml(resolved));
+  keep_scene(directory, resolved);
   write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
   write_text_file(directory / "summary.json", multibody_json(outcome));
   write_text_file(directory / "multibody.svg", figure_svg(passage_figure(outcome)));
@@ -89,6 +91,7 @@ void run_multibody_command(const ResolvedScene& resolved, const MultibodyOptions
   }
   outcome.seconds = progress.seconds();
   if (!options.output.empty()) {
+    require_no_run(options.output);
     make_directory(options.output);
     write_files(outcome, resolved, options);
   }

@@ -20,6 +20,7 @@
 #include "drivers/run_report.hpp"
 #include "drivers/run_results.hpp"
 #include "drivers/run_session.hpp"
+#include "drivers/study/scene_content.hpp"
 #include "io/output_file.hpp"
 
 namespace tread {
@@ -142,7 +143,7 @@ void begin_fork(const RunSession& session, const Fork& fork, const Model& model,
 /// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
 /// included.
 void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
-  write_text_file(session.folder / "scene.resolved.toml", resolved_toml(session.resolved));
+  keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
   const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
   Model model(made.scene);

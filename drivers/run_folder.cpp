@@ -56,6 +56,15 @@ std::optional<RunRequest> read_request(const fs::path& path) {
 
 }  // namespace
 
+void require_no_run(const fs::path& folder) {
+  for (const char* name : {"run.h5", "histories.csv", kCheckpointFolder})
+    if (fs::exists(folder / name))
+      throw InputError(
+          fmt::format("-o {}: it holds a run of `tread run` ({}), whose results would be overwritten; choose "
+                      "another folder",
+                      folder.string(), name));
+}
+
 bool is_taken(const fs::path& folder) {
   return !FileLock::try_folder(folder);
 }

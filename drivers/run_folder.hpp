@@ -15,6 +15,9 @@ inline constexpr const char* kCheckpointFolder = "checkpoint";  ///< of a run's 
 /// Whether a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 
+/// InputError where a run lies in the folder, whose results other ones of the same names would overwrite.
+void require_no_run(const std::filesystem::path& folder);
+
 /// What another process asks of the one that works on the folder.
 enum class RunRequest { checkpoint, frame, stop };
 

@@ -147,7 +147,9 @@ void evaluate(const Model& model, RunResults& r) {
     r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
     r.longitudinal_force =
         statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
-    r.creepage_max = statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; }).max;
+    const Statistics creepage =
+        statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
+    r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
     constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
     r.full_slip_share = statistics(
                             r.samples, [&](const Sample& s) { return evaluated(s) && s.patch_area > 0; },

@@ -69,9 +69,9 @@ struct RunResults {
   Statistics vertical_force;      ///< over evaluated() [N]
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =
-      0;                       ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
-  double creepage = 0;         ///< mean of 28 nodes there [-]
-  double creepage_max = 0;     ///< largest mean of 28 nodes over the stretch of vertical_force [-]
+      0;                    ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double creepage = 0;      ///< mean of 28 nodes there [-]
+  double creepage_max = 0;  ///< mean of 28 nodes, the largest in size over the stretch of vertical_force [-]
   double full_slip_share = 0;  ///< of the samples in contact there, those whose whole patch slides [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
   double vertical_force_steady = 0;                        ///< mean there [N]

@@ -12,7 +12,7 @@ namespace tread {
 struct VerifyOptions {
   std::vector<std::string> names;      ///< of cases; empty: all
   std::vector<std::string> overrides;  ///< "mu=0.25", for every chosen case that has the input
-  std::filesystem::path output;        ///< directory for verify.md and the figures; empty: none
+  std::filesystem::path output;        ///< directory for a page a case and the figures; empty: none
   ThreadOptions threads;
   bool json = false;  ///< one object a line on stdout instead of a table
   bool list = false;  ///< cases and their inputs instead of running them

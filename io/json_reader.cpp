@@ -37,7 +37,6 @@ class Reader {
     return true;
   }
 
-  /// Of the escapes those that stand for one character.
   std::optional<std::string> text() {
     if (!take("\"")) return {};
     std::string read;
@@ -46,8 +45,12 @@ class Reader {
       rest_.remove_prefix(1);
       if (c == '"') return read;
       if (c == '\\') {
-        constexpr std::string_view kEscapes = "\"\\/nt";
-        constexpr std::string_view kMeanings = "\"\\/\n\t";
+        if (take_now("u")) {
+          if (!code_point(read)) return {};
+          continue;
+        }
+        constexpr std::string_view kEscapes = "\"\\/nrtbf";
+        constexpr std::string_view kMeanings = "\"\\/\n\r\t\b\f";
         const auto which = rest_.empty() ? std::string_view::npos : kEscapes.find(rest_.front());
         if (which == std::string_view::npos) return {};
         c = kMeanings[which];
@@ -56,6 +59,34 @@ class Reader {
       read += c;
     }
     return {};
+  }
+
+  bool take_now(std::string_view token) {
+    if (!rest_.starts_with(token)) return false;
+    rest_.remove_prefix(token.size());
+    return true;
+  }
+
+  /// Of four hexadecimal digits, as UTF-8; halves of a pair stand for no character.
+  bool code_point(std::string& read) {
+    unsigned code = 0;
+    constexpr std::size_t kDigits = 4;
+    if (rest_.size() < kDigits) return false;
+    const auto [end, fault] = std::from_chars(rest_.data(), rest_.data() + kDigits, code, 16);
+    if (fault != std::errc{} || end != rest_.data() + kDigits || (code >= 0xD800 && code < 0xE000))
+      return false;
+    rest_.remove_prefix(kDigits);
+    if (code < 0x80) {
+      read += static_cast<char>(code);
+    } else if (code < 0x800) {
+      read += static_cast<char>(0xC0 | (code >> 6));
+      read += static_cast<char>(0x80 | (code & 0x3F));
+    } else {
+      read += static_cast<char>(0xE0 | (code >> 12));
+      read += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
+      read += static_cast<char>(0x80 | (code & 0x3F));
+    }
+    return true;
   }
 
   bool object(const std::string& prefix, int depth) {

@@ -127,8 +127,7 @@ void add_general(Keys& keys) {
                   .description = "Library entry whose values hold where the file states none"});
   keys.push_back(choice("scene.quality", at(&Scene::quality), {"draft", "standard", "paper"},
                         "Fineness of the generated mesh: elements of 2.2, 1.6 or 1.1 mm in the contact "
-                        "surface; `paper` has the "
-                        "paper's 1.46 million in its scene"));
+                        "surface; `paper` has 1.48 million in the paper's scene, where the paper had 1.46"));
   keys.push_back(
       choice("scene.precision", at(&Scene::precision), {"double", "mixed", "single"},
              "Of nodes and elements while they move: `mixed` keeps displacements in double and the "

@@ -9,7 +9,7 @@ document="$root/docs/verification.md"
 # One run a line: the case and its inputs; the order is that of the document.
 runs=(
   'hertz_sphere'
-  'hertz_sphere --set "element_size=0.55 mm"' # 25 minutes of a core
+  'hertz_sphere --set "element_size=0.55 mm"' # 12 minutes of a core
   'hertz_ellipse'
   'hertz_ellipse --set "element_size=0.55 mm"' # 25 minutes of a core
   'contact_filter'
@@ -35,7 +35,7 @@ runs=(
   'wheelset_modes'
   'ring_modes'
   'moving_frames'
-  'moving_frames --set rolling_steps=1e6' # 20 minutes of a core
+  'moving_frames --set rolling_steps=1e6' # 41 minutes of a core
   'moving_frames --set rolling_steps=1e6 --set damping=0.02'
 )
 

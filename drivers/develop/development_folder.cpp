@@ -14,6 +14,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/history_reader.hpp"
 #include "io/output_file.hpp"
+#include "io/text_file.hpp"
 
 namespace tread {
 
@@ -21,9 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kScene = "scene.resolved.toml";
 constexpr const char* kSmoothScene = "smooth.toml";
 constexpr const char* kPassageScene = "passage.toml";
+constexpr const char* kStart = "from.txt";  ///< the run whose state all passages begin with
 
 /// The directory's absolute path; passages are processes that are told of files in it.
 fs::path made(const fs::path& directory) {
@@ -50,13 +51,26 @@ std::string fork_table(const Scene& scene) {
 }
 
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
-  if (!fs::exists(folder / kScene)) return;
-  const std::string other =
-      difference(scene_content(resolved), scene_content(resolve_scene(folder / kScene)));
+  require_no_run(folder);
+  if (!fs::exists(folder / "scene.resolved.toml")) return;
+  const std::string other = difference(scene_content(resolved), kept_scene(folder).content);
   if (!other.empty())
     throw InputError(
         fmt::format("{} holds the development of another scene: {}; choose another folder with -o",
                     folder.string(), other));
+}
+
+/// What all passages begin with: as stated, or as kept when the development began, `begun`.
+std::string start_of(const fs::path& folder, const std::string& stated, bool begun) {
+  constexpr std::size_t kLongest = 1 << 16;  // [B]
+  const std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
+  if (!begun) return wanted;
+  const std::string kept = fs::exists(folder / kStart) ? read_text_file(folder / kStart, kLongest) : "";
+  if (stated.empty() || wanted == kept) return kept;
+  throw InputError(
+      fmt::format("--from {}: the development in {} began with {}; leave --from out, or choose "
+                  "another folder with -o",
+                  stated, folder.string(), kept.empty() ? "a passage of its own" : kept));
 }
 
 std::string work_csv(const PassageWork& work) {
@@ -83,8 +97,16 @@ PassageWork read_work(const fs::path& csv) {
 }
 
 Error failure(const fs::path& folder, const PointStatus& status) {
-  return Error(status.state == PointState::failed ? status.code : ExitCode::resources,
-               fmt::format("the passage in {} {}: {}", folder.string(), name_of(status.state), status.why));
+  if (status.foreign)
+    return InputError(
+        fmt::format("{} holds another run than this passage (here: the passage, there: the "
+                    "folder): {}; choose another folder with -o",
+                    folder.string(), status.why));
+  if (status.state == PointState::failed)
+    return Error(status.code, fmt::format("the passage in {} failed: {}", folder.string(), status.why));
+  return Interrupted(
+      fmt::format("the passage in {} is not done ({}{}); nothing is lost: the same command goes on",
+                  folder.string(), name_of(status.state), status.why.empty() ? "" : ", " + status.why));
 }
 
 }  // namespace
@@ -93,7 +115,10 @@ DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& 
     : folder_(made(path)), scene_(resolved.scene), options_(std::move(options)) {
   require_same(folder_.path(), resolved);
   for (const char* name : {"work", "profiles"}) make_directory(folder_ / name);
-  write_text_file(folder_ / kScene, resolved_toml(resolved));
+  keep_scene(folder_.path(), resolved);
+  const bool begun = fs::exists(work_path(0)) || fs::exists(run_path(0) / kCheckpointFolder);
+  options_.from = start_of(folder_.path(), options_.from, begun);
+  if (!options_.from.empty()) write_text_file(folder_ / kStart, options_.from);
   const std::string smooth = smooth_scene(resolved);
   write_text_file(folder_ / kSmoothScene, smooth + (options_.from.empty() ? fork_table(scene_) : ""));
   write_text_file(folder_ / kPassageScene, smooth);

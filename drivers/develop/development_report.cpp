@@ -244,7 +244,8 @@ Figure profile_figure(const Development& d) {
 
 std::string verdict(const Development& d) {
   const std::optional<BandOutcome> band = deepest(outcome(d));
-  if (!band) return "No passage has worn the rail yet.";
+  if (d.passages.empty()) return "No passage has worn the rail yet.";
+  if (!band) return "No one-third octave band lies between wear.shortest and wear.longest.";
   const bool feeds = band->first_growth > 0;
   std::string text = fmt::format(
       "Over waves of {} mm the frictional work is largest {:.2f} waves {} the trough: it {} them, {:+.3g} in "

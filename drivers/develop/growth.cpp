@@ -81,7 +81,7 @@ std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWo
   const double taper = taper_power(profile, band);
   std::vector<GrowthBand> bands;
   for (const RoughnessBand& third : roughness_bands()) {
-    if (third.middle > 1.001 * band.longest || third.middle < 0.999 * band.shortest) continue;
+    if (third.nominal > 1.001 * band.longest || third.nominal < 0.999 * band.shortest) continue;
     const std::vector<Line> lines = lines_in(third, profile, uneven, band);
     if (!lines.empty()) bands.push_back(band_of(third.nominal, lines, taper));
   }

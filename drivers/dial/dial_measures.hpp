@@ -26,7 +26,8 @@ struct CurveDifference {
   double error = 0;             ///< quadratic mean of what differs once the shift is taken out [-]
   double mean = 0;              ///< of the curve less that of the reference [-]
   std::optional<double> range;  ///< of the curve over that of the reference, less one [-]
-  std::optional<double> shift;  ///< of the curve along the rail, behind the reference [m]; absent: no pattern
+  std::optional<double>
+      shift;  ///< of the curve, further along the rail than the reference [m]; absent: no pattern
 };
 
 /// Over `stretch`, as far as both curves have it with `longest_shift` [m] to either side. `error` and `mean`

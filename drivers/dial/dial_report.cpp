@@ -57,15 +57,16 @@ std::vector<Table> error_tables(const DialTable& table) {
   };
   return {
       titled("Error [%]", error_table(table)),
-      titled("Shift along the rail behind the reference [mm]; –: no pattern in common", shift_table(table)),
+      titled("Shift along the rail, positive further along than the reference [mm]; –: no pattern in common",
+             shift_table(table)),
       titled("Mean over the reference's quadratic mean / range over the reference's, difference [%]",
              quantity_table(table, means))};
 }
 
 std::vector<Table> effect_tables(const DialTable& effects) {
-  return {
-      titled(fmt::format("Difference from {} [%]", effects.reference), error_table(effects)),
-      titled(fmt::format("Shift along the rail behind {} [mm]", effects.reference), shift_table(effects))};
+  return {titled(fmt::format("Difference from {} [%]", effects.reference), error_table(effects)),
+          titled(fmt::format("Shift along the rail, positive further along than {} [mm]", effects.reference),
+                 shift_table(effects))};
 }
 
 std::vector<std::pair<std::string, std::string>> panels() {

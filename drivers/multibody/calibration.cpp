@@ -44,11 +44,13 @@ class Fit {
         x.push_back(run.x[i]);
         force_.push_back(run.force[i]);
       }
+    model_.speed = run.speed_between(first, last);
   }
 
   CurveFit of_run() const { return fit(run_); }
   CurveFit of_model(double contact) const { return fit(rolled(contact)); }
   double misfit(double contact) const { return of_model(contact).misfit; }
+  double speed() const { return model_.speed; }
 
   double first = 0, last = 0;  ///< [m]
   std::vector<double> x;       ///< of the run between them [m]
@@ -83,42 +85,46 @@ class Fit {
     return fit;
   }
 
-  const MultibodyModel& model_;
+  MultibodyModel model_;
   MultibodyStep step_;
   Curve run_;
   std::vector<double> force_;  ///< of the run at x [N]
 };
 
-void require_same_passage(const Scene& scene, const TransientRun& run) {
-  const auto differs = [&](const char* key, double ours, double theirs) {
-    if (std::abs(ours - theirs) > 1e-6 * std::max(std::abs(ours), 1e-9))
-      throw InputError(fmt::format(
-          "--calibrate {}: {} is {:.6g} in the scene and {:.6g} in the run (SI); calibrate with the run's "
-          "own "
-          "scene, {}",
-          run.directory.string(), key, ours, theirs, (run.directory / "scene.resolved.toml").string()));
-  };
-  differs("motion.speed", scene.motion->speed, run.scene.motion ? run.scene.motion->speed : 0);
-  differs("the presence of [corrugation]", scene.corrugation ? 1 : 0, run.scene.corrugation ? 1 : 0);
-  if (!scene.corrugation) return;
-  const CorrugationSpec& ours = *scene.corrugation;
-  const CorrugationSpec& theirs = *run.scene.corrugation;
-  differs("corrugation.start", ours.start, theirs.start);
-  if (ours.kind != "sine" || theirs.kind != "sine") return;
-  differs("corrugation.wavelength", ours.wavelength, theirs.wavelength);
-  differs("corrugation.depth", ours.depth, theirs.depth);
+void require_same_passage(const MultibodyModel& model, const TransientRun& run) {
+  const MultibodyModel theirs = multibody_model(run.scene, model.theory);
+  std::string apart = track_difference(model, theirs);
+  if (apart.empty()) apart = corrugation_difference(model, theirs);
+  const double ours = model.scene.motion->speed;
+  if (apart.empty() && std::abs(ours - theirs.speed) > 1e-6 * ours)
+    apart = fmt::format("motion.speed is {:.6g} m/s here and {:.6g} m/s there", ours, theirs.speed);
+  if (!apart.empty())
+    throw InputError(
+        fmt::format("--calibrate {}: {} (here: the scene, there: the run); calibrate with the "
+                    "run's own scene, {}",
+                    run.directory.string(), apart, (run.directory / "scene.resolved.toml").string()));
 }
 
 }  // namespace
+
+double TransientRun::speed_between(double first, double last) const {
+  const auto begin = std::lower_bound(x.begin(), x.end(), first) - x.begin();
+  const auto end = std::upper_bound(x.begin(), x.end(), last) - x.begin();
+  if (end - begin < 2) return 0;
+  const auto a = static_cast<std::size_t>(begin);
+  const auto b = static_cast<std::size_t>(end) - 1;
+  return (x[b] - x[a]) / (time[b] - time[a]);
+}
 
 TransientRun read_transient_run(const std::filesystem::path& directory) {
   TransientRun run;
   run.directory = directory;
   run.scene = read_scene(directory / "scene.resolved.toml");
   std::vector<std::vector<double>> columns =
-      read_history(directory / "histories.csv", {{"wheel_x", "m"}, {"vertical_force", "N"}});
-  run.x = std::move(columns[0]);
-  run.force = std::move(columns[1]);
+      read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {"vertical_force", "N"}});
+  run.time = std::move(columns[0]);
+  run.x = std::move(columns[1]);
+  run.force = std::move(columns[2]);
   if (run.x.size() < 2 || !std::is_sorted(run.x.begin(), run.x.end()))
     throw InputError(fmt::format("{}: expected at least two rows with a growing wheel_x",
                                  (directory / "histories.csv").string()));
@@ -126,7 +132,7 @@ TransientRun read_transient_run(const std::filesystem::path& directory) {
 }
 
 Calibration calibrate(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step) {
-  require_same_passage(model.scene, run);
+  require_same_passage(model, run);
   const Fit fit(model, run, step);
   const double wave = model.scene.corrugation && model.scene.corrugation->kind == "sine"
                           ? model.scene.corrugation->wavelength
@@ -139,6 +145,7 @@ Calibration calibrate(const MultibodyModel& model, const TransientRun& run, cons
   Calibration c;
   c.first = fit.first;
   c.last = fit.last;
+  c.speed = fit.speed();
   c.x = fit.x;
   c.run = fit.of_run();
   c.before = fit.of_model(model.vehicle.contact);

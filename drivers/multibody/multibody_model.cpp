@@ -48,6 +48,20 @@ BeamVehicle lumped_vehicle(const Scene& scene) {
   return vehicle;
 }
 
+/// As the scene states it.
+Corrugation stated_corrugation(const MultibodyModel& model) {
+  const auto& spec = model.scene.corrugation;
+  return spec ? corrugation_of(*spec, spec->centre.value_or(model.contact_y)) : Corrugation{};
+}
+
+/// Empty where both are the same.
+std::string difference(const char* name, const char* unit, double here, double there) {
+  constexpr double kRounding = 1e-6;
+  constexpr double kNothing = 1e-9;  // in any of the units
+  if (std::abs(here - there) <= std::max(kNothing, kRounding * std::abs(here))) return "";
+  return fmt::format("{} is {:.6g}{} here and {:.6g}{} there", name, here, unit, there, unit);
+}
+
 }  // namespace
 
 const char* name_of(BeamTheory theory) {
@@ -89,9 +103,7 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
             model.vehicle.load());
   model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
 
-  if (scene.corrugation)
-    model.corrugation =
-        corrugation_of(*scene.corrugation, scene.corrugation->centre.value_or(model.contact_y));
+  model.corrugation = stated_corrugation(model);
   model.speed = scene.motion->speed;
   const double left = -scene.rail->origin;
   model.start =
@@ -107,6 +119,52 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   return model;
 }
 
+std::string track_difference(const MultibodyModel& here, const MultibodyModel& there) {
+  std::string first;
+  const auto compare = [&](const char* name, const char* unit, double ours, double theirs) {
+    if (first.empty()) first = difference(name, unit, ours, theirs);
+  };
+  compare("the wheel load", " N", here.vehicle.load(), there.vehicle.load());
+  compare("the unsprung mass", " kg", here.vehicle.unsprung_mass, there.vehicle.unsprung_mass);
+  compare("the sprung mass", " kg", here.vehicle.sprung_mass, there.vehicle.sprung_mass);
+  compare("the suspension's stiffness", " N/m", here.vehicle.stiffness, there.vehicle.stiffness);
+  compare("the suspension's damping", " N s/m", here.vehicle.damping, there.vehicle.damping);
+  compare("the rail's E I", " N m2", here.rail.bending_stiffness, there.rail.bending_stiffness);
+  compare("the rail's kappa G A", " N", here.rail.shear_stiffness, there.rail.shear_stiffness);
+  compare("the rail's mass", " kg/m", here.rail.mass, there.rail.mass);
+  const auto count = [](const MultibodyModel& one) { return static_cast<double>(one.supports.size()); };
+  compare("the number of fastenings", "", count(here), count(there));
+  for (std::size_t i = 0; i < std::min(here.supports.size(), there.supports.size()); ++i) {
+    const BeamSupport& ours = here.supports[i];
+    const BeamSupport& theirs = there.supports[i];
+    compare("a fastening's x", " m", ours.x, theirs.x);
+    compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
+    compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
+  }
+  return first;
+}
+
+std::string corrugation_difference(const MultibodyModel& here, const MultibodyModel& there) {
+  const Corrugation ours = stated_corrugation(here);
+  const Corrugation theirs = stated_corrugation(there);
+  if (ours.smooth() && theirs.smooth()) return "";
+  for (const std::string& apart : {difference("the corrugation's start", " m", ours.first(), theirs.first()),
+                                   difference("the corrugation's end", " m", ours.last(), theirs.last())})
+    if (!apart.empty()) return apart;
+  constexpr int kPlaces = 1000;
+  constexpr double kSame = 0.01;  // of the largest depth: where the wheel touches hangs a little on the mesh
+  double deepest = 0;
+  double apart = 0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double x = ours.first() + (ours.last() - ours.first()) * i / kPlaces;
+    const double depth = ours.depth(x, ours.centre());
+    deepest = std::max(deepest, std::abs(depth));
+    apart = std::max(apart, std::abs(depth - theirs.depth(x, theirs.centre())));
+  }
+  if (apart <= kSame * deepest) return "";
+  return fmt::format("the corrugations' depths differ by up to {:.3g} mm", 1e3 * apart);
+}
+
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength) {
   if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
     throw InputError("tread multibody: the wavelength can only be changed where [corrugation] is a sine");
@@ -120,7 +178,12 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength) {
   const HertzPatch& patch = model.patch;
   const CorrugationSpec& spec = *model.scene.corrugation;
   const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 8;
-  const Influence influence(centred_grid(2 * patch.semi_axis_x, 2 * patch.semi_axis_y, cell),
+  // A trough more curved than the wheel is bridged, from crest to crest at the most.
+  const double curvature = 0.5 * spec.depth * std::pow(2 * std::numbers::pi / wavelength, 2);
+  const bool bridged = curvature * 0.5 * model.scene.wheel->diameter > 0.5;
+  const double half_length =
+      std::max(2.0 * patch.semi_axis_x, bridged ? 0.5 * wavelength + patch.semi_axis_x : 0.0);
+  const Influence influence(centred_grid(half_length, 2 * patch.semi_axis_y, cell),
                             {model.scene.steel.youngs_modulus, model.scene.steel.poissons_ratio});
   const Gap smooth = quadratic_gap(0.5 * model.scene.wheel->diameter, model.radius_y);
   const auto approach = [&](double phase) {

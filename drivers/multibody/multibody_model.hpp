@@ -2,6 +2,7 @@
 // What the multi-body approach makes of a scene. [theory.md, Multi-body approach]
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/corrugation.hpp"
@@ -43,6 +44,13 @@ struct MultibodyModel {
 /// duration. It starts in the middle of the first span unless motion.start is "rigid" (then at x = 0). Slab
 /// and mortar are rigid. InputError for scenes that lack a part or whose rail is too short.
 MultibodyModel multibody_model(const Scene& scene, BeamTheory theory);
+
+/// What of vehicle, rail and fastenings differs first, "the wheel load is 87560 N here and 70000 N there";
+/// empty where nothing does.
+std::string track_difference(const MultibodyModel& here, const MultibodyModel& there);
+
+/// The same of the corrugations as the scenes state them, before any filter.
+std::string corrugation_difference(const MultibodyModel& here, const MultibodyModel& there);
 
 /// The same over a corrugation of another wavelength [m]. InputError without a sine.
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength);

@@ -1,9 +1,12 @@
 #include "drivers/multibody/multibody_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "drivers/evaluated_stretch.hpp"
 
 namespace tread {
@@ -72,6 +75,11 @@ double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double s
 
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step) {
   const ModalTrack track = modal_track(model, step.modes);
+  // Estimates of the stable step are good to a factor of two; beyond, nothing is left to try.
+  const double longest = 4 * passage_step(track, model.vehicle);
+  if (step.step && *step.step > longest)
+    throw InputError(fmt::format("--step {:.4g} s: steps beyond {:.2g} s cannot be stable with {} modes",
+                                 *step.step, longest, track.beam().modes()));
   MultibodyResult r;
   r.modes = track.beam().modes();
   r.dt = step.step.value_or(chosen_step(track, model.vehicle, model.speed, wavelength_of(model)));

@@ -47,6 +47,8 @@ struct MultibodyResult {
   std::vector<CrestPeak> peaks;  ///< of a sine's crests between its first and its last
 };
 
+/// InputError where a stated step is far beyond what can be stable; NumericalError where it turns out not to
+/// be.
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step);
 
 /// The largest forces about the crests of a sine: `force` at `x`, both growing in x. Crests about which the

@@ -148,10 +148,11 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   MapDot dot;
   dot.label = run.directory.filename().string();
   if (dot.label.empty()) dot.label = run.directory.parent_path().filename().string();
-  dot.speed = run.scene.motion ? run.scene.motion->speed : 0;
+  dot.speed = run.speed_between(stretch.first, stretch.last);
   dot.wavelength = spec.wavelength;
-  dot.max = extremes.max / model.vehicle.load();
-  dot.min = extremes.min / model.vehicle.load();
+  const MultibodyModel theirs = multibody_model(run.scene, model.theory);
+  dot.max = extremes.max / theirs.vehicle.load();
+  dot.min = extremes.min / theirs.vehicle.load();
   const CorrugationSpec& ours = *model.scene.corrugation;
   if (std::abs(spec.depth - ours.depth) > 1e-3 * ours.depth)
     dot.remark = fmt::format("depth {:.3g} mm, the map's is {:.3g} mm", 1e3 * spec.depth, 1e3 * ours.depth);
@@ -159,6 +160,8 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
     dot.remark = fmt::format("starts at {:.3f} m, the map's corrugation at {:.3f} m", spec.start, ours.start);
   else if (run.x.back() < stretch.last)
     dot.remark = fmt::format("ends at x = {:.3f} m", run.x.back());
+  else
+    dot.remark = track_difference(model, theirs);
   return dot;
 }
 

@@ -49,9 +49,9 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
 /// A transient run on the map.
 struct MapDot {
   std::string label;        ///< name of its directory
-  double speed = 0;         ///< [m/s]
+  double speed = 0;         ///< on the evaluated stretch [m/s]
   double wavelength = 0;    ///< [m]
-  double max = 0, min = 0;  ///< F_N over the static load of the model [-]
+  double max = 0, min = 0;  ///< F_N over the run's static load [-]
   std::string remark;       ///< where its scene is not the map's
 };
 

@@ -26,7 +26,7 @@ Ours of(const Passage& passage, const Measure& measure) {
   };
 }
 
-/// Of the run's summary.
+/// What the run's summary states at `path`, times `scale`.
 Ours stated(const Passage& passage, std::string path, double scale) {
   return of(passage, [path = std::move(path), scale](const FinishedRun& run) -> std::optional<double> {
     const std::optional<double> value = run.number(path);
@@ -36,12 +36,12 @@ Ours stated(const Passage& passage, std::string path, double scale) {
 
 /// The same where the run has come to the end of its corrugation.
 Ours over_the_corrugation(const Passage& passage, std::string path, double scale) {
-  return of(passage, [path = std::move(path), scale](const FinishedRun& run) -> std::optional<double> {
-    if (vertical_peaks(run).empty() || !wave_pattern(run, history_over_way(run, "vertical_force", "N")))
-      return std::nullopt;
-    const std::optional<double> value = run.number(path);
-    return value ? std::optional(scale * *value) : std::nullopt;
-  });
+  return [passage, value = stated(passage, std::move(path), scale)](const PassageRuns& runs) {
+    const FinishedRun* run = runs.find(passage);
+    const bool at_end = run && !vertical_peaks(*run).empty() &&
+                        wave_pattern(*run, history_over_way(*run, "vertical_force", "N"));
+    return at_end ? value(runs) : std::nullopt;
+  };
 }
 
 std::optional<double> first_shift(const FinishedRun& run) {

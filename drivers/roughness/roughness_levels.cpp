@@ -108,10 +108,15 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
 
   const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(std::lround(finest / line)) + 2);
   const std::size_t hop = std::max<std::size_t>(1, count / 2);
-  const std::size_t segments = (profile.height.size() - count) / hop + 1;
+  // As many as lie half a segment apart at the most, evenly, the last at the record's end.
+  const std::size_t way = profile.height.size() - count;
+  const std::size_t gaps = (way + hop - 1) / hop;
+  const std::size_t segments = gaps + 1;
   std::vector<std::vector<double>> spectra(segments);
-  each_item(segments,
-            [&](std::size_t i) { spectra[i] = spectrum(profile.height.data() + i * hop, count, lines); });
+  each_item(segments, [&](std::size_t i) {
+    const std::size_t first = gaps > 0 ? i * way / gaps : 0;
+    spectra[i] = spectrum(profile.height.data() + first, count, lines);
+  });
   levels.segments = static_cast<int>(segments);
   for (const RoughnessBand& band : bands) {
     if (!resolved(band)) {

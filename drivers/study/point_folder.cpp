@@ -65,10 +65,10 @@ ExitCode exit_code(std::optional<double> code) {
 /// Of the run in the folder: why it is not that of the scene, and what it keeps.
 void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
   try {
-    const ResolvedScene there = resolve_scene(folder / "scene.resolved.toml");
-    status.why = difference(scene, scene_content(there));
-    if (there.scene.forks) status.keeps_at = there.scene.forks->at;
-    status.room = depth_room(there.scene);
+    const KeptScene there = kept_scene(folder);
+    status.why = difference(scene, there.content);
+    if (there.resolved.scene.forks) status.keeps_at = there.resolved.scene.forks->at;
+    status.room = depth_room(there.resolved.scene);
   } catch (const InputError& error) {
     status.why = fmt::format("its scene does not read: {}", error.what());
   }

@@ -4,11 +4,29 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
+
+#include "core/hash.hpp"
+#include "io/json_reader.hpp"
+#include "io/json_writer.hpp"
+#include "io/output_file.hpp"
 
 namespace tread {
 
+namespace fs = std::filesystem;
+
 namespace {
+
+constexpr const char* kScene = "scene.resolved.toml";
+constexpr const char* kChecksums = "scene.files.json";
+constexpr const char* kFile = "file ";  ///< begins the key of a file's checksum
+
+std::string checksum(const std::string& text) {
+  Hash hash;
+  hash.add(std::as_bytes(std::span(text)));
+  return fmt::format("{:016x}", hash.value());
+}
 
 bool matters(std::string_view path) {
   constexpr std::array<std::string_view, 5> kIdle = {"scene.title", "output.progress_interval",
@@ -25,8 +43,35 @@ SceneContent scene_content(const ResolvedScene& resolved) {
   for (const Entry& entry : resolved.entries)
     if (matters(entry.path))
       content[entry.path] = entry.unit.empty() ? entry.value : entry.value + " " + entry.unit;
-  for (const auto& [place, text] : resolved.source.files) content["file " + place] = text;
+  for (const auto& [place, text] : resolved.source.files) content[file_key(place)] = checksum(text);
   return content;
+}
+
+std::string file_key(const std::string& place) {
+  return kFile + place;
+}
+
+void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
+  write_text_file(folder / kScene, resolved_toml(resolved));
+  if (resolved.source.files.empty()) return;
+  JsonWriter json;
+  json.begin_object();
+  for (const auto& [place, text] : resolved.source.files)
+    json.member(place, std::string_view(checksum(text)));
+  write_text_file(folder / kChecksums, json.end_object().text());
+}
+
+KeptScene kept_scene(const fs::path& folder) {
+  KeptScene kept{resolve_scene(folder / kScene), {}};
+  kept.content = scene_content(kept.resolved);
+  if (!fs::exists(folder / kChecksums)) return kept;
+  const JsonRecord checksums = read_json(folder / kChecksums);
+  for (auto& [key, value] : kept.content)
+    if (key.starts_with(kFile))
+      if (const std::string then = text_in(checksums, key.substr(std::string_view(kFile).size()));
+          !then.empty())
+        value = then;
+  return kept;
 }
 
 std::string difference(const SceneContent& here, const SceneContent& there) {
@@ -39,6 +84,8 @@ std::string difference(const SceneContent& here, const SceneContent& there) {
     for (const auto& [key, value] : *one) {
       const SceneContent& other = one == &here ? there : here;
       const auto found = other.find(key);
+      if (found != other.end() && found->second != value && key.starts_with(kFile))
+        return key + " has other contents here than there";
       if (found == other.end() || found->second != value)
         return fmt::format("{} is {} here and {} there", key, shown(here, key), shown(there, key));
     }

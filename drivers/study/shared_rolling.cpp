@@ -23,9 +23,9 @@ const SharedRolling* group_of(const StudyPlan& plan, const PlannedPoint& point) 
 SceneContent content_before(const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
   SceneContent content = point.content;
-  const std::string file = scene.corrugation ? "file " + scene.corrugation->file : "";
+  const std::string file = scene.corrugation ? scene.corrugation->file : "";
   std::erase_if(content, [&](const auto& entry) {
-    return entry.first.starts_with("corrugation") || (entry.first == file && file != "file ");
+    return entry.first.starts_with("corrugation") || (!file.empty() && entry.first == file_key(file));
   });
   if (scene.contact->depth_room) content["room"] = fmt::format("{}", *scene.contact->depth_room);
   return content;

@@ -16,6 +16,7 @@
 #include "drivers/study/study_runner.hpp"
 #include "io/json_writer.hpp"
 #include "io/output_file.hpp"
+#include "io/text_file.hpp"
 
 namespace tread {
 
@@ -89,6 +90,16 @@ void require_disk(const StudyPlan& plan, const StudyCost& cost) {
       bytes_text(cost.disk), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
 }
 
+/// Where the study brings its own.
+void leave_scene(const Study& study) {
+  if (study.scene_text.empty()) return;
+  constexpr std::size_t kLargest = 1 << 20;  // [B]
+  if (std::filesystem::exists(study.scene) && read_text_file(study.scene, kLargest) != study.scene_text)
+    throw InputError(fmt::format("{}: it is not the scene that belongs there; choose another folder with -o",
+                                 study.scene.string()));
+  write_text_file(study.scene, study.scene_text);
+}
+
 /// What is to be said of points that did not come to their end.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
                                const std::string& way_on) {
@@ -151,6 +162,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                                                                way_on));
   std::optional<RunFolder> folder;
   if (!options.list) {
+    require_no_run(plan.folder);
     make_directory(plan.folder);
     folder.emplace(plan.folder);
   }
@@ -164,7 +176,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
     return std::nullopt;
   }
   require_disk(plan, cost);
-  if (!study.scene_text.empty()) write_text_file(study.scene, study.scene_text);
+  leave_scene(study);
   progress.say(plain_text(plan_table(plan)) + "\n[sweep] " + cost_text(plan, cost));
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress).run(options.retry);

@@ -2,53 +2,41 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
+#include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
 namespace {
 
 namespace fs = std::filesystem;
+using samples::has;
 
 struct Outcome {
-  int code = -1;
+  int code;
   std::string out;
+  std::string errors;
 };
-
-Outcome call(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = ::popen((std::string(TREAD_EXECUTABLE) + " " + arguments + " 2>/dev/null").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    outcome.out.append(buffer.data(), n);
-  outcome.code = WEXITSTATUS(::pclose(pipe));
-  return outcome;
-}
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 class Commands : public testing::Test {
  protected:
-  std::string scene(const std::string& name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
-  std::string content(const char* name) const {
-    std::stringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
+  Outcome call(const std::string& arguments) const {
+    const int code = program_.call(arguments);
+    return {code, program_.out(), program_.errors()};
   }
+  std::string scene(const std::string& name) const { return fs::path(TREAD_SOURCE_DIR) / "scenes" / name; }
+  std::string content(const char* name) const { return samples::content_of(folder_ / name); }
 
   samples::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path;
+
+ private:
+  samples::Program program_;
 };
 
 TEST_F(Commands, CheckListsEveryProblemWithItsPlace) {
@@ -182,19 +170,21 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
 TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
   const std::string good = "multibody --quiet " + scene("corrugation-d.toml");
   for (const std::string& wrong :
-       {good + " --beam rayleigh", good + " --step 5", good + " --step \"0 s\"", good + " --modes 1",
-        good + " --map speed=100:500:10km/h", good + " --dots " + folder_.string(),
+       {good + " --beam rayleigh", good + " --step 5", good + " --step \"0 s\"", good + " --step \"1 s\"",
+        good + " --modes 1", good + " --map speed=100:500:10km/h", good + " --dots " + folder_.string(),
         good + " --calibrate " + folder_.string(), good + " --set \"rail.length=8 m\"",
         "multibody --quiet " + scene("tyre.toml"), "multibody --quiet " + scene("bar-wave.toml"),
         "multibody --quiet --filter " + scene("smooth.toml")})
     EXPECT_EQ(call(wrong).code, 2) << wrong;
-  EXPECT_EQ(call(good + " --step \"1 ms\"").code, 3);
+  EXPECT_EQ(call(good + " --step \"20 us\"").code, 3);
   // A history with a broken row names its line.
   std::ofstream(folder_ / "scene.resolved.toml") << std::ifstream(scene("corrugation-d.toml")).rdbuf();
-  std::ofstream(folder_ / "histories.csv") << "wheel_x [m],vertical_force [N]\n0,1\n1\n";
+  std::ofstream(folder_ / "histories.csv") << "time [s],wheel_x [m],vertical_force [N]\n0,0,1\n1,1\n";
   const Outcome broken = call(good + " --json --calibrate " + folder_.string());
   EXPECT_EQ(broken.code, 2);
-  EXPECT_TRUE(has(broken.out, "histories.csv:3: 1 values under 2 columns")) << broken.out;
+  // A run's results are not overwritten.
+  EXPECT_EQ(call(good + " -o " + folder_.string()).code, 2);
+  EXPECT_TRUE(has(broken.out, "histories.csv:3: 2 values under 3 columns")) << broken.out;
 }
 
 TEST_F(Commands, RoughnessReadsJudgesAndWrites) {
@@ -247,6 +237,20 @@ TEST_F(Commands, RoughnessNamesTheBrokenLine) {
   EXPECT_TRUE(has(answer("").out, "at least two rows"));
   EXPECT_EQ(call("roughness " + (folder_ / "none.txt").string()).code, 2);
   EXPECT_EQ(call("roughness --segment 2 " + file.string()).code, 2);
+}
+
+TEST_F(Commands, WrongWordsAreNamed) {
+  for (const auto& [wrong, answer] :
+       {std::pair{"rum x.toml", "rum was not expected"},
+        {"develop x.toml --frm y", "--frm was not expected"},
+        {"run", "scene is required"},
+        {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
+        {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
+        {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
+    const Outcome outcome = call(wrong);
+    EXPECT_EQ(outcome.code, 2) << wrong;
+    EXPECT_TRUE(has(outcome.errors, answer)) << wrong << outcome.errors;
+  }
 }
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {

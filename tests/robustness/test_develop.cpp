@@ -100,6 +100,20 @@ TEST_F(Develop, BeginsWithTheStateOfAnotherRun) {
     EXPECT_TRUE(content_of(folder_ / name) == content_of(root_ / "whole" / name)) << name;
 }
 
+TEST_F(Develop, KeepsWhatItBeganWith) {
+  const std::string from = fmt::format("--from {}", (root_ / "whole/passage-0000").string());
+  ASSERT_EQ(call(develop(folder_, 1, kCorrugation + kWear, from)), 0) << errors();
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear, "--from elsewhere")), 2);
+  EXPECT_TRUE(has(errors(), "began with")) << errors();
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear)), 0) << errors();
+  EXPECT_TRUE(has(content_of(folder_ / "passage-0002/report.html"), "fork of"));
+}
+
+TEST_F(Develop, AStoppedPassageIsNoFailure) {
+  EXPECT_EQ(call(develop(folder_, 1, kCorrugation + kWear + "[stop]\nwall_time = \"1 ms\"\n")), 75);
+  EXPECT_TRUE(has(errors(), "nothing is lost")) << errors();
+}
+
 TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kCorrugation, "the scene has no [wear]");
   expect_refused(kWear, "the scene has no [corrugation]");

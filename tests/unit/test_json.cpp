@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "io/json_reader.hpp"
 #include "io/json_writer.hpp"
 
 namespace tread {
@@ -63,6 +64,18 @@ TEST(Json, ReplacesBytesThatAreNotUtf8) {
   EXPECT_EQ(json_of("\xc0\xaf"), "\"\\ufffd\\ufffd\"\n");             // overlong
   EXPECT_EQ(json_of("\xed\xa0\x80"), "\"\\ufffd\\ufffd\\ufffd\"\n");  // surrogate
   EXPECT_EQ(json_of("end\xe2\x89"), "\"end\\ufffd\\ufffd\"\n");       // cut short
+}
+
+TEST(Json, TextsReadBackAsTheyWereWritten) {
+  const std::string text = "a\r\n\t\b\f\x01\"\\ \u00e9 \u20ac \U0001f682";
+  JsonWriter json;
+  json.begin_object().member("text", std::string_view(text)).member("broken", std::string_view("\xff"));
+  const auto read = parse_json(json.end_object().text(), JsonShape::flat);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(text_in(*read, "text"), text);
+  EXPECT_EQ(text_in(*read, "broken"), "\ufffd");
+  for (const char* wrong : {R"({"a": "\u12"})", R"({"a": "\u12g4"})", R"({"a": "\ud83d"})", R"({"a": "\q"})"})
+    EXPECT_FALSE(parse_json(wrong, JsonShape::flat)) << wrong;
 }
 
 TEST(Json, RefusesCallsOutOfOrder) {

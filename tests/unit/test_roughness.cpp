@@ -111,6 +111,15 @@ TEST(RoughnessLevels, BandsThatTheRecordCannotShowAreAbsent) {
   EXPECT_THROW(roughness_levels(sines(0.01, 1e-3, {{0.08, 0.14e-3}}), 2), InputError);
 }
 
+TEST(RoughnessLevels, TheWholeRecordCounts) {
+  // Rough in its last 0.9 m alone: a second segment reaches it.
+  RoughnessProfile profile = sines(2.9, 1e-3, {{0.08, 0.14e-3}});
+  std::fill(profile.height.begin(), profile.height.begin() + 2000, 0.0);
+  const RoughnessLevels levels = roughness_levels(profile, 2);
+  EXPECT_EQ(levels.segments, 2);
+  EXPECT_GT(levels.level[band(80)].value(), decibels(0.14e-3) - 10);
+}
+
 TEST(RoughnessLevels, ThreadsDoNotChangeThem) {
   const RoughnessProfile profile = sines(20, 1e-3, {{0.08, 0.14e-3}, {0.0631, 0.18e-3}});
   set_threads(1);

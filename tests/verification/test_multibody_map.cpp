@@ -35,6 +35,7 @@ TransientRun run_with(double factor, double speed_km_h = 300) {
   run.directory = "made/up";
   run.scene = model.scene;
   for (const MultibodySample& s : run_multibody(model, kQuick).samples) {
+    run.time.push_back(s.time);
     run.x.push_back(s.x);
     run.force.push_back(s.force);
   }
@@ -66,6 +67,27 @@ TEST(Calibration, RefusesARunThatIsAnother) {
   brief.x.resize(brief.x.size() / 3);
   brief.force.resize(brief.x.size());
   EXPECT_THROW(calibrate(model_of(300, 80), brief, kQuick), InputError);
+}
+
+TEST(Calibration, RefusesAnotherTrackOrVehicle) {
+  for (const auto change :
+       std::initializer_list<void (*)(Scene&)>{[](Scene& scene) { scene.fastenings->damping *= 0.5; },
+                                               [](Scene& scene) { scene.vehicle->unsprung_mass += 100; },
+                                               [](Scene& scene) { scene.rail->origin += 0.1; },
+                                               [](Scene& scene) { scene.corrugation->depth *= 1.1; }}) {
+    TransientRun run = run_with(1);
+    change(run.scene);
+    EXPECT_THROW(calibrate(model_of(300, 80), run, kQuick), InputError);
+  }
+}
+
+TEST(Calibration, RollsAsFastAsTheRun) {
+  // Traction has made the run's wheel 5 % faster than its scene says.
+  TransientRun run = run_with(0.62, 315);
+  run.scene = model_of(300, 80).scene;
+  const Calibration c = calibrate(model_of(300, 80), run, kQuick);
+  EXPECT_NEAR(c.speed, 315 / 3.6, 1e-6);
+  EXPECT_NEAR(c.contact / model_of(300, 80).vehicle.contact, 0.62, 0.01);
 }
 
 TEST(ResponseMap, AxesAreParsed) {
@@ -134,7 +156,7 @@ TEST(ResponseMap, DotsAreTheRunsOwnExtremes) {
   const TransientRun run = run_with(0.8);
   const MapDot dot = map_dot(model, run);
   EXPECT_EQ(dot.label, "up");
-  EXPECT_EQ(dot.speed, model.speed);
+  EXPECT_NEAR(dot.speed, model.speed, 1e-9 * model.speed);
   double largest = 0;
   for (std::size_t i = 0; i < run.x.size(); ++i)
     if (run.x[i] > 2.44 && run.x[i] < 2.92) largest = std::max(largest, run.force[i]);
@@ -143,6 +165,10 @@ TEST(ResponseMap, DotsAreTheRunsOwnExtremes) {
   MultibodyModel deeper = model;
   deeper.scene.corrugation->depth *= 2;
   EXPECT_FALSE(map_dot(deeper, run).remark.empty());
+  MultibodyModel heavier = model;
+  heavier.vehicle.unsprung_mass += 100;
+  EXPECT_FALSE(map_dot(heavier, run).remark.empty());
+  EXPECT_EQ(map_dot(heavier, run).max, dot.max);
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// What tells a run of a scene from that of another.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/study/scene_content.hpp"
+#include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace tread {
+namespace {
+
+class SceneOnATable : public testing::Test {
+ protected:
+  void SetUp() override { write("0.02 mm"); }
+  void write(const std::string& depth) const {
+    std::ofstream(folder_.path / "depth.txt")
+        << "# x [mm] d [mm]\n0 0\n40 " << depth.substr(0, 4) << "\n80 0\n";
+  }
+  ResolvedScene resolved() const {
+    const std::string text =
+        "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"
+        "file = \"depth.txt\"\n";
+    return resolve_scene(SceneSource{"test", text, folder_.path});
+  }
+
+  samples::TemporaryFolder folder_;
+};
+
+TEST_F(SceneOnATable, IsKeptAsItWas) {
+  const SceneContent before = scene_content(resolved());
+  keep_scene(folder_.path, resolved());
+  EXPECT_EQ(difference(before, kept_scene(folder_.path).content), "");
+  write("0.03 mm");
+  EXPECT_EQ(difference(before, kept_scene(folder_.path).content), "");
+  const std::string apart = difference(scene_content(resolved()), kept_scene(folder_.path).content);
+  EXPECT_TRUE(samples::has(apart, "depth.txt has other contents")) << apart;
+}
+
+TEST_F(SceneOnATable, NeedsNoChecksums) {
+  // Folders of earlier versions have none: the file as it is counts.
+  keep_scene(folder_.path, resolved());
+  std::filesystem::remove(folder_.path / "scene.files.json");
+  EXPECT_EQ(difference(scene_content(resolved()), kept_scene(folder_.path).content), "");
+}
+
+}  // namespace
+}  // namespace tread
