@@ -23,12 +23,6 @@ const PlannedPoint* find_point(const StudyPlan& plan, const std::string& name) {
   return found == plan.points.end() ? nullptr : &*found;
 }
 
-const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& name) {
-  const auto found =
-      std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) { return run.label == name; });
-  return found == runs.end() ? nullptr : &*found;
-}
-
 /// Most elements, then the most digits, then most steps; the first of equals.
 const FinishedRun& finest(const std::vector<FinishedRun>& runs) {
   const auto fineness = [](const FinishedRun& run) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace tread {
 
@@ -32,6 +34,21 @@ Statistics statistics(const Items& items, const Counts& counts, const Value& val
   s.mean /= count;
   s.deviation = std::sqrt(std::max(0.0, squares / count - s.mean * s.mean));
   return s;
+}
+
+inline Statistics statistics(const std::vector<double>& values) {
+  return statistics(
+      values, [](double) { return true; }, [](double value) { return value; });
+}
+
+/// Of two curves at the same places; nothing where one of them is constant or empty.
+inline std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const Statistics of_a = statistics(a);
+  const Statistics of_b = statistics(b);
+  if (of_a.deviation == 0 || of_b.deviation == 0) return std::nullopt;
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - of_a.mean) * (b[i] - of_b.mean);
+  return sum / static_cast<double>(a.size()) / (of_a.deviation * of_b.deviation);
 }
 
 /// Least-squares line through the points that are added.

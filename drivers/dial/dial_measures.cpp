@@ -16,11 +16,6 @@ constexpr int kPlaces = 1024;     ///< on the stretch
 constexpr int kShifts = 80;       ///< that are tried to either side
 constexpr double kPattern = 0.5;  ///< smallest correlation of a pattern that has a phase
 
-Statistics statistics_of(const std::vector<double>& values) {
-  return statistics(
-      values, [](double) { return true; }, [](double value) { return value; });
-}
-
 double quadratic_mean(const Statistics& s) {
   return std::hypot(s.mean, s.deviation);
 }
@@ -37,15 +32,6 @@ std::vector<double> values_on(const CurvePoints& curve, const Span& stretch, dou
   return values;
 }
 
-double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
-  const Statistics of_a = statistics_of(a);
-  const Statistics of_b = statistics_of(b);
-  if (of_a.deviation == 0 || of_b.deviation == 0) return 0;
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - of_a.mean) * (b[i] - of_b.mean);
-  return sum / static_cast<double>(a.size()) / (of_a.deviation * of_b.deviation);
-}
-
 /// The part of the stretch that the curve has with room on either side.
 Span with_room(const Span& stretch, const CurvePoints& curve, double room) {
   if (curve.x.size() < 2) return {};
@@ -58,7 +44,7 @@ std::optional<double> pattern_shift(const CurvePoints& curve, const std::vector<
   const double step = longest / kShifts;
   std::vector<double> correlations;
   for (int i = -kShifts; i <= kShifts; ++i)
-    correlations.push_back(correlation_of(values_on(curve, stretch, i * step), reference));
+    correlations.push_back(correlation(values_on(curve, stretch, i * step), reference).value_or(0));
   const auto best = std::max_element(correlations.begin(), correlations.end());
   if (*best < kPattern || best == correlations.begin() || best + 1 == correlations.end()) return std::nullopt;
   const double before = *(best - 1);
@@ -105,8 +91,8 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
   const Span common = with_room(known, curve, longest_shift);
   if (known.empty() || common.last - common.first < 0.5 * (known.last - known.first)) return std::nullopt;
   const std::vector<double> wanted = values_on(reference, common, 0);
-  const Statistics of_wanted = statistics_of(wanted);
-  const Statistics of_curve = statistics_of(values_on(curve, common, 0));
+  const Statistics of_wanted = statistics(wanted);
+  const Statistics of_curve = statistics(values_on(curve, common, 0));
   const double level = quadratic_mean(of_wanted);
   if (level == 0) return std::nullopt;
   CurveDifference difference;
@@ -115,7 +101,7 @@ std::optional<CurveDifference> curve_difference(const CurvePoints& curve, const 
   difference.shift = pattern_shift(curve, wanted, common, longest_shift);
   std::vector<double> apart = values_on(curve, common, difference.shift.value_or(0));
   for (std::size_t i = 0; i < apart.size(); ++i) apart[i] -= wanted[i];
-  difference.error = quadratic_mean(statistics_of(apart)) / level;
+  difference.error = quadratic_mean(statistics(apart)) / level;
   return difference;
 }
 

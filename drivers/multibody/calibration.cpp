@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "drivers/each_item.hpp"
 #include "drivers/evaluated_stretch.hpp"
+#include "drivers/interpolation.hpp"
 #include "io/history_reader.hpp"
 #include "io/scene_reader.hpp"
 
@@ -22,13 +23,6 @@ constexpr int kRefine = 24;  ///< more, about the best
 
 struct Curve {
   std::vector<double> x, force;
-
-  double at(double where) const {
-    const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, where);
-    const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
-    const double share = (where - x[i]) / (x[i + 1] - x[i]);
-    return (1 - share) * force[i] + share * force[i + 1];
-  }
 };
 
 /// Model and run over the stretch that both cover.
@@ -72,13 +66,12 @@ class Fit {
     CurveFit fit;
     double squares = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double value = curve.at(x[i]);
+      const double value = value_at(curve.x, curve.force, x[i]);
       fit.values.push_back(value);
       squares += (value - force_[i]) * (value - force_[i]);
     }
     fit.misfit = std::sqrt(squares / static_cast<double>(x.size()));
-    fit.force = statistics(
-        fit.values, [](double) { return true; }, [](double value) { return value; });
+    fit.force = statistics(fit.values);
     if (model_.scene.corrugation && model_.scene.corrugation->kind == "sine")
       fit.shift = mean_shift(
           crest_peaks(model_.corrugation, model_.scene.corrugation->wavelength, curve.x, curve.force));

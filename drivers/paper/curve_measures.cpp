@@ -30,11 +30,6 @@ std::vector<double> evaluated(const FinishedRun& run, const CurvePoints& curve) 
   return values;
 }
 
-Statistics statistics_of(const std::vector<double>& values) {
-  return statistics(
-      values, [](double) { return true; }, [](double value) { return value; });
-}
-
 double static_load(const FinishedRun& run) {
   return run.number("static_wheel_load_N").value_or(0);
 }
@@ -48,7 +43,7 @@ bool WavePattern::larger_at_crests() const {
 std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoints& curve) {
   if (!has_sine(run)) return std::nullopt;
   const std::vector<double> values = evaluated(run, curve);
-  const Statistics all = statistics_of(values);
+  const Statistics all = statistics(values);
   if (values.empty() || all.deviation == 0) return std::nullopt;
   const Span stretch = evaluated_stretch(run.scene, run.corrugation());
   WavePattern pattern;
@@ -70,12 +65,7 @@ std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoint
 std::optional<double> correlation(const FinishedRun& run, const CurvePoints& a, const CurvePoints& b) {
   const std::vector<double> one = evaluated(run, a);
   const std::vector<double> other = evaluated(run, b);
-  const Statistics of_one = statistics_of(one);
-  const Statistics of_other = statistics_of(other);
-  if (one.empty() || other.empty() || of_one.deviation == 0 || of_other.deviation == 0) return std::nullopt;
-  double sum = 0;
-  for (std::size_t i = 0; i < one.size(); ++i) sum += (one[i] - of_one.mean) * (other[i] - of_other.mean);
-  return sum / static_cast<double>(one.size()) / (of_one.deviation * of_other.deviation);
+  return one.empty() || other.empty() ? std::nullopt : correlation(one, other);
 }
 
 std::vector<CrestPeak> vertical_peaks(const FinishedRun& run) {

@@ -17,6 +17,12 @@ FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& 
   return {label, folder, scene, read_json(folder / "summary.json")};
 }
 
+const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label) {
+  const auto found =
+      std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) { return run.label == label; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
   std::vector<std::vector<double>> columns = read_history(run.folder / curve.file, {curve.x, curve.y});
   for (double& x : columns[0]) x *= curve.x_scale;

@@ -31,6 +31,9 @@ struct FinishedRun {
 FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& scene,
                               const std::string& label);
 
+/// The first of that label; nullptr: none.
+const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label);
+
 /// A curve of a run: one column of a table against another.
 struct RunCurve {
   std::string file = "histories.csv";  ///< or surface_axis.csv, deflection.csv

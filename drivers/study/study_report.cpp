@@ -31,12 +31,6 @@ std::string unit_of(const std::string& path) {
   return key && !key->unit.empty() ? key->unit : "-";
 }
 
-const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const PlannedPoint& point) {
-  const auto found =
-      std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) { return run.label == point.name; });
-  return found == runs.end() ? nullptr : &*found;
-}
-
 /// The first key whose values are numbers and differ.
 std::string abscissa_key(const StudyPlan& plan) {
   for (const std::string& key : varied_keys(plan)) {
@@ -63,7 +57,7 @@ std::optional<Chapter> trend_chapter(const StudyPlan& plan, const std::vector<Fi
   std::set<std::string> groups;
   std::set<double> abscissae;
   for (const PlannedPoint& point : plan.points) {
-    const FinishedRun* run = find_run(runs, point);
+    const FinishedRun* run = find_run(runs, point.name);
     const std::optional<double> x = key.empty() ? std::nullopt : number_of(point, key);
     if (!run || !x) continue;
     places.push_back({run, *x, group_of(plan, point, key)});
@@ -124,7 +118,7 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
   for (const PlannedPoint& point : plan.points) {
     text += fmt::format("{},{}", csv_cell(point.name), name_of(point.status.state));
     for (const std::string& key : keys) text += fmt::format(",{}", csv_cell(value_text(point, key)));
-    const FinishedRun* run = find_run(runs, point);
+    const FinishedRun* run = find_run(runs, point.name);
     for (const ResultColumn& column : result_columns()) {
       const std::optional<double> value = run ? result_of(*run, column) : std::nullopt;
       text += value ? fmt::format(",{:.9g}", *value) : ",";
@@ -141,7 +135,7 @@ std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& ru
     json.begin_object().member("name", std::string_view(point.name));
     json.member("state", name_of(point.status.state));
     if (!point.status.why.empty()) json.member("why", std::string_view(point.status.why));
-    const FinishedRun* run = find_run(runs, point);
+    const FinishedRun* run = find_run(runs, point.name);
     for (const ResultColumn& column : result_columns())
       if (const auto value = run ? result_of(*run, column) : std::nullopt)
         json.member(column.name + (column.unit == "-" ? "" : "_" + column.unit), *value);
