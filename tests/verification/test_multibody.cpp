@@ -259,7 +259,11 @@ TEST(Multibody, CorrugationIsThatOfTheScene) {
 
 TEST(Multibody, AnUnstableStepIsAnError) {
   const MultibodyModel model = multibody_model(scene(300, kCorrugationD), BeamTheory::euler);
-  EXPECT_THROW(run_multibody(model, {std::nullopt, 5e-5}), NumericalError);
+  const double stable = passage_step(modal_track(model, std::nullopt), model.vehicle);
+  EXPECT_NO_THROW(run_multibody(model, {std::nullopt, stable}));
+  EXPECT_THROW(run_multibody(model, {std::nullopt, 3 * stable}), NumericalError);
+  // Far beyond it nothing is tried.
+  EXPECT_THROW(run_multibody(model, {std::nullopt, 8 * stable}), InputError);
 }
 
 TEST(Multibody, ScenesWithoutItsPartsAreRefused) {
