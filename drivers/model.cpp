@@ -332,7 +332,7 @@ double Model::penalty_stiffness(const ContactSpec& spec) const {
   const double preferred =
       std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, unit_ratio / 0.02);
   if (!spec.penetration_ratio) return preferred;
-  // [limits.md] Thirty times as stiff: a third of the area is missing, points carry twice the pressure.
+  // At ten times a tenth to four tenths of the area are missing, points carry up to twice the pressure.
   constexpr double kStiffest = 10;
   const double stated = unit_ratio / *spec.penetration_ratio;
   if (stated > kStiffest * preferred * (1 + 1e-9))
@@ -341,9 +341,9 @@ double Model::penalty_stiffness(const ContactSpec& spec) const {
                     "elements of {:.3g} mm; the "
                     "integration points of a face would share its load unevenly and the patch come out too "
                     "small; state at "
-                    "least {:.2g}, or leave it out",
+                    "least {:.3g}, or leave it out",
                     *spec.penetration_ratio, stated / preferred, 1e3 * sizes.contact,
-                    unit_ratio / (kStiffest * preferred)));
+                    1.005 * unit_ratio / (kStiffest * preferred)));  // rounds to no less than the least
   return stated;
 }
 

@@ -63,9 +63,9 @@ void require_same(const fs::path& folder, const ResolvedScene& resolved) {
 /// What all passages begin with: as stated, or as kept when the development began, `begun`.
 std::string start_of(const fs::path& folder, const std::string& stated, bool begun) {
   constexpr std::size_t kLongest = 1 << 16;  // [B]
-  const std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
+  std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
   if (!begun) return wanted;
-  const std::string kept = fs::exists(folder / kStart) ? read_text_file(folder / kStart, kLongest) : "";
+  std::string kept = fs::exists(folder / kStart) ? read_text_file(folder / kStart, kLongest) : "";
   if (stated.empty() || wanted == kept) return kept;
   throw InputError(
       fmt::format("--from {}: the development in {} began with {}; leave --from out, or choose "
