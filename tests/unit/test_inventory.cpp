@@ -8,6 +8,7 @@
 
 #include "drivers/inventory.hpp"
 #include "io/scene_reader.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -27,39 +28,6 @@ traction = { mu = 0.3, ramp = "1 ms" }
 start = "20 mm"
 wavelength = "20 mm"
 length = "40 mm"
-)";
-
-constexpr const char* kTyre = R"(
-[scene]
-title = "tyre on block"
-element_size = "10 mm"
-[solution_zone]
-start = "-20 mm"
-length = "40 mm"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0.3
-density = "7790 kg/m3"
-[wheel]
-shape = "tyre"
-profile = "arc"
-diameter = "0.86 m"
-crown_radius = "0.3 m"
-width = "60 mm"
-thickness = "60 mm"
-lateral_offset = "0 mm"
-[rail]
-profile = "box"
-support = "rigid"
-inclination = 0
-length = "400 mm"
-origin = "200 mm"
-width = "80 mm"
-height = "60 mm"
-[load]
-wheel_load = "50 kN"
-[contact]
-friction = 0.5
 )";
 
 constexpr const char* kBar = R"(
@@ -85,6 +53,12 @@ length = "0.1 m"
 [motion]
 duration = "0.1 ms"
 )";
+
+Scene static_tyre() {
+  Scene scene = samples::tyre_scene();
+  scene.motion.reset();
+  return scene;
+}
 
 Scene scene_of(const char* text, const std::vector<std::string>& overrides = {}) {
   return resolve_scene(SceneSource{"scene.toml", text, "."}, overrides).scene;
@@ -138,7 +112,7 @@ void expect_consistent(const Model& model) {
 TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
   Model track(small_track());
   expect_consistent(track);
-  expect_consistent(Model(scene_of(kTyre)));
+  expect_consistent(Model(static_tyre()));
   expect_consistent(Model(scene_of(kBar)));
 }
 
@@ -195,7 +169,7 @@ TEST(Inventory, SmoothRailMovesNoNodesForACorrugation) {
 }
 
 TEST(Inventory, StaticTyreHasNoStep) {
-  const Model model(scene_of(kTyre));
+  const Model model(static_tyre());
   EXPECT_EQ(phase_names(model), Names{"preload"});
   EXPECT_EQ(field_names(model), (Names{"coefficients", "mass", "restrained unknowns", "journal nodes",
                                        "contact points", "wheel frame", "displacement", "solver"}));
