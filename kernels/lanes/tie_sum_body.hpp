@@ -43,12 +43,12 @@ struct OtherTiles {
   std::int64_t at[kLanes + 1];
   int count = 0;
 
-  explicit OtherTiles(const TieTile& tile) {
+  constexpr explicit OtherTiles(const TieTile& tile) {
     for (int lane = 0; lane < kLanes; ++lane)
       if (tile.stations[0].share[lane] > 0) add(tile.stations[0].at[lane]);
     add(tile.stations[tile.station_count - 1].at[kLanes - 1]);
   }
-  void add(std::int64_t station) {
+  constexpr void add(std::int64_t station) {
     constexpr std::int64_t kTileOfLane = ~std::int64_t{kLanes - 1};
     const std::int64_t begin = station & kTileOfLane;
     if (count == 0 || at[count - 1] != begin) at[count++] = begin;
