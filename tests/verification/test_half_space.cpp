@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/hertz.hpp"
+#include "core/vec.hpp"
 #include "drivers/verify/half_space_rolling.hpp"
 #include "drivers/verify/half_space_stress.hpp"
 #include "tests/measured.hpp"
@@ -400,25 +401,25 @@ TEST(HalfSpaceStress, OfACellIsTheSumOfItsPointForces) {
   const Tractions across{zero, one};
   constexpr int n = 200;
   double worst = 0;
-  for (const auto& [x, y, z] : {std::array{0.3e-3, 0.2e-3, 0.5e-3}, std::array{1.2e-3, -0.8e-3, 0.3e-3},
-                                std::array{1e-3, -1e-3, 0.9e-3}, std::array{-2e-3, 1e-3, 0.4e-3}}) {
+  for (const Vec3& at : {Vec3{0.3e-3, 0.2e-3, 0.5e-3}, Vec3{1.2e-3, -0.8e-3, 0.3e-3},
+                         Vec3{1e-3, -1e-3, 0.9e-3}, Vec3{-2e-3, 1e-3, 0.4e-3}}) {
     Stress normal, x_force, y_force;
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
-        const double px = x - (0.5e-3 + (i + 0.5) * 1e-3 / n);
-        const double py = y - (-1.5e-3 + (j + 0.5) * 1e-3 / n);
+        const double px = at.x - (0.5e-3 + (i + 0.5) * 1e-3 / n);
+        const double py = at.y - (-1.5e-3 + (j + 0.5) * 1e-3 / n);
         const double area = 1e-6 / (n * n);
         const auto sum = [&](Stress& to, const Stress& s) {
           to.xx += area * s.xx, to.yy += area * s.yy, to.zz += area * s.zz;
           to.xy += area * s.xy, to.yz += area * s.yz, to.xz += area * s.xz;
         };
-        sum(normal, point_force(px, py, z, 0.3, 1, 0));
-        sum(x_force, point_force(px, py, z, 0.3, 0, 1));
-        const Stress s = point_force(py, px, z, 0.3, 0, 1);  // axes swapped
+        sum(normal, point_force(px, py, at.z, 0.3, 1, 0));
+        sum(x_force, point_force(px, py, at.z, 0.3, 0, 1));
+        const Stress s = point_force(py, px, at.z, 0.3, 0, 1);  // axes swapped
         sum(y_force, {s.yy, s.xx, s.zz, s.xy, s.xz, s.yz});
       }
     const auto close = [&](const SurfaceLoad& load, double sign, const Stress& points) {
-      const auto closed = components(rail_stress(load, x, y, z));
+      const auto closed = components(rail_stress(load, at.x, at.y, at.z));
       const auto summed = components(points);
       for (int k = 0; k < 6; ++k) worst = std::max(worst, std::abs(closed[k] - sign * summed[k]));
     };
