@@ -32,7 +32,9 @@ std::string html(const KeyFigures& figures) {
 }
 
 std::string html(const Table& table) {
-  std::string out = "<table>\n";
+  constexpr std::size_t kMany = 9;  // columns; more do not fit on a page as they are
+  std::string out =
+      fmt::format("<div class=\"table{}\"><table>\n", table.columns.size() > kMany ? " many" : "");
   if (!table.title.empty()) out += "<caption>" + html_text(table.title) + "</caption>\n";
   out += "<thead><tr>";
   for (const Column& column : table.columns) out += cell("th", column, column.title);
@@ -44,7 +46,7 @@ std::string html(const Table& table) {
     for (std::size_t i = 0; i < row.size(); ++i) out += cell("td", table.columns[i], row[i]);
     out += "</tr>\n";
   }
-  return out + "</tbody>\n</table>\n";
+  return out + "</tbody>\n</table></div>\n";
 }
 
 std::string html(const Figure& figure) {

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# report_in_browser.sh TREAD SCENE [--set key=value ...]: runs the scene and opens its report in a headless Chromium:
-# no error of any script, every figure drawn, the movie's canvases not blank, curves as CSV, at most 10 MB. With REPORT
-# set that file is opened instead. Skipped (77) where there is no Chromium.
+# report_in_browser.sh TREAD run|sweep FILE [--set key=value ...]: runs the scene or the study and opens its report in a
+# headless Chromium: no error of any script, every figure drawn, a run's movie not blank, no page that scrolls sideways,
+# curves as CSV, at most 10 MB. With REPORT set that file is opened instead. Skipped (77) where there is no Chromium.
 set -euo pipefail
-tread=$1 scene=$2
-shift 2
+tread=$1 command=$2 file=$3
+shift 3
 browser=""
 for name in chromium chromium-browser google-chrome; do
   browser=$(command -v $name) && break
@@ -16,7 +16,7 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 report=${REPORT:-$work/run/report.html}
-[[ -n ${REPORT:-} ]] || OMP_WAIT_POLICY=passive "$tread" run "$scene" -t 1 --quiet -o "$work/run" "$@"
+[[ -n ${REPORT:-} ]] || OMP_WAIT_POLICY=passive "$tread" "$command" "$file" -t 1 --quiet -o "$work/run" "$@"
 
 bytes=$(stat -c %s "$report")
 ((bytes <= 10000000)) || { echo "$report holds $bytes bytes, more than 10 MB"; exit 1; }
@@ -52,9 +52,11 @@ addEventListener("load", () => {
     slider.dispatchEvent(new Event("input"));
     if (movie.dataset.drawn !== slider.max) faults.push("the slider does not move the movie");
   }
+  const page = document.documentElement;
   const list = [["faults", faults.join("; ") || "none"], ["charts", charts.length], ["zoom together", alike.length],
     ["live", document.querySelectorAll("figure.chart.live").length],
     ["curves without points", rows.filter((r) => r.length < 2).length], ["broken rows", broken.length],
+    ["wider than the window by", page.scrollWidth - page.clientWidth], ["movies", document.querySelectorAll("figure.movie").length],
     ["canvases", document.querySelectorAll("canvas").length],
     ["blank", [...document.querySelectorAll("canvas")].filter(blank).length],
     ["tables", document.querySelectorAll("table").length], ["copied by", document.querySelectorAll("table button.copy").length],
@@ -76,6 +78,8 @@ failed=0
 [[ $(value faults) == none ]] || { echo "FAILED: errors of scripts"; failed=1; }
 (($(value charts) > 0 && $(value charts) == $(value live))) || { echo "FAILED: figures that were not drawn"; failed=1; }
 (($(value "curves without points") == 0 && $(value "broken rows") == 0)) || { echo "FAILED: curves as CSV"; failed=1; }
-(($(value canvases) == 2 && $(value blank) == 0)) || { echo "FAILED: the movie is blank"; failed=1; }
+(($(value canvases) == 2 * $(value movies) && $(value blank) == 0)) || { echo "FAILED: the movie is blank"; failed=1; }
+[[ $command != run ]] || (($(value movies) == 1)) || { echo "FAILED: there is no movie"; failed=1; }
+(($(value "wider than the window by") == 0)) || { echo "FAILED: the page scrolls sideways"; failed=1; }
 (($(value tables) == $(value "copied by"))) || { echo "FAILED: tables that cannot be copied"; failed=1; }
 exit $failed
