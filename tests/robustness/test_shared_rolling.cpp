@@ -120,8 +120,8 @@ TEST_F(SharedRollingStudy, WhereTheRollingFailsTheOthersAreNotTried) {
 
 /// A wheel under traction gets ahead of its first speed: by 90 mm on its way to the corrugation at 100 km/h.
 TEST(Approach, CountsTractionIn) {
-  const Approach approach{
-      .before = 0.04, .wheel = {.load = 88e3, .mass = 926, .radius = 0.43, .friction = 0.5}};
+  const Approach approach{.before = 0.04,
+                          .wheel = {.load = 88e3, .mass = 926, .radius = 0.43, .friction = 0.5}};
   MotionSpec motion;
   motion.speed = 100 / 3.6;
   EXPECT_NEAR(approach.time(motion, 2.4), 2.36 / motion.speed, 1e-12);
