@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "drivers/dial/dial_report.hpp"
 #include "drivers/plain_text.hpp"
+#include "drivers/run_folder.hpp"
 #include "drivers/study/study_report.hpp"
 #include "io/output_file.hpp"
 
@@ -74,8 +75,7 @@ FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
     throw InputError(fmt::format("--reference {}: another passage than this dial's (here: the dial): {}",
                                  options.reference, apart));
   // The folder's own name, or as stated where a point has that name.
-  const std::filesystem::path last = folder.filename().empty() ? folder.parent_path() : folder;
-  const std::string name = last.lexically_normal().filename().string();
+  const std::string name = folder_name(folder);
   const bool own = !name.empty() && name != "." && name != ".." && !find_point(plan, name);
   return read_finished_run(folder, kept.resolved.scene, own ? name : options.reference);
 }
@@ -97,15 +97,15 @@ DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const
     if (run.rolled()) outcome.runs.push_back(std::move(run));
   if (outcome.runs.empty()) return outcome;
   const FinishedRun* named = find_run(outcome.runs, options.reference);
-  if (!named && !options.reference.empty() && !find_point(plan, options.reference)) {
+  if (!named && !options.reference.empty()) {
+    if (find_point(plan, options.reference)) {
+      fmt::print(stderr, "tread: --reference {} is not done; there is nothing to compare with yet\n",
+                 options.reference);
+      outcome.runs.clear();
+      return outcome;
+    }
     outcome.runs.push_back(read_reference(options, plan));
     named = &outcome.runs.back();
-  }
-  if (!named && !options.reference.empty()) {
-    fmt::print(stderr, "tread: --reference {} is not done; there is nothing to compare with yet\n",
-               options.reference);
-    outcome.runs.clear();
-    return outcome;
   }
   outcome.table = dial_table(outcome.runs, named ? *named : finest(outcome.runs));
   add_settings(plan.study, outcome.table);

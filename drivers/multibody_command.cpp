@@ -40,6 +40,7 @@ BeamTheory theory_of(const std::string& beam) {
 void check(const MultibodyOptions& options) {
   if (options.map.empty() && !options.dots.empty())
     throw InputError("--dots: they belong on a map; add --map speed=... wavelength=...");
+  if (!options.output.empty()) require_no_run(options.output);
 }
 
 void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
@@ -91,7 +92,6 @@ void run_multibody_command(const ResolvedScene& resolved, const MultibodyOptions
   }
   outcome.seconds = progress.seconds();
   if (!options.output.empty()) {
-    require_no_run(options.output);
     make_directory(options.output);
     write_files(outcome, resolved, options);
   }

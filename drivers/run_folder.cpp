@@ -56,6 +56,11 @@ std::optional<RunRequest> read_request(const fs::path& path) {
 
 }  // namespace
 
+std::string folder_name(const fs::path& folder) {
+  const fs::path normal = folder.lexically_normal();
+  return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
+}
+
 void require_no_run(const fs::path& folder) {
   for (const char* name : {"run.h5", "histories.csv", kCheckpointFolder})
     if (fs::exists(folder / name))

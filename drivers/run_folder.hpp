@@ -12,6 +12,9 @@ namespace tread {
 
 inline constexpr const char* kCheckpointFolder = "checkpoint";  ///< of a run's folder
 
+/// Its last part, "run" of "out/run" and of "out/run/".
+std::string folder_name(const std::filesystem::path& folder);
+
 /// Whether a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 

@@ -52,7 +52,7 @@ std::string fork_table(const Scene& scene) {
 
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
   require_no_run(folder);
-  if (!fs::exists(folder / "scene.resolved.toml")) return;
+  if (!fs::exists(folder / kKeptScene)) return;
   const std::string other = difference(scene_content(resolved), kept_scene(folder).content);
   if (!other.empty())
     throw InputError(

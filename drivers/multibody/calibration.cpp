@@ -9,6 +9,7 @@
 #include "drivers/each_item.hpp"
 #include "drivers/evaluated_stretch.hpp"
 #include "drivers/interpolation.hpp"
+#include "drivers/study/scene_content.hpp"
 #include "io/history_reader.hpp"
 #include "io/scene_reader.hpp"
 
@@ -95,7 +96,7 @@ void require_same_passage(const MultibodyModel& model, const TransientRun& run) 
     throw InputError(
         fmt::format("--calibrate {}: {} (here: the scene, there: the run); calibrate with the "
                     "run's own scene, {}",
-                    run.directory.string(), apart, (run.directory / "scene.resolved.toml").string()));
+                    run.directory.string(), apart, (run.directory / kKeptScene).string()));
 }
 
 }  // namespace
@@ -112,7 +113,7 @@ double TransientRun::speed_between(double first, double last) const {
 TransientRun read_transient_run(const std::filesystem::path& directory) {
   TransientRun run;
   run.directory = directory;
-  run.scene = read_scene(directory / "scene.resolved.toml");
+  run.scene = read_scene(directory / kKeptScene);
   std::vector<std::vector<double>> columns =
       read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {"vertical_force", "N"}});
   run.time = std::move(columns[0]);

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "drivers/each_item.hpp"
 #include "drivers/evaluated_stretch.hpp"
+#include "drivers/run_folder.hpp"
 #include "drivers/sections.hpp"
 #include "io/units.hpp"
 
@@ -146,8 +147,7 @@ MapDot map_dot(const MultibodyModel& model, const TransientRun& run) {
   for (std::size_t i = 0; i < run.x.size(); ++i)
     if (run.x[i] >= stretch.first && run.x[i] <= stretch.last) extremes.add(run.force[i]);
   MapDot dot;
-  dot.label = run.directory.filename().string();
-  if (dot.label.empty()) dot.label = run.directory.parent_path().filename().string();
+  dot.label = folder_name(run.directory);
   dot.speed = run.speed_between(stretch.first, stretch.last);
   dot.wavelength = spec.wavelength;
   const MultibodyModel theirs = multibody_model(run.scene, model.theory);

@@ -62,10 +62,12 @@ std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoint
   return pattern;
 }
 
+bool has_passed(const FinishedRun& run) {
+  return wave_pattern(run, history_over_way(run, "vertical_force", "N")).has_value();
+}
+
 std::optional<double> correlation(const FinishedRun& run, const CurvePoints& a, const CurvePoints& b) {
-  const std::vector<double> one = evaluated(run, a);
-  const std::vector<double> other = evaluated(run, b);
-  return one.empty() || other.empty() ? std::nullopt : correlation(one, other);
+  return correlation(evaluated(run, a), evaluated(run, b));
 }
 
 std::vector<CrestPeak> vertical_peaks(const FinishedRun& run) {

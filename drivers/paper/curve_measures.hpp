@@ -22,6 +22,9 @@ struct WavePattern {
 /// cover the stretch.
 std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoints& curve);
 
+/// Whether the run has come to the end of its sine.
+bool has_passed(const FinishedRun& run);
+
 /// Of two curves over that stretch.
 std::optional<double> correlation(const FinishedRun& run, const CurvePoints& a, const CurvePoints& b);
 

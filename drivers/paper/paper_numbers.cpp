@@ -38,9 +38,7 @@ Ours stated(const Passage& passage, std::string path, double scale) {
 Ours over_the_corrugation(const Passage& passage, std::string path, double scale) {
   return [passage, value = stated(passage, std::move(path), scale)](const PassageRuns& runs) {
     const FinishedRun* run = runs.find(passage);
-    const bool at_end = run && !vertical_peaks(*run).empty() &&
-                        wave_pattern(*run, history_over_way(*run, "vertical_force", "N"));
-    return at_end ? value(runs) : std::nullopt;
+    return run && !vertical_peaks(*run).empty() && has_passed(*run) ? value(runs) : std::nullopt;
   };
 }
 

@@ -31,9 +31,8 @@ Verdict of_parts(std::initializer_list<bool> parts) {
   return held == 0 ? Verdict::not_reproduced : Verdict::partly;
 }
 
-/// Whether the run has passed its corrugation.
 bool passed(const FinishedRun* run) {
-  return run && wave_pattern(*run, history_over_way(*run, "vertical_force", "N")).has_value();
+  return run && has_passed(*run);
 }
 
 /// Names those of the passages that have not passed their corrugation.

@@ -104,7 +104,7 @@ PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
   const CheckpointFolder checkpoints(folder / "checkpoint");
   const bool begun = checkpoints.has_order() || !checkpoints.states().empty();
   const bool finished = !begun && fs::exists(folder / "summary.json");
-  const bool stated = fs::exists(folder / "scene.resolved.toml");
+  const bool stated = fs::exists(folder / kKeptScene);
   if (stated && (begun || finished)) look_at_scene(folder, scene, status);
   if (finished) {
     status.state = PointState::done;

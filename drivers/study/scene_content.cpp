@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kScene = "scene.resolved.toml";
 constexpr const char* kChecksums = "scene.files.json";
 constexpr const char* kFile = "file ";  ///< begins the key of a file's checksum
 
@@ -52,7 +51,7 @@ std::string file_key(const std::string& place) {
 }
 
 void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
-  write_text_file(folder / kScene, resolved_toml(resolved));
+  write_text_file(folder / kKeptScene, resolved_toml(resolved));
   if (resolved.source.files.empty()) return;
   JsonWriter json;
   json.begin_object();
@@ -62,7 +61,7 @@ void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
 }
 
 KeptScene kept_scene(const fs::path& folder) {
-  KeptScene kept{resolve_scene(folder / kScene), {}};
+  KeptScene kept{resolve_scene(folder / kKeptScene), {}};
   kept.content = scene_content(kept.resolved);
   if (!fs::exists(folder / kChecksums)) return kept;
   const JsonRecord checksums = read_json(folder / kChecksums);

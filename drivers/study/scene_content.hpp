@@ -16,6 +16,8 @@ using SceneContent = std::map<std::string, std::string>;
 
 SceneContent scene_content(const ResolvedScene& resolved);
 
+inline constexpr const char* kKeptScene = "scene.resolved.toml";  ///< of a run's or a study's folder
+
 /// The key of a file's checksum.
 std::string file_key(const std::string& place);
 
@@ -25,7 +27,7 @@ struct KeptScene {
   SceneContent content;  ///< of the files that it names as they were when it was kept
 };
 
-/// Leaves the scene in the folder: scene.resolved.toml and, where it names files, their checksums.
+/// Leaves the scene in the folder: kKeptScene and, where it names files, their checksums.
 void keep_scene(const std::filesystem::path& folder, const ResolvedScene& resolved);
 /// Throws InputError.
 KeptScene kept_scene(const std::filesystem::path& folder);
