@@ -68,7 +68,10 @@ inline const std::string kTyre = fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml"
 class ProgramTest : public testing::Test {
  protected:
   static void TearDownTestSuite() { fs::remove_all(root_); }
-  static void make_root() { fs::create_directories(root_); }
+  static void make_root() {
+    fs::remove_all(root_);  // left by a process of the same number that was killed
+    fs::create_directories(root_);
+  }
   static std::string errors() { return content_of(root_ / "errors"); }
   static std::string output() { return content_of(root_ / "out"); }
 
