@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/vec.hpp"
+#include "core/math/vec.hpp"
 
 namespace tread {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/body_frame.hpp"
-#include "core/vec.hpp"
+#include "core/math/vec.hpp"
 
 namespace tread {
 

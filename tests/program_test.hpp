@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/hdf5_file.hpp"
+#include "io/files/hdf5_file.hpp"
 #include "tests/program.hpp"
 
 namespace tread::samples {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/solver/chunks.hpp"
+#include "core/parallel/chunks.hpp"
 #include "kernels/solver/conjugate_gradients.hpp"
 
 namespace tread::samples {

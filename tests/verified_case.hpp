@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/verify/verify_case.hpp"
+#include "drivers/verify/cases.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/math/vec.hpp"
 #include "core/mesh/swept_block.hpp"
-#include "core/vec.hpp"
 
 namespace tread {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/material.hpp"
+#include "core/math/vec.hpp"
 #include "core/mesh/section.hpp"
-#include "core/vec.hpp"
 
 namespace tread {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "drivers/plain_text.hpp"
-#include "io/json_writer.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace tread {
 

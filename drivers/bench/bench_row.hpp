@@ -9,7 +9,7 @@
 #include "drivers/bench/limits.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/work.hpp"
-#include "io/report.hpp"
+#include "io/report/report.hpp"
 
 namespace tread {
 

@@ -4,10 +4,10 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "drivers/bench/bench_command.hpp"
 #include "drivers/bench/bench_row.hpp"
-#include "drivers/bench_command.hpp"
-#include "drivers/plain_text.hpp"
-#include "io/json_lines.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_lines.hpp"
 
 namespace tread {
 

@@ -4,8 +4,8 @@
 
 #include "core/corrugation.hpp"
 #include "drivers/bench/kernel_cases.hpp"
-#include "kernels/contact.hpp"
-#include "kernels/surface_fields.hpp"
+#include "kernels/contact/contact.hpp"
+#include "kernels/contact/surface_fields.hpp"
 
 namespace tread {
 

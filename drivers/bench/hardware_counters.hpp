@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "drivers/phase_clock.hpp"
+#include "drivers/engine/phase_clock.hpp"
 
 namespace tread {
 

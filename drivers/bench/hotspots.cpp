@@ -4,16 +4,16 @@
 #include <deque>
 #include <vector>
 
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/bench/bench_command.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/rolling_scene.hpp"
 #include "drivers/bench/step_work.hpp"
-#include "drivers/bench_command.hpp"
-#include "drivers/plain_text.hpp"
-#include "drivers/run_results.hpp"
-#include "io/json_writer.hpp"
-#include "kernels/internal_force.hpp"
+#include "drivers/results/run_results.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
+#include "kernels/blocks/internal_force.hpp"
 
 namespace tread {
 

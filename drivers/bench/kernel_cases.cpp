@@ -4,10 +4,10 @@
 #include <type_traits>
 
 #include "core/body_frame.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/time_update.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/blocks/time_update.hpp"
 
 namespace tread {
 

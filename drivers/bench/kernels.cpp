@@ -4,13 +4,13 @@
 #include <cstdio>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/bench/bench_command.hpp"
 #include "drivers/bench/bench_row.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/kernel_cases.hpp"
-#include "drivers/bench_command.hpp"
-#include "drivers/plain_text.hpp"
-#include "kernels/internal_force.hpp"
+#include "io/report/plain_text.hpp"
+#include "kernels/blocks/internal_force.hpp"
 
 namespace tread {
 

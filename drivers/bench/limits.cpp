@@ -6,9 +6,9 @@
 #include <bit>
 
 #include "core/aligned.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/bench/lanes/limit_loops.hpp"
-#include "kernels/internal_force.hpp"
+#include "kernels/blocks/internal_force.hpp"
 
 namespace tread {
 

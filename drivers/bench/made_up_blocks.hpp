@@ -6,7 +6,7 @@
 
 #include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
-#include "kernels/tie.hpp"
+#include "kernels/ties/tie.hpp"
 
 namespace tread {
 

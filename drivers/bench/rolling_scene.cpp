@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include "core/error.hpp"
-#include "drivers/run_results.hpp"
-#include "drivers/start.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/start.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/run_results.hpp"
 
 namespace tread {
 

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "drivers/model.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/progress.hpp"
-#include "drivers/simulation.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/process/progress.hpp"
 
 namespace tread {
 

@@ -6,15 +6,15 @@
 #include <memory>
 #include <vector>
 
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/bench/bench_command.hpp"
 #include "drivers/bench/limits.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/rolling_scene.hpp"
-#include "drivers/bench_command.hpp"
-#include "drivers/plain_text.hpp"
-#include "io/json_writer.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/time_update.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/blocks/time_update.hpp"
 
 namespace tread {
 

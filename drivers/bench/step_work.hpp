@@ -2,8 +2,8 @@
 // What the phases of a model's step compute and move, as far as it is counted.
 
 #include "drivers/bench/limits.hpp"
-#include "drivers/model.hpp"
-#include "drivers/phase_clock.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/phase_clock.hpp"
 
 namespace tread {
 

@@ -1,7 +1,7 @@
 #include "drivers/bench/work.hpp"
 
 #include "drivers/bench/counted.hpp"
-#include "kernels/element_body.hpp"
+#include "kernels/element/element_body.hpp"
 
 namespace tread {
 
@@ -102,7 +102,7 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
 }
 
 Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
-  // Counted in kernels/node_motion_body.hpp: per component f / m + g, v, u; in the spinning frame two
+  // Counted in kernels/update/node_motion_body.hpp: per component f / m + g, v, u; in the spinning frame two
   // accelerations with their centrifugal term, half of each before and after the turn, and the axial
   // component.
   const double components = moving_components(vertical_only);

@@ -1,6 +1,8 @@
 #pragma once
 // The verification cases, one function each; a file holds cases that share a set-up.
 
+#include <vector>
+
 #include "drivers/verify/verify_case.hpp"
 
 namespace tread {
@@ -34,5 +36,8 @@ VerifyCase extremes_endurance_case();    // extremes_endurance.cpp
 VerifyCase cattaneo_mindlin_case();   // cattaneo_mindlin.cpp
 VerifyCase transient_rolling_case();  // transient_rolling.cpp
 VerifyCase von_mises_case();          // von_mises.cpp
+
+/// All cases, in the order of the documentation.
+const std::vector<VerifyCase>& verify_cases();
 
 }  // namespace tread

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/verify/cases.hpp"
-#include "drivers/verify/half_space.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
+#include "kernels/half_space/half_space.hpp"
 
 namespace tread {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/static_system.hpp"
-#include "drivers/statistics.hpp"
+#include "core/math/statistics.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/small_models.hpp"
 

@@ -13,9 +13,9 @@
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/small_models.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/stable_step.hpp"
-#include "kernels/time_update.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/solver/stable_step.hpp"
 
 namespace tread {
 

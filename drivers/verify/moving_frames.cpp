@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "core/hertz.hpp"
+#include "core/math/hertz.hpp"
 #include "core/mesh/structured.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/model.hpp"
-#include "drivers/preload.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
 
 namespace tread {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/static_system.hpp"
+#include "drivers/engine/static_system.hpp"
 
 namespace tread {
 

@@ -4,10 +4,10 @@
 #include <functional>
 #include <vector>
 
-#include "drivers/model.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/receptance.hpp"
-#include "drivers/simulation.hpp"
+#include "core/math/receptance.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
 
 namespace tread {
 

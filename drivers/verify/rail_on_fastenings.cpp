@@ -8,11 +8,12 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/beam/track_beam.hpp"
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/rail_beam.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
 #include "drivers/verify/rail_blow.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "drivers/model.hpp"
-#include "drivers/run_results.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/results/run_results.hpp"
 #include "drivers/verify/verify_case.hpp"
-#include "io/report.hpp"
+#include "io/report/report.hpp"
 
 namespace tread {
 

@@ -8,7 +8,7 @@
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/natural_modes.hpp"
 #include "drivers/verify/ring_theory.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

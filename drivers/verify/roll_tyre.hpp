@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "drivers/simulation.hpp"
-#include "drivers/surface_results.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/results/surface_results.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
 
 namespace tread {

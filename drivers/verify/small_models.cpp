@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

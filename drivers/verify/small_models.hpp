@@ -5,9 +5,9 @@
 #include <functional>
 #include <string>
 
-#include "core/parallel.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
 
 namespace tread {
 

@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
-#include "drivers/verify/half_space_rolling.hpp"
 #include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
+#include "kernels/half_space/half_space_rolling.hpp"
 
 namespace tread {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

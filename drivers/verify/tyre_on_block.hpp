@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/hertz.hpp"
+#include "core/math/hertz.hpp"
 #include "core/scene.hpp"
-#include "drivers/model.hpp"
+#include "drivers/engine/model.hpp"
 #include "drivers/verify/verify_case.hpp"
 
 namespace tread {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/preload.hpp"
-#include "io/report.hpp"
-#include "io/units.hpp"
+#include "drivers/engine/preload.hpp"
+#include "io/report/report.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 
@@ -68,8 +68,5 @@ struct VerifyCase {
   std::function<CaseResult(const VerifyInputs&, const ProgressText&)> run;
   std::string_view group = kStandardCases;
 };
-
-/// All cases, in the order of the documentation.
-const std::vector<VerifyCase>& verify_cases();
 
 }  // namespace tread

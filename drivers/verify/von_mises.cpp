@@ -8,8 +8,8 @@
 
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
-#include "drivers/verify/half_space_stress.hpp"
 #include "drivers/verify/roll_tyre.hpp"
+#include "kernels/half_space/half_space_stress.hpp"
 
 namespace tread {
 

@@ -12,7 +12,7 @@
 #include "core/geometry/profiles.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/natural_modes.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

@@ -7,12 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/beam/run_in.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/run_in.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/fastened_track.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 

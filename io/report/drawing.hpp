@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/math/vec.hpp"
 #include "core/mesh/section.hpp"
 #include "core/mesh/swept_block.hpp"
-#include "core/vec.hpp"
 
 namespace tread {
 

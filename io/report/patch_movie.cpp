@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "io/json_writer.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/shades.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace tread {
 

@@ -1,7 +1,9 @@
 #pragma once
 // What a contact point takes from its nodes, and gives to them.
 
-#include "kernels/contact_point.hpp"
+#include <cstddef>
+
+#include "core/math/vec.hpp"
 
 namespace tread {
 
@@ -9,6 +11,9 @@ namespace tread {
 struct alignas(32) PatchVector {
   double value[4] = {};
 };
+
+/// Nodes that carry a point of a surface: 4 stations x 4 nodes across.
+inline constexpr std::size_t kSupport = 16;
 
 inline constexpr int kLinkedNodes = 2 * kSupport;
 

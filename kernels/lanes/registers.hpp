@@ -3,7 +3,7 @@
 // versions apart.
 
 #include "core/mesh/swept_block.hpp"
-#include "kernels/element_body.hpp"
+#include "kernels/element/element_body.hpp"
 
 namespace tread {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "kernels/lanes/registers.hpp"
 #include "kernels/lanes/tie_sum.hpp"
-#include "kernels/node_motion_body.hpp"
+#include "kernels/update/node_motion_body.hpp"
 
 namespace tread {
 namespace {

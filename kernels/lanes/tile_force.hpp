@@ -12,11 +12,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "kernels/element.hpp"
-#include "kernels/front_plan.hpp"
+#include "kernels/element/element.hpp"
+#include "kernels/element/front_plan.hpp"
 #include "kernels/lanes/patch_sum.hpp"
 #include "kernels/lanes/tie_sum.hpp"
-#include "kernels/node_motion_body.hpp"
+#include "kernels/update/node_motion_body.hpp"
 
 namespace tread {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "kernels/element_body.hpp"
+#include "kernels/element/element_body.hpp"
 #include "kernels/lanes/patch_sum_body.hpp"
 #include "kernels/lanes/registers.hpp"
 #include "kernels/lanes/tie_sum_body.hpp"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 
 namespace tread {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "kernels/solver/chunks.hpp"
+#include "core/parallel/chunks.hpp"
 
 namespace tread {
 

@@ -6,7 +6,7 @@
 
 #include "core/aligned.hpp"
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 
 namespace tread {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 
 namespace tread {
 

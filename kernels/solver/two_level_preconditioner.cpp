@@ -4,8 +4,8 @@
 #include <numbers>
 #include <utility>
 
-#include "kernels/solver/chunks.hpp"
-#include "kernels/stable_step.hpp"
+#include "core/parallel/chunks.hpp"
+#include "kernels/solver/stable_step.hpp"
 
 namespace tread {
 

@@ -1,10 +1,12 @@
-// What the folders may include: core <- kernels, core <- io, both <- drivers; some libraries in one place
-// only.
+// What the floors of the house may include, that nothing includes in a circle, and that some libraries stand
+// in one place only. [architecture.md, Floors]
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -44,23 +46,109 @@ std::string first_folder(const std::string& target) {
 
 const std::set<std::string> kFolders = {"core", "kernels", "io", "drivers", "tests", "perf"};
 
-TEST(Layering, FoldersIncludeOnlyWhatStandsBelowThem) {
-  const std::map<std::string, std::set<std::string>> allowed = {
-      {"core", {"core"}},
-      {"kernels", {"core", "kernels"}},
-      {"io", {"core", "io"}},
-      {"drivers", {"core", "kernels", "io", "drivers"}},
-  };
-  for (const auto& [folder, below] : allowed) {
-    const auto includes = includes_of(folder);
-    EXPECT_GT(includes.size(), 10U) << folder;
+/// A floor of the house and what it may include beside itself.
+struct Floor {
+  std::string folder;
+  std::vector<std::string> below;
+};
+
+const std::vector<Floor> kFloors = {
+    {"core", {}},
+    {"kernels", {"core"}},
+    {"io", {"core"}},
+    {"drivers/engine", {"core", "kernels"}},
+    {"drivers/process", {"core"}},
+    {"drivers/results", {"core", "kernels", "io", "drivers/engine", "drivers/process"}},
+    {"drivers/report", {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results"}},
+    {"drivers/run",
+     {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results", "drivers/report"}},
+    {"drivers/studies",
+     {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results", "drivers/report",
+      "drivers/run"}},
+    {"drivers/verify", {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results"}},
+    {"drivers/bench", {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results"}},
+    {"drivers/cli",
+     {"core", "kernels", "io", "drivers/engine", "drivers/process", "drivers/results", "drivers/report",
+      "drivers/run", "drivers/studies", "drivers/verify", "drivers/bench"}},
+};
+
+bool lies_in(const std::string& path, const std::string& folder) {
+  return path.starts_with(folder + "/");
+}
+
+TEST(Layering, FloorsIncludeOnlyWhatStandsBelowThem) {
+  for (const Floor& floor : kFloors) {
+    const auto includes = includes_of(floor.folder);
+    EXPECT_GT(includes.size(), 10U) << floor.folder;
     for (const Include& include : includes) {
-      const std::string target = first_folder(include.target);
-      if (kFolders.count(target) > 0) {
-        EXPECT_TRUE(below.count(target) > 0) << include.file << " includes " << include.target;
-      }
+      if (kFolders.count(first_folder(include.target)) == 0 || lies_in(include.target, floor.folder))
+        continue;
+      EXPECT_TRUE(std::any_of(floor.below.begin(), floor.below.end(),
+                              [&](const std::string& below) { return lies_in(include.target, below); }))
+          << include.file << " includes " << include.target;
     }
   }
+}
+
+TEST(Layering, EveryFolderOfDriversIsAFloor) {
+  for (const auto& entry : fs::directory_iterator(fs::path(TREAD_SOURCE_DIR) / "drivers")) {
+    if (!entry.is_directory()) continue;
+    const std::string folder = "drivers/" + entry.path().filename().string();
+    EXPECT_TRUE(std::any_of(kFloors.begin(), kFloors.end(), [&](const Floor& floor) {
+      return floor.folder == folder;
+    })) << folder;
+  }
+}
+
+/// Includes among our own files, by `key` of includer and included.
+template <class Key>
+std::map<std::string, std::set<std::string>> include_graph(const Key& key) {
+  std::map<std::string, std::set<std::string>> graph;
+  for (const std::string folder : {"core", "kernels", "io", "drivers"})
+    for (const Include& include : includes_of(folder))
+      if (kFolders.count(first_folder(include.target)) > 0 && key(include.file) != key(include.target))
+        graph[key(include.file)].insert(key(include.target));
+  return graph;
+}
+
+/// A way that leads back to its start; empty if there is none.
+std::vector<std::string> cycle_in(const std::map<std::string, std::set<std::string>>& graph) {
+  std::set<std::string> done;
+  std::vector<std::string> way;
+  const std::function<bool(const std::string&)> visit = [&](const std::string& node) {
+    const auto met = std::find(way.begin(), way.end(), node);
+    way.push_back(node);
+    if (met != way.end()) return true;
+    if (done.insert(node).second && graph.count(node) > 0)
+      for (const std::string& next : graph.at(node))
+        if (visit(next)) return true;
+    way.pop_back();
+    return false;
+  };
+  for (const auto& [node, targets] : graph)
+    if (visit(node)) return way;
+  return {};
+}
+
+TEST(Layering, IncludesFormNoCycle) {
+  const auto unit = [](const std::string& path) { return fs::path(path).replace_extension().string(); };
+  const auto folder = [](const std::string& path) { return fs::path(path).parent_path().string(); };
+  EXPECT_EQ(cycle_in(include_graph(unit)), std::vector<std::string>{});
+  EXPECT_EQ(cycle_in(include_graph(folder)), std::vector<std::string>{});
+}
+
+TEST(Layering, ACycleIsFound) {
+  EXPECT_EQ(cycle_in({{"a", {"b"}}, {"b", {"c", "d"}}, {"d", {"b"}}}).size(), 4U);
+  EXPECT_TRUE(cycle_in({{"a", {"b", "c"}}, {"b", {"c"}}}).empty());
+}
+
+TEST(Layering, StudiesAndVerificationAreSeenByCommandsAlone) {
+  for (const std::string own : {"drivers/verify", "drivers/studies/paper", "drivers/bench"})
+    for (const Include& include : includes_of("drivers"))
+      if (lies_in(include.target, own)) {
+        EXPECT_TRUE(lies_in(include.file, own) || lies_in(include.file, "drivers/cli"))
+            << include.file << " includes " << include.target;
+      }
 }
 
 TEST(Layering, OwnHeadersAreNamedFromTheRoot) {
@@ -91,7 +179,7 @@ TEST(Layering, LibrariesStayInTheirFolders) {
 }
 
 TEST(Layering, ThreadLibrariesStandBehindTheOneInterface) {
-  const std::string interface = "core/parallel_";
+  const std::string interface = "core/parallel/parallel_";
   for (const std::string folder : {"core", "kernels", "io", "drivers"})
     for (const Include& include : includes_of(folder)) {
       const bool inside = include.file.compare(0, interface.size(), interface) == 0;
@@ -99,8 +187,8 @@ TEST(Layering, ThreadLibrariesStandBehindTheOneInterface) {
       if (include.target == "omp.h" || top == "oneapi" || top == "tbb") {
         EXPECT_TRUE(inside) << include.file << " includes " << include.target;
       }
-      if (include.target == "core/parallel_backend.hpp") {
-        EXPECT_TRUE(inside || include.file == "core/parallel.cpp") << include.file;
+      if (include.target == "core/parallel/parallel_backend.hpp") {
+        EXPECT_TRUE(inside || include.file == "core/parallel/parallel.cpp") << include.file;
       }
     }
 }
@@ -110,7 +198,7 @@ TEST(Layering, PragmasForThreadsStandInTheOneInterface) {
   for (const std::string folder : {"core", "kernels", "io", "drivers"})
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
-      if (entry.path() == root / "core/parallel_openmp.cpp") continue;
+      if (entry.path() == root / "core/parallel/parallel_openmp.cpp") continue;
       std::ifstream file(entry.path());
       for (std::string line; std::getline(file, line);)
         EXPECT_FALSE(line.find("#pragma omp") != std::string::npos && line.find("simd") == std::string::npos)

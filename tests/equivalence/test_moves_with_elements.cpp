@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
-#include "kernels/internal_force.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 #include "tests/tyre_scene.hpp"

@@ -10,11 +10,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/run_results.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/run_results.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

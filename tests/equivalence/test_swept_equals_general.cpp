@@ -5,9 +5,9 @@
 #include <cstring>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "kernels/hexahedron.hpp"
-#include "kernels/internal_force.hpp"
+#include "core/parallel/parallel.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/element/hexahedron.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

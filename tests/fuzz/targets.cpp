@@ -11,19 +11,19 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "core/hash.hpp"
-#include "drivers/roughness/roughness_levels.hpp"
-#include "drivers/roughness/roughness_profile.hpp"
-#include "drivers/run_folder.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/history_reader.hpp"
-#include "io/json_lines.hpp"
-#include "io/output_file.hpp"
-#include "io/scene_reader.hpp"
-#include "io/sealed_file.hpp"
-#include "io/step_files.hpp"
-#include "io/table_reader.hpp"
-#include "io/text_file.hpp"
+#include "core/math/hash.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "drivers/studies/roughness/roughness_levels.hpp"
+#include "drivers/studies/roughness/roughness_profile.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/files/history_reader.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/sealed_file.hpp"
+#include "io/files/step_files.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/scene/table_reader.hpp"
+#include "io/text/json_lines.hpp"
+#include "io/text/text_file.hpp"
 
 namespace tread::fuzz {
 

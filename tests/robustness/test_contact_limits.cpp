@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/preload.hpp"
+#include "drivers/engine/preload.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

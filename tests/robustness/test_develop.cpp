@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "drivers/study/study_plan.hpp"
-#include "io/json_reader.hpp"
+#include "drivers/studies/study/study_plan.hpp"
+#include "io/text/json_reader.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {

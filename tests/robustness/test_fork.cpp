@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "io/checkpoint_folder.hpp"
+#include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {

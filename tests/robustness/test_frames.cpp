@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "drivers/disk_use.hpp"
-#include "drivers/frame_files.hpp"
-#include "drivers/static_system.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/text_file.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/disk_use.hpp"
+#include "drivers/results/frame_files.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/text/text_file.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 

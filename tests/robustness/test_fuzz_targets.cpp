@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/run_checkpoint.hpp"
+#include "drivers/run/run_checkpoint.hpp"
 #include "tests/fuzz/targets.hpp"
 
 namespace tread {

@@ -13,8 +13,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "io/history_file.hpp"
-#include "io/output_file.hpp"
+#include "io/files/history_file.hpp"
+#include "io/files/output_file.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/run_folder.hpp"
-#include "io/content_cache.hpp"
-#include "io/file_lock.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "io/files/content_cache.hpp"
+#include "io/files/file_lock.hpp"
 #include "tests/program_test.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/run_command.hpp"
-#include "io/checkpoint_folder.hpp"
+#include "drivers/run/run_scene.hpp"
+#include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/problems.hpp"
-#include "io/scene_checks.hpp"
-#include "io/scene_reader.hpp"
-#include "io/table_reader.hpp"
+#include "io/scene/problems.hpp"
+#include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/scene/table_reader.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -13,9 +13,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/sealed_file.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/files/sealed_file.hpp"
 #include "tests/fuzz/targets.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"

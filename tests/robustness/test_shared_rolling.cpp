@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <string>
 
-#include "drivers/study/shared_rolling.hpp"
-#include "drivers/study/study_runner.hpp"
-#include "io/checkpoint_folder.hpp"
-#include "io/json_reader.hpp"
+#include "drivers/studies/study/shared_rolling.hpp"
+#include "drivers/studies/study/study_runner.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/text/json_reader.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/json_reader.hpp"
+#include "io/text/json_reader.hpp"
 #include "tests/program.hpp"
 
 namespace tread {

@@ -11,8 +11,8 @@
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/work.hpp"
-#include "io/json_lines.hpp"
-#include "kernels/element_body.hpp"
+#include "io/text/json_lines.hpp"
+#include "kernels/element/element_body.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 
 #include "core/body_frame.hpp"
 #include "core/mesh/structured.hpp"
-#include "kernels/body_motion.hpp"
+#include "kernels/update/body_motion.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

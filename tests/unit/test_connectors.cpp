@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "core/mesh/structured.hpp"
-#include "drivers/model.hpp"
-#include "kernels/body_motion.hpp"
-#include "kernels/connectors.hpp"
-#include "kernels/time_update.hpp"
+#include "drivers/engine/model.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/connectors/connectors.hpp"
+#include "kernels/update/body_motion.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

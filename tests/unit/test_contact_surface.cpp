@@ -12,7 +12,7 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
-#include "kernels/contact_surface.hpp"
+#include "kernels/contact/contact_surface.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

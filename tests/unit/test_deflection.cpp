@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/mesh/structured.hpp"
-#include "drivers/deflection.hpp"
+#include "drivers/results/deflection.hpp"
 
 namespace tread {
 namespace {

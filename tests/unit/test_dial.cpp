@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/dial/dial_advice.hpp"
-#include "drivers/dial/dial_design.hpp"
-#include "drivers/dial/dial_report.hpp"
-#include "drivers/dial/dial_table.hpp"
+#include "drivers/studies/dial/dial_advice.hpp"
+#include "drivers/studies/dial/dial_design.hpp"
+#include "drivers/studies/dial/dial_report.hpp"
+#include "drivers/studies/dial/dial_table.hpp"
 #include "tests/program.hpp"
 
 namespace tread {

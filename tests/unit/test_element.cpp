@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/element_body.hpp"
-#include "kernels/front_plan.hpp"
+#include "kernels/element/element_body.hpp"
+#include "kernels/element/front_plan.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/friction.hpp"
+#include "kernels/contact/friction.hpp"
 
 namespace tread {
 namespace {

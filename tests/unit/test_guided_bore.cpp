@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
-#include "kernels/guided_bore.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "kernels/connectors/guided_bore.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/hertz.hpp"
+#include "core/math/hertz.hpp"
 
 namespace tread {
 namespace {

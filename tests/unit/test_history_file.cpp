@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/history_file.hpp"
+#include "io/files/history_file.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

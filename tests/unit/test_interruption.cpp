@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "core/error.hpp"
-#include "drivers/interruption.hpp"
+#include "drivers/process/interruption.hpp"
 
 namespace tread {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "drivers/inventory.hpp"
-#include "io/scene_reader.hpp"
+#include "drivers/results/inventory.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {

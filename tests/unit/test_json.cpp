@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "io/json_reader.hpp"
-#include "io/json_writer.hpp"
+#include "io/text/json_reader.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace tread {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "kernels/solver/chunks.hpp"
+#include "core/parallel/chunks.hpp"
 #include "kernels/solver/lowest_modes.hpp"
 
 namespace tread {

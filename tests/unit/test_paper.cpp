@@ -10,13 +10,13 @@
 #include <set>
 #include <string>
 
-#include "drivers/paper/curve_measures.hpp"
-#include "drivers/paper/drawn_figure.hpp"
-#include "drivers/paper/paper_figures.hpp"
-#include "drivers/paper/paper_numbers.hpp"
-#include "drivers/paper/paper_verdicts.hpp"
-#include "drivers/study/study_plan.hpp"
-#include "drivers/study/study_report.hpp"
+#include "drivers/studies/paper/curve_measures.hpp"
+#include "drivers/studies/paper/drawn_figure.hpp"
+#include "drivers/studies/paper/paper_figures.hpp"
+#include "drivers/studies/paper/paper_numbers.hpp"
+#include "drivers/studies/paper/paper_verdicts.hpp"
+#include "drivers/studies/study/study_plan.hpp"
+#include "drivers/studies/study/study_report.hpp"
 #include "tests/program.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
+#include "core/parallel/parallel.hpp"
 
 namespace tread {
 namespace {

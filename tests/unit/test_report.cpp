@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "io/report.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/report.hpp"
 
 namespace tread {
 namespace {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "drivers/roughness/roughness_levels.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/studies/roughness/roughness_levels.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "drivers/study/scene_content.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 

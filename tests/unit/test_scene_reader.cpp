@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "io/scene_checks.hpp"
-#include "io/scene_library.hpp"
-#include "io/scene_reader.hpp"
-#include "io/schema.hpp"
+#include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_library.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/scene/schema.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -9,8 +9,8 @@
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/stable_step.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/solver/stable_step.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/solver/chunks.hpp"
+#include "core/parallel/chunks.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 #include "tests/solved_system.hpp"
 #include "tests/swept_samples.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "drivers/statistics.hpp"
+#include "core/math/statistics.hpp"
 
 namespace tread {
 namespace {

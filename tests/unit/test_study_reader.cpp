@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/study_reader.hpp"
+#include "io/scene/study_reader.hpp"
 #include "tests/program.hpp"
 
 namespace tread {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/surface_fields.hpp"
+#include "kernels/contact/surface_fields.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

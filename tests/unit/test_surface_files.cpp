@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/instants.hpp"
-#include "drivers/patch_file.hpp"
-#include "drivers/surface_map.hpp"
-#include "drivers/surface_results.hpp"
-#include "io/hdf5_file.hpp"
+#include "drivers/report/instants.hpp"
+#include "drivers/results/patch_file.hpp"
+#include "drivers/results/surface_map.hpp"
+#include "drivers/results/surface_results.hpp"
+#include "io/files/hdf5_file.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/mesh/structured.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/tie.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/ties/tie.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

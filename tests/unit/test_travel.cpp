@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/travel.hpp"
-#include "drivers/model.hpp"
-#include "io/scene_reader.hpp"
+#include "drivers/engine/model.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 namespace {

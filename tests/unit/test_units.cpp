@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/units.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 namespace {

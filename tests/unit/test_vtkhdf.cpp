@@ -8,8 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "io/hdf5_file.hpp"
-#include "io/vtkhdf.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/vtk/vtkhdf.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

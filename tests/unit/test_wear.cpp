@@ -11,8 +11,8 @@
 
 #include "core/corrugation.hpp"
 #include "core/error.hpp"
-#include "drivers/develop/development.hpp"
-#include "drivers/develop/development_report.hpp"
+#include "drivers/studies/develop/development.hpp"
+#include "drivers/studies/develop/development_report.hpp"
 
 namespace tread {
 namespace {

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <numbers>
 
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
-#include "io/scene_reader.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/time_update.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/blocks/time_update.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

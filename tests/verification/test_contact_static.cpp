@@ -13,8 +13,8 @@
 #include "core/geometry/profiles.hpp"
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/wheel_section.hpp"
-#include "kernels/contact.hpp"
-#include "kernels/internal_force.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/contact/contact.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "drivers/energy_watch.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/energy_watch.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "drivers/verify/small_models.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/verified_case.hpp"
 
 namespace tread {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/internal_force.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

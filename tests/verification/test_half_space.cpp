@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/hertz.hpp"
-#include "core/vec.hpp"
-#include "drivers/verify/half_space_rolling.hpp"
-#include "drivers/verify/half_space_stress.hpp"
+#include "core/math/hertz.hpp"
+#include "core/math/vec.hpp"
+#include "kernels/half_space/half_space_rolling.hpp"
+#include "kernels/half_space/half_space_stress.hpp"
 #include "tests/measured.hpp"
 
 namespace tread::half_space {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/preload.hpp"
-#include "drivers/receptance.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "core/math/receptance.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "drivers/verify/rail_blow.hpp"
-#include "io/scene_reader.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/verified_case.hpp"
 
 namespace tread {

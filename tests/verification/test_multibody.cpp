@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/multibody/multibody_run.hpp"
-#include "io/scene_reader.hpp"
+#include "drivers/studies/multibody/multibody_run.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

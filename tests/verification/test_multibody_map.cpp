@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "drivers/multibody/response_map.hpp"
-#include "io/scene_reader.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/studies/multibody/response_map.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

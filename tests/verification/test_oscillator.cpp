@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/mesh/structured.hpp"
-#include "kernels/connectors.hpp"
-#include "kernels/time_update.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/connectors/connectors.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"
 

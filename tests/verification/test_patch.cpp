@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "kernels/internal_force.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
 #include "tests/measured.hpp"
 #include "tests/tyre_scene.hpp"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "core/parallel.hpp"
-#include "kernels/internal_force.hpp"
+#include "core/parallel/parallel.hpp"
+#include "kernels/blocks/internal_force.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 #include "tests/solved_system.hpp"
 #include "tests/swept_samples.hpp"

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/mesh/structured.hpp"
-#include "kernels/body_motion.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/time_update.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/update/body_motion.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/mesh/structured.hpp"
-#include "kernels/internal_force.hpp"
-#include "kernels/tie.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/ties/tie.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 

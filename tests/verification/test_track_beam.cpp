@@ -6,10 +6,11 @@
 #include <numbers>
 #include <string>
 
-#include "drivers/beam/beam_section.hpp"
-#include "drivers/beam/run_in.hpp"
-#include "drivers/beam/track_beam.hpp"
-#include "io/scene_reader.hpp"
+#include "drivers/engine/beam/beam_section.hpp"
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/run_in.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <string>
 
-#include "drivers/beam/track_beam.hpp"
-#include "drivers/preload.hpp"
-#include "drivers/simulation.hpp"
-#include "drivers/static_system.hpp"
-#include "io/scene_reader.hpp"
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
 
 namespace tread {

@@ -1,0 +1,60 @@
+#include "drivers/cli/cache_command.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <vector>
+
+#include "drivers/process/progress.hpp"
+#include "drivers/run/preload_cache.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Since the entry was used [s].
+double age(const ContentCache::Entry& entry) {
+  return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - entry.used).count();
+}
+
+void show_text(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
+               std::int64_t bytes) {
+  fmt::print("{}: {} preloads, {} of at most {}\n", cache.folder().string(), entries.size(),
+             bytes_text(bytes), bytes_text(cache.limit()));
+  for (const ContentCache::Entry& entry : entries)
+    fmt::print("  {}  {:>8}  used {} ago\n", entry.path.filename().string(), bytes_text(entry.bytes),
+               duration_text(age(entry)));
+}
+
+void show_json(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
+               std::int64_t bytes) {
+  JsonWriter json;
+  const std::string folder = cache.folder().string();
+  json.begin_object().member("folder", std::string_view(folder));
+  json.member("bytes", bytes).member("limit_bytes", cache.limit()).key("preloads").begin_array();
+  for (const ContentCache::Entry& entry : entries) {
+    const std::string name = entry.path.filename().string();
+    json.begin_object().member("file", std::string_view(name)).member("bytes", entry.bytes);
+    json.member("unused_s", age(entry)).end_object();
+  }
+  fmt::print("{}", json.end_array().end_object().text());
+}
+
+}  // namespace
+
+void tend_cache(const CacheOptions& options) {
+  const std::optional<ContentCache> cache = preload_cache(options.place);
+  if (!cache) {
+    fmt::print("{}", options.json ? "{}\n" : "the preload cache is off\n");
+    return;
+  }
+  if (options.action == "clear") cache->clear();
+  const std::vector<ContentCache::Entry> entries = cache->entries();
+  std::int64_t bytes = 0;
+  for (const ContentCache::Entry& entry : entries) bytes += entry.bytes;
+  (options.json ? show_json : show_text)(*cache, entries, bytes);
+}
+
+}  // namespace tread

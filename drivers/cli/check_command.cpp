@@ -1,0 +1,110 @@
+#include "drivers/cli/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include "core/parallel/parallel.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/report/mesh_measures.hpp"
+#include "drivers/results/estimate.hpp"
+#include "drivers/results/inventory.hpp"
+#include "drivers/results/run_results.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+std::string disk_text(const Model& model, const DiskUse& disk) {
+  std::string text = fmt::format("about {}", bytes_text(disk.results + disk.frames));
+  if (disk.rows == 0) return text;
+  text +=
+      fmt::format(": {} rows of {} channels, {}report {}; ", grouped(disk.rows),
+                  history_channels(model).size(), model.contact ? "patch, " : "", bytes_text(disk.results));
+  if (disk.frames > 0)
+    text += fmt::format("{} frames of {} {}; ", model.scene.output.frames, model.scene.output.frame_cells,
+                        bytes_text(disk.frames));
+  return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
+}
+
+std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e) {
+  std::string text = fmt::format("{}: no problems found\n\n", resolved.name);
+  text += plain_text(count_table(measure_blocks(model))) + "\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("{:<10}{}\n", name, value);
+  };
+  if (e.steps > 0) {
+    line("Step", fmt::format("{:.4e} s = {:g} of the stable step", e.dt, model.scene.motion->step_safety));
+    line("", e.limit.reason);
+    line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
+  }
+  line("Memory", fmt::format("about {}", bytes_text(e.memory)));
+  line("Disk", disk_text(model, e.disk));
+  line("Time", fmt::format("about {} with {} thread{}: preload {}{}", duration_text(e.seconds()), threads(),
+                           threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
+                           e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
+  text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
+  return text;
+}
+
+std::string check_json(const Model& model, const Estimate& e, const std::optional<Advice>& advice) {
+  JsonWriter json;
+  json.begin_object().member("ok", true).key("problems").begin_array().end_array();
+  json.member("elements", model.elements()).member("nodes", model.nodes());
+  json.key("blocks").begin_array();
+  for (const SweptBlock& block : model.mesh.blocks)
+    json.begin_object()
+        .member("name", std::string_view(block.name))
+        .member("elements", block.elements())
+        .member("nodes", block.nodes())
+        .end_object();
+  json.end_array();
+  if (e.steps > 0)
+    json.member("dt_s", e.dt)
+        .member("stable_step_s", e.limit.stable_step)
+        .member("dt_reason", std::string_view(e.limit.reason))
+        .member("steps", e.steps);
+  json.member("memory_bytes", e.memory)
+      .member("disk_bytes", e.disk.results)
+      .member("frame_bytes", e.disk.frames)
+      .member("checkpoint_bytes", e.disk.checkpoints)
+      .member("history_rows", e.disk.rows);
+  json.member("threads", threads())
+      .member("preload_s", e.preload_seconds)
+      .member("rolling_s", e.rolling_seconds);
+  json.key("phases").begin_array();
+  for (const PhaseInfo& phase : phases(model)) {
+    json.begin_object().member("name", std::string_view(phase.name));
+    for (const auto& [key, names] : {std::pair{"reads", phase.reads}, std::pair{"writes", phase.writes}}) {
+      json.key(key).begin_array();
+      for (const std::string& name : names) json.value(std::string_view(name));
+      json.end_array();
+    }
+    json.end_object();
+  }
+  json.end_array().key("fields").begin_array();
+  for (const FieldInfo& field : fields(model))
+    json.begin_object()
+        .member("name", std::string_view(field.name))
+        .member("unit", std::string_view(field.unit))
+        .member("entity", std::string_view(field.entity))
+        .member("bytes", field.bytes)
+        .end_object();
+  json.end_array();
+  if (advice) add_advice(*advice, json);
+  return json.end_object().text();
+}
+
+}  // namespace
+
+void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
+  use_threads(options.threads);
+  const std::optional<Advice> advice = advise(resolved, options.advice);
+  Model model(resolved.scene);
+  const Estimate e = estimate(model);
+  fmt::print("{}", options.json ? check_json(model, e, advice) : check_text(model, resolved, e));
+  if (advice && !options.json) fmt::print("\n{}", advice_text(*advice));
+}
+
+}  // namespace tread

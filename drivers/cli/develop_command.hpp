@@ -1,0 +1,26 @@
+#pragma once
+// `tread develop`: passages over a rail that each wears for the next.
+
+#include <filesystem>
+#include <string>
+
+#include "io/scene/scene_reader.hpp"
+
+namespace tread {
+
+struct DevelopOptions {
+  std::filesystem::path output;  ///< directory
+  int passages = 10;             ///< simulated in all, those of earlier calls included
+  std::string from;              ///< a run whose state all passages begin with, as in fork_from(); or empty
+  int threads = 0;               ///< of a passage; 0: all
+  bool json = false;             ///< instead of a table
+  bool quiet = false;
+  std::string command;  ///< as typed, for the report
+};
+
+/// Runs the passages that the folder lacks and leaves profiles/, work/, profiles.csv, spectra.csv,
+/// growth.csv, development.json, figures and report.html there. InputError, NumericalError, ResourceError;
+/// Interrupted where the same command goes on.
+void develop(const ResolvedScene& resolved, const DevelopOptions& options);
+
+}  // namespace tread

@@ -1,0 +1,257 @@
+#include "drivers/engine/beam/beam_section.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/engine/beam/band_matrix.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Bilinear shape functions of a quad at a Gauss point and their gradients.
+struct QuadPoint {
+  double y = 0, z = 0;
+  double weight = 0;  ///< area that the point stands for [m2]
+  std::array<double, 4> value{};
+  std::array<double, 4> along_y{}, along_z{};  ///< [1/m]
+};
+
+std::array<QuadPoint, 4> quad_points(const Section& section, std::size_t quad) {
+  constexpr std::array<double, 4> kXi = {-1, 1, 1, -1};
+  constexpr std::array<double, 4> kEta = {-1, -1, 1, 1};
+  const double g = 1 / std::numbers::sqrt3;
+  std::array<QuadPoint, 4> points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    QuadPoint& point = points[k];
+    std::array<double, 4> d_xi{}, d_eta{};
+    double y_xi = 0, y_eta = 0, z_xi = 0, z_eta = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double xi = g * kXi[k];
+      const double eta = g * kEta[k];
+      const auto node = static_cast<std::size_t>(section.quads[quad][i]);
+      point.value[i] = 0.25 * (1 + kXi[i] * xi) * (1 + kEta[i] * eta);
+      d_xi[i] = 0.25 * kXi[i] * (1 + kEta[i] * eta);
+      d_eta[i] = 0.25 * kEta[i] * (1 + kXi[i] * xi);
+      point.y += point.value[i] * section.p[node];
+      point.z += point.value[i] * section.q[node];
+      y_xi += d_xi[i] * section.p[node];
+      y_eta += d_eta[i] * section.p[node];
+      z_xi += d_xi[i] * section.q[node];
+      z_eta += d_eta[i] * section.q[node];
+    }
+    point.weight = y_xi * z_eta - y_eta * z_xi;
+    for (std::size_t i = 0; i < 4; ++i) {
+      point.along_y[i] = (d_xi[i] * z_eta - d_eta[i] * z_xi) / point.weight;
+      point.along_z[i] = (d_eta[i] * y_xi - d_xi[i] * y_eta) / point.weight;
+    }
+  }
+  return points;
+}
+
+template <class Visit>
+void for_points(const std::vector<const Section*>& parts, const Visit& visit) {
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    for (std::size_t quad = 0; quad < parts[part]->quads.size(); ++quad)
+      for (const QuadPoint& point : quad_points(*parts[part], quad)) visit(part, quad, point);
+}
+
+/// What a node's value is made of: unknowns and weights.
+using Mixture = std::vector<std::pair<int, double>>;
+
+/// Nodes of the first part on the tie take the values of the second part's, linear between two.
+struct Unknowns {
+  std::vector<std::vector<Mixture>> of;  ///< by part and node
+  int count = 0;
+};
+
+Unknowns number_unknowns(const std::vector<const Section*>& parts) {
+  Unknowns unknowns;
+  unknowns.of.resize(parts.size());
+  for (std::size_t part = parts.size(); part-- > 0;) {
+    unknowns.of[part].resize(parts[part]->p.size());
+    std::map<int, Mixture> tied;
+    if (part == 0 && parts.size() == 2) {
+      const Section& base = *parts[1];
+      const std::vector<int>& line = base.paths.at("tie");
+      const auto y = [&](std::size_t i) { return base.p[static_cast<std::size_t>(line[i])]; };
+      for (const int node : parts[0]->paths.at("tie")) {
+        const double at = parts[0]->p[static_cast<std::size_t>(node)];
+        std::size_t i = 0;
+        while (i + 2 < line.size() && y(i + 1) < at) ++i;
+        const double share = std::clamp((at - y(i)) / (y(i + 1) - y(i)), 0.0, 1.0);
+        const auto& of_base = unknowns.of[1];
+        tied[node] = {{of_base[static_cast<std::size_t>(line[i])][0].first, 1 - share},
+                      {of_base[static_cast<std::size_t>(line[i + 1])][0].first, share}};
+      }
+    }
+    for (std::size_t node = 0; node < parts[part]->p.size(); ++node) {
+      const auto found = tied.find(static_cast<int>(node));
+      unknowns.of[part][node] = found != tied.end() ? found->second : Mixture{{unknowns.count++, 1.0}};
+    }
+  }
+  return unknowns;
+}
+
+/// Cowper's kappa by the stress function Psi of a shear force that makes d(sigma)/dx = z: find Psi with
+/// integral (grad Psi - d) . grad N = integral N z for all N. [theory.md, eq. B3]
+double cowper(const std::vector<const Section*>& parts, const BeamSection& s, double nu) {
+  const Unknowns unknowns = number_unknowns(parts);
+  BandMatrix<double> laplace(unknowns.count, unknowns.count - 1);
+  std::vector<double> load(static_cast<std::size_t>(unknowns.count));
+  const double a = nu / (2 * (1 + nu));
+  double middle = 0;  // y of the line of symmetry
+  for_points(parts, [&](std::size_t, std::size_t, const QuadPoint& p) { middle += p.weight * p.y / s.area; });
+  const auto mixture = [&](std::size_t part, std::size_t quad, std::size_t i) -> const Mixture& {
+    return unknowns.of[part][static_cast<std::size_t>(parts[part]->quads[quad][i])];
+  };
+  double poisson = 0;  // integral of d_z
+  for_points(parts, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+    const double y = p.y - middle;
+    const double z = p.z - s.height;
+    const double d_y = a * y * z;
+    const double d_z = 0.5 * a * (z * z - y * y);
+    poisson += p.weight * d_z;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const auto& [row, share] : mixture(part, quad, i)) {
+        load[static_cast<std::size_t>(row)] +=
+            share * p.weight * (p.value[i] * z + p.along_y[i] * d_y + p.along_z[i] * d_z);
+        for (std::size_t j = 0; j < 4; ++j)
+          for (const auto& [column, other] : mixture(part, quad, j))
+            if (row >= column)
+              laplace.at(row, column) +=
+                  share * other * p.weight * (p.along_y[i] * p.along_y[j] + p.along_z[i] * p.along_z[j]);
+      }
+  });
+  laplace.restrain(0, 1);  // Psi is known but for a constant
+  load[0] = 0;
+  laplace.factorise();
+  const std::vector<double> psi = laplace.solve(load);
+  double moment = 0;  // integral of z Psi
+  for_points(parts, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const auto& [row, share] : mixture(part, quad, i))
+        moment += p.weight * (p.z - s.height) * p.value[i] * share * psi[static_cast<std::size_t>(row)];
+  });
+  return s.vertical / (s.area / s.vertical * moment - poisson);
+}
+
+}  // namespace
+
+BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio) {
+  BeamSection s;
+  double first = 0;
+  double lateral_first = 0;
+  for_points(parts, [&](std::size_t, std::size_t, const QuadPoint& p) {
+    s.area += p.weight;
+    first += p.weight * p.z;
+    lateral_first += p.weight * p.y;
+    s.vertical += p.weight * p.z * p.z;
+    s.lateral += p.weight * p.y * p.y;
+  });
+  s.height = first / s.area;
+  s.vertical -= first * s.height;
+  s.lateral -= lateral_first * lateral_first / s.area;
+  double top = -1e9, bottom = 1e9;
+  for (const Section* part : parts) {
+    const auto [low, high] = std::minmax_element(part->q.begin(), part->q.end());
+    bottom = std::min(bottom, *low);
+    top = std::max(top, *high);
+  }
+  s.depth = top - bottom;
+  s.shear_coefficient = cowper(parts, s, poissons_ratio);
+  return s;
+}
+
+Section refined(const Section& section, int n) {
+  Section fine;
+  std::map<std::pair<long, long>, int> known;  // by position in nanometres
+  const auto node_at = [&](double p, double q) {
+    const auto [entry, fresh] =
+        known.try_emplace({std::lround(1e9 * p), std::lround(1e9 * q)}, static_cast<int>(fine.p.size()));
+    if (fresh) {
+      fine.p.push_back(p);
+      fine.q.push_back(q);
+    }
+    return entry->second;
+  };
+  for (const std::array<int, 4>& quad : section.quads) {
+    const auto corner = [&](int i, int j) {
+      const double xi = static_cast<double>(i) / n;
+      const double eta = static_cast<double>(j) / n;
+      const std::array<double, 4> weight = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
+      double p = 0;
+      double q = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        p += weight[k] * section.p[static_cast<std::size_t>(quad[k])];
+        q += weight[k] * section.q[static_cast<std::size_t>(quad[k])];
+      }
+      return node_at(p, q);
+    };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        fine.quads.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
+  }
+  for (const auto& [name, line] : section.paths)
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const auto a = static_cast<std::size_t>(line[i]);
+      if (i + 1 == line.size()) {
+        fine.paths[name].push_back(node_at(section.p[a], section.q[a]));
+        break;
+      }
+      const auto b = static_cast<std::size_t>(line[i + 1]);
+      for (int k = 0; k < n; ++k) {
+        const double t = static_cast<double>(k) / n;
+        fine.paths[name].push_back(
+            node_at((1 - t) * section.p[a] + t * section.p[b], (1 - t) * section.q[a] + t * section.q[b]));
+      }
+    }
+  return fine;
+}
+
+BeamProperties timoshenko(const BeamSection& section, const Material& material) {
+  return {material.youngs_modulus * section.vertical,
+          section.shear_coefficient * material.shear_modulus() * section.area,
+          material.density * section.area, material.density * section.vertical, section.depth};
+}
+
+BeamProperties euler(const BeamSection& section, const Material& material) {
+  return {material.youngs_modulus * section.vertical, 0, material.density * section.area, 0, 0};
+}
+
+double head_spread(double depth, double poissons_ratio, double wave_number) {
+  const double x = wave_number * depth;
+  const double sine = std::sinh(x);
+  const double strip = 2 * (sine + x * std::cosh(x)) / (sine * sine - x * x);
+  const double beam = 12 / (x * x * x) + (12 + 11 * poissons_ratio) / (5 * x);
+  return std::sqrt(2 * std::log(beam / strip)) / wave_number;
+}
+
+double wave_frequency(const BeamProperties& beam, double wave_number) {
+  const double k2 = wave_number * wave_number;
+  if (beam.shear_stiffness == 0)
+    return std::sqrt(beam.bending_stiffness / beam.mass) * k2 / (2 * std::numbers::pi);
+  // Squares of both branches' angular frequencies solve a x^2 - b x + c = 0.
+  const double a = beam.mass * beam.rotary_inertia;
+  const double b = beam.mass * (beam.bending_stiffness * k2 + beam.shear_stiffness) +
+                   beam.rotary_inertia * beam.shear_stiffness * k2;
+  const double c = beam.shear_stiffness * beam.bending_stiffness * k2 * k2;
+  return std::sqrt(2 * c / (b + std::sqrt(b * b - 4 * a * c))) / (2 * std::numbers::pi);
+}
+
+double wave_number(const BeamProperties& beam, double frequency) {
+  double low = 0;
+  double high = 1;
+  while (wave_frequency(beam, high) < frequency) high *= 2;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (wave_frequency(beam, middle) < frequency ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace tread

@@ -1,0 +1,51 @@
+#pragma once
+// What a beam knows of a cross-section: area, moments of inertia, Cowper's shear coefficient.
+
+#include <vector>
+
+#include "core/material.hpp"
+#include "core/mesh/section.hpp"
+
+namespace tread {
+
+struct BeamSection {
+  double area = 0;               ///< A [m2]
+  double height = 0;             ///< z of the centroid [m]
+  double depth = 0;              ///< from top to bottom [m]
+  double vertical = 0;           ///< I, integral of z^2 about the centroid: vertical bending [m4]
+  double lateral = 0;            ///< integral of y^2 [m4]
+  double shear_coefficient = 0;  ///< kappa, vertical bending [-]
+};
+
+/// Of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The section
+/// has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
+/// [theory.md, eq. B3]
+BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
+
+/// The same quads, each cut into n x n.
+Section refined(const Section& section, int n);
+
+/// What bends: stiffnesses and masses per length.
+struct BeamProperties {
+  double bending_stiffness = 0;  ///< E I [N m2]
+  double shear_stiffness = 0;    ///< kappa G A [N]; 0: rigid in shear (Euler)
+  double mass = 0;               ///< rho A [kg/m]
+  double rotary_inertia = 0;     ///< rho I [kg m]
+  double depth = 0;              ///< of the section [m]; 0: a line
+};
+
+BeamProperties timoshenko(const BeamSection& section, const Material& material);
+BeamProperties euler(const BeamSection& section, const Material& material);
+
+/// Standard deviation of the normal distribution by which a wave of load on the head, of the given wave
+/// number [1/m], has to be spread so that Timoshenko's beam deflects like the bottom of an elastic strip as
+/// deep as the section. [theory.md, eq. B4] [m]
+double head_spread(double depth, double poissons_ratio, double wave_number);
+
+/// Frequency of the waves of wave number k on the free beam, lower branch. [theory.md, eq. B2] [Hz]
+double wave_frequency(const BeamProperties& beam, double wave_number);
+
+/// Wave number of the waves of a frequency on the free beam. [1/m]
+double wave_number(const BeamProperties& beam, double frequency);
+
+}  // namespace tread

@@ -1,0 +1,368 @@
+#include "drivers/engine/beam/track_beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Shape functions of deflection and rotation at xi = 0 ... 1 of an element of length l and their
+/// derivatives. [Friedman, Kosmatka, An improved two-node Timoshenko beam finite element, Comput. Struct. 47
+/// (1993)]
+struct BeamShape {
+  std::array<double, 4> deflection{}, slope{};    ///< w, dw/dx
+  std::array<double, 4> rotation{}, curvature{};  ///< theta, dtheta/dx
+};
+
+BeamShape beam_shape(double xi, double l, double phi) {
+  const double c = 1 / (1 + phi);
+  const double x2 = xi * xi;
+  const double x3 = x2 * xi;
+  BeamShape s;
+  s.deflection = {c * (2 * x3 - 3 * x2 - phi * xi + 1 + phi),
+                  c * l * (x3 - (2 + 0.5 * phi) * x2 + (1 + 0.5 * phi) * xi),
+                  -c * (2 * x3 - 3 * x2 - phi * xi), c * l * (x3 - (1 - 0.5 * phi) * x2 - 0.5 * phi * xi)};
+  s.slope = {c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (4 + phi) * xi + 1 + 0.5 * phi),
+             -c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (2 - phi) * xi - 0.5 * phi)};
+  s.rotation = {6 * c / l * (x2 - xi), c * (3 * x2 - (4 + phi) * xi + 1 + phi), -6 * c / l * (x2 - xi),
+                c * (3 * x2 - (2 - phi) * xi)};
+  s.curvature = {6 * c / (l * l) * (2 * xi - 1), c / l * (6 * xi - 4 - phi), -6 * c / (l * l) * (2 * xi - 1),
+                 c / l * (6 * xi - 2 + phi)};
+  return s;
+}
+
+void add_outer(BandMatrix<double>& matrix, int first, double factor, const std::array<double, 4>& v) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j <= i; ++j)
+      matrix.at(first + i, first + j) +=
+          factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+constexpr int kBand = 3;
+
+int element_count(double length, double element) {
+  return std::max(2, static_cast<int>(std::ceil(length / element - 1e-9)));
+}
+
+}  // namespace
+
+TrackBeam::TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
+                     double element)
+    : left_(left),
+      length_(length),
+      pitch_(length / element_count(length, element)),
+      elements_(element_count(length, element)),
+      phi_(properties.shear_stiffness > 0
+               ? 12 * properties.bending_stiffness / (properties.shear_stiffness * pitch_ * pitch_)
+               : 0),
+      stiffness_(2 * elements_ + 2, kBand),
+      damping_(stiffness_),
+      mass_(stiffness_) {
+  for (int e = 0; e < elements_; ++e) add_element(properties, e);
+  if (ends == BeamEnds::free) return;
+  const int component = ends == BeamEnds::guided ? 1 : 0;
+  for (const int node : {0, elements_}) {
+    stiffness_.restrain(2 * node + component, properties.bending_stiffness);
+    mass_.restrain(2 * node + component, 0);
+  }
+}
+
+void TrackBeam::add_element(const BeamProperties& properties, int element) {
+  // Four Gauss points integrate all products of the shape functions exactly.
+  constexpr std::array<double, 2> kPoint = {0.33998104358485626, 0.86113631159405258};
+  constexpr std::array<double, 2> kWeight = {0.65214515486254614, 0.34785484513745386};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (const double side : {-1.0, 1.0}) {
+      const BeamShape s = beam_shape(0.5 + 0.5 * side * kPoint[k], pitch_, phi_);
+      const double weight = 0.5 * pitch_ * kWeight[k];
+      std::array<double, 4> shear{};
+      for (std::size_t i = 0; i < 4; ++i) shear[i] = s.slope[i] - s.rotation[i];
+      add_outer(stiffness_, 2 * element, weight * properties.bending_stiffness, s.curvature);
+      add_outer(stiffness_, 2 * element, weight * properties.shear_stiffness, shear);
+      add_outer(mass_, 2 * element, weight * properties.mass, s.deflection);
+      add_outer(mass_, 2 * element, weight * properties.rotary_inertia, s.rotation);
+    }
+}
+
+TrackBeam::Shape TrackBeam::shape(double x) const {
+  const double at = (x - left_) / pitch_;
+  const int element = std::clamp(static_cast<int>(at), 0, elements_ - 1);
+  return {2 * element, beam_shape(at - element, pitch_, phi_).deflection};
+}
+
+std::vector<double> TrackBeam::head_load(double x) const {
+  constexpr double kReach = 3;  // in standard deviations
+  constexpr int kParts = 60;    // of the reach to both sides
+  std::vector<double> load(static_cast<std::size_t>(stiffness_.size()));
+  const auto add = [&](double at, double share) {
+    const Shape s = shape(std::clamp(at, left_, left_ + length_));
+    for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] += share * s.value[i];
+  };
+  if (spread_ == 0) {
+    add(x, 1);
+    return load;
+  }
+  std::array<double, kParts> part{};
+  double sum = 0;
+  const auto offset = [](std::size_t i) {
+    return kReach * (2 * (static_cast<double>(i) + 0.5) / kParts - 1);
+  };
+  for (std::size_t i = 0; i < kParts; ++i) sum += part[i] = std::exp(-0.5 * offset(i) * offset(i));
+  for (std::size_t i = 0; i < kParts; ++i) add(x + offset(i) * spread_, part[i] / sum);
+  return load;
+}
+
+void TrackBeam::support(double x, double stiffness, double damping) {
+  const Shape s = shape(x);
+  add_outer(stiffness_, s.first, stiffness, s.value);
+  add_outer(damping_, s.first, damping, s.value);
+}
+
+std::vector<double> TrackBeam::static_state(double x, double force) const {
+  BandMatrix<double> factor = stiffness_;
+  factor.factorise();
+  std::vector<double> load = head_load(x);
+  for (double& value : load) value *= force;
+  return factor.solve(std::move(load));
+}
+
+double TrackBeam::deflection(const std::vector<double>& state, double x) const {
+  const Shape s = shape(x);
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum += s.value[i] * state[static_cast<std::size_t>(s.first) + i];
+  return sum;
+}
+
+std::complex<double> TrackBeam::receptance(double x_force, double x, double frequency) const {
+  const double omega = 2 * std::numbers::pi * frequency;
+  BandMatrix<std::complex<double>> factor(stiffness_.size(), kBand);
+  factor.add(1.0, stiffness_);
+  factor.add({0, omega}, damping_);
+  factor.add(-omega * omega, mass_);
+  factor.factorise();
+  std::vector<std::complex<double>> load(static_cast<std::size_t>(factor.size()));
+  const Shape s = shape(x_force);
+  for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] = s.value[i];
+  const auto state = factor.solve(std::move(load));
+  const Shape t = shape(x);
+  std::complex<double> sum;
+  for (std::size_t i = 0; i < 4; ++i) sum += t.value[i] * state[static_cast<std::size_t>(t.first) + i];
+  return sum;
+}
+
+/// Sylvester's law of inertia: K - omega^2 M has as many negative pivots as there are modes below omega.
+int TrackBeam::modes_below(double omega) const {
+  BandMatrix<double> factor = stiffness_;
+  factor.add(-omega * omega, mass_);
+  factor.factorise();
+  int count = 0;
+  for (int i = 0; i < factor.size(); ++i) count += factor.at(i, i) < 0 ? 1 : 0;
+  return count;
+}
+
+double TrackBeam::eigenfrequency(int n) const {
+  double low = 0;
+  double high = 1;
+  while (modes_below(high) <= n) high *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (modes_below(middle) <= n ? low : high) = middle;
+  }
+  return 0.5 * (low + high) / (2 * std::numbers::pi);
+}
+
+std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
+  if (!scene.rail) throw InputError("a rail beam needs [rail]");
+  std::vector<BeamSupport> supports;
+  if (!scene.fastenings) return supports;
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = -more_spans; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      supports.push_back(
+          {-scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
+           f.stiffness / f.columns, f.damping / f.columns});
+  return supports;
+}
+
+double head_spread(const Scene& scene, const BeamProperties& properties) {
+  if (!scene.fastenings || properties.depth == 0) return 0;
+  return head_spread(properties.depth, scene.steel.poissons_ratio,
+                     2 * std::numbers::pi / scene.fastenings->spacing);
+}
+
+TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans) {
+  const std::vector<BeamSupport> supports = rail_supports(scene, more_spans);
+  const RailSpec& rail = *scene.rail;
+  const double more = scene.fastenings ? more_spans * scene.fastenings->spacing : 0;
+  TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
+  beam.spread_head_load(head_spread(scene, properties));
+  for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
+  return beam;
+}
+
+BeamPassage::BeamPassage(const TrackBeam& beam, const BeamVehicle& vehicle, double x, double dt)
+    : beam_(&beam), vehicle_(vehicle), dt_(dt), factor_(beam.stiffness()) {
+  factor_.add(2 / dt, beam.damping());
+  factor_.add(4 / (dt * dt), beam.mass());
+  factor_.factorise();
+  force_ = vehicle.load();
+  u_ = beam.static_state(x, force_);
+  v_.resize(u_.size());
+  a_.resize(u_.size());
+  rail_ = dot(beam.head_load(x), u_);
+  approach_ = std::pow(force_ / vehicle.contact, 2.0 / 3);
+  wheel_[0] = rail_ + approach_;
+  if (vehicle.bending)
+    wheel_[1] = (vehicle.sprung_mass * vehicle.gravity + vehicle.pressed +
+                 vehicle.bending->coupling * vehicle.gravity) /
+                vehicle.bending->stiffness;
+  wheel_[2] = wheel_[0] + wheel_[1] + vehicle.static_stretch();
+  assemble_vehicle();
+}
+
+void BeamPassage::add_sprung_mass(double mass) {
+  const double before = vehicle_.static_stretch();
+  vehicle_.sprung_mass += mass;
+  wheel_[2] += vehicle_.static_stretch() - before;
+  assemble_vehicle();
+}
+
+void BeamPassage::move_sprung_mass(double lower, double faster) {
+  wheel_[2] += lower;
+  wheel_speed_[2] += faster;
+}
+
+double BeamPassage::suspension() const {
+  return vehicle_.stiffness * (wheel_[2] - wheel_[0] - wheel_[1]) +
+         vehicle_.damping * (wheel_speed_[2] - wheel_speed_[0] - wheel_speed_[1]);
+}
+
+void BeamPassage::assemble_vehicle() {
+  const BeamVehicle::Bending bending = vehicle_.bending.value_or(BeamVehicle::Bending{});
+  vehicle_mass_ = {{{vehicle_.unsprung_mass, bending.coupling, 0},
+                    {bending.coupling, bending.mass, 0},
+                    {0, 0, vehicle_.sprung_mass}}};
+  const Three stretch = {1, vehicle_.bending ? 1.0 : 0.0, -1};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double both = stretch[i] * stretch[j];
+      vehicle_damping_[i][j] = vehicle_.damping * both;
+      vehicle_system_[i][j] = vehicle_.stiffness * both + 2 / dt_ * vehicle_damping_[i][j] +
+                              4 / (dt_ * dt_) * vehicle_mass_[i][j];
+    }
+  vehicle_system_[1][1] += bending.stiffness;
+  // What is not there does not move.
+  for (std::size_t i = 0; i < 3; ++i)
+    if (vehicle_mass_[i][i] == 0) {
+      for (std::size_t j = 0; j < 3; ++j) vehicle_system_[i][j] = vehicle_system_[j][i] = 0;
+      vehicle_system_[i][i] = 1;
+    }
+}
+
+BeamPassage::Three BeamPassage::static_load() const {
+  const double g = vehicle_.gravity;
+  if (!vehicle_.bending) return {vehicle_.unsprung_mass * g + vehicle_.pressed, 0, vehicle_.sprung_mass * g};
+  return {vehicle_.unsprung_mass * g + vehicle_.pressed, vehicle_.bending->coupling * g + vehicle_.pressed,
+          vehicle_.sprung_mass * g};
+}
+
+namespace {
+
+using Three = std::array<double, 3>;
+
+Three times(const std::array<Three, 3>& matrix, const Three& x) {
+  Three y{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) y[i] += matrix[i][j] * x[j];
+  return y;
+}
+
+/// Of a symmetric positive definite system.
+Three solve(std::array<Three, 3> a, Three b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = k + 1; i < 3; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < 3; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  for (std::size_t k = 3; k-- > 0;) {
+    for (std::size_t j = k + 1; j < 3; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+}  // namespace
+
+void BeamPassage::step(double x, double roughness) {
+  const double h1 = 2 / dt_;
+  const double h2 = 4 / (dt_ * dt_);
+  // Beam without contact, and under a unit force at x.
+  const std::size_t n = u_.size();
+  std::vector<double> inertia(n), drag(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    inertia[i] = h2 * u_[i] + 2 * h1 * v_[i] + a_[i];
+    drag[i] = h1 * u_[i] + v_[i];
+  }
+  std::vector<double> load = beam_->mass().times(inertia);
+  const std::vector<double> damped = beam_->damping().times(drag);
+  for (std::size_t i = 0; i < n; ++i) load[i] += damped[i];
+  const std::vector<double> head = beam_->head_load(x);
+  std::vector<double> next = factor_.solve(std::move(load));
+  const std::vector<double> response = factor_.solve(head);
+
+  // Vehicle without contact, and under a unit force on the wheel.
+  Three inertia_of{}, drag_of{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    inertia_of[i] = h2 * wheel_[i] + 2 * h1 * wheel_speed_[i] + wheel_acceleration_[i];
+    drag_of[i] = h1 * wheel_[i] + wheel_speed_[i];
+  }
+  Three push = static_load();
+  const Three accelerated = times(vehicle_mass_, inertia_of);
+  const Three dragged = times(vehicle_damping_, drag_of);
+  for (std::size_t i = 0; i < 3; ++i) push[i] += accelerated[i] + dragged[i];
+  const Three free = solve(vehicle_system_, push);
+  const Three pushed = solve(vehicle_system_, {-1, 0, 0});
+
+  // approach = wheel - rail - roughness, both linear in the force.
+  const double gap = free[0] - dot(head, next) - roughness;
+  const double flexibility = dot(head, response) - pushed[0];
+  double d = std::max(approach_, 1e-9);
+  for (int i = 0; i < 50; ++i) {
+    const double root = std::sqrt(std::max(d, 0.0));
+    const double change = (d + flexibility * vehicle_.contact * root * root * root - gap) /
+                          (1 + 1.5 * flexibility * vehicle_.contact * root);
+    d -= change;
+    if (std::abs(change) < 1e-15) break;
+  }
+  approach_ = d;
+  force_ = vehicle_.contact * std::pow(std::max(d, 0.0), 1.5);
+
+  for (std::size_t i = 0; i < n; ++i) {
+    next[i] += force_ * response[i];
+    const double acceleration = h2 * (next[i] - u_[i]) - 2 * h1 * v_[i] - a_[i];
+    v_[i] += 0.5 * dt_ * (a_[i] + acceleration);
+    a_[i] = acceleration;
+    u_[i] = next[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double moved = free[i] + force_ * pushed[i];
+    const double acceleration = h2 * (moved - wheel_[i]) - 2 * h1 * wheel_speed_[i] - wheel_acceleration_[i];
+    wheel_speed_[i] += 0.5 * dt_ * (wheel_acceleration_[i] + acceleration);
+    wheel_acceleration_[i] = acceleration;
+    wheel_[i] = moved;
+  }
+  rail_ = dot(head, u_);
+  time_ += dt_;
+}
+
+}  // namespace tread

@@ -1,0 +1,72 @@
+#include "drivers/engine/energy_stop.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "drivers/engine/static_system.hpp"
+
+namespace tread {
+
+namespace {
+
+struct Place {
+  const SweptBlock* block = nullptr;
+  int node = 0, station = 0;
+  double speed = -1;  ///< against its body's frame [m/s]
+};
+
+/// What is not finite is faster than all else.
+Place fastest_node(const Model& model, ConstNodeField velocity) {
+  Place fastest;
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const double speed =
+            std::hypot(velocity[dof(slot, 0)], velocity[dof(slot, 1)], velocity[dof(slot, 2)]);
+        if (speed > fastest.speed || !std::isfinite(speed)) fastest = {&block, node, station, speed};
+        if (!std::isfinite(speed)) return fastest;
+      }
+  return fastest;
+}
+
+/// And the way out.
+std::string cause(double dt, double stable) {
+  constexpr double kMargin = 0.01;
+  if (dt > stable)
+    return fmt::format(
+        "The time step of {:.4e} s exceeds the stable step of {:.4e} s by {:.2g} %; lower motion.step_safety",
+        dt, stable, 100 * (dt / stable - 1));
+  if (dt > (1 - kMargin) * stable)
+    return fmt::format(
+        "The time step of {:.4e} s lies within {:g} % of the stable step of {:.4e} s, where the highest "
+        "frequencies "
+        "grow large; lower motion.step_safety",
+        dt, 100 * kMargin, stable);
+  return fmt::format(
+      "The time step of {:.4e} s is {:.3g} of the stable one of the undeformed bodies, so deformation or "
+      "contact is "
+      "the cause: look at the last samples before; check load, speed and the materials' units, and try "
+      "motion.step_safety = {:.2g}",
+      dt, dt / stable, 0.5 * dt / stable);
+}
+
+}  // namespace
+
+std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
+  std::string text = fmt::format("stopped at t = {:.6e} s (step {}): ", stop.time, stop.steps);
+  if (std::isfinite(stop.missed))
+    text += fmt::format("{:.3g} J have {}, but only {:.3g} J were supplied", std::abs(stop.missed),
+                        stop.missed > 0 ? "appeared from nothing" : "vanished", stop.supplied);
+  else
+    text += "the motion is no longer finite";
+  const Place place = fastest_node(model, stop.velocity);
+  const Vec3 at = position(*place.block, place.node, place.station);
+  text +=
+      fmt::format("; fastest: block '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
+                  place.block->name, at.x, at.y, at.z, place.speed);
+  return text + cause(stop.dt, stable_step_of(model));
+}
+
+}  // namespace tread

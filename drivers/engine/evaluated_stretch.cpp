@@ -1,0 +1,13 @@
+#include "drivers/engine/evaluated_stretch.hpp"
+
+namespace tread {
+
+Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation) {
+  if (corrugation.smooth()) return {scene.zone_start, scene.zone_start + scene.zone_length};
+  const double wave =
+      scene.corrugation && scene.corrugation->kind == "sine" ? scene.corrugation->wavelength : 0;
+  const double half_wave = corrugation.last() - corrugation.first() > 1.5 * wave ? 0.5 * wave : 0;
+  return {corrugation.first() + half_wave, corrugation.last() - half_wave};
+}
+
+}  // namespace tread

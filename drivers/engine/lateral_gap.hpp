@@ -1,0 +1,15 @@
+#pragma once
+// How the undeformed surfaces of wheel and rail meet across the rail.
+
+#include "kernels/contact/contact_surface.hpp"
+
+namespace tread {
+
+struct LateralGap {
+  double lowest = 0;  ///< y where the profiles touch first [m]
+  double radius = 0;  ///< of the gap about it: the parabola that fits best within 5 mm [m]
+};
+
+LateralGap lateral_gap(const SurfaceProfile& rail, const SurfaceProfile& wheel);
+
+}  // namespace tread

@@ -1,0 +1,425 @@
+#include "drivers/engine/model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/geometry/profiles.hpp"
+#include "core/mesh/rail_section.hpp"
+#include "core/mesh/structured.hpp"
+#include "core/mesh/wheel_section.hpp"
+#include "core/travel.hpp"
+#include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/sections.hpp"
+#include "kernels/element/front_plan.hpp"
+
+namespace tread {
+
+std::vector<int> BlockIndex::wheel() const {
+  std::vector<int> blocks;
+  for (const int b : {tread, disc, axle})
+    if (b >= 0) blocks.push_back(b);
+  return blocks;
+}
+
+std::vector<int> BlockIndex::rail() const {
+  std::vector<int> blocks;
+  for (const int b : {rail_cap, rail_base})
+    if (b >= 0) blocks.push_back(b);
+  return blocks;
+}
+
+namespace {
+
+/// On the line `nodes` of the section, called `path` in messages.
+Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes, const std::string& path,
+                          const std::array<double, 2>& at_xy) {
+  const auto [x, y] = at_xy;
+  const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
+  if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
+    throw InputError(
+        fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
+                    path, block.name, p(0), p(nodes.size() - 1)));
+  std::size_t i = 0;
+  while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
+  const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);
+  const auto cell = StationFinder(block).find(x);
+  if (cell.station < 0)
+    throw InputError(fmt::format("attachment at x = {:.4f} m lies beyond block '{}' ({:.4f} ... {:.4f} m)", x,
+                                 block.name, block.stations.front(), block.stations.back()));
+  const double along = cell.distance / cell.pitch;
+  Attachment at;
+  for (std::size_t k = 0; k < 4; ++k) {
+    at.slot[k] = block.base + block.slot(nodes[i + k % 2], k / 2 == 0 ? cell.station : cell.next);
+    at.weight[k] = (k % 2 == 0 ? 1 - across : across) * (k / 2 == 0 ? 1 - along : along);
+  }
+  return at;
+}
+
+}  // namespace
+
+Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
+  const auto found = block.section.paths.find(path);
+  if (found == block.section.paths.end())
+    throw InputError(fmt::format("block '{}' has no line '{}' to attach to", block.name, path));
+  return attach_to_line(block, found->second, path, {x, y});
+}
+
+Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
+  std::vector<int> nodes;
+  for (const SurfaceEdge& edge : block.section.surface) {
+    if (nodes.empty()) nodes.push_back(edge.node[0]);
+    nodes.push_back(edge.node[1]);
+  }
+  return attach_to_line(block, nodes, "running surface", {x, y});
+}
+
+Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
+  if (scene.rail) build_rail();
+  if (scene.slab_track) build_slab();
+  if (scene.wheel) build_wheel();
+  if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
+  if (!tie_specs.empty()) {
+    for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
+    ties.emplace(mesh, tie_specs);
+  }
+  build_internal();
+  restrain();
+  build_mass();
+  set_damping();
+  if (scene.fastenings && scene.rail) build_fastenings();
+  if (scene.hammer && scene.rail)
+    hammer =
+        attach_to_surface(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], scene.hammer->position, 0);
+  if (scene.wheel) build_wheel_parts();
+  if (scene.contact && scene.rail && scene.wheel) build_contact();
+}
+
+int Model::add(SweptBlock block) {
+  number_by_front(block.section);
+  return mesh.add(std::move(block));
+}
+
+void Model::build_rail() {
+  const RailSpec& rail = *scene.rail;
+  const Span length{-rail.origin, rail.length - rail.origin};
+  if (rail.profile == "box") {
+    const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
+    const std::vector<Segment> segments =
+        scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes).fine
+                    : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
+    index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
+                                          {scene.steel}, length.first, segments));
+    return;
+  }
+  const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes)
+                                          : plan_even_rail(length, sizes);
+  RailSections sections = rail_sections(scene, sizes);
+  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
+                                        length.first, plan.fine));
+  index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {scene.steel},
+                                         length.first, plan.coarse));
+  tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
+}
+
+void Model::build_slab() {
+  const SlabSpec& slab = *scene.slab_track;
+  const RailSpec& rail = *scene.rail;
+  const double left = -rail.origin;
+  // Alternating stretches of slab (material 0) and gap filler (1); mortar is material 2 of every quad below.
+  std::vector<Segment> segments;
+  const auto stretch = [&](double length, int material) {
+    if (length < 1e-9) return;
+    const int count = std::max(1, static_cast<int>(std::lround(length / sizes.slab)));
+    segments.push_back({count, length / count, material});
+  };
+  double at = 0;
+  for (double gap = slab.first_gap; gap - 0.5 * slab.gap < rail.length; gap += slab.pitch) {
+    const double first = std::clamp(gap - 0.5 * slab.gap, 0.0, rail.length);
+    const double last = std::clamp(gap + 0.5 * slab.gap, 0.0, rail.length);
+    stretch(first - at, 0);
+    stretch(last - first, 1);
+    at = last;
+  }
+  stretch(rail.length - at, 0);
+  const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
+  SweptBlock block =
+      make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
+                       {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments);
+  block.vertical_only = true;
+  index.slab = add(std::move(block));
+}
+
+void Model::build_wheel() {
+  if (scene.wheel->shape == "tyre") {
+    const std::optional<double>& overhang = scene.wheel->overhang;
+    const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+    const WheelPlan plan = overhang
+                               ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(scene), *overhang, sizes)
+                               : plan_tyre(wheel_radius(), run_span(scene), zone_span(scene), sizes);
+    index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
+                                       plan.start, plan.tread));
+    return;
+  }
+  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(scene), sizes);
+  SizedWheel sized = wheel_sections(scene, sizes, plan);
+  WheelSections& sections = sized.sections;
+  brake_ring_thickness = sized.brake_ring_thickness;
+  index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel},
+                                     plan.start, plan.tread));
+  index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {scene.steel},
+                                    plan.start, plan.disc));
+  index.axle = add(make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel},
+                                    plan.start, plan.axle));
+  tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
+  tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
+}
+
+void Model::restrain() {
+  const auto hold = [&](const SweptBlock& block, int node, int station, int component) {
+    restrained.push_back(dof(block.base + block.slot(node, station), component));
+  };
+  const auto hold_path = [&](const SweptBlock& block, const std::string& path, int component) {
+    for (const int node : block.section.paths.at(path))
+      for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, component);
+  };
+  for (const int b : index.rail()) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
+    if (scene.pulse) continue;  // a free bar
+    for (int node = 0; node < block.section.nodes(); ++node)
+      for (const int station : {0, block.station_count() - 1}) hold(block, node, station, 0);
+    if (block.section.paths.count("foot") == 0) continue;
+    if (scene.rail->support == "rigid") {
+      for (int c = 0; c < 3; ++c) hold_path(block, "foot", c);
+    } else if (scene.fastenings) {
+      // The foot cannot move sideways over the fastenings.
+      const FasteningSpec& f = *scene.fastenings;
+      for (int station = 0; station < block.station_count(); ++station) {
+        const double from_end =
+            block.stations[static_cast<std::size_t>(station)] + scene.rail->origin - f.first;
+        const double nearest = std::clamp(std::round(from_end / f.spacing), 0.0, f.count - 1.0);
+        if (std::abs(from_end - nearest * f.spacing) <= 0.5 * f.pad_length)
+          for (const int node : block.section.paths.at("foot")) hold(block, node, station, 1);
+      }
+    }
+  }
+  if (index.slab >= 0) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(index.slab)];
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 2; ++c) hold(block, node, station, c);
+    hold_path(block, "bottom", 2);
+  }
+  if (scene.plane_strain)
+    for (const SweptBlock& block : mesh.blocks)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, 1);
+  if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
+  if (index.tread >= 0 && index.axle < 0)
+    hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
+  // Secondary nodes follow their primaries: their restraint would be a second opinion.
+  if (ties) {
+    std::vector<std::int64_t> tied;
+    for (const std::int64_t slot : ties->secondary_slots())
+      for (int c = 0; c < 3; ++c) tied.push_back(dof(slot, c));
+    std::sort(tied.begin(), tied.end());
+    std::erase_if(restrained,
+                  [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
+  }
+  std::sort(restrained.begin(), restrained.end());
+  restrained.erase(std::unique(restrained.begin(), restrained.end()), restrained.end());
+}
+
+void Model::build_internal() {
+  internal = std::make_unique<InternalForce>(mesh);
+  if (scene.motion)
+    for (const int b : index.wheel()) internal->set_finite_rotation(b, true);
+}
+
+void Model::build_mass() {
+  mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
+  internal->lumped_mass(mass.data());
+  if (ties) ties->gather_mass(mass.data());
+  inverse_mass.assign(mass.size(), 0.0);
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    if (mass[i] > 0) inverse_mass[i] = 1 / mass[i];
+}
+
+void Model::set_damping() {
+  std::map<std::string, double> highest;  // frequency of a material's elements, by its name [rad/s]
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Material& material = mesh.blocks[b].materials.front();  // the others are damped alike
+    double& omega = highest[material.name];
+    if (material.high_frequency_fraction > 0)
+      omega = std::max(omega, internal->max_frequency(static_cast<int>(b)).omega);
+  }
+  beta.assign(mesh.blocks.size(), 0.0);
+  branches.assign(mesh.blocks.size(), std::nullopt);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Material& material = mesh.blocks[b].materials.front();
+    const double fraction = material.high_frequency_fraction;  // of critical: beta omega / 2
+    branches[b] = material.branch();
+    if (branches[b])
+      internal->set_branch(static_cast<int>(b), branches[b]->strength);
+    else
+      beta[b] = fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
+    internal->set_beta(static_cast<int>(b), beta[b]);
+  }
+}
+
+bool Model::has_branches() const {
+  return std::any_of(branches.begin(), branches.end(), [](const auto& branch) { return branch.has_value(); });
+}
+
+void Model::build_fastenings() {
+  const FasteningSpec& f = *scene.fastenings;
+  const SweptBlock& rail = mesh.blocks[static_cast<std::size_t>(index.rail_foot())];
+  const auto& foot = rail.section.paths.at("foot");
+  const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
+                               rail.section.p[static_cast<std::size_t>(foot.back())]);
+  std::vector<SpringDampers::Element> elements;
+  const int groups = f.columns * f.rows;
+  for (int i = 0; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      for (int row = 0; row < f.rows; ++row) {
+        const double x =
+            -scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5);
+        const double y = middle + f.pad_width * ((row + 0.5) / f.rows - 0.5);
+        SpringDampers::Element element{
+            attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
+        if (index.slab >= 0)
+          element.lower = attach(mesh.blocks[static_cast<std::size_t>(index.slab)], "top", x, y);
+        elements.push_back(element);
+      }
+  fastenings.emplace(std::move(elements));
+}
+
+void Model::build_wheel_parts() {
+  wheelset.emplace(mesh, index.wheel(), mass.data());
+  const bool tyre = index.axle < 0;
+  const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(tyre ? index.tread : index.axle)];
+  if (tyre && scene.wheel->bore == "guided") {
+    guide.emplace(block, block.section.paths.at("bore"), mass.data());
+    return;
+  }
+  if (scene.vehicle || scene.load)
+    journal = Journal(block, block.section.paths.at(tyre ? "bore" : "journal"), mass.data());
+  if (scene.motion && (scene.motion->traction_mu || scene.motion->traction_torque))
+    torque = AxleTorque(block, block.section.paths.at(tyre ? "bore" : "symmetry_end"), mass.data());
+}
+
+double Model::wheel_load() const {
+  if (!scene.wheel) return 0;
+  return journal_load() + wheelset->mass() * scene.gravity;
+}
+
+double Model::journal_load() const {
+  return carried_load(scene);
+}
+
+double Model::penalty_stiffness(const ContactSpec& spec) const {
+  const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
+  // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
+  // [limits.md, Penalty]
+  constexpr double kPerElement = 10;
+  const double preferred =
+      std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, unit_ratio / 0.02);
+  if (!spec.penetration_ratio) return preferred;
+  // At ten times a tenth to four tenths of the area are missing, points carry up to twice the pressure.
+  constexpr double kStiffest = 10;
+  const double stated = unit_ratio / *spec.penetration_ratio;
+  if (stated > kStiffest * preferred * (1 + 1e-9))
+    throw InputError(
+        fmt::format("contact.penetration_ratio = {:.3g}: the penalty is {:.3g} times as stiff as suits "
+                    "elements of {:.3g} mm; the "
+                    "integration points of a face would share its load unevenly and the patch come out too "
+                    "small; state at "
+                    "least {:.3g}, or leave it out",
+                    *spec.penetration_ratio, stated / preferred, 1e3 * sizes.contact,
+                    1.005 * unit_ratio / (kStiffest * preferred)));  // rounds to no less than the least
+  return stated;
+}
+
+void Model::build_contact() {
+  const ContactSpec& spec = *scene.contact;
+  const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
+  const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
+  hertz_radius_y = lateral_gap(rail, wheel).radius;
+  const double modulus = contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio);
+  // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
+  hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
+
+  ContactOptions options;
+  options.rail_block = index.rail_cap;
+  options.wheel_block = index.tread;
+  options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
+  options.points = spec.points;
+  options.penalty = penalty_stiffness(spec);
+  options.friction = spec.friction;
+  options.wheel_radius = wheel_radius();
+  // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
+  // 2R.
+  const double line_load = scene.plane_strain ? wheel_load() / scene.rail->width : 0;
+  const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
+  options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
+  options.depth_room = depth_room(scene);
+  contact = std::make_unique<Contact>(mesh, options, Corrugation{});
+}
+
+void Model::apply_corrugation(double centre) {
+  if (!scene.corrugation) return;
+  const CorrugationSpec& spec = *scene.corrugation;
+  const Corrugation shape = corrugation_of(spec, centre);
+  if (spec.apply == "nodes") {
+    SweptBlock& cap = mesh.blocks[static_cast<std::size_t>(index.rail_cap)];
+    shift_top_layers(cap, shape, 3 * sizes.contact);
+    build_internal();
+    build_mass();
+    set_damping();
+  }
+  const ContactOptions options = contact->options();
+  contact = std::make_unique<Contact>(mesh, options, shape);
+}
+
+std::vector<std::int64_t> Model::loaded_slots() const {
+  std::vector<std::int64_t> slots;
+  const auto add = [&](const auto& more) { slots.insert(slots.end(), more.begin(), more.end()); };
+  const auto add_attached = [&](const Attachment& at) {
+    std::copy_if(at.slot.begin(), at.slot.end(), std::back_inserter(slots),
+                 [](std::int64_t slot) { return slot >= 0; });
+  };
+  if (ties) {
+    add(ties->secondary_slots());
+    add(ties->primary_slots());
+  }
+  if (fastenings)
+    for (const SpringDampers::Element& element : fastenings->elements()) {
+      add_attached(element.upper);
+      add_attached(element.lower);
+    }
+  if (hammer) add_attached(*hammer);
+  add(journal.slots());
+  add(torque.slots());
+  return slots;
+}
+
+std::int64_t Model::elements() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.elements();
+  return sum;
+}
+
+std::int64_t Model::nodes() const {
+  std::int64_t sum = 0;
+  for (const SweptBlock& block : mesh.blocks) sum += block.nodes();
+  return sum;
+}
+
+}  // namespace tread

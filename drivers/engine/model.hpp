@@ -1,0 +1,106 @@
+#pragma once
+// The model of a scene: meshed bodies, their operators and what joins and loads them. Everything that a scene
+// lacks is absent here too.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/math/hertz.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "core/scene.hpp"
+#include "drivers/engine/station_plan.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/connectors/connectors.hpp"
+#include "kernels/connectors/guided_bore.hpp"
+#include "kernels/contact/contact.hpp"
+#include "kernels/ties/tie.hpp"
+#include "kernels/update/body_motion.hpp"
+
+namespace tread {
+
+/// Indices into Mesh::blocks; -1: absent. A box rail and a tyre are one block each.
+struct BlockIndex {
+  int rail_cap = -1;   ///< carries the running surface
+  int rail_base = -1;  ///< tied under the cap
+  int slab = -1;
+  int tread = -1;  ///< carries the tread surface
+  int disc = -1;
+  int axle = -1;
+
+  /// The block whose foot stands on fastenings or ground.
+  int rail_foot() const { return rail_base >= 0 ? rail_base : rail_cap; }
+  std::vector<int> wheel() const;
+  std::vector<int> rail() const;
+};
+
+struct Model {
+  explicit Model(const Scene& scene);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  Scene scene;
+  MeshSizes sizes;
+  Mesh mesh;
+  BlockIndex index;
+  std::vector<TieSpec> tie_specs;
+  std::optional<Ties> ties;
+  std::unique_ptr<InternalForce> internal;
+  std::vector<std::int64_t> restrained;  ///< unknowns that stay zero
+  AlignedVector<double> mass;            ///< lumped, ties gathered; scalar node field [kg]
+  AlignedVector<double> inverse_mass;    ///< scalar node field, 0 where nothing moves by itself [1/kg]
+
+  std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
+  std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
+
+  std::optional<SpringDampers> fastenings;
+  std::optional<Attachment> hammer;  ///< the struck point of the rail's crown
+  std::optional<SpinningBody> wheelset;
+  std::optional<GuidedBore> guide;  ///< carries load and torque in place of journal and torque
+  Journal journal;                  ///< carries vehicle or load; empty without either
+  AxleTorque torque;                ///< empty without traction
+  double brake_ring_thickness = 0;  ///< of each of the two plates that bring the wheelset to its mass [m]
+  std::unique_ptr<Contact> contact;
+  HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
+  double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
+
+  bool has_branches() const;
+  double wheel_load() const;    ///< static vertical contact force [N]
+  double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
+  double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
+  std::int64_t elements() const;
+  std::int64_t nodes() const;
+
+  /// Nodes to or from whose force a step adds more than their elements do.
+  std::vector<std::int64_t> loaded_slots() const;
+
+  /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of
+  /// its deepest line. Rebuilds the coefficients where nodes moved.
+  void apply_corrugation(double centre);
+
+ private:
+  int add(SweptBlock block);
+  void build_rail();
+  void build_wheel();
+  void build_slab();
+  void build_internal();
+  void restrain();
+  void build_mass();
+  void set_damping();
+  void build_fastenings();
+  void build_wheel_parts();
+  void build_contact();
+  double penalty_stiffness(const ContactSpec& spec) const;  ///< per area [Pa/m]
+};
+
+/// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the
+/// block.
+Attachment attach(const SweptBlock& block, const std::string& path, double x, double y);
+
+/// The same on the running surface.
+Attachment attach_to_surface(const SweptBlock& block, double x, double y);
+
+}  // namespace tread

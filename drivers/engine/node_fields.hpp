@@ -1,0 +1,76 @@
+#pragma once
+// What a run carries at its nodes, in the precision that the scene wants, and what a step does to all of them
+// at once. Whoever touches few of them does so through views, in double. [theory.md, Precision]
+
+#include <memory>
+
+#include "core/aligned.hpp"
+#include "core/mesh/node_field.hpp"
+#include "core/state_list.hpp"
+#include "drivers/engine/model.hpp"
+#include "kernels/blocks/time_update.hpp"
+
+namespace tread {
+
+/// Of all Maxwell branches.
+struct BranchEnergy {
+  double stored = 0;  ///< in their springs [J]
+  double power = 0;   ///< dissipated in their dashpots [W]
+};
+
+class NodeFields {
+ public:
+  NodeFields() = default;
+  NodeFields(const NodeFields&) = delete;
+  NodeFields& operator=(const NodeFields&) = delete;
+  virtual ~NodeFields() = default;
+
+  NodeField displacement() { return displacement_; }  ///< [m]
+  ConstNodeField displacement() const { return displacement_; }
+  NodeField velocity() { return velocity_; }  ///< at the half step [m/s]
+  ConstNodeField velocity() const { return velocity_; }
+  NodeField force() { return force_; }  ///< internal minus external [N]
+  ConstNodeField force() const { return force_; }
+  /// Lag of the Maxwell branches, where there are any [m].
+  ConstNodeField lag() const { return lag_; }
+
+  /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
+  virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
+
+  /// Internal forces of all blocks.
+  virtual void deform() = 0;
+  /// The same, and nodes on which nothing else acts move.
+  virtual void deform_and_move(const StepLoads& loads) = 0;
+  /// Moves all nodes, after deform().
+  virtual void move_all(const StepLoads& loads) = 0;
+  /// Moves those that deform_and_move() left.
+  virtual void move_rest(const StepLoads& loads) = 0;
+
+  /// The lag follows the motion of a step of dt [s].
+  virtual void follow(double dt) = 0;
+
+  /// Energy in a block's elements, Maxwell branches aside [J].
+  virtual DeformationEnergy energy(int block) const = 0;
+  /// The same in all blocks; cheaper than element by element where forces that deform() has left are precise
+  /// enough for it [J].
+  virtual double strain_energy() const = 0;
+  virtual BranchEnergy branch_energy() const = 0;
+
+  virtual bool finite() const = 0;
+  virtual void list_state(StateList& list) = 0;
+
+ protected:
+  NodeField displacement_, velocity_, force_;
+  ConstNodeField lag_;
+};
+
+/// At rest, undeformed. Keeps a reference to the model, whose coefficients must stay what they are.
+std::unique_ptr<NodeFields> make_node_fields(const Model& model);
+
+/// Of one component of one node [B].
+struct ValueBytes {
+  int displacement, other;  ///< other: velocity, force and mass
+};
+ValueBytes value_bytes(const Scene& scene);
+
+}  // namespace tread

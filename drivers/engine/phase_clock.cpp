@@ -1,0 +1,37 @@
+#include "drivers/engine/phase_clock.hpp"
+
+namespace tread {
+
+const char* name_of(StepPhase phase) {
+  static constexpr std::array<const char*, kStepPhases> kNames = {
+      "contact search", "force and motion", "energies and samples", "tied forces",    "connectors", "loads",
+      "other motion",   "contact",          "tied motion",          "surface fields", "anchor"};
+  return kNames[static_cast<std::size_t>(phase)];
+}
+
+void PhaseClock::enter(StepPhase phase) {
+  close();
+  current_ = &times_[static_cast<std::size_t>(phase)];
+  measure_parallel(&current_->parallel);
+  if (counters_) counted_ = counters_();
+  entered_ = std::chrono::steady_clock::now();
+}
+
+void PhaseClock::stop() {
+  if (!current_) return;
+  close();
+  current_ = nullptr;
+  measure_parallel(nullptr);
+}
+
+void PhaseClock::close() {
+  if (!current_) return;
+  current_->seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - entered_).count();
+  if (!counters_) return;
+  const CounterValues now = counters_();
+  current_->counters.cycles += now.cycles - counted_.cycles;
+  current_->counters.instructions += now.instructions - counted_.instructions;
+  current_->counters.cache_misses += now.cache_misses - counted_.cache_misses;
+}
+
+}  // namespace tread

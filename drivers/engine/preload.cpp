@@ -1,0 +1,371 @@
+#include "drivers/engine/preload.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/parallel/chunks.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "kernels/solver/two_level_preconditioner.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Adds the force that gives a block's nodes this acceleration; `angle`: of the wheel's frame [rad].
+void add_acceleration(const Model& model, const SweptBlock& block, double angle, const Vec3& acceleration,
+                      double* load) {
+  for (int station = 0; station < block.station_count(); ++station) {
+    const Vec3 local = to_local(block, station, angle, acceleration);
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      const double m = model.mass[static_cast<std::size_t>(slot)];
+      for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * local[c];
+    }
+  }
+}
+
+/// Adds the centrifugal force of a revolved block. `spin` [rad/s]
+void add_centrifugal(const Model& model, const SweptBlock& block, double spin, double* load) {
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const std::int64_t slot = block.base + block.slot(node, station);
+      load[dof(slot, 2)] += model.mass[static_cast<std::size_t>(slot)] * spin * spin *
+                            block.section.q[static_cast<std::size_t>(node)];
+    }
+}
+
+/// Adds gravity, centrifugal force and vehicle weight, but for what acts on a carrier.
+void add_external_load(const Model& model, const BodyFrame& frame, double spin, double* load) {
+  for (const SweptBlock& block : model.mesh.blocks) {
+    add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load);
+    if (block.sweep == Sweep::revolved) add_centrifugal(model, block, spin, load);
+  }
+  if (!model.journal.empty()) model.journal.add(load, frame, {0, 0, -model.journal_load()});
+}
+
+/// Adds the forces on a carrier to its unknown, after StaticSystem::reduce.
+void add_carrier_load(const Model& model, const BodyFrame& frame, double spin, double* load) {
+  if (!model.guide) return;
+  load[model.guide->unknown()] +=
+      (model.guide->counterweight(spin, frame.angle) - model.journal_load()) / model.guide->per_rise();
+}
+
+/// Adds -m rate^2 d2u/ds2, the inertia of material that passes through the steady deflection u, s the station
+/// coordinate.
+void add_steady_inertia(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
+  for (const SweptBlock& block : model.mesh.blocks) {
+    const double rate = block.sweep == Sweep::revolved ? motion.spin : motion.speed;
+    if (rate == 0) continue;
+    parallel_ranges(block.station_count(), [&](std::int64_t first, std::int64_t last) {
+      for (int station = static_cast<int>(first); station < last; ++station) {
+        if (!block.closed && (station == 0 || station == block.station_count() - 1)) continue;
+        const LineCell cell = station_cell(block, station);
+        const double scale = -2 * rate * rate / (cell.length_before + cell.length);
+        for (int node = 0; node < block.section.nodes(); ++node) {
+          // Values in the basis of the middle station.
+          const auto value = [&](int at, double turned) {
+            const std::int64_t slot = block.base + block.slot(node, at);
+            const Vec3 v{u[dof(slot, 0)], u[dof(slot, 1)], u[dof(slot, 2)]};
+            return block.sweep == Sweep::revolved ? turn(v, turned) : v;
+          };
+          const Vec3 here = value(station, 0);
+          const Vec3 second = (1 / cell.length) * (value(cell.second, cell.length) - here) -
+                              (1 / cell.length_before) * (here - value(cell.before, -cell.length_before));
+          const std::int64_t slot = block.base + block.slot(node, station);
+          const double m = model.mass[static_cast<std::size_t>(slot)];
+          for (int c = 0; c < 3; ++c) load[dof(slot, c)] += m * scale * second[c];
+        }
+      }
+    });
+  }
+}
+
+/// Adds what presses on the wheelset when it has been rolling.
+void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {
+  model.journal.add(load, frame, {0, 0, -run_in.journal_force});
+  const double per_mass = run_in.inertia_force / model.wheelset->mass();
+  for (const int b : model.wheelset->blocks())
+    add_acceleration(model, model.mesh.blocks[static_cast<std::size_t>(b)], frame.angle, {0, 0, -per_mass},
+                     load);
+}
+
+/// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
+/// rail its height too.
+std::optional<HeldMotions> held_wheel(const Model& model) {
+  if (!model.wheelset || model.guide) return std::nullopt;
+  std::vector<RigidMotion> motions = {{{1, 0, 0}, {}}, {{}, {0, 1, 0}}};
+  if (!model.contact) motions.push_back({{0, 0, 1}, {}});
+  return std::optional<HeldMotions>(std::in_place, model.mesh, model.wheelset->blocks(), model.mass.data(),
+                                    std::move(motions));
+}
+
+/// Adds the carrier's unknown, which couples to the whole bore, to a preconditioner that does not know it.
+class WithCarrier : public Preconditioner {
+ public:
+  WithCarrier(const Preconditioner& others, std::int64_t unknown, double stiffness)
+      : others_(&others), unknown_(unknown), stiffness_(stiffness) {}
+  void apply(const double* r, double* z) const override {
+    others_->apply(r, z);
+    z[unknown_] = r[unknown_] / stiffness_;
+  }
+
+ private:
+  const Preconditioner* others_;
+  std::int64_t unknown_;
+  double stiffness_;  ///< [N/m]
+};
+
+/// Of the wheel's elements against the carrier's unknown alone [N/m].
+double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::int64_t unknown) {
+  AlignedVector<double> unit(static_cast<std::size_t>(values), 0.0);
+  AlignedVector<double> force(unit.size());
+  unit[static_cast<std::size_t>(unknown)] = 1;
+  system.apply(unit.data(), force.data());
+  return force[static_cast<std::size_t>(unknown)];
+}
+
+/// Why Newton's method finds no balance of the external `load`, whose norm is `size`; `residual`: what is
+/// left of it [N].
+std::string why_unbalanced(const Model& model, double residual, double size) {
+  constexpr double kRounding = 1e-8;  // of forces that cancel inside the bodies
+  if (residual < kRounding * size)
+    return fmt::format(
+        "the wheel load of {:.3g} N is lost in the rounding of the bodies' own forces; raise it, lower "
+        "motion.speed or state motion.spin_in_preload = false",
+        model.wheel_load());
+  return fmt::format(
+      "under the wheel load of {:.4g} kN and the spin of this speed the bodies move too far for small "
+      "strain, or "
+      "points keep entering and leaving the patch; a lower load, speed or motion.creepage, a thicker wheel, "
+      "a finer "
+      "quality or a softer contact.penetration_ratio helps",
+      1e-3 * model.wheel_load());
+}
+
+std::vector<TiedSlot> tied_slots(const Model& model) {
+  return model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{};
+}
+
+/// What the static state shows.
+void describe(const Model& model, Preload& out) {
+  if (model.contact) {
+    model.contact->require_room(out.wheel);
+    out.contact = model.contact->totals();
+    out.max_pressure = model.contact->nodes().max_pressure();
+  }
+  const double* u = out.displacement.data();
+  out.tilt = wheel_tilt(model, u, out.wheel.angle);
+  const int base = model.index.rail_foot();
+  if (base >= 0 && model.index.tread >= 0) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
+    out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);
+  }
+  if (model.index.slab >= 0)
+    out.slab_deflection =
+        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
+}
+
+}  // namespace
+
+double wheel_tilt(const Model& model, ConstNodeField displacement, double angle) {
+  if (model.index.tread < 0) return 0;
+  // The tread's lateral displacement varies as the depth below the axle.
+  const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  double moment = 0;
+  double second = 0;
+  for (const SurfaceEdge& edge : block.section.surface)
+    for (int station = 0; station < block.station_count(); ++station) {
+      const double down = block.section.q[static_cast<std::size_t>(edge.node[0])] *
+                          std::cos(block.stations[static_cast<std::size_t>(station)] + angle);
+      moment += down * displacement[dof(block.base + block.slot(edge.node[0], station), 1)];
+      second += down * down;
+    }
+  return moment / second;
+}
+
+SteadyMotion steady_motion(const Model& model) {
+  SteadyMotion out;
+  if (!model.scene.motion || !model.scene.wheel) return out;
+  const MotionSpec& motion = *model.scene.motion;
+  if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
+  if (model.scene.start() == "moving") out.speed = motion.speed;
+  out.rolling = model.scene.start() == "rolling" && motion.speed > 0;
+  return out;
+}
+
+namespace {
+
+/// The equations of the static state and their tangent.
+class Equilibrium {
+ public:
+  Equilibrium(Model& model, const SteadyMotion& motion)
+      : model_(&model), motion_(motion), system_(model), held_(held_wheel(model)) {
+    if (model.fastenings) fixed_springs_ = model.fastenings->springs();
+  }
+
+  /// r = what loads the bodies, with `state.run_in` where there is one [N].
+  void load(const Preload& state, double* r) const {
+    std::fill_n(r, 3 * model_->mesh.slots, 0.0);
+    add_load(state, r);
+    finish(state, r);
+  }
+
+  /// r = loads less internal forces, balanced by the holding forces, which `state` takes over; finds contact
+  /// and tangent at the displacement, whose secondary nodes are filled. [N]
+  void residual(Preload& state, double* r);
+
+  /// Of the last residual().
+  void apply_tangent(double* x, double* y) const {
+    system_.apply(x, y);
+    add_springs(springs_, x, y);
+  }
+  const StaticSystem& system() const { return system_; }
+  const std::vector<Spring>& springs() const { return springs_; }
+  const HeldMotions* held() const { return held_ ? &*held_ : nullptr; }
+
+ private:
+  void add_load(const Preload& state, double* r) const {
+    add_external_load(*model_, state.wheel, motion_.spin, r);
+    if (state.run_in) add_run_in(*model_, *state.run_in, state.wheel, r);
+  }
+  void finish(const Preload& state, double* r) const {
+    system_.reduce(r);
+    add_carrier_load(*model_, state.wheel, motion_.spin, r);
+  }
+
+  Model* model_;
+  SteadyMotion motion_;
+  StaticSystem system_;
+  std::optional<HeldMotions> held_;
+  std::vector<Spring> fixed_springs_, springs_;
+};
+
+void Equilibrium::residual(Preload& state, double* r) {
+  double* u = state.displacement.data();
+  const auto n = static_cast<std::int64_t>(state.displacement.size());
+  system_.expand(u);
+  springs_ = fixed_springs_;
+  model_->internal->internal_force(u, nullptr, r);
+  add_springs(fixed_springs_, u, r);
+  if (model_->contact) {
+    model_->contact->find_static({u, nullptr, &state.wheel});
+    model_->contact->add_forces(r);
+    for (Spring& spring : model_->contact->springs()) springs_.push_back(std::move(spring));
+  }
+  for_chunks(n, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) r[i] = -r[i];
+  });
+  add_load(state, r);
+  add_steady_inertia(*model_, motion_, u, r);
+  finish(state, r);
+  if (!held_) return;
+  const auto work = held_->work(r);
+  state.held_force_x = work[0];
+  state.held_moment = work[1];
+  held_->balance(r);
+}
+
+/// NumericalError where no point is in contact. `size`: of the load [N].
+void require_contact(const Model& model, int iteration, double residual, double size) {
+  if (!model.contact || !model.contact->points().empty()) return;
+  throw NumericalError(
+      iteration == 0
+          ? fmt::format("preload: no integration point of the rail touches the wheel; check "
+                        "wheel.lateral_offset, and raise the wheel load of {:.3g} N if its patch is smaller "
+                        "than an element",
+                        model.wheel_load())
+          : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}", iteration,
+                        why_unbalanced(model, residual, size)));
+}
+
+/// Solves with the tangent of an Equilibrium.
+class TangentSolver {
+ public:
+  TangentSolver(const Model& model, const Equilibrium& equilibrium)
+      : equilibrium_(&equilibrium),
+        two_level_(
+            model.mesh, [&](double* x, double* y) { equilibrium.system().apply(x, y); },
+            equilibrium.system().diagonal(), tied_slots(model)) {
+    if (model.guide)
+      with_carrier_.emplace(
+          two_level_, model.guide->unknown(),
+          carrier_stiffness(equilibrium.system(), 3 * model.mesh.slots, model.guide->unknown()));
+  }
+
+  /// Moves u until the linear system leaves no more than `tolerance` of `residual`; returns the iterations
+  /// that took.
+  int correct(double tolerance, AlignedVector<double>& residual, AlignedVector<double>& u) {
+    const Operator tangent = [this](double* x, double* y) { equilibrium_->apply_tangent(x, y); };
+    const Preconditioner* preconditioner = &two_level_;
+    if (with_carrier_) preconditioner = &*with_carrier_;
+    two_level_.update(tangent, equilibrium_->springs());
+    const CgResult solved =
+        conjugate_gradients(tangent, preconditioner, equilibrium_->held(), residual, u, {tolerance, 5000});
+    if (!solved.converged)
+      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
+                                       solved.residual_history.back() / solved.residual_history.front(),
+                                       solved.iterations));
+    return solved.iterations;
+  }
+
+ private:
+  const Equilibrium* equilibrium_;
+  TwoLevelPreconditioner two_level_;
+  std::optional<WithCarrier> with_carrier_;
+};
+
+}  // namespace
+
+Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress) {
+  constexpr int kMaxNewton = 40;
+  constexpr double kTolerance = 1e-7;
+  constexpr double kForcing = 0.03;  ///< of the linear systems against their right sides
+  const auto n = 3 * model.mesh.slots;
+  Preload out;
+  out.displacement.assign(static_cast<std::size_t>(n), 0.0);
+  if (model.contact) {
+    // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
+    // other.
+    const double overlap = 0.6 * model.hertz_patch.approach;
+    const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
+    out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
+  }
+  Equilibrium equilibrium(model, motion);
+  AlignedVector<double> residual(static_cast<std::size_t>(n));
+  equilibrium.load(out, residual.data());
+  const double size = std::sqrt(dot(n, residual.data(), residual.data()));
+  if (size == 0) return out;  // nothing loads the bodies: they rest as they are
+  const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
+
+  TangentSolver solver(model, equilibrium);
+  for (int iteration = 0;; ++iteration) {
+    equilibrium.residual(out, residual.data());
+    require_contact(model, iteration, out.residual * scale, size);
+    out.residual = std::sqrt(dot(n, residual.data(), residual.data())) / scale;
+    progress(fmt::format("iteration {}, residual {:.2e}, {} points in contact, F_N {:.3f} kN", iteration,
+                         out.residual, model.contact ? model.contact->points().size() : 0,
+                         model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
+    out.newton_iterations = iteration;
+    if (out.residual < kTolerance) {
+      if (!out.run_in) describe(model, out);
+      if (!motion.rolling || out.run_in) break;
+      out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      continue;
+    }
+    if (iteration == kMaxNewton)
+      throw NumericalError(fmt::format(
+          "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
+          iteration, kTolerance, why_unbalanced(model, out.residual * scale, size)));
+    // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
+    const double wanted = std::max(0.3 * kTolerance, kForcing * out.residual);
+    out.cg_iterations += solver.correct(wanted * scale, residual, out.displacement);
+  }
+  return out;
+}
+
+}  // namespace tread

@@ -1,0 +1,81 @@
+#pragma once
+// How the start of rolling looks to a wheel that has been rolling: rail and vehicle as a beam on the scene's
+// fastenings leaves them that a rigid wheel has run over. [theory.md, Start]
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/state_list.hpp"
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/model.hpp"
+
+namespace tread {
+
+/// How the wheelset bends under the load on its journal.
+struct AxleBending {
+  double journal = 0;  ///< deflection of the journal beyond the rim's, downwards [m]
+  double wheelset_share =
+      0;  ///< wheelset's mass times its deflection beyond the rim's over the journal's [kg]
+  BeamVehicle::Bending bending;
+
+  bool rigid() const { return bending.stiffness == 0; }
+};
+
+/// From the static displacement; of a wheel that hardly bends: rigid.
+AxleBending axle_bending(const Model& model, ConstNodeField displacement, const BodyFrame& wheel);
+
+/// Mean displacement of the rim, Cartesian [m].
+Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const BodyFrame& wheel);
+
+/// The model's wheelset with M_a, its vehicle or load, the Hertz spring of its undeformed surfaces.
+BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);
+
+/// A wheel at x = 0 of a scene's rail that has rolled over its fastenings, continued to the left, until the
+/// force hardly changes from span to span; its sprung mass where the suspension bears it in the mean.
+struct RunningWheel {
+  std::unique_ptr<TrackBeam> beam;  ///< that the passage refers to
+  BeamPassage passage;
+  double bending_at_rest = 0;  ///< [m]
+};
+RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle);
+
+/// The state at x = 0 less the static one under the same contact force; deflections and speeds downwards.
+struct RunIn {
+  double force = 0;          ///< F_N [N]
+  double wheel_speed = 0;    ///< of the rim [m/s]
+  double bending_speed = 0;  ///< of the journal beyond the rim's over its static deflection [1/s]
+  /// Forces on the wheelset besides those of statics, downwards: at the journal, and on its mass.
+  double journal_force = 0;  ///< [N]
+  double inertia_force = 0;  ///< [N]
+  double stretch = 0;        ///< of the sprung mass towards the journal, more than under its weight [m]
+  double sprung_speed = 0;   ///< [m/s]
+
+  /// What a section of the beam does more than in the static state; rates as seen from the wheel.
+  struct Section {
+    double deflection = 0, rotation = 0;            ///< [m], [rad]
+    double deflection_rate = 0, rotation_rate = 0;  ///< [m/s], [rad/s]
+  };
+  Section at(double x) const;
+
+  double left = 0, pitch = 0;     ///< of the sections [m]
+  std::vector<Section> sections;  ///< at least two
+
+  void list_state(StateList& list) {
+    list.add("force", force);
+    list.add("wheel_speed", wheel_speed);
+    list.add("bending_speed", bending_speed);
+    list.add("journal_force", journal_force);
+    list.add("inertia_force", inertia_force);
+    list.add("stretch", stretch);
+    list.add("sprung_speed", sprung_speed);
+    list.add("left", left);
+    list.add("pitch", pitch);
+    list.add_records("sections", std::span(sections));
+  }
+};
+
+/// From the running wheel.
+RunIn run_in(const Model& model, const AxleBending& axle);
+
+}  // namespace tread

@@ -1,0 +1,182 @@
+#include "drivers/engine/sections.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/geometry/profiles.hpp"
+#include "core/mesh/structured.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Columns of h stand where the patch can lie: CN60 and LMA touch between -12 and +6 mm from the crown.
+SectionSize section_size(const MeshSizes& sizes, double coarse, double band_centre) {
+  SectionSize size;
+  size.surface = sizes.contact;
+  size.coarse = coarse;
+  size.band_centre = band_centre;
+  size.band_half_width = sizes.band_half_width;
+  size.fine_layers = 2;
+  return size;
+}
+
+/// Coarse quads of the rail [m], whatever the element size: the fastenings' dampers act on points, and the
+/// nodes of a finer foot are too light for them at the step of the contact's elements.
+constexpr double kLeastRailCoarse = 8e-3;
+
+constexpr double kWheelToRailCoarse =
+    1.4;  ///< disc elements may be larger than those of the rail's web and foot
+constexpr double kBandCentre = -2e-3;
+
+WheelProfile wheel_profile(const WheelSpec& wheel) {
+  if (!wheel.profile_y.empty()) return wheel_from_table(wheel.profile_y, wheel.profile_z);
+  if (wheel.profile == "arc") return crowned(wheel.width, wheel.crown_radius);
+  if (wheel.profile == "cylinder") return crowned(wheel.width, 0);
+  return lma();
+}
+
+}  // namespace
+
+RailSections rail_sections(const Scene& scene, const MeshSizes& sizes) {
+  const RailSpec& rail = *scene.rail;
+  const RailProfile profile =
+      rail.profile_y.empty() ? cn60() : rail_with_head(rail.profile_y, rail.profile_z);
+  return make_rail_sections(profile, rail.inclination,
+                            section_size(sizes, std::max(sizes.section, kLeastRailCoarse), kBandCentre));
+}
+
+Section box_rail_section(const Scene& scene, const MeshSizes& sizes) {
+  const RailSpec& rail = *scene.rail;
+  return make_box_rail_section(rail.width, rail.height, rail.crown_radius,
+                               section_size(sizes, sizes.section, 0));
+}
+
+Section tyre_section(const Scene& scene, const MeshSizes& sizes) {
+  const WheelSpec& wheel = *scene.wheel;
+  return make_tyre_section(wheel_profile(wheel), wheel.diameter, wheel.lateral_offset, wheel.thickness,
+                           section_size(sizes, sizes.section, 0));
+}
+
+Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes) {
+  double top = 0;
+  for (const int node : rail.paths.at("foot")) top = std::min(top, rail.q[static_cast<std::size_t>(node)]);
+  const double left = slab.offset - 0.5 * slab.width;
+  const int columns = std::max(2, static_cast<int>(std::lround(slab.width / (1.5 * sizes.slab))));
+  const int layers = std::max(2, static_cast<int>(std::lround(slab.thickness / sizes.slab)));
+  std::vector<double> p;
+  for (int i = 0; i <= columns; ++i) p.push_back(left + slab.width * i / columns);
+  std::vector<double> q = {top - slab.thickness - slab.mortar_thickness};
+  for (int j = 0; j <= layers; ++j) q.push_back(top - slab.thickness + slab.thickness * j / layers);
+  Section section = rectangle(p, q);
+  section.quad_material.assign(section.quads.size(), 0);
+  for (std::size_t quad = 0; quad < section.quads.size(); ++quad)
+    if (section.q[static_cast<std::size_t>(section.quads[quad][2])] < top - slab.thickness + 1e-6)
+      section.quad_material[quad] = 2;  // mortar, whatever lies above it
+  return section;
+}
+
+/// Brake rings that a mass may ask for [m].
+constexpr double kThinnest = 2e-3, kThickest = 0.08;
+
+SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
+  const WheelSpec& wheel = *scene.wheel;
+  WheelShape shape;
+  shape.diameter = wheel.diameter;
+  shape.lateral_offset = wheel.lateral_offset;
+  shape.axle_bore = wheel.axle_bore;
+  const SectionSize size = section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre);
+  const WheelProfile profile = wheel_profile(wheel);
+
+  // Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
+  const auto polygon = [](const std::vector<Segment>& segments) {
+    double sum = 0;
+    for (const Segment& s : segments) sum += s.elements * std::sin(s.pitch);
+    return sum / (2 * std::numbers::pi);
+  };
+  const auto mass = [&](double ring) {
+    shape.brake_ring_thickness = ring;
+    const WheelSections s = make_wheel_sections(profile, shape, size);
+    return scene.steel.density * (revolved_moments(s.tread).volume * polygon(plan.tread) +
+                                  revolved_moments(s.disc).volume * polygon(plan.disc) +
+                                  revolved_moments(s.axle).volume * polygon(plan.axle));
+  };
+  // The mass grows almost linearly with the ring's thickness.
+  double thickness = 0.02;
+  double last_thickness = 0.012;
+  double last_mass = mass(last_thickness);
+  for (int i = 0; i < 12; ++i) {
+    const double m = mass(thickness);
+    if (std::abs(m - wheel.mass) < 0.05) break;
+    const double slope = (m - last_mass) / (thickness - last_thickness);
+    last_thickness = thickness;
+    last_mass = m;
+    thickness += (wheel.mass - m) / slope;
+    if (!(thickness > kThinnest && thickness < kThickest))
+      throw InputError(fmt::format(
+          "wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; those of {:g} to "
+          "{:g} mm make half wheelsets of {:.1f} to {:.1f} kg: state a mass between, or another "
+          "wheel.diameter",
+          wheel.mass, 1e3 * thickness, 1e3 * kThinnest, 1e3 * kThickest, mass(kThinnest), mass(kThickest)));
+  }
+  shape.brake_ring_thickness = thickness;
+  return {make_wheel_sections(profile, shape, size), thickness};
+}
+
+Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
+  if (spec.kind == "table")
+    return Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width);
+  if (spec.kind == "random")
+    return Corrugation::rough({spec.rms, spec.shortest, spec.longest, static_cast<std::uint64_t>(spec.seed)},
+                              spec.start, spec.length, centre, spec.width);
+  return Corrugation({spec.wavelength, spec.depth}, spec.start, spec.length, centre, spec.width);
+}
+
+double depth_room(const Scene& scene) {
+  if (scene.forks) return forks_room(scene);
+  return scene.contact ? scene.contact->depth_room.value_or(0) : 0;
+}
+
+double forks_room(const Scene& scene) {
+  constexpr double kUsual = 0.2e-3;
+  return scene.contact ? scene.contact->depth_room.value_or(kUsual) : 0;
+}
+
+double corrugation_depth(const Scene& scene) {
+  return scene.corrugation ? corrugation_of(*scene.corrugation, 0).deepest() : 0;
+}
+
+void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade) {
+  const Section& section = block.section;
+  // Depth of every section node below the running surface, by the surface edge over it.
+  const auto surface_height = [&](double p) {
+    for (const SurfaceEdge& edge : section.surface) {
+      const auto a = static_cast<std::size_t>(edge.node[0]);
+      const auto b = static_cast<std::size_t>(edge.node[1]);
+      if (p < section.p[a] - 1e-9 || p > section.p[b] + 1e-9) continue;
+      return section.q[a] +
+             (section.q[b] - section.q[a]) * (p - section.p[a]) / (section.p[b] - section.p[a]);
+    }
+    return 1e9;
+  };
+  std::vector<bool> on_surface(section.p.size(), false);
+  for (const SurfaceEdge& edge : section.surface)
+    for (const int node : edge.node) on_surface[static_cast<std::size_t>(node)] = true;
+  for (int node = 0; node < section.nodes(); ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    const double below = on_surface[n] ? 0.0 : surface_height(section.p[n]) - section.q[n];
+    const double share = 1 - below / fade;
+    if (share <= 1e-9 || below < -1e-6) continue;
+    for (int station = 0; station < block.station_count(); ++station) {
+      const double depth = corrugation.depth(block.stations[static_cast<std::size_t>(station)], section.p[n]);
+      if (depth > 0) block.node_shift[block.slot(node, station)] += Vec3{0, 0, -share * depth};
+    }
+  }
+}
+
+}  // namespace tread

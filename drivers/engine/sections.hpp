@@ -1,0 +1,45 @@
+#pragma once
+// Sections of the scene's bodies and the shapes that moved nodes give them.
+
+#include "core/corrugation.hpp"
+#include "core/mesh/rail_section.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "core/mesh/wheel_section.hpp"
+#include "core/scene.hpp"
+#include "drivers/engine/station_plan.hpp"
+
+namespace tread {
+
+RailSections rail_sections(const Scene& scene, const MeshSizes& sizes);
+Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
+/// The slab's top touches the lowest point of the foot of `rail`; the fastenings span what is left.
+Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes);
+Section tyre_section(const Scene& scene, const MeshSizes& sizes);
+
+struct SizedWheel {
+  WheelSections sections;
+  double brake_ring_thickness = 0;  ///< of each of the two plates [m]
+};
+
+/// The brake disc rings are as thick as WheelSpec::mass needs with the plan's polygons. InputError if no
+/// rings do it.
+SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
+
+/// The corrugation whose deepest line lies at y = `centre` [m].
+Corrugation corrugation_of(const CorrugationSpec& spec, double centre);
+
+/// Corrugation depth that the scene wants the searched surface to have room for at least, whatever its own
+/// [m].
+double depth_room(const Scene& scene);
+
+/// The same of the scene with [forks] [m].
+double forks_room(const Scene& scene);
+
+/// How deep the scene's corrugation is; 0 without one [m].
+double corrugation_depth(const Scene& scene);
+
+/// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that
+/// fades to nothing over `fade` [m] (node_shift).
+void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double fade);
+
+}  // namespace tread

@@ -1,0 +1,140 @@
+#include "drivers/engine/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tread {
+
+namespace {
+
+/// Derivative of a nodal value along the sweep, by the parabola through three stations.
+double along_sweep(const SweptBlock& block, int node, int station, int component,
+                   const AlignedVector<double>& field) {
+  const auto value = [&](int s) {
+    return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
+  };
+  const int last = block.station_count() - 1;
+  if (!block.closed && (station == 0 || station == last)) {
+    const int s = station == 0 ? 0 : last - 1;
+    return (value(s + 1) - value(s)) / block.pitch(s);
+  }
+  const LineCell cell = station_cell(block, station);
+  const double h0 = cell.length_before;
+  const double h1 = cell.length;
+  const double ahead = (value(cell.second) - value(station)) / h1;
+  const double behind = (value(station) - value(cell.before)) / h0;
+  return (ahead * h0 + behind * h1) / (h0 + h1);
+}
+
+/// Adds motions of the rail's sections, deflection downwards and rotation, to a field: [m] or [m/s].
+template <class Motion>
+void add_to_rail(const Model& model, const Motion& motion, AlignedVector<double>& field) {
+  // Rotation is about the rail's centroid.
+  double mass = 0;
+  double moment = 0;
+  for (const int b : model.index.rail()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const double m =
+          model.mass[static_cast<std::size_t>(block.base + block.slot(node, 1))] / block.pitch(1);
+      mass += m;
+      moment += m * block.section.q[static_cast<std::size_t>(node)];
+    }
+  }
+  for (const int b : model.index.rail()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station) {
+      const auto [deflection, rotation] = motion(block.stations[static_cast<std::size_t>(station)]);
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const std::int64_t slot = block.base + block.slot(node, station);
+        const double above = block.section.q[static_cast<std::size_t>(node)] - moment / mass;
+        field[static_cast<std::size_t>(dof(slot, 0))] += above * rotation;
+        field[static_cast<std::size_t>(dof(slot, 2))] -= deflection;
+      }
+    }
+  }
+  for (const std::int64_t unknown : model.restrained) field[static_cast<std::size_t>(unknown)] = 0;
+  if (model.ties) model.ties->follow({field.data()});
+}
+
+void move_deflection(const Model& model, double speed, const StartFields& fields) {
+  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
+  // du/dx in the track.
+  for (const SweptBlock& block : model.mesh.blocks) {
+    const double rate = block.sweep == Sweep::revolved ? fields.wheel.spin : -speed;
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 3; ++c)
+          fields.velocity[static_cast<std::size_t>(dof(block.base + block.slot(node, station), c))] =
+              rate * along_sweep(block, node, station, c, fields.displacement);
+  }
+  for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
+  if (model.ties) model.ties->follow({fields.velocity.data()});
+}
+
+/// The wheelset bends on in the shape that it has, beyond its rim's displacement; `rate` [1/s].
+void bend_axle(const Model& model, double rate, const StartFields& fields) {
+  const Vec3 rim = rim_displacement(model, fields.displacement.data(), fields.wheel);
+  for (const int b : model.index.wheel()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (int station = 0; station < block.station_count(); ++station) {
+      const Vec3 carried = to_local(block, station, fields.wheel.angle, rim);
+      for (int node = 0; node < block.section.nodes(); ++node)
+        for (int c = 0; c < 3; ++c) {
+          const auto i = static_cast<std::size_t>(dof(block.base + block.slot(node, station), c));
+          fields.velocity[i] += rate * (fields.displacement[i] - carried[c]);
+        }
+    }
+  }
+  for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
+  if (model.ties) model.ties->follow({fields.velocity.data()});
+}
+
+void roll_freely(const Model& model, const StartFields& fields) {
+  if (!model.contact) return;
+  // Free rolling: the spin at which the patch as a whole does not slip.
+  const ContactState state{fields.displacement.data(), fields.velocity.data(), &fields.wheel};
+  fields.wheel.spin += model.contact->mean_slip_velocity(state).x / model.wheel_radius();
+}
+
+}  // namespace
+
+void place_run_in(const Model& model, const RunIn& run_in, const StartFields& fields) {
+  add_to_rail(
+      model,
+      [&](double x) {
+        const RunIn::Section section = run_in.at(x);
+        return std::pair(section.deflection, section.rotation);
+      },
+      fields.displacement);
+  fields.wheel.origin.z -= run_in.at(0).deflection;
+}
+
+void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
+  const MotionSpec* motion = model.scene.motion ? &*model.scene.motion : nullptr;
+  const double speed = motion ? motion->speed : 0.0;
+  fields.wheel.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
+  fields.wheel.spin = speed / model.wheel_radius();
+  const bool deflected = model.scene.start() != "rigid";
+  if (deflected) move_deflection(model, speed, fields);
+  if (run_in)
+    add_to_rail(
+        model,
+        [&](double x) {
+          const RunIn::Section section = run_in->at(x);
+          return std::pair(section.deflection_rate, section.rotation_rate);
+        },
+        fields.velocity);
+  if (run_in) bend_axle(model, run_in->bending_speed, fields);
+  if (deflected) roll_freely(model, fields);
+  if (!motion || motion->creepage == 0) return;
+  fields.wheel.spin *= motion->spin_ratio();
+  for (const int b : model.index.wheel()) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
+      fields.velocity[static_cast<std::size_t>(i)] *= motion->spin_ratio();
+  }
+}
+
+}  // namespace tread

@@ -1,0 +1,26 @@
+#pragma once
+// Motion at t = 0, by MotionSpec::start. [theory.md, Start]
+
+#include <optional>
+
+#include "core/aligned.hpp"
+#include "core/body_frame.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/run_in.hpp"
+
+namespace tread {
+
+/// Fields and frame of a run that begins.
+struct StartFields {
+  AlignedVector<double>& displacement;  ///< [m]
+  AlignedVector<double>& velocity;      ///< [m/s]
+  BodyFrame& wheel;
+};
+
+/// Brings rail and wheel to where rolling has brought them; before contact is found.
+void place_run_in(const Model& model, const RunIn& run_in, const StartFields& fields);
+
+/// Velocities of rail, wheel and its frame; after contact has been found.
+void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
+
+}  // namespace tread

@@ -1,0 +1,75 @@
+#include "drivers/process/child_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <initializer_list>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kNotStarted = 127;
+
+/// Between fork and exec: only what is safe there. Signals are blocked.
+[[noreturn]] void become(char* const* arguments, const char* log, pid_t parent, const sigset_t& mask) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_DFL);
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(kNotStarted);
+  const int in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int out = ::open(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (in < 0 || out < 0) ::_exit(kNotStarted);
+  ::dup2(in, STDIN_FILENO);
+  ::dup2(out, STDOUT_FILENO);
+  ::dup2(out, STDERR_FILENO);
+  ::sigprocmask(SIG_SETMASK, &mask, nullptr);
+  ::execv("/proc/self/exe", arguments);
+  ::_exit(kNotStarted);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
+  std::vector<std::string> texts = arguments;
+  texts.insert(texts.begin(), "tread");
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  const std::string log_name = log.string();
+  const pid_t parent = ::getpid();
+  // A signal for the child that comes before exec must not be taken by the parent's handlers.
+  sigset_t all;
+  sigset_t before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  process_ = ::fork();
+  if (process_ == 0) become(pointers.data(), log_name.c_str(), parent, before);
+  const int error = errno;
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (process_ < 0)
+    throw ResourceError(
+        fmt::format("cannot start another process: {}; fewer --jobs need fewer", std::strerror(error)));
+}
+
+bool ChildProcess::ended(ProcessEnd& end) const {
+  int status = 0;
+  if (::waitpid(process_, &status, WNOHANG) != process_) return false;
+  end = WIFSIGNALED(status) ? ProcessEnd{0, WTERMSIG(status)} : ProcessEnd{WEXITSTATUS(status), 0};
+  return true;
+}
+
+void ChildProcess::send(int signal) const {
+  ::kill(process_, signal);
+}
+
+}  // namespace tread

@@ -1,0 +1,111 @@
+#include "drivers/process/interruption.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <ctime>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+// What a signal handler may touch.
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
+              std::atomic<std::int64_t>::is_always_lock_free);
+std::atomic<bool> g_deferred = false;
+std::atomic<int> g_stop = 0;             ///< the signal that asked
+std::atomic<std::int64_t> g_asked_at{};  ///< when, on the steady clock; 0: never [ns]
+std::atomic<bool> g_checkpoint = false;
+constexpr std::size_t kLongest = 1000;
+char g_early[kLongest + 1];
+char g_late[kLongest + 1];
+
+void set_sentence(char* place, const std::string& text) {
+  std::strncpy(place, (text + "\n").c_str(), kLongest);
+}
+
+/// `timeout`, batch systems and shells signal a process and then its group: what comes within this time is
+/// the same request.
+constexpr std::int64_t kSameRequest = 500'000'000;  // [ns]
+
+std::int64_t steady_now() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+/// Notes the first request to stop; whether this is a second one.
+bool asks_again(int signal) {
+  const std::int64_t now = steady_now();
+  std::int64_t asked_at = 0;
+  if (!g_asked_at.compare_exchange_strong(asked_at, now)) return now - asked_at >= kSameRequest;
+  g_stop = signal;
+  return false;
+}
+
+extern "C" void on_signal(int signal) {
+  const int error = errno;
+  if (signal == SIGUSR1) {
+    g_checkpoint = true;
+  } else if (!g_deferred || asks_again(signal)) {
+    const char* sentence = g_deferred ? g_late : g_early;
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence, std::strlen(sentence));
+    ::_exit(static_cast<int>(ExitCode::resumable));
+  }
+  errno = error;
+}
+
+}  // namespace
+
+Interruption::Interruption(const std::string& early, const std::string& late) {
+  set_sentence(g_early, early);
+  set_sentence(g_late, late);
+  g_deferred = false;
+  g_stop = 0;
+  g_asked_at = 0;
+  g_checkpoint = false;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE, SIGXFSZ}) {
+    struct sigaction action {};
+    action.sa_handler = signal == SIGPIPE || signal == SIGXFSZ ? SIG_IGN : on_signal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    // Who starts a run with nohup means it.
+    if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
+    ::sigaction(signal, &action, nullptr);
+    before_.emplace_back(signal, before);
+  }
+}
+
+Interruption::~Interruption() {
+  for (const auto& [signal, action] : before_) ::sigaction(signal, &action, nullptr);
+}
+
+void Interruption::defer() {
+  g_deferred = true;
+}
+
+const char* Interruption::stop_wanted() {
+  switch (g_stop) {
+    case 0:
+      return nullptr;
+    case SIGINT:
+      return "SIGINT";
+    case SIGTERM:
+      return "SIGTERM";
+    default:
+      return "SIGHUP";
+  }
+}
+
+bool Interruption::take_checkpoint_wanted() {
+  return g_checkpoint && g_checkpoint.exchange(false);
+}
+
+}  // namespace tread

@@ -1,0 +1,49 @@
+#include "drivers/report/figure_parts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tread {
+
+Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker> levels, double height) {
+  return {std::move(y_label), std::move(series), std::move(levels), height, std::nullopt};
+}
+
+void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure) {
+  if (!corrugation.smooth() && corrugation.first() < range[1])
+    figure.bands.push_back({corrugation.first(), corrugation.last(), "corrugation"});
+  if (!scene.fastenings || !scene.rail) return;
+  const FasteningSpec& f = *scene.fastenings;
+  for (int i = 0; i < f.count; ++i) {
+    const double x = -scene.rail->origin + f.first + i * f.spacing;
+    if (x > range[0] && x < range[1]) figure.positions.push_back({x, ""});
+  }
+  if (!figure.positions.empty()) figure.caption += "Vertical lines: fastenings. ";
+}
+
+void mark_track(const Model& model, const Range& range, Figure& figure) {
+  if (model.contact) mark_track(model.scene, model.contact->corrugation(), range, figure);
+}
+
+Series running_surface(const Corrugation& corrugation, const Range& range) {
+  Series series{"running surface", {}, {}, Stroke::solid};
+  constexpr int kPoints = 800;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double x = range[0] + (range[1] - range[0]) * i / kPoints;
+    series.x.push_back(x);
+    series.y.push_back(-1e3 * corrugation.depth(x, corrugation.centre()));
+  }
+  return series;
+}
+
+Range stretch_in_sight(const Model& model, const Range& way) {
+  return stretch_in_sight(model.scene, model.contact->corrugation(), way);
+}
+
+Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way) {
+  const Range range = corrugation.smooth() ? Range{scene.zone_start, scene.zone_start + scene.zone_length}
+                                           : Range{corrugation.first() - 0.12, corrugation.last() + 0.08};
+  return {std::max(range[0], way[0]), std::min(range[1], way[1])};
+}
+
+}  // namespace tread

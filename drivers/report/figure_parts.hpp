@@ -1,0 +1,25 @@
+#pragma once
+// What charts of a run share.
+
+#include <string>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+#include "io/report/report.hpp"
+
+namespace tread {
+
+Panel panel(std::string y_label, std::vector<Series> series, std::vector<Marker> levels, double height);
+
+/// Bands and fastenings that every chart over the way shows within `range`.
+void mark_track(const Scene& scene, const Corrugation& corrugation, const Range& range, Figure& figure);
+void mark_track(const Model& model, const Range& range, Figure& figure);
+
+/// Height of the corrugated surface on its deepest line [mm].
+Series running_surface(const Corrugation& corrugation, const Range& range);
+
+/// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
+Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);
+Range stretch_in_sight(const Model& model, const Range& way);
+
+}  // namespace tread

@@ -1,0 +1,40 @@
+#pragma once
+// What a user wants to know of a mesh before trusting it: counts, extreme elements, masses.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.hpp"
+#include "drivers/engine/model.hpp"
+#include "io/report/report.hpp"
+
+namespace tread {
+
+/// A value and where it occurs (wheel blocks: relative to the axis).
+struct Extreme {
+  double value = 0;
+  Vec3 at;  ///< [m]
+};
+
+struct BlockMeasures {
+  std::string name;
+  std::int64_t elements = 0, nodes = 0;
+  int quads = 0, stations = 0;
+  Extreme shortest_edge;  ///< [m]
+  Extreme longest_edge;   ///< [m]
+  Extreme worst_quality;  ///< smallest corner Jacobian over the mean of the element's eight: 1 for a
+                          ///< parallelepiped [-]
+  double mass = 0;        ///< of the elements [kg]
+  double swept_mass = 0;  ///< of the section swept without facets or moved nodes [kg]
+};
+
+std::vector<BlockMeasures> measure_blocks(const Model& model);
+
+/// (x, y, z) for a table.
+std::string place(const Vec3& at);
+
+Table count_table(const std::vector<BlockMeasures>& blocks);
+Table quality_table(const std::vector<BlockMeasures>& blocks);
+
+}  // namespace tread

@@ -1,0 +1,239 @@
+#include "drivers/report/report_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "drivers/report/figure_parts.hpp"
+#include "drivers/report/report_references.hpp"
+
+namespace tread {
+
+namespace {
+
+using Value = std::function<double(const Sample&)>;
+
+/// Abscissa of the charts: the wheel's position, or the time in scenes without a wheel.
+double abscissa(const Model& model, const Sample& s) {
+  return model.contact ? s.wheel_x : 1e3 * s.time;
+}
+
+std::string abscissa_label(const Model& model) {
+  return model.contact ? "Position of the wheel [m]" : "Time [ms]";
+}
+
+Series curve(std::string label, const Model& model, const RunResults& r, const Value& value,
+             Stroke stroke = Stroke::solid) {
+  Series series{std::move(label), {}, {}, stroke};
+  for (const Sample& sample : r.samples) {
+    series.x.push_back(abscissa(model, sample));
+    series.y.push_back(value(sample));
+  }
+  return series;
+}
+
+Range whole_way(const Model& model, const RunResults& r) {
+  return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
+}
+
+Figure over_the_way(std::string title, const Model& model, const RunResults& r) {
+  Figure figure;
+  figure.title = std::move(title);
+  figure.x_label = abscissa_label(model);
+  figure.x_range = whole_way(model, r);
+  if (model.contact) mark_track(model, *figure.x_range, figure);
+  return figure;
+}
+
+Layer merged(std::string label, std::vector<Layer> layers) {
+  Layer all{std::move(label), {}, {}};
+  for (Layer& layer : layers) {
+    std::move(layer.cells.begin(), layer.cells.end(), std::back_inserter(all.cells));
+    std::move(layer.lines.begin(), layer.lines.end(), std::back_inserter(all.lines));
+  }
+  return all;
+}
+
+/// One layer per group of blocks that exist; `view` draws a block with its wheel `height` above the crown.
+template <class View>
+std::vector<Layer> layers_of(const Model& model, const View& view) {
+  const BlockIndex& index = model.index;
+  const std::vector<std::pair<const char*, std::vector<int>>> groups = {
+      {"slab and rail", {index.slab, index.rail_base}},
+      {index.rail_base >= 0 ? "rail head" : "rail", {index.rail_cap}},
+      {"disc and axle", {index.axle, index.disc}},
+      {"tread", {index.tread}}};
+  std::vector<Layer> layers;
+  for (const auto& [label, blocks] : groups) {
+    std::vector<Layer> parts;
+    for (const int b : blocks)
+      if (b >= 0) parts.push_back(view(model.mesh.blocks[static_cast<std::size_t>(b)]));
+    if (!parts.empty()) layers.push_back(merged(label, std::move(parts)));
+  }
+  return layers;
+}
+
+double axis_height(const Model& model) {
+  return model.contact ? model.contact->touching_height() : 0;
+}
+
+}  // namespace
+
+Figure force_figure(const Model& model, const RunResults& r) {
+  const Scene& scene = model.scene;
+  const Corrugation& corrugation = model.contact->corrugation();
+  const double f = scene.contact->friction;
+  Figure figure;
+  figure.title =
+      corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
+  figure.x_label = abscissa_label(model);
+  figure.x_range = stretch_in_sight(model, whole_way(model, r));
+  mark_track(model, *figure.x_range, figure);
+  figure.panels.push_back(
+      panel("Force [kN]",
+            {curve("f F_N", model, r, [f](const Sample& s) { return 1e-3 * f * s.vertical_force; }),
+             curve("F_L", model, r, [](const Sample& s) { return 1e-3 * s.longitudinal_force; })},
+            {{1e-3 * f * model.wheel_load(), "static f F_N"}}, 300));
+  if (!corrugation.smooth())
+    figure.panels.push_back(
+        panel("Rail surface [mm]", {running_surface(corrugation, *figure.x_range)}, {}, 90));
+  figure.caption +=
+      "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4) + ".";
+  return figure;
+}
+
+Figure passage_figure(const Model& model, const RunResults& r) {
+  const double f = model.scene.contact->friction;
+  Figure figure = over_the_way("Forces over the whole way", model, r);
+  figure.panels.push_back(
+      panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
+            {{1e-3 * model.wheel_load(), "static"}}, 200));
+  figure.panels.push_back(panel("F_L / F_N",
+                                {curve("F_L / F_N", model, r,
+                                       [](const Sample& s) {
+                                         return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force
+                                                                     : 0.0;
+                                       })},
+                                {{f, "f"}}, 150));
+  figure.panels.push_back(panel("Lateral [kN]",
+                                {curve("lateral force on the wheel, to the field side", model, r,
+                                       [](const Sample& s) { return 1e-3 * s.lateral_force; })},
+                                {}, 110));
+  if (!model.torque.empty())
+    figure.panels.push_back(panel(
+        "Torque [kN m]",
+        {curve("torque on the axle", model, r, [](const Sample& s) { return 1e-3 * s.torque; })}, {}, 90));
+  return figure;
+}
+
+Figure creepage_figure(const Model& model, const RunResults& r) {
+  Figure figure = over_the_way("Longitudinal creepage", model, r);
+  std::vector<Marker> levels;
+  if (const double paper = paper_creepage(model.scene); paper > 0)
+    levels.push_back({100 * paper, "paper, smooth rail"});
+  figure.panels.push_back(panel("Creepage [%]",
+                                {curve("at the node that starts in the patch", model, r,
+                                       [](const Sample& s) { return 100 * s.creepage_node; }),
+                                 curve("mean of 28 nodes around the tread", model, r,
+                                       [](const Sample& s) { return 100 * s.creepage_mean; })},
+                                levels, 280));
+  figure.caption +=
+      "The single node vibrates when it enters the patch and once a turn again; the mean filters that out.";
+  return figure;
+}
+
+Figure patch_figure(const Model& model, const RunResults& r) {
+  Figure figure = over_the_way("Contact patch", model, r);
+  figure.panels.push_back(
+      panel("Area [mm²]",
+            {curve("in contact", model, r, [](const Sample& s) { return 1e6 * s.patch_area; }),
+             curve("slipping", model, r, [](const Sample& s) { return 1e6 * s.slip_area; })},
+            {}, 170));
+  figure.panels.push_back(panel(
+      "Stress [MPa]",
+      {curve("largest pressure", model, r, [](const Sample& s) { return 1e-6 * s.max_pressure; }),
+       curve("largest surface shear stress", model, r, [](const Sample& s) { return 1e-6 * s.max_shear; })},
+      {}, 170));
+  figure.panels.push_back(
+      panel("Penetration [µm]",
+            {curve("largest penetration", model, r, [](const Sample& s) { return 1e6 * s.max_penetration; })},
+            {}, 90));
+  figure.caption += "Stresses are averages at the rail's surface nodes. ";
+  return figure;
+}
+
+Figure energy_figure(const Model& model, const RunResults& r) {
+  Figure figure = over_the_way("Energy by kind, change since the start", model, r);
+  const EnergyLedger& start = r.samples.front().energy;
+  const auto kind = [&](const char* label, double EnergyLedger::*member, Stroke stroke = Stroke::solid) {
+    return curve(
+        label, model, r, [&start, member](const Sample& s) { return s.energy.*member - start.*member; },
+        stroke);
+  };
+  // The torque's work and what it makes of the speed dwarf everything else: a panel of their own.
+  std::vector<Series> large;
+  std::vector<Series> small;
+  (model.torque.empty() ? small : large).push_back(kind("kinetic", &EnergyLedger::kinetic));
+  if (!model.torque.empty())
+    large.push_back(kind("work of the torque", &EnergyLedger::torque_work, Stroke::dashed));
+  small.push_back(kind("strain", &EnergyLedger::strain));
+  if (model.scene.gravity != 0 || model.scene.load) small.push_back(kind("gravity", &EnergyLedger::gravity));
+  if (model.hammer) small.push_back(kind("work of the hammer", &EnergyLedger::hammer_work, Stroke::dashed));
+  if (model.contact) small.push_back(kind("frictional work", &EnergyLedger::frictional_work, Stroke::dashed));
+  if (model.fastenings || model.scene.vehicle) {
+    small.push_back(kind("springs", &EnergyLedger::connectors));
+    small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
+  }
+  if (model.has_branches()) small.push_back(kind("material", &EnergyLedger::material_loss, Stroke::dashed));
+  if (!large.empty()) figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
+  figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
+  figure.panels.push_back(
+      panel("Residual [J]", {curve("residual", model, r, [](const Sample& s) { return s.energy.residual; })},
+            {}, 110));
+  figure.caption += model.contact ? "Residual: stored and dissipated energy less the work of torque and "
+                                    "hammer and the energy at the start."
+                                  : "Residual: the sum less that at the start.";
+  return figure;
+}
+
+Drawings section_drawings(const Model& model) {
+  const double height = axis_height(model);
+  const std::vector<Layer> layers = layers_of(model, [&](const SweptBlock& block) {
+    const double up = block.sweep == Sweep::revolved ? height : 0;
+    return section_layer(block.name, block.section, block.sweep, {0, up});
+  });
+  Drawings drawings;
+  if (!model.contact) {
+    drawings.push_back({"Cross-section", layers, std::nullopt, 300});
+    return drawings;
+  }
+  drawings.push_back(
+      {"Cross-section under the wheel", layers, std::nullopt, model.index.axle >= 0 ? 920.0 : 440.0});
+  if (model.index.axle >= 0)
+    drawings.push_back({"Rail and wheel rim", layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
+  drawings.push_back({"Around the patch", layers, Window{{-0.032, -0.022}, {0.032, 0.022}},
+                      model.index.axle >= 0 ? 520.0 : 440.0});
+  return drawings;
+}
+
+Drawings side_drawings(const Model& model) {
+  const double height = axis_height(model);
+  const std::vector<Layer> layers = layers_of(model, [&](const SweptBlock& block) {
+    if (block.sweep == Sweep::extruded) return side_layer(block.name, block);
+    SweptBlock without_flange = block;  // the flange would hide where wheel and rail meet
+    if (model.contact)
+      for (double& radius : without_flange.section.q) radius = std::min(radius, height);
+    return side_layer(block.name, without_flange, {0, 0, height});
+  });
+  if (!model.contact) return {{"Side view", layers, std::nullopt, 920}};
+  std::vector<Layer> track = layers;
+  std::erase_if(track,
+                [](const Layer& layer) { return layer.label == "tread" || layer.label == "disc and axle"; });
+  const double zone = model.scene.motion ? model.scene.zone_start : 0;
+  return {{"Side view of the stations, x = -0.5 to 0.5 m", layers, Window{{-0.5, -0.3}, {0.5, 0.5}}, 440},
+          {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
+           440}};
+}
+
+}  // namespace tread

@@ -1,0 +1,31 @@
+#pragma once
+// The rail's surface about the wheel, at rest and rolling. [paper, Fig. 7]
+
+#include <filesystem>
+#include <vector>
+
+#include "io/report/report.hpp"
+#include "kernels/contact/rail_line.hpp"
+
+namespace tread {
+
+/// Vertical displacement of the running surface on the patch's longitudinal axis, by distance from the wheel.
+struct Deflection {
+  std::vector<double> x;        ///< from the wheel, -0.5 to 0.5 [m]
+  std::vector<double> at_rest;  ///< static [m]
+  std::vector<double> rolling;  ///< [m]
+  double wheel_x = 0;           ///< when rolling() was noted [m]
+
+  /// Within 0.1 m of the wheel: root mean square of the odd part over that of the even part, which counts
+  /// from its value at 0.1 m. Of a displacement by x.
+  static double asymmetry(const std::vector<double>& displacement);
+};
+
+Deflection deflection(const RailLine& line);
+
+/// Columns: x_from_wheel, static, rolling [m].
+void write_deflection(const std::filesystem::path& path, const Deflection& deflection);
+
+Figure deflection_figure(const Deflection& deflection);
+
+}  // namespace tread

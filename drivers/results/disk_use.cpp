@@ -1,0 +1,47 @@
+#include "drivers/results/disk_use.hpp"
+
+#include "drivers/results/frame_files.hpp"
+#include "drivers/results/inventory.hpp"
+#include "drivers/results/run_results.hpp"
+
+namespace tread {
+
+namespace {
+
+// Measured on runs of the scenes in scenes/.
+constexpr double kCsvBytes = 13.5;              ///< of a value in histories.csv
+constexpr double kPatchShare = 0.15;            ///< of a sample in patch.h5 that compression leaves
+constexpr double kFrameShare = 0.62;            ///< of a frame that compression leaves
+constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
+
+}  // namespace
+
+DiskUse disk_use(const Model& model, double dt) {
+  DiskUse use;
+  use.results = kReportBytes;
+  if (!model.scene.motion || dt <= 0) return use;
+  const std::int64_t steps = step_count(model.scene, dt);
+  const std::int64_t interval = sampling_interval(model.scene, dt);
+  use.rows = (steps + interval - 1) / interval;
+  const auto rows = static_cast<double>(use.rows);
+  const double patch =
+      model.contact
+          ? kPatchShare * rows * static_cast<double>(PatchFile::sample_bytes(model.contact->nodes()))
+          : 0;
+  const double values = rows * static_cast<double>(history_channels(model).size());
+  use.results += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)) + patch);
+  constexpr int kAtOnce = 3;
+  const std::int64_t state =
+      checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch);
+  use.checkpoints = kAtOnce * state;
+  if (model.scene.forks) use.forks = state;
+  use.results += use.forks;
+  if (const auto frames = static_cast<std::int64_t>(frame_steps(model.scene.output.frames, steps).size())) {
+    const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
+    use.frames =
+        bytes.mesh + frames * static_cast<std::int64_t>(kFrameShare * static_cast<double>(bytes.frame));
+  }
+  return use;
+}
+
+}  // namespace tread

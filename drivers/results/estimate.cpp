@@ -1,0 +1,73 @@
+#include "drivers/results/estimate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <limits>
+
+#include "drivers/engine/node_fields.hpp"
+#include "drivers/results/inventory.hpp"
+#include "drivers/results/run_results.hpp"
+
+namespace tread {
+
+namespace {
+
+// Measured on runs of the scenes in scenes/: 1.3 ... 1.45.
+constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
+
+/// The fastest: what interrupts one of them is not to be multiplied by the number of steps.
+double seconds_of(const std::function<void()>& force) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kTimes = 5;
+  force();
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kTimes; ++i) {
+    const Clock::time_point start = Clock::now();
+    force();
+    fastest = std::min(fastest, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  return fastest;
+}
+
+/// In double, as the preload applies it.
+double seconds_of_one_force(const Model& model) {
+  const AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  AlignedVector<double> f(u.size(), 0.0);
+  return seconds_of([&] { model.internal->internal_force(u.data(), u.data(), f.data()); });
+}
+
+/// A preload of a draft takes 378 iterations of conjugate gradients, each three applications of the
+/// stiffness, vectors and a coarse solution; that of a tyre on a block 120. [docs/performance.md, Mesh,
+/// preload, memory]
+double seconds_of_preload(const Model& model) {
+  constexpr double kOnFastenings = 4300;  ///< over one application of the stiffness
+  constexpr double kOnRigidGround = 1200;
+  constexpr double kRunIn = 4.5;  ///< [s]
+  const double applications = model.scene.fastenings ? kOnFastenings : kOnRigidGround;
+  return applications * seconds_of_one_force(model) + (model.scene.start() == "rolling" ? kRunIn : 0.0);
+}
+
+}  // namespace
+
+Estimate estimate(Model& model) {
+  // A run puts the corrugation where the preload finds the largest pressure; its place matters to no figure
+  // here.
+  if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
+  Estimate e;
+  e.elements = model.elements();
+  e.memory = peak_bytes(model);
+  e.preload_seconds = seconds_of_preload(model);
+  e.disk = disk_use(model, 0);
+  if (!model.scene.motion) return e;
+  e.limit = step_limit(model);
+  e.dt = model.scene.motion->step_safety * e.limit.stable_step;
+  e.steps = step_count(model.scene, e.dt);
+  e.disk = disk_use(model, e.dt);
+  const auto fields = make_node_fields(model);
+  e.rolling_seconds =
+      kStepOverhead * seconds_of([&] { fields->deform_and_move({}); }) * static_cast<double>(e.steps);
+  return e;
+}
+
+}  // namespace tread

@@ -1,0 +1,263 @@
+#include "drivers/results/frame_files.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/process/machine.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/step_files.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFolder = "frames";
+constexpr const char* kSeries = "frames.hdf.series";
+constexpr std::string_view kSuffix = ".hdf";
+
+/// Beside the frames that it belongs to. A run may go on with other cells: the frames that it has keep
+/// theirs.
+const char* mesh_name(VtkCells kind) {
+  return kind == VtkCells::faces ? "mesh-faces.hdf" : "mesh-elements.hdf";
+}
+
+/// Rows of the contact's surface grid by node of the rail's section; -1: none.
+std::vector<int> rows_of_nodes(const Section& section, const SurfaceGrid& grid) {
+  std::vector<int> rows(static_cast<std::size_t>(section.nodes()), -1);
+  for (int row = 0; row < grid.rows(); ++row) {
+    const bool last = row + 1 == grid.rows();
+    const SurfaceEdge& edge =
+        section.surface[static_cast<std::size_t>(grid.first_edge + row - (last ? 1 : 0))];
+    rows[static_cast<std::size_t>(edge.node[last ? 1 : 0])] = row;
+  }
+  return rows;
+}
+
+void append(std::vector<float>& values, const Vec3& vector) {
+  for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(vector[i]));
+}
+
+template <class Real>
+Vec3 local_vector(const AlignedVector<Real>& field, std::int64_t slot) {
+  Vec3 value;
+  for (int i = 0; i < 3; ++i) value[i] = static_cast<double>(field[static_cast<std::size_t>(dof(slot, i))]);
+  return value;
+}
+
+template <class Real>
+void copy_field(ConstNodeField from, std::int64_t slots, AlignedVector<Real>& to) {
+  to.resize(static_cast<std::size_t>(3 * slots));
+  std::int64_t i = 0;
+  for (Real& value : to) value = static_cast<Real>(from[i++]);
+}
+
+}  // namespace
+
+std::vector<Placement> resting_places(const Model& model) {
+  std::vector<Placement> places(model.mesh.blocks.size());
+  const double height = model.contact ? model.contact->touching_height() : 0;
+  for (const int b : model.index.wheel()) places[static_cast<std::size_t>(b)].origin = {0, 0, height};
+  return places;
+}
+
+VtkCells frame_cells(const Scene& scene) {
+  return scene.output.frame_cells == "faces" ? VtkCells::faces : VtkCells::elements;
+}
+
+FrameBytes frame_bytes(const VtkGrid& grid) {
+  constexpr std::int64_t kOfPoint =
+      (3 + 3 + 3 + 1) * sizeof(float);             // place, displacement, velocity, pressure
+  constexpr std::int64_t kOfCell = sizeof(float);  // stress
+  constexpr std::int64_t kOfMeshPoint = 3 * sizeof(double);
+  constexpr std::int64_t kOfMeshCell = 8 + 1 + 4 + 4 + 8;  // offset, type, block, material, pitch
+  constexpr std::int64_t kTree = 10000;                    // groups, names, links
+  const auto points = static_cast<std::int64_t>(grid.points.size());
+  const auto cells = static_cast<std::int64_t>(grid.cells.size());
+  const auto corners = static_cast<std::int64_t>(grid.connectivity.size() * sizeof(std::int64_t));
+  return {kOfPoint * points + kOfCell * cells + kTree,
+          kOfMeshPoint * points + kOfMeshCell * cells + corners + kTree};
+}
+
+std::vector<std::int64_t> frame_steps(int count, std::int64_t steps) {
+  std::vector<std::int64_t> due;
+  for (int i = 1; i <= count; ++i) {
+    const std::int64_t step = i == count ? steps : 1 + (steps - 1) * (i - 1) / (count - 1);
+    if (step >= 1 && step <= steps && (due.empty() || step > due.back())) due.push_back(step);
+  }
+  return due;
+}
+
+FrameFiles::FrameFiles(const Model& model, fs::path directory, std::int64_t steps, double dt)
+    : model_(&model),
+      directory_(std::move(directory)),
+      dt_(dt),
+      due_(frame_steps(model.scene.output.frames, steps)) {
+  remove_parts(folder());
+  const std::vector<std::int64_t> there = steps_in(folder(), kSuffix);
+  std::erase_if(due_,
+                [&](std::int64_t step) { return std::binary_search(there.begin(), there.end(), step); });
+  if (!there.empty()) write_series();
+}
+
+fs::path FrameFiles::folder() const {
+  return directory_ / kFolder;
+}
+
+bool FrameFiles::due(std::int64_t steps) const {
+  return std::binary_search(due_.begin(), due_.end(), steps);
+}
+
+std::size_t FrameFiles::count() const {
+  return steps_in(folder(), kSuffix).size();
+}
+
+void FrameFiles::copy(const Simulation& simulation) {
+  at_.steps = simulation.steps();
+  at_.time = simulation.time();
+  const std::int64_t slots = model_->mesh.slots;
+  copy_field(simulation.displacement(), slots, at_.displacement);
+  copy_field(simulation.velocity(), slots, at_.velocity);
+  if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, slots, at_.lag);
+  at_.wheel = simulation.wheel();
+  if (model_->contact) at_.patch = model_->contact->nodes();
+}
+
+void FrameFiles::begin() {
+  if (std::exchange(begun_, true)) return;
+  make_directory(folder());
+  grid_ = make_vtk_grid(model_->mesh, frame_cells(model_->scene));
+  write_vtk_mesh(folder() / mesh_name(grid_.kind), model_->mesh, grid_, resting_places(*model_));
+}
+
+void FrameFiles::write() {
+  write_copy();
+  at_ = {};  // a field or two as large as the run's own
+}
+
+void FrameFiles::write_copy() {
+  begin();
+  places_.assign(model_->mesh.blocks.size(), {});
+  for (const int block : model_->index.wheel())
+    places_[static_cast<std::size_t>(block)] = {at_.wheel.origin, at_.wheel.angle};
+  write_vtk_frame(step_file(folder(), at_.steps, kSuffix),
+                  {mesh_name(grid_.kind), at_.time, points(), arrays()});
+  write_series();
+}
+
+void FrameFiles::write_series() const {
+  JsonWriter json;
+  json.begin_object().member("file-series-version", std::string_view("1.0")).key("files").begin_array();
+  for (const std::int64_t steps : steps_in(folder(), kSuffix)) {
+    const std::string name = step_file(kFolder, steps, kSuffix).string();
+    json.begin_object()
+        .member("name", std::string_view(name))
+        .member("time", static_cast<double>(steps) * dt_)
+        .end_object();
+  }
+  show_text_file(directory_ / kSeries, json.end_array().end_object().text());
+}
+
+std::vector<float> FrameFiles::points() const {
+  std::vector<float> values;
+  values.reserve(3 * grid_.points.size());
+  for (const VtkGrid::Point& point : grid_.points) {
+    const auto b = static_cast<std::size_t>(point.block);
+    append(values, placed(places_[b], position(model_->mesh.blocks[b], point.node, point.station)));
+  }
+  return values;
+}
+
+/// In Cartesian axes; velocities with the rigid motion of the wheel's frame.
+std::vector<VtkArray> FrameFiles::arrays() const {
+  VtkArray displacement{
+      "displacement [m]", "m", "from the points, which move rigidly with their body", 3, false, {}};
+  VtkArray velocity{"velocity [m s-1]", "m/s", "half a step before the frame's time", 3, false, {}};
+  displacement.values.reserve(3 * grid_.points.size());
+  velocity.values.reserve(3 * grid_.points.size());
+  for (const VtkGrid::Point& point : grid_.points) {
+    const auto b = static_cast<std::size_t>(point.block);
+    const SweptBlock& block = model_->mesh.blocks[b];
+    const Placement& place = places_[b];
+    const std::int64_t slot = block.base + block.slot(point.node, point.station);
+    const auto turned = [&](const auto& field) {
+      return to_cartesian(block, point.station, place.angle, local_vector(field, slot));
+    };
+    const Vec3 u = turned(at_.displacement);
+    Vec3 v = turned(at_.velocity);
+    if (block.sweep == Sweep::revolved) {
+      const Vec3 arm = placed({{}, place.angle}, position(block, point.node, point.station)) + u;
+      v += at_.wheel.velocity + at_.wheel.spin * Vec3{arm.z, 0, -arm.x};
+    }
+    append(displacement.values, u);
+    append(velocity.values, v);
+  }
+  return {std::move(displacement), std::move(velocity), contact_pressure(), von_mises_stress()};
+}
+
+VtkArray FrameFiles::contact_pressure() const {
+  VtkArray array{
+      "contact pressure [Pa]", "Pa", "on the rail's running surface, average at the node", 1, false, {}};
+  array.values.assign(grid_.points.size(), 0.0F);
+  if (!model_->contact) return array;
+  const int rail = model_->contact->options().rail_block;
+  const Section& section = model_->mesh.blocks[static_cast<std::size_t>(rail)].section;
+  const std::vector<int> rows = rows_of_nodes(section, at_.patch.grid());
+  for (std::size_t i = 0; i < grid_.points.size(); ++i) {
+    const auto [block, node, station] = grid_.points[i];
+    if (block != rail || station < at_.patch.first() || station > at_.patch.last()) continue;
+    const int row = rows[static_cast<std::size_t>(node)];
+    if (row >= 0) array.values[i] = static_cast<float>(at_.patch.at(station, row).pressure);
+  }
+  return array;
+}
+
+VtkArray FrameFiles::von_mises_stress() const {
+  VtkArray array{"von Mises stress [Pa]", "Pa", "at the element's centre", 1, true, {}};
+  array.values.reserve(grid_.cells.size());
+  const ConstNodeField lag = at_.lag.empty() ? nullptr : at_.lag.data();
+  for (const VtkGrid::Cell& cell : grid_.cells)
+    array.values.push_back(static_cast<float>(von_mises(
+        model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data(), lag))));
+  return array;
+}
+
+void FrameFiles::take_over(const fs::path& from, const fs::path& to, std::int64_t steps) {
+  const std::vector<std::int64_t> there = steps_in(from / kFolder, kSuffix);
+  if (there.empty() || there.front() > steps) return;
+  make_directory(to / kFolder);
+  const auto copy = [&](const fs::path& file) {
+    const fs::path target = to / kFolder / file.filename();
+    const fs::path part = target.string() + ".part";
+    std::error_code error;
+    fs::copy_file(file, part, fs::copy_options::overwrite_existing, error);
+    if (!error) fs::rename(part, target, error);
+    if (error)
+      throw ResourceError(fmt::format("cannot copy {} to {}: {}; --set output.frames=0 leaves frames out",
+                                      file.string(), target.string(), error.message()));
+  };
+  for (const VtkCells kind : {VtkCells::faces, VtkCells::elements})
+    if (fs::exists(from / kFolder / mesh_name(kind))) copy(from / kFolder / mesh_name(kind));
+  for (const std::int64_t step : there)
+    if (step <= steps) copy(step_file(from / kFolder, step, kSuffix));
+}
+
+void FrameFiles::remove(const fs::path& directory) {
+  std::error_code ignored;
+  fs::remove(directory / kSeries, ignored);  // first: it lists the others
+  const fs::path folder = directory / kFolder;
+  for (const std::int64_t steps : steps_in(folder, kSuffix))
+    fs::remove(step_file(folder, steps, kSuffix), ignored);
+  for (const VtkCells kind : {VtkCells::faces, VtkCells::elements})
+    fs::remove(folder / mesh_name(kind), ignored);
+  remove_parts(folder);
+  fs::remove(folder, ignored);
+}
+
+}  // namespace tread

@@ -1,0 +1,302 @@
+#include "drivers/results/run_results.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/evaluated_stretch.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+struct Column {
+  Channel channel;
+  double (*value)(const Sample&);
+};
+
+double traction(const Sample& s) {
+  return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
+}
+
+const std::vector<Column>& wheel_columns() {
+  static const std::vector<Column> columns = {
+      {{"wheel_x", "m", "position of the wheel's axis along the rail"},
+       [](const Sample& s) { return s.wheel_x; }},
+      {{"vertical_force", "N", "F_N, contact force on the wheel, upwards"},
+       [](const Sample& s) { return s.vertical_force; }},
+      {{"longitudinal_force", "N", "F_L, contact force on the wheel, forwards"},
+       [](const Sample& s) { return s.longitudinal_force; }},
+      {{"lateral_force", "N", "contact force on the wheel, to the field side"},
+       [](const Sample& s) { return s.lateral_force; }},
+      {{"traction_coefficient", "-", "F_L / F_N"}, traction},
+      {{"patch_area", "m2", "area in contact"}, [](const Sample& s) { return s.patch_area; }},
+      {{"slip_area", "m2", "part of the patch that slips"}, [](const Sample& s) { return s.slip_area; }},
+      {{"max_pressure", "Pa", "largest contact pressure at a rail node"},
+       [](const Sample& s) { return s.max_pressure; }},
+      {{"max_shear", "Pa", "largest surface shear stress at a rail node"},
+       [](const Sample& s) { return s.max_shear; }},
+      {{"max_penetration", "m", "largest penetration at an integration point"},
+       [](const Sample& s) { return s.max_penetration; }},
+      {{"creepage_node", "-", "eq. (3) at the tread node that starts in the patch"},
+       [](const Sample& s) { return s.creepage_node; }},
+      {{"creepage_mean", "-", "eq. (3), mean of 28 tread nodes"},
+       [](const Sample& s) { return s.creepage_mean; }},
+      {{"torque", "N m", "on the axle"}, [](const Sample& s) { return s.torque; }},
+      {{"wheel_speed", "m/s", "mean forward speed of the wheelset"},
+       [](const Sample& s) { return s.wheel_speed; }},
+      {{"wheel_spin", "rad/s", "mean angular speed of the wheelset"},
+       [](const Sample& s) { return s.wheel_spin; }},
+      {{"wheel_z", "m", "height of the wheelset's mean axis above the crown"},
+       [](const Sample& s) { return s.wheel_z; }},
+      {{"corrugation_depth", "m", "of the rail under the wheel's axis"},
+       [](const Sample& s) { return s.corrugation_depth; }},
+      {{"penalty_energy", "J", "stored in the contact penalties"},
+       [](const Sample& s) { return s.energy.penalty; }},
+      {{"frictional_work", "J", "dissipated by friction since the start"},
+       [](const Sample& s) { return s.energy.frictional_work; }},
+      {{"torque_work", "J", "done by the torque"}, [](const Sample& s) { return s.energy.torque_work; }},
+      {{"guide_work", "J", "done by the guide of the bore"},
+       [](const Sample& s) { return s.energy.guide_work; }},
+  };
+  return columns;
+}
+
+const std::vector<Column>& body_columns() {
+  static const std::vector<Column> columns = {
+      {{"kinetic_energy", "J", "of all bodies"}, [](const Sample& s) { return s.energy.kinetic; }},
+      {{"strain_energy", "J", "elastic, hourglass part included"},
+       [](const Sample& s) { return s.energy.strain; }},
+      {{"connector_energy", "J", "in springs"}, [](const Sample& s) { return s.energy.connectors; }},
+      {{"gravity_energy", "J", "potential"}, [](const Sample& s) { return s.energy.gravity; }},
+      {{"connector_loss", "J", "dissipated in dampers"},
+       [](const Sample& s) { return s.energy.connector_loss; }},
+      {{"damping_loss", "J", "lost because contact forces lead the motion by half a step"},
+       [](const Sample& s) { return s.energy.damping_loss; }},
+      {{"energy_residual", "J", "what the balance misses"},
+       [](const Sample& s) { return s.energy.residual; }},
+  };
+  return columns;
+}
+
+const std::vector<Column>& hammer_columns() {
+  static const std::vector<Column> columns = {
+      {{"hammer_force", "N", "on the rail head, downwards"}, [](const Sample& s) { return s.hammer_force; }},
+      {{"hammer_displacement", "m", "of the struck point since the start, downwards"},
+       [](const Sample& s) { return s.hammer_displacement; }},
+      {{"hammer_work", "J", "done by the hammer"}, [](const Sample& s) { return s.energy.hammer_work; }},
+  };
+  return columns;
+}
+
+std::vector<Column> columns_of(const Model& model) {
+  std::vector<Column> columns;
+  if (model.contact) columns = wheel_columns();
+  if (model.hammer) columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
+  columns.insert(columns.end(), body_columns().begin(), body_columns().end());
+  if (model.has_branches())
+    columns.push_back({{"material_loss", "J", "dissipated in the material's Maxwell branches"},
+                       [](const Sample& s) { return s.energy.material_loss; }});
+  return columns;
+}
+
+}  // namespace
+
+std::vector<Channel> history_channels(const Model& model) {
+  std::vector<Channel> channels = {{"time", "s", "since the start of rolling"}};
+  for (const Column& column : columns_of(model)) channels.push_back(column.channel);
+  return channels;
+}
+
+std::vector<double> history_row(const Model& model, const Sample& sample) {
+  std::vector<double> row = {sample.time};
+  for (const Column& column : columns_of(model)) row.push_back(column.value(sample));
+  return row;
+}
+
+std::int64_t step_count(const Scene& scene, double dt) {
+  return static_cast<std::int64_t>(std::ceil(scene.motion->duration / dt));
+}
+
+std::int64_t sampling_interval(const Scene& scene, double dt) {
+  return std::max<std::int64_t>(1, std::llround(scene.output.history_interval / dt));
+}
+
+void evaluate(const Model& model, RunResults& r) {
+  if (r.samples.empty()) return;
+  const Scene& scene = model.scene;
+  const double reached = r.samples.back().wheel_x;
+
+  if (model.contact) {
+    const Corrugation& corrugation = model.contact->corrugation();
+    const Span stretch = evaluated_stretch(scene, corrugation);
+    r.evaluated_first = stretch.first;
+    r.evaluated_last = std::min(reached, stretch.last);
+    if (r.evaluated_first > reached) r.evaluated_first = 0;
+    // The first sample lies at x = 0 but for rounding: whether it counts must not hang on that.
+    constexpr double kRounding = 1e-9;  // [m]
+    const auto between = [](double first, double last) {
+      return [first, last](const Sample& s) {
+        return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
+      };
+    };
+    const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+    r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
+    r.longitudinal_force =
+        statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
+    const Statistics creepage =
+        statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
+    r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
+    constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
+    r.full_slip_share = statistics(
+                            r.samples, [&](const Sample& s) { return evaluated(s) && s.patch_area > 0; },
+                            [](const Sample& s) { return s.slip_area > kWhole * s.patch_area ? 1.0 : 0.0; })
+                            .mean;
+
+    // Steady values: the last whole fastening span in the solution zone, or before the patch meets the
+    // corrugation.
+    const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
+    const double end = std::min(
+        reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
+    r.steady_last = end;
+    r.steady_first = std::max(0.0, end - span);
+    const auto mean = [&](auto value) {
+      return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
+    };
+    r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
+    const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
+    r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
+    r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
+    r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
+    r.max_shear = mean([](const Sample& s) { return s.max_shear; });
+    r.patch_area = mean([](const Sample& s) { return s.patch_area; });
+    // The patch has passed what lies behind its search window.
+    const double reach = model.contact->reach();
+    if (r.surface_fields)
+      r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, reach),
+                                  std::min(r.evaluated_last, reached - reach));
+  }
+
+  double worst = 0;
+  double strain_low = r.samples.front().energy.strain;
+  double strain_high = strain_low;
+  for (std::size_t i = 0; i < r.samples.size(); ++i) {
+    const EnergyLedger& e = r.samples[i].energy;
+    worst = std::max(worst, std::abs(e.residual));
+    strain_low = std::min(strain_low, e.strain);
+    strain_high = std::max(strain_high, e.strain);
+    if (i > 0)
+      r.frictional_work_decrease =
+          std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
+  }
+  const EnergyLedger& last = r.samples.back().energy;
+  const double scale =
+      last.frictional_work + last.connector_loss + last.material_loss + strain_high - strain_low;
+  r.energy_error = scale > 0 ? worst / scale : 0;
+  const Vec3 miss = r.momentum.impulse - r.momentum.change;
+  if (r.momentum.contact_impulse.z > 0)
+    r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
+}
+
+namespace {
+
+void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s) {
+  json.key(key).begin_object();
+  json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
+}
+
+/// Largest values over the width, statistics on the axis; of the stretch, where there is one.
+void add_surface(JsonWriter& json, const SurfaceResults& s) {
+  json.key("surface").begin_object();
+  json.member("axis_y_m", s.axis_y);
+  if (s.last > s.first) {
+    json.key("stretch_x_m").begin_array().value(s.first).value(s.last).end_array();
+    json.member("max_pressure_Pa", s.max_pressure);
+    json.member("max_shear_Pa", s.max_shear);
+    json.member("max_von_mises_Pa", s.max_von_mises);
+    json.member("max_frictional_work_J_per_m2", s.max_work);
+    add_statistics(json, "axis_max_von_mises_Pa", s.von_mises);
+    add_statistics(json, "axis_frictional_work_J_in_1.1_mm_cell", s.cell_work);
+    json.member("axis_frictional_work_range_J_in_1.1_mm_cell", s.cell_work.range());
+    json.member("axis_frictional_work_range_sampled_J_in_1.1_mm_cell", s.sampled_cell_work.range());
+  }
+  json.member("frictional_work_every_step_J", s.total_work);
+  json.member("frictional_work_sampled_J", s.total_sampled_work);
+  json.member("frictional_work_sampled_difference_percent",
+              s.total_work > 0 ? 100 * (s.total_sampled_work / s.total_work - 1) : 0.0);
+  json.end_object();
+}
+
+}  // namespace
+
+std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
+  JsonWriter json;
+  json.begin_object();
+  json.member("title", std::string_view(resolved.scene.title));
+  json.member("quality", std::string_view(resolved.scene.quality));
+  json.member("elements", model.elements());
+  json.member("nodes", model.nodes());
+  json.member("steps", r.steps);
+  if (r.origin) {
+    json.key("fork").begin_object();
+    json.member("from", std::string_view(r.origin->folder));
+    json.member("time_s", r.origin->time).member("step", r.origin->steps).end_object();
+  }
+  json.member("dt_s", r.dt);
+  json.member("dt_reason", std::string_view(r.limit.reason));
+  json.member("threads", threads());
+  json.member("mesh_s", r.seconds_mesh);
+  json.member("preload_s", r.seconds_preload);
+  json.member("preload_cached", r.preload_cached != 0);
+  json.member("rolling_s", r.seconds_rolling);
+  json.member("element_steps_per_s",
+              r.seconds_rolling > 0
+                  ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling
+                  : 0.0);
+  json.member("preload_residual", r.preload.residual);
+  if (model.contact) {
+    json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);
+    json.member("static_max_pressure_Pa", r.preload.max_pressure);
+    json.member("static_max_point_pressure_Pa", r.preload.contact.max_pressure);
+    json.member("static_patch_area_m2", r.preload.contact.area);
+    json.member("static_penetration_m", r.preload.contact.max_penetration);
+    json.member("contact_centre_y_m", r.preload.contact.centre.y);
+    json.member("rail_deflection_m", r.preload.rail_deflection);
+    json.member("wheel_tilt_rad", r.preload.tilt);
+    json.member("wheelset_mass_kg", model.wheelset->mass());
+    json.member("wheelset_inertia_kg_m2", model.wheelset->inertia());
+    add_statistics(json, "vertical_force_N", r.vertical_force);
+    add_statistics(json, "longitudinal_force_N", r.longitudinal_force);
+    json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
+    json.key("steady_x_m").begin_array().value(r.steady_first).value(r.steady_last).end_array();
+    json.member("vertical_force_steady_N", r.vertical_force_steady);
+    json.member("traction_coefficient", r.traction_coefficient);
+    json.member("creepage_percent", 100 * r.creepage);
+    json.member("creepage_max_percent", 100 * r.creepage_max);
+    json.member("full_slip_share", r.full_slip_share);
+    json.member("max_pressure_Pa", r.max_pressure);
+    json.member("max_shear_Pa", r.max_shear);
+    json.member("patch_area_m2", r.patch_area);
+    json.member("frictional_work_J", r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work);
+    json.member("frictional_work_decrease_J", r.frictional_work_decrease);
+    json.member("momentum_error", r.momentum_error);
+    if (r.surface_fields) add_surface(json, r.surface);
+  }
+  json.member("energy_error", r.energy_error);
+  json.key("energy_by_body_J").begin_array();
+  for (std::size_t b = 0; b < r.block_energy.size(); ++b)
+    json.begin_object()
+        .member("body", std::string_view(model.mesh.blocks[b].name))
+        .member("strain", r.block_energy[b].strain)
+        .member("hourglass", r.block_energy[b].hourglass)
+        .end_object();
+  json.end_array();
+  json.member("state_hash", std::string_view(fmt::format("{:016x}", r.state_hash)));
+  json.end_object();
+  return json.text();
+}
+
+}  // namespace tread

@@ -1,0 +1,90 @@
+#pragma once
+// What a run leaves: histories, summary, report.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/statistics.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/patch_file.hpp"
+#include "drivers/results/surface_results.hpp"
+#include "io/files/history_file.hpp"
+#include "io/scene/scene_reader.hpp"
+
+namespace tread {
+
+/// Channels of the histories and a sample's row in their order.
+std::vector<Channel> history_channels(const Model& model);
+std::vector<double> history_row(const Model& model, const Sample& sample);
+
+/// Of a run with step `dt` [s].
+std::int64_t step_count(const Scene& scene, double dt);
+std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
+
+/// Where a run comes from that begins with another one's state.
+struct ForkOrigin {
+  std::string folder;  ///< of the other run
+  double time = 0;     ///< of the state [s]
+  std::int64_t steps = 0;
+};
+
+/// Everything that summary.json and the report state, in SI.
+struct RunResults {
+  Preload preload;
+  StepLimit limit;
+  std::vector<Sample> samples;
+  std::int64_t steps = 0;
+  std::optional<ForkOrigin> origin;  ///< of a fork; its times count from there
+  double dt = 0;
+  double seconds_mesh = 0, seconds_preload = 0, seconds_rolling = 0;
+  std::int64_t preload_cached = 0;  ///< 1: an earlier run had found it
+  std::uint64_t state_hash = 0;
+  MomentumCheck momentum;
+  std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
+  std::optional<SurfaceFields> surface_fields;  ///< none without contact
+  SurfaceResults surface;                       ///< from surface_fields
+  std::optional<RailLine> rail_line;            ///< none without contact
+  std::vector<PatchSample> instants;            ///< of patch.h5, for the report
+  std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
+
+  /// Steps that this run took itself.
+  std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
+
+  /// What a run that goes on cannot find again, the samples apart.
+  void list_state(StateList& list) {
+    list.add_part("preload", preload);
+    list.add("stable_step", limit.stable_step);
+    list.add("dt", dt);
+    list.add("seconds_mesh", seconds_mesh);
+    list.add("seconds_preload", seconds_preload);
+    list.add("seconds_rolling", seconds_rolling);
+    list.add("preload_cached", preload_cached);
+  }
+
+  Statistics vertical_force;      ///< over evaluated() [N]
+  Statistics longitudinal_force;  ///< [N]
+  double traction_coefficient =
+      0;                    ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double creepage = 0;      ///< mean of 28 nodes there [-]
+  double creepage_max = 0;  ///< mean of 28 nodes, the largest in size over the stretch of vertical_force [-]
+  double full_slip_share = 0;  ///< of the samples in contact there, those whose whole patch slides [-]
+  double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
+  double vertical_force_steady = 0;                        ///< mean there [N]
+  double energy_error = 0;                                 ///< [-]
+  double momentum_error = 0;                               ///< [-]
+  double evaluated_first = 0, evaluated_last = 0;          ///< the stretch of vertical_force [m]
+  double steady_first = 0, steady_last = 0;                ///< the stretch of the steady values [m]
+  double frictional_work_decrease = 0;  ///< largest fall between two samples, 0 when monotone [J]
+};
+
+/// Fills the figures from the samples.
+void evaluate(const Model& model, RunResults& results);
+
+std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
+
+}  // namespace tread

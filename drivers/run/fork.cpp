@@ -1,0 +1,252 @@
+#include "drivers/run/fork.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/engine/sections.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/text/text.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "DIR@TIME"
+struct Place {
+  fs::path folder;
+  std::optional<double> time;  ///< [s]
+};
+
+Place parse_place(const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || fs::is_directory(text)) return {text, std::nullopt};
+  try {
+    return {text.substr(0, at), parse_quantity(text.substr(at + 1), kTime)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--from {}: expected a run's folder and a time, such as out@10ms: {}", text,
+                                 error.what()));
+  }
+}
+
+/// Whole steps of length `dt` [s] up to a time [s].
+std::int64_t steps_until(double time, double dt) {
+  return static_cast<std::int64_t>(std::clamp(std::floor(time / dt + 1e-6), 0.0, 1e18));
+}
+
+using Found = CheckpointFolder::Found;
+
+/// Of those that the run keeps for good and the last two of a run that is not finished.
+std::optional<Found> newest(const fs::path& folder, std::int64_t last, std::vector<std::string>& refused) {
+  std::optional<Found> found = CheckpointFolder(folder / kForkFolder).newest(refused, last);
+  std::optional<Found> other = CheckpointFolder(folder / kCheckpointFolder).newest(refused, last);
+  return other && (!found || other->steps > found->steps) ? std::move(other) : std::move(found);
+}
+
+Found find_state(const Place& place, const Progress& progress) {
+  std::vector<std::string> refused;
+  std::optional<Found> found = newest(place.folder, std::numeric_limits<std::int64_t>::max(), refused);
+  if (found && place.time) {
+    const std::int64_t last = steps_until(*place.time, sealed_value<double>(found->content, "results/dt"));
+    if (found->steps > last) {
+      found.reset();
+      found = newest(place.folder, last, refused);
+    }
+  }
+  for (const std::string& reason : refused) progress.say("[fork] " + reason);
+  if (found) return std::move(*found);
+  throw InputError(
+      fmt::format("--from: {} has no state{} to begin with; a run keeps one for good where its scene has "
+                  "[forks], and its "
+                  "last two checkpoints until it is finished",
+                  place.folder.string(), place.time ? fmt::format(" up to {:g} ms", 1e3 * *place.time) : ""));
+}
+
+/// Values that may differ: what acts later than the state, or on nothing that moves.
+bool is_free(std::string_view path) {
+  constexpr std::array<std::string_view, 8> kBeginnings = {
+      "scene.title", "corrugation.", "wear.",           "output.",
+      "stop.",       "forks.",       "motion.duration", "contact.depth_room"};
+  return begins_with_any(path, kBeginnings);
+}
+
+/// "motion.speed (300 km/h there, 250 km/h here)" for each value that `counts` and differs.
+template <class Counts>
+std::vector<std::string> differences(const ResolvedScene& there, const ResolvedScene& here,
+                                     const Counts& counts) {
+  std::map<std::string, std::array<std::string, 2>> values;  // of each key, as shown
+  std::map<std::string, std::array<std::string, 2>> exact;
+  for (std::size_t side = 0; side < 2; ++side)
+    for (const Entry& entry : (side == 0 ? there : here).entries) {
+      if (!counts(entry.path)) continue;
+      values[entry.path][side] = entry.shown;
+      exact[entry.path][side] = entry.value + " " + entry.unit;
+    }
+  std::vector<std::string> texts;
+  for (const auto& [path, shown] : values) {
+    if (exact[path][0] == exact[path][1]) continue;
+    const auto text = [](const std::string& value) { return value.empty() ? "absent" : value; };
+    texts.push_back(fmt::format("{} ({} there, {} here)", path, text(shown[0]), text(shown[1])));
+  }
+  return texts;
+}
+
+bool same_profiles(const Scene& a, const Scene& b) {
+  const auto same = [](const auto& one, const auto& other) {
+    return one.has_value() == other.has_value() &&
+           (!one || (one->profile_y == other->profile_y && one->profile_z == other->profile_z));
+  };
+  return same(a.wheel, b.wheel) && same(a.rail, b.rail);
+}
+
+/// Moved nodes are another mesh.
+std::vector<std::string> mesh_differences(const ResolvedScene& there, const ResolvedScene& here) {
+  const auto by_nodes = [](const Scene& scene) {
+    return scene.corrugation && scene.corrugation->apply == "nodes";
+  };
+  if (!by_nodes(there.scene) && !by_nodes(here.scene)) return {};
+  std::vector<std::string> texts =
+      differences(there, here, [](const std::string& path) { return path.starts_with("corrugation."); });
+  if (texts.empty() && there.scene.corrugation->table_depth != here.scene.corrugation->table_depth)
+    texts.emplace_back("corrugation.file (other depths)");
+  if (!texts.empty()) texts.emplace_back("which state corrugation.apply = \"gap\" in both would allow");
+  return texts;
+}
+
+void require_same_start(const std::string& from, const ResolvedScene& there, const ResolvedScene& here) {
+  std::vector<std::string> texts =
+      differences(there, here, [](const std::string& path) { return !is_free(path); });
+  for (std::string& text : mesh_differences(there, here)) texts.push_back(std::move(text));
+  if (!same_profiles(there.scene, here.scene)) texts.emplace_back("a file of a profile (other values)");
+  if (texts.empty()) return;
+  throw InputError(
+      fmt::format("--from {}: the scenes differ in what the state there depends on: {}; a fork may have "
+                  "another corrugation "
+                  "by gap, a shorter motion.duration, other output.*, stop.* and forks.*; for the rest start "
+                  "a run of its own",
+                  from, fmt::join(texts, ", ")));
+}
+
+/// Corrugation depth that the searched surface of the scene's run has room for [m].
+double room_of(const Scene& scene) {
+  return std::max(depth_room(scene), corrugation_depth(scene));
+}
+
+void require_room(const std::string& from, const Scene& scene, double room) {
+  const double deepest = corrugation_depth(scene);
+  if (deepest > room)
+    throw InputError(
+        fmt::format("--from {}: the corrugation is {:.4g} mm deep, the run there has searched the surface "
+                    "for one of at most "
+                    "{:.4g} mm; that run's scene needs contact.depth_room = \"{:.4g} mm\"",
+                    from, 1e3 * deepest, 1e3 * room, 1e3 * deepest));
+  const std::optional<double>& stated = scene.contact->depth_room;
+  if (stated && *stated != room)
+    throw InputError(
+        fmt::format("--from {}: contact.depth_room = {:.4g} mm, but a fork has that of the run there, {:.4g} "
+                    "mm; leave it out",
+                    from, 1e3 * *stated, 1e3 * room));
+}
+
+/// The same mesh and searched surface as in the other run; its own end comes later, as in a resumed run.
+RunOrder order_of(RunOrder wanted, const ResolvedScene& here, const ResolvedScene& there) {
+  const double planned = there.scene.motion->duration;
+  const double duration = here.scene.motion->duration;
+  wanted.overrides.push_back(fmt::format("motion.duration={} s", planned));
+  wanted.overrides.push_back(fmt::format("contact.depth_room={} m", room_of(there.scene)));
+  if (duration != planned) wanted.later.push_back(fmt::format("motion.duration={} s", duration));
+  wanted.resolved = resolved_toml(resolve_scene(wanted.scene, wanted.overrides));
+  return wanted;
+}
+
+/// The state as a checkpoint of the run that begins: with its order, without the times that the other took.
+/// When surfaces cannot touch yet has to be found anew.
+SealedContent state_of(SealedContent content, const RunOrder& order) {
+  std::erase_if(content, [](const auto& entry) { return entry.first.starts_with("order/"); });
+  content.merge(pack_order(order));
+  for (const char* name : {"results/seconds_mesh", "results/seconds_preload", "results/seconds_rolling"})
+    content[name] = std::vector<double>{0};
+  std::vector<double> wake = sealed_entry<std::vector<double>>(content, "state/contact/wake_time");
+  std::fill(wake.begin(), wake.end(), -std::numeric_limits<double>::infinity());
+  content["state/contact/wake_time"] = std::move(wake);
+  return content;
+}
+
+}  // namespace
+
+Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& progress) {
+  const ResolvedScene here = resolve_scene(wanted.scene, wanted.overrides);
+  const Place place = parse_place(from);
+  Found found = find_state(place, progress);
+  const ResolvedScene there = resolve_order(unpack_order(found.content), place.folder);
+  if (!here.scene.motion || !here.scene.contact)
+    throw InputError(fmt::format("--from {}: a fork needs [motion] and [contact]", from));
+  require_same_start(from, there, here);
+  const double room = room_of(there.scene);
+  require_room(from, here.scene, room);
+  Fork fork{order_of(wanted, here, there), {}, there.scene.corrugation};
+  fork.order.origin = {place.folder.string(), sealed_value<double>(found.content, "state/time"), found.steps};
+  fork.content = state_of(std::move(found.content), fork.order);
+  return fork;
+}
+
+void require_same_past(const Fork& fork, const Model& model) {
+  constexpr double kSame = 1e-9;  // [m]
+  const Corrugation& here = model.contact->corrugation();
+  const Corrugation there =
+      fork.corrugation ? corrugation_of(*fork.corrugation, fork.corrugation->centre.value_or(here.centre()))
+                       : Corrugation{};
+  static_assert(offsetof(BodyFrame, origin) == 0 && offsetof(Vec3, x) == 0);
+  const auto& wheel_frame = sealed_entry<std::vector<double>>(fork.content, "state/wheel_frame");
+  const double reached = wheel_frame.at(0) + model.contact->reach();
+  const std::optional<double> differs = first_difference(here, there, reached, kSame);
+  if (!differs) return;
+  throw InputError(
+      fmt::format("--from {}: at t = {:.6g} ms the patch may reach x = {:.4f} m, but the corrugations differ "
+                  "by more than 1 nm "
+                  "from x = {:.4f} m on; fork at an earlier time, or let the corrugation begin later",
+                  fork.order.origin->folder, 1e3 * fork.order.origin->time, reached, *differs));
+}
+
+double Approach::time(const MotionSpec& motion, double x) const {
+  const double acceleration = std::abs(wheel.acceleration(motion));  // reversals drive a braked wheel
+  const double way = x - before;
+  if (way <= 0 || motion.speed <= 0) return 0;
+  return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
+}
+
+Approach approach_of(const Model& model) {
+  constexpr double kMargin = 0.02;  // [m]
+  return {model.contact->reach() + kMargin, driven_wheel(model.scene)};
+}
+
+std::optional<std::int64_t> fork_step(const Model& model, double dt) {
+  const Scene& scene = model.scene;
+  if (!scene.forks || !model.contact) return std::nullopt;
+  if (scene.forks->at) return steps_until(*scene.forks->at, dt);
+  const Corrugation& corrugation = model.contact->corrugation();
+  const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
+  const double time = approach_of(model).time(*scene.motion, start);
+  if (time <= 0)
+    throw InputError(fmt::format(
+        "[forks]: at the start the patch is less than 20 mm from x = {:.4f} m, where the corrugation or the "
+        "solution zone begins, or the wheel stands; state forks.at",
+        start));
+  return steps_until(time, dt);
+}
+
+}  // namespace tread

@@ -1,0 +1,50 @@
+#pragma once
+// Runs that begin with the state of another one, over another corrugation. [reliability.md, Fork]
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/corrugation.hpp"
+#include "core/travel.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/run_checkpoint.hpp"
+
+namespace tread {
+
+inline constexpr const char* kForkFolder = "forks";  ///< of a run's folder: states that stay
+
+/// A run that begins with another one's state.
+struct Fork {
+  RunOrder order;                              ///< of the run that begins
+  SealedContent content;                       ///< the state, as a checkpoint of that run
+  std::optional<CorrugationSpec> corrugation;  ///< of the other run
+};
+
+/// From "DIR@TIME", such as "out@10 ms": the last state that the run in DIR has kept up to that time; from
+/// "DIR": its last. `wanted`: the run that begins, its scene's source, overrides and command. InputError
+/// where there is no such state, or where the scenes differ in what the state depends on.
+Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& progress);
+
+/// InputError where the rail that the wheel has met so far is not that of the other run. `model`: of the run
+/// that begins, corrugated.
+void require_same_past(const Fork& fork, const Model& model);
+
+/// What tells when the wheel of a run with [forks] comes near a place.
+struct Approach {
+  double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
+  DrivenWheel wheel;
+
+  /// By which the wheel is surely not nearer, traction included; not positive where it begins nearer. [s]
+  double time(const MotionSpec& motion, double x) const;
+};
+
+/// `model`: before the corrugation is applied, or with the deepest one.
+Approach approach_of(const Model& model);
+
+/// Steps of length `dt` [s] after which the run keeps the state for its forks; nothing where the scene wants
+/// none. InputError where the corrugation begins too near for ForkSpec::at to be left out.
+std::optional<std::int64_t> fork_step(const Model& model, double dt);
+
+}  // namespace tread

@@ -1,0 +1,168 @@
+#include "drivers/run/preload_cache.hpp"
+
+#include <fmt/core.h>
+#include <gnu/libc-version.h>
+
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/math/hash.hpp"
+#include "drivers/engine/station_plan.hpp"
+#include "drivers/run/run_checkpoint.hpp"
+#include "io/text/text.hpp"
+#include "io/text/text_file.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kOff = "off";
+constexpr const char* kGroup = "preload";
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+fs::path usual_folder() {
+  const std::string xdg = environment("XDG_CACHE_HOME");
+  if (fs::path(xdg).is_absolute()) return fs::path(xdg) / "tread";
+  const std::string home = environment("HOME");
+  return home.empty() ? fs::path() : fs::path(home) / ".cache/tread";
+}
+
+std::int64_t limit() {
+  constexpr double kUsual = 4e9;  // [B]
+  const std::string stated = environment("TREAD_CACHE_LIMIT");
+  if (stated.empty()) return static_cast<std::int64_t>(kUsual);
+  try {
+    return static_cast<std::int64_t>(std::clamp(parse_quantity(stated, kData), 0.0, 1e18));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("TREAD_CACHE_LIMIT: {}", error.what()));
+  }
+}
+
+/// Of the running program's own bytes: another build may find other bits.
+std::uint64_t program_hash() {
+  const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
+  Hash hash;
+  hash.add(std::as_bytes(std::span(program)));
+  return hash.value();
+}
+
+StateList fields_of(Preload& preload) {
+  StateList list;
+  preload.list_state(list);
+  list.add("displacement", std::span<double>(preload.displacement));
+  if (preload.run_in) list.add_part("run_in", *preload.run_in);
+  return list;
+}
+
+Preload unpack_preload(const SealedContent& content, const Model& model) {
+  Preload preload;
+  preload.displacement.resize(static_cast<std::size_t>(3 * model.mesh.slots));
+  const auto sections = content.find(fmt::format("{}/run_in/sections", kGroup));
+  if (sections != content.end()) {
+    const std::size_t values = std::get<std::vector<double>>(sections->second).size();
+    preload.run_in.emplace().sections.resize(values / (sizeof(RunIn::Section) / sizeof(double)));
+  }
+  unpack(content, kGroup, fields_of(preload));
+  return preload;
+}
+
+}  // namespace
+
+std::optional<ContentCache> preload_cache(const std::string& place) {
+  const std::string stated = place.empty() ? environment("TREAD_CACHE") : place;
+  if (stated == kOff) return std::nullopt;
+  const fs::path folder = stated.empty() ? usual_folder() : fs::path(stated);
+  if (folder.empty()) return std::nullopt;
+  return ContentCache(folder, limit());
+}
+
+bool acts_on_rolling_alone(std::string_view path) {
+  constexpr std::array<std::string_view, 10> kBeginnings = {"scene.title",
+                                                            "corrugation.",
+                                                            "wear.",
+                                                            "output.",
+                                                            "stop.",
+                                                            "forks.",
+                                                            "contact.friction",
+                                                            "motion.traction.",
+                                                            "motion.step_safety",
+                                                            "contact.depth_room"};
+  return begins_with_any(path, kBeginnings);
+}
+
+std::string preload_key(const ResolvedScene& resolved, const Model& model) {
+  std::string key = fmt::format("program {:016x}\nlibrary {}\ninstruction set {}\n", program_hash(),
+                                gnu_get_libc_version(), model.internal->instruction_set());
+  for (const Entry& entry : resolved.entries)
+    if (!acts_on_rolling_alone(entry.path))
+      key += fmt::format("{} = {} {}\n", entry.path, entry.value, entry.unit);
+  const Span run = run_span(resolved.scene);  // traction acts on the mesh, too
+  key += fmt::format("run {} m to {} m\n", run.first, run.last);
+  for (const auto& [name, text] : resolved.source.files)
+    if (!resolved.scene.corrugation || name != resolved.scene.corrugation->file)
+      key += fmt::format("{}:\n{}\n", name, text);
+  return key;
+}
+
+std::optional<Preload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
+                                      const ProgressText& say) {
+  std::string refused;
+  const std::optional<SealedContent> content = cache.find(key, refused);
+  try {
+    if (!content && refused.empty()) return std::nullopt;
+    if (!content) throw InputError(refused);
+    Preload preload = unpack_preload(*content, model);
+    if (model.contact) model.contact->find_static({preload.displacement.data(), nullptr, &preload.wheel});
+    return preload;
+  } catch (const InputError& error) {
+    say(fmt::format("{}; solved again", error.what()));
+    return std::nullopt;
+  }
+}
+
+std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
+                                      const ProgressText& say, const std::function<void()>& wait) {
+  using Clock = std::chrono::steady_clock;
+  constexpr auto kLongest = std::chrono::minutes(30);
+  constexpr auto kLook = std::chrono::milliseconds(100);
+  const Clock::time_point started = Clock::now();
+  bool told = false;
+  try {
+    while (Clock::now() - started < kLongest) {
+      if (std::optional<FileLock> claim = cache.claim(key)) return claim;
+      if (!std::exchange(told, true)) say("another process solves it; waiting for that");
+      wait();
+      std::this_thread::sleep_for(kLook);
+    }
+    say("the other process has not solved it in half an hour; solved here");
+  } catch (const ResourceError&) {
+    // keep_preload() tells of a folder that cannot be written.
+  }
+  return std::nullopt;
+}
+
+void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,
+                  const ProgressText& say) {
+  try {
+    SealedContent content;
+    pack(fields_of(preload), kGroup, content);
+    cache.store(key, std::move(content));
+  } catch (const ResourceError& error) {
+    say(fmt::format("not kept for later runs: {}; --cache names another folder, or off", error.what()));
+  }
+}
+
+}  // namespace tread

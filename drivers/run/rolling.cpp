@@ -1,0 +1,288 @@
+#include "drivers/run/rolling.hpp"
+
+#include <fmt/core.h>
+
+#include <type_traits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/run/fork.hpp"
+#include "io/report/plain_text.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kLookInterval = 16;         ///< steps between looks at the clock
+constexpr double kRequestInterval = 0.5;  ///< between looks into the folder [s]
+
+std::string instant(double time, std::int64_t steps) {
+  return fmt::format("t = {:.6e} s (step {})", time, steps);
+}
+
+}  // namespace
+
+Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
+    : session_(&session), model_(&model), results_(&results) {
+  end_ = step_count(model.scene, results.dt);
+  fork_step_ = fork_step(model, results.dt);
+  if (results.origin && results.origin->steps == fork_step_) fork_step_.reset();  // the other run has it
+}
+
+void Rolling::begin() {
+  simulation_.emplace(*model_, results_->preload, results_->dt);
+  AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has its own
+  files_.emplace(*model_, session_->folder.path());
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
+}
+
+void Rolling::go_on(const SealedContent& checkpoint) {
+  simulation_.emplace(*model_, results_->preload.contact.centre.y, results_->dt);
+  unpack_state(checkpoint, *model_, *simulation_);
+  const auto patch = checkpoint.find("patch.h5");
+  files_.emplace(*model_, session_->folder.path(), results_->samples,
+                 patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
+  frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
+  written_ = Mark{simulation_->steps(), simulation_->time()};
+  seconds_before_ = results_->seconds_rolling;
+  if (simulation_->steps() > end_)
+    throw InputError(fmt::format("motion.duration = {:g} ms: the run has already come to {}",
+                                 1e3 * model_->scene.motion->duration,
+                                 instant(written_->time, written_->steps)));
+}
+
+void Rolling::to_the_end() {
+  simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
+  started_ = checkpoint_at_ = session_->progress.seconds();
+  started_steps_ = simulation_->steps();
+  session_->interruption.defer();
+  try {
+    if (!written_) write_checkpoint();  // the preload is dear
+    step_to_the_end();
+    wait_for_writer();
+    files_->close();
+  } catch (const NumericalError& error) {
+    end_with_what_is_left<NumericalError>(error.what());
+  } catch (const ResourceError& error) {
+    end_with_what_is_left<ResourceError>(error.what());
+  }
+  fill_results();
+}
+
+void Rolling::step_to_the_end() {
+  const int most = model_->scene.stop.steps;
+  while (simulation_->steps() < end_) {
+    if (most > 0 && simulation_->steps() >= most) end<ResourceError>(fmt::format("stop.steps = {}", most));
+    if (simulation_->steps() == fork_step_) keep_for_forks();
+    simulation_->step();
+    if (simulation_->sampled()) {
+      results_->samples.push_back(simulation_->sample());
+      files_->append(simulation_->sample());
+    }
+    look();
+  }
+}
+
+/// Between two steps.
+void Rolling::look() {
+  if (frames_->due(simulation_->steps())) write_frame();
+  if (const char* signal = Interruption::stop_wanted()) leave(signal);
+  if (Interruption::take_checkpoint_wanted()) write_checkpoint();
+  if (simulation_->sampled()) check_penetration();
+  if (simulation_->steps() % kLookInterval != 0) return;
+  const double now = session_->progress.seconds();
+  if (!writer_.running()) wait_for_writer();
+  const bool sound = simulation_->energy_watch().share() <= 1;
+  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && sound)
+    write_checkpoint();
+  if (session_->progress.due(model_->scene.output.progress_interval)) {
+    session_->progress.say(progress_line());
+    session_->folder.show_status(status());
+  }
+  if (now - looked_at_ < kRequestInterval) return;
+  looked_at_ = now;
+  const std::optional<RunRequest> request = session_->folder.take_request();
+  if (request == RunRequest::checkpoint) write_checkpoint();
+  if (request == RunRequest::frame) write_frame();
+  if (request == RunRequest::stop) leave("tread ctl");
+  if (const auto limit = model_->scene.stop.wall_time; limit && now > *limit)
+    leave(fmt::format("stop.wall_time = {}", duration_text(*limit)));
+  check_disk();
+}
+
+void Rolling::check_disk() {
+  const std::optional<double>& disk = model_->scene.output.disk_limit;
+  if (!disk) return;
+  if (const std::int64_t bytes = session_->folder.bytes(); static_cast<double>(bytes) > *disk)
+    end<ResourceError>(fmt::format("{} has {}, more than output.disk_limit = {}",
+                                   session_->folder.path().string(), bytes_text(bytes),
+                                   bytes_text(static_cast<std::int64_t>(*disk))));
+}
+
+void Rolling::check_penetration() {
+  const StopSpec& stop = model_->scene.stop;
+  const double penetration = simulation_->sample().max_penetration;
+  if (stop.penetration && penetration > *stop.penetration)
+    end<NumericalError>(
+        fmt::format("the wheel has penetrated the rail by {:.4g} um, more than stop.penetration "
+                    "= {:.4g} um",
+                    1e6 * penetration, 1e6 * *stop.penetration));
+}
+
+/// A motion that is not finite is not kept; the energies' watch soon ends it.
+void Rolling::write_checkpoint() {
+  wait_for_writer();
+  if (!simulation_->finite()) return;
+  const Mark mark{simulation_->steps(), simulation_->time()};
+  results_->seconds_rolling = seconds();
+  writer_.start([this, mark,
+                 content = pack_run(session_->order, *results_, *model_, *simulation_,
+                                    files_->patch_bytes())]() mutable {
+    session_->checkpoints.write(mark.steps, std::move(content), session_->options.observer);
+  });
+  being_written_ = mark;
+  checkpoint_at_ = session_->progress.seconds();
+  if (!Hdf5File::thread_safe()) wait_for_writer();
+}
+
+void Rolling::keep_for_forks() {
+  wait_for_writer();
+  results_->seconds_rolling = seconds();
+  const CheckpointFolder folder(session_->folder / kForkFolder);
+  folder.keep(simulation_->steps(),
+              pack_run(session_->order, *results_, *model_, *simulation_, files_->patch_bytes()));
+  session_->progress.say(
+      fmt::format("[fork] {} is kept: `tread run OTHER.toml --from {} -o OTHER` begins there",
+                  instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
+}
+
+/// Of a motion that is finite.
+void Rolling::write_frame() {
+  wait_for_writer();
+  if (!simulation_->finite()) return;
+  frames_->copy(*simulation_);
+  writer_.start([this] { frames_->write(); });
+  if (!Hdf5File::thread_safe()) wait_for_writer();
+}
+
+void Rolling::wait_for_writer() {
+  const std::optional<Mark> mark = std::exchange(being_written_, std::nullopt);
+  writer_.wait();
+  if (!mark) return;
+  written_ = mark;
+  session_->progress.say(fmt::format("[checkpoint] {}", instant(mark->time, mark->steps)));
+}
+
+/// Leaves a checkpoint and the process, but for a motion that is not finite: that has its own end.
+void Rolling::leave(const std::string& why) {
+  if (!simulation_->finite()) return;
+  write_checkpoint();
+  wait_for_writer();
+  files_->close();
+  const std::string text =
+      fmt::format("stopped at {} by {}; nothing is lost: {} goes on",
+                  instant(simulation_->time(), simulation_->steps()), why, session_->way_on());
+  session_->enter("stopped", text);
+  throw Interrupted(text);
+}
+
+/// Of a run in a sound state.
+template <class E>
+void Rolling::end(const std::string& why) {
+  write_checkpoint();
+  throw E(fmt::format("stopped at {}: {}", instant(simulation_->time(), simulation_->steps()), why));
+}
+
+/// How the run can go on after an error of type E.
+template <class E>
+std::string Rolling::way_on() const {
+  if (!written_) return fmt::format("there is no checkpoint yet: {} starts again", session_->way_on());
+  std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
+                                 instant(written_->time, written_->steps), session_->way_on());
+  if (!std::is_same_v<E, NumericalError>) return last;
+  return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
+}
+
+template <class E>
+void Rolling::end_with_what_is_left(const std::string& why) {
+  std::string text = why;
+  try {
+    wait_for_writer();
+  } catch (const ResourceError& error) {
+    text += fmt::format("; {}", error.what());
+  }
+  close_quietly();
+  text +=
+      fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
+  text += "; " + way_on<E>();
+  session_->folder.show_status(
+      session_->status("failed").member("text", std::string_view(text)).end_object().text());
+  throw E(text);
+}
+
+/// The error that is on its way matters more.
+void Rolling::close_quietly() {
+  try {
+    files_->close();
+  } catch (const Error&) {
+  }
+}
+
+double Rolling::seconds() const {
+  return seconds_before_ + session_->progress.seconds() - started_;
+}
+
+std::string Rolling::progress_line() const {
+  const Sample& sample = simulation_->sample();
+  const double end = model_->scene.motion->duration;
+  const double per_step =
+      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
+  std::string line =
+      fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation_->time(), 1e3 * end,
+                  100 * simulation_->time() / end, simulation_->dt());
+  if (model_->contact)
+    line +=
+        fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
+                    sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
+  line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
+                      1e9 * per_step / static_cast<double>(model_->elements()),
+                      duration_text(per_step * static_cast<double>(end_ - simulation_->steps())));
+  return line;
+}
+
+std::string Rolling::status() const {
+  const Sample& sample = simulation_->sample();
+  const double per_step =
+      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
+  JsonWriter json = session_->status("rolling");
+  json.member("time_s", simulation_->time()).member("duration_s", model_->scene.motion->duration);
+  json.member("step", simulation_->steps()).member("steps", end_).member("dt_s", simulation_->dt());
+  if (model_->contact)
+    json.member("wheel_x_m", sample.wheel_x)
+        .member("vertical_force_N", sample.vertical_force)
+        .member("longitudinal_force_N", sample.longitudinal_force);
+  json.member("energy_residual_J", sample.energy.residual);
+  json.member("rolling_s", seconds());
+  json.member("left_s", per_step * static_cast<double>(end_ - simulation_->steps()));
+  json.member("frames", frames_->count());
+  json.member("folder_bytes", session_->folder.bytes());
+  json.key("checkpoint_time_s");
+  if (written_)
+    json.value(written_->time);
+  else
+    json.null();
+  return json.end_object().text();
+}
+
+void Rolling::fill_results() {
+  results_->seconds_rolling = seconds();
+  results_->steps = simulation_->steps();
+  results_->state_hash = simulation_->state_hash();
+  results_->momentum = simulation_->momentum_check();
+  results_->surface_fields = simulation_->surface();
+  results_->rail_line = simulation_->rail_line();
+  for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
+    results_->block_energy.push_back(simulation_->fields().energy(b));
+}
+
+}  // namespace tread

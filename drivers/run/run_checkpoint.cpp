@@ -1,0 +1,193 @@
+#include "drivers/run/run_checkpoint.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+void pack_texts(const std::string& group, const std::vector<std::string>& texts, SealedContent& content) {
+  content[group + "/count"] = std::vector<std::int64_t>{static_cast<std::int64_t>(texts.size())};
+  for (std::size_t i = 0; i < texts.size(); ++i) content[fmt::format("{}/{}", group, i)] = texts[i];
+}
+
+std::vector<std::string> unpack_texts(const SealedContent& content, const std::string& group) {
+  std::vector<std::string> texts;
+  const std::int64_t count = sealed_value<std::int64_t>(content, group + "/count");
+  for (std::int64_t i = 0; i < count; ++i)
+    texts.push_back(sealed_entry<std::string>(content, fmt::format("{}/{}", group, i)));
+  return texts;
+}
+
+/// Two meshes agree in these where they agree in every node, but for the last digits of another machine.
+std::vector<double> fingerprint(const Model& model) {
+  double sum = 0;
+  double moment = 0;
+  for (std::size_t i = 0; i < model.mass.size(); ++i) {
+    sum += model.mass[i];
+    moment += model.mass[i] * static_cast<double>(i);
+  }
+  return {static_cast<double>(model.mesh.slots), static_cast<double>(model.restrained.size()), sum, moment};
+}
+
+void check_mesh(const SealedContent& content, const Model& model) {
+  const auto& stored = sealed_entry<std::vector<double>>(content, "made/mesh");
+  const std::vector<double> found = fingerprint(model);
+  constexpr double kRounding = 1e-9;
+  const bool same = std::equal(stored.begin(), stored.end(), found.begin(), found.end(),
+                               [](double a, double b) { return std::abs(a - b) <= kRounding * std::abs(b); });
+  if (!same)
+    throw InputError(
+        "it was made on another mesh than this program makes of the scene; go on with the program that wrote "
+        "it");
+}
+
+const std::string kSamples = "samples";
+
+}  // namespace
+
+SealedContent pack_order(const RunOrder& order) {
+  SealedContent content;
+  content["order/scene/name"] = order.scene.name;
+  content["order/scene/text"] = order.scene.text;
+  content["order/scene/folder"] = order.scene.folder.string();
+  std::vector<std::string> names, texts;
+  for (const auto& [name, text] : order.scene.files) {
+    names.push_back(name);
+    texts.push_back(text);
+  }
+  pack_texts("order/file_names", names, content);
+  pack_texts("order/file_texts", texts, content);
+  pack_texts("order/overrides", order.overrides, content);
+  pack_texts("order/later", order.later, content);
+  content["order/resolved"] = order.resolved;
+  content["order/command"] = order.command;
+  if (order.origin) {
+    content["order/origin/folder"] = order.origin->folder;
+    content["order/origin/time"] = std::vector<double>{order.origin->time};
+    content["order/origin/steps"] = std::vector<std::int64_t>{order.origin->steps};
+  }
+  return content;
+}
+
+RunOrder unpack_order(const SealedContent& content) {
+  const auto text = [&](const char* name) { return sealed_entry<std::string>(content, name); };
+  RunOrder order;
+  order.scene.name = text("order/scene/name");
+  order.scene.text = text("order/scene/text");
+  order.scene.folder = text("order/scene/folder");
+  const std::vector<std::string> names = unpack_texts(content, "order/file_names");
+  const std::vector<std::string> texts = unpack_texts(content, "order/file_texts");
+  for (std::size_t i = 0; i < std::min(names.size(), texts.size()); ++i)
+    order.scene.files[names[i]] = texts[i];
+  order.overrides = unpack_texts(content, "order/overrides");
+  order.later = unpack_texts(content, "order/later");
+  order.resolved = text("order/resolved");
+  order.command = text("order/command");
+  if (content.contains("order/origin/folder"))
+    order.origin = {text("order/origin/folder"), sealed_value<double>(content, "order/origin/time"),
+                    sealed_value<std::int64_t>(content, "order/origin/steps")};
+  return order;
+}
+
+ResolvedScene resolve_order(const RunOrder& order, const std::filesystem::path& folder) {
+  ResolvedScene resolved = resolve_scene(order.scene, order.overrides);
+  if (resolved_toml(resolved) != order.resolved)
+    throw InputError(
+        fmt::format("{}: this program reads other values from the scene than the one that began "
+                    "the run; go on with that one",
+                    folder.string()));
+  return resolved;
+}
+
+void pack(const StateList& list, const std::string& group, SealedContent& content) {
+  for (const StateList::Field& field : list.fields())
+    std::visit(
+        [&](auto values) { content[group + "/" + field.name] = std::vector(values.begin(), values.end()); },
+        field.values);
+}
+
+void unpack(const SealedContent& content, const std::string& group, const StateList& list) {
+  for (const StateList::Field& field : list.fields()) {
+    const std::string name = group + "/" + field.name;
+    std::visit(
+        [&](auto values) {
+          using Value = typename decltype(values)::value_type;
+          const auto& stored = sealed_entry<std::vector<Value>>(content, name);
+          if (stored.size() != values.size())
+            throw InputError(
+                fmt::format("'{}' has {} values, this scene needs {}", name, stored.size(), values.size()));
+          std::copy(stored.begin(), stored.end(), values.begin());
+        },
+        field.values);
+  }
+  const auto known = static_cast<std::ptrdiff_t>(list.fields().size());
+  const auto stored = std::count_if(content.begin(), content.end(),
+                                    [&](const auto& entry) { return entry.first.starts_with(group + "/"); });
+  if (stored != known)
+    throw InputError(fmt::format("'{}' has {} fields, this program knows {}", group, stored, known));
+}
+
+SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model, Simulation& simulation,
+                       std::string patch) {
+  SealedContent content = pack_order(order);
+  content["made/version"] = std::string(TREAD_VERSION);
+  content["made/instruction_set"] = std::string(model.internal->instruction_set());
+  content["made/lanes"] = std::vector<std::int64_t>{kLanes};
+  content["made/mesh"] = fingerprint(model);
+  content["made/state_hash"] = std::vector{static_cast<std::int64_t>(simulation.state_hash())};
+  StateList list;
+  results.list_state(list);
+  pack(list, "results", content);
+  content["step/reason"] = results.limit.reason;
+  StateList samples;
+  samples.add_records(kSamples, std::span(results.samples));
+  pack(samples, "histories", content);
+  pack(simulation.state(), "state", content);
+  if (!patch.empty()) content["patch.h5"] = std::move(patch);
+  return content;
+}
+
+void unpack_results(const SealedContent& content, RunResults& results) {
+  StateList list;
+  results.list_state(list);
+  unpack(content, "results", list);
+  results.limit.reason = sealed_entry<std::string>(content, "step/reason");
+  constexpr std::size_t kValues = sizeof(Sample) / sizeof(double);
+  results.samples.resize(sealed_entry<std::vector<double>>(content, "histories/" + kSamples).size() /
+                         kValues);
+  StateList samples;
+  samples.add_records(kSamples, std::span(results.samples));
+  unpack(content, "histories", samples);
+}
+
+void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation) {
+  const std::int64_t lanes = sealed_value<std::int64_t>(content, "made/lanes");
+  if (lanes != kLanes)
+    throw InputError(
+        fmt::format("it was made with {} lanes, this program has {}; go on with the program that "
+                    "wrote it",
+                    lanes, kLanes));
+  check_mesh(content, model);
+  unpack(content, "state", simulation.state());
+  const auto hash = static_cast<std::uint64_t>(sealed_value<std::int64_t>(content, "made/state_hash"));
+  if (hash != simulation.state_hash()) throw InputError("its state hash differs");
+}
+
+std::string other_origin(const SealedContent& content, const Model& model) {
+  const std::string& version = sealed_entry<std::string>(content, "made/version");
+  const std::string& set = sealed_entry<std::string>(content, "made/instruction_set");
+  if (version != TREAD_VERSION) return fmt::format("version {} wrote it, this is {}", version, TREAD_VERSION);
+  if (set != model.internal->instruction_set())
+    return fmt::format("it was written with {}, this machine computes with {}", set,
+                       model.internal->instruction_set());
+  return "";
+}
+
+}  // namespace tread

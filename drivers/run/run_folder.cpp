@@ -1,0 +1,122 @@
+#include "drivers/run/run_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/files/output_file.hpp"
+#include "io/text/text_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRequest = "request";
+constexpr const char* kStatus = "status.json";
+
+/// ResourceError where another process owns the folder.
+FileLock take(const fs::path& folder) {
+  std::optional<FileLock> lock = FileLock::try_folder(folder);
+  if (lock) return std::move(*lock);
+  throw ResourceError(fmt::format(
+      "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
+      "choose another folder",
+      folder.string(), folder.string(), folder.string()));
+}
+
+const char* name_of(RunRequest request) {
+  switch (request) {
+    case RunRequest::checkpoint:
+      return "checkpoint";
+    case RunRequest::frame:
+      return "frame";
+    case RunRequest::stop:
+      break;
+  }
+  return "stop";
+}
+
+/// Nothing where it is not what leave_request() left.
+std::optional<RunRequest> read_request(const fs::path& path) {
+  std::string text;
+  try {
+    constexpr std::size_t kLongest = 100;
+    text = read_text_file(path, kLongest);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  for (const RunRequest request : {RunRequest::checkpoint, RunRequest::frame, RunRequest::stop})
+    if (text == fmt::format("{}\n", name_of(request))) return request;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string folder_name(const fs::path& folder) {
+  const fs::path normal = folder.lexically_normal();
+  return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
+}
+
+void require_no_run(const fs::path& folder) {
+  for (const char* name : {"run.h5", "histories.csv", kCheckpointFolder})
+    if (fs::exists(folder / name))
+      throw InputError(
+          fmt::format("-o {}: it holds a run of `tread run` ({}), whose results would be overwritten; choose "
+                      "another folder",
+                      folder.string(), name));
+}
+
+bool is_taken(const fs::path& folder) {
+  return !FileLock::try_folder(folder);
+}
+
+void leave_request(const fs::path& folder, RunRequest request) {
+  write_text_file(folder / kRequest, fmt::format("{}\n", name_of(request)));
+}
+
+bool is_pending(const fs::path& folder) {
+  return fs::exists(folder / kRequest);
+}
+
+RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_)) {
+  std::error_code ignored;
+  fs::remove(path_ / kRequest, ignored);
+}
+
+std::optional<RunRequest> RunFolder::take_request() const {
+  const fs::path path = path_ / kRequest;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return std::nullopt;
+  const std::optional<RunRequest> request = read_request(path);
+  fs::remove(path, ignored);
+  return request;
+}
+
+bool RunFolder::take_stop() const {
+  const fs::path path = path_ / kRequest;
+  std::error_code ignored;
+  if (!fs::exists(path, ignored) || read_request(path) != RunRequest::stop) return false;
+  fs::remove(path, ignored);
+  return true;
+}
+
+void RunFolder::show_status(const std::string& json) const {
+  try {
+    show_text_file(path_ / kStatus, json);
+  } catch (const ResourceError&) {  // what matters will say so itself
+  }
+}
+
+std::int64_t RunFolder::bytes() const {
+  std::int64_t sum = 0;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_, ignored))
+    if (entry.is_regular_file(ignored)) sum += static_cast<std::int64_t>(entry.file_size(ignored));
+  return sum;
+}
+
+}  // namespace tread

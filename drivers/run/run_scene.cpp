@@ -1,0 +1,302 @@
+#include "drivers/run/run_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/report/instants.hpp"
+#include "drivers/report/run_report.hpp"
+#include "drivers/results/deflection.hpp"
+#include "drivers/results/disk_use.hpp"
+#include "drivers/results/frame_files.hpp"
+#include "drivers/results/run_results.hpp"
+#include "drivers/run/fork.hpp"
+#include "drivers/run/preload_cache.hpp"
+#include "drivers/run/rolling.hpp"
+#include "drivers/run/run_session.hpp"
+#include "drivers/run/scene_content.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/plain_text.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kMovieFrames = 200;
+
+/// The fields of the rail's surface, and what of the patch the report shows: instants of a wave,
+/// or of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
+void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
+  if (!results.surface_fields) return;
+  write_surface(directory / "surface.h5", *results.surface_fields);
+  write_axis(directory / "surface_axis.csv", results.surface);
+  write_deflection(directory / "deflection.csv", deflection(*results.rail_line));
+  const Span stretch{results.evaluated_first, results.evaluated_last};
+  std::vector<double> x, pressure;
+  for (const Sample& sample : results.samples) {
+    x.push_back(sample.wheel_x);
+    pressure.push_back(sample.max_pressure);
+  }
+  const std::filesystem::path patch = directory / kPatchFile;
+  results.instants =
+      read_patch(patch, typical_places(model.scene, stretch, 4 * model.contact->reach(), x, pressure));
+  results.movie = read_patch(patch, even_places(stretch, kMovieFrames));
+}
+
+/// Changes of the run, as later values of the keys that a run may change.
+void adopt_later_values(Model& model, const Scene& later) {
+  model.scene.output = later.output;
+  model.scene.stop = later.stop;
+  if (!model.scene.motion) return;
+  const double planned = model.scene.motion->duration;
+  if (model.scene.wheel && later.motion->duration > planned)
+    throw InputError(
+        fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
+                    "began with; state a longer duration when a run begins and end it early",
+                    1e3 * later.motion->duration, 1e3 * planned));
+  model.scene.motion->duration = later.motion->duration;
+}
+
+void obey_before_first_step(const RunSession& session) {
+  if (session.folder.take_stop())
+    throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
+}
+
+void solve_statics(const RunSession& session, Model& model, RunResults& results) {
+  results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
+    session.enter("preload", text);
+    obey_before_first_step(session);
+  });
+}
+
+/// From the cache, where that has it or another process is about to put it there. `resolved`: what the model
+/// was made of.
+void find_statics(const RunSession& session, const ResolvedScene& resolved, Model& model,
+                  RunResults& results) {
+  const double started = session.progress.seconds();
+  const auto say = [&](const std::string& text) { session.enter("preload", text); };
+  const std::optional<ContentCache> cache = preload_cache(session.options.cache);
+  const std::string key = cache ? preload_key(resolved, model) : "";
+  const auto quietly = [](const std::string&) {};
+  std::optional<Preload> known = cache ? recall_preload(*cache, key, model, quietly) : std::nullopt;
+  const auto wait = [&] { obey_before_first_step(session); };
+  const std::optional<FileLock> claim =
+      cache && !known ? claim_preload(*cache, key, say, wait) : std::nullopt;
+  if (cache && !known) known = recall_preload(*cache, key, model, say);
+  if (known) {
+    results.preload = std::move(*known);
+    results.preload_cached = 1;
+    say(fmt::format("found by an earlier run, kept in {}", cache->folder().string()));
+  } else {
+    solve_statics(session, model, results);
+    if (cache) keep_preload(*cache, key, results.preload, say);
+  }
+  results.seconds_preload = session.progress.seconds() - started;
+}
+
+void require_disk(const Model& model, const RunResults& results) {
+  const std::optional<double>& limit = model.scene.output.disk_limit;
+  const std::int64_t needed = disk_use(model, results.dt).total();
+  if (limit && static_cast<double>(needed) > *limit)
+    throw InputError(
+        fmt::format("the run needs about {}, more than output.disk_limit = {}; raise that, or "
+                    "output.history_interval, or state less output.frames",
+                    bytes_text(needed), bytes_text(static_cast<std::int64_t>(*limit))));
+}
+
+void choose_step(const RunSession& session, const Model& model, RunResults& results) {
+  results.limit = step_limit(model);
+  results.dt = model.scene.motion->step_safety * results.limit.stable_step;
+  session.enter("step", fmt::format("dt {:.3e} s, {} steps; {}", results.dt,
+                                    step_count(model.scene, results.dt), results.limit.reason));
+  require_disk(model, results);
+}
+
+void leave_results(RunSession& session, const Model& model, RunResults& results) {
+  evaluate(model, results);
+  leave_surface(model, results, session.folder.path());
+  const std::string summary = summary_json(model, session.resolved, results);
+  write_text_file(session.folder / "summary.json", summary);
+  write_run_report(session.folder / "report.html", model, session.resolved, results, session.order.command);
+  if (session.options.json) fmt::print("{}", summary);
+}
+
+/// The other run's state becomes the first checkpoint of this one.
+void begin_fork(const RunSession& session, const Fork& fork, const Model& model, RunResults& results) {
+  require_same_past(fork, model);
+  require_disk(model, results);
+  results.seconds_mesh = session.progress.seconds();
+  const ForkOrigin& origin = *fork.order.origin;
+  if (model.scene.output.frames > 0)
+    FrameFiles::take_over(origin.folder, session.folder.path(), origin.steps);
+  session.checkpoints.write(origin.steps, fork.content);
+  session.progress.say(
+      fmt::format("[fork] from {} at t = {:.6e} s (step {}); histories and frames up to there are copies",
+                  origin.folder, origin.time, origin.steps));
+}
+
+/// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
+/// included.
+void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
+  keep_scene(session.folder.path(), session.resolved);
+  session.enter("mesh", "begins");
+  const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
+  Model model(made.scene);
+  adopt_later_values(model, session.resolved.scene);
+  RunResults results;
+  results.origin = session.order.origin;
+  results.seconds_mesh = session.progress.seconds();
+  session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
+                                    model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
+  const Scene& scene = model.scene;
+  if (checkpoint) {
+    unpack_results(*checkpoint, results);
+    if (const std::string other = other_origin(*checkpoint, model); !other.empty())
+      session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
+  } else {
+    find_statics(session, made, model, results);
+  }
+  if (scene.corrugation)
+    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
+  if (fork) begin_fork(session, *fork, model, results);
+  if (scene.motion) {
+    if (!checkpoint) choose_step(session, model, results);
+    Rolling rolling(session, model, results);
+    if (checkpoint)
+      rolling.go_on(*checkpoint);
+    else
+      rolling.begin();
+    rolling.to_the_end();
+  }
+  try {
+    leave_results(session, model, results);
+  } catch (const ResourceError& error) {
+    throw ResourceError(
+        fmt::format("{}; with more room {} leaves the results", error.what(), session.way_on()));
+  }
+  session.checkpoints.clear();
+  session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
+                                    duration_text(session.progress.seconds())));
+}
+
+/// Of an earlier run: what only a finished run has must not stand beside one that is not.
+void remove_results(const std::filesystem::path& directory) {
+  CheckpointFolder(directory / kForkFolder).clear();
+  std::error_code ignored;
+  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv"})
+    std::filesystem::remove(directory / name, ignored);
+  FrameFiles::remove(directory);
+}
+
+/// A run that could go on is not thrown away by mistake.
+void refuse_unfinished(const RunSession& session) {
+  if (session.options.overwrite || session.checkpoints.states().empty()) return;
+  throw InputError(
+      fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
+                  "away, or choose another folder",
+                  session.folder.path().string(), session.way_on()));
+}
+
+/// Anything else would make it another run.
+void refuse_other_keys(const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));
+    if (key != "motion.duration" && !key.starts_with("output.") && !key.starts_with("stop."))
+      throw InputError(
+          fmt::format("--set {}: a run that goes on may change motion.duration, output.* and "
+                      "stop.*; for other values start a run with them",
+                      text));
+  }
+}
+
+std::string listed(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+/// The newest sound checkpoint; nothing where the run has none yet. InputError where none is sound.
+std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session) {
+  std::vector<std::string> refused;
+  std::optional<CheckpointFolder::Found> found = session.checkpoints.newest(refused);
+  if (!found && !refused.empty())
+    throw InputError(
+        fmt::format("no checkpoint is of use: {}; start the run anew with `tread run ... "
+                    "--overwrite`",
+                    listed(refused)));
+  for (const std::string& reason : refused) session.progress.say("[resume] " + reason);
+  return found;
+}
+
+ResolvedScene resolve_with_later(const RunOrder& order) {
+  std::vector<std::string> all = order.overrides;
+  all.insert(all.end(), order.later.begin(), order.later.end());
+  return resolve_scene(order.scene, all);
+}
+
+/// The run that options.from names must not be the one that is thrown away for the new one.
+Fork read_other(const RunOptions& options, const RunOrder& wanted) {
+  Fork fork = fork_from(options.from, wanted, Progress(options.quiet));
+  std::error_code ignored;
+  if (std::filesystem::equivalent(fork.order.origin->folder, options.output, ignored))
+    throw InputError(
+        fmt::format("--from {}: a fork needs a folder of its own; choose another one than {} with -o",
+                    options.from, options.output.string()));
+  return fork;
+}
+
+/// What the run was asked for, and what is asked now.
+void read_order(RunSession& session, const std::optional<CheckpointFolder::Found>& found) {
+  RunOrder& order = session.order;
+  order = unpack_order(found ? found->content : session.checkpoints.read_order());
+  const std::vector<std::string>& now = session.options.overrides;
+  refuse_other_keys(now);
+  resolve_order(order, session.folder.path());
+  order.later.insert(order.later.end(), now.begin(), now.end());
+  session.resolved = resolve_with_later(order);
+}
+
+}  // namespace
+
+void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
+  use_threads(options.threads);
+  const RunOrder wanted{resolved.source,         resolved.overrides, {},
+                        resolved_toml(resolved), options.command,    {}};
+  std::optional<Fork> fork;
+  if (!options.from.empty()) fork = read_other(options, wanted);
+  RunSession session(options);
+  refuse_unfinished(session);
+  session.order = fork ? fork->order : wanted;
+  session.resolved = fork ? resolve_with_later(session.order) : resolved;
+  session.checkpoints.clear();
+  remove_results(session.folder.path());
+  if (!fork) session.checkpoints.write_order(pack_order(session.order));
+  carry_out(session, fork ? &fork->content : nullptr, fork ? &*fork : nullptr);
+}
+
+void resume_run(const RunOptions& options) {
+  use_threads(options.threads);
+  if (!std::filesystem::is_directory(options.output))
+    throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
+                                 options.output.string()));
+  RunSession session(options);
+  if (!session.checkpoints.has_order() && session.checkpoints.states().empty()) {
+    if (!std::filesystem::exists(session.folder / "summary.json"))
+      throw InputError(fmt::format("{} holds no run: start one with `tread run SCENE -o {}`",
+                                   options.output.string(), options.output.string()));
+    session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
+                                     (session.folder / "report.html").string()));
+    return;
+  }
+  const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
+  read_order(session, found);
+  if (found) session.progress.say(fmt::format("[resume] from {}", found->path.string()));
+  carry_out(session, found ? &found->content : nullptr);
+}
+
+}  // namespace tread

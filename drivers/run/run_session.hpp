@@ -1,0 +1,38 @@
+#pragma once
+// What a process that works on a run has besides model and results.
+
+#include <string>
+
+#include "drivers/process/interruption.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/run_checkpoint.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "drivers/run/run_options.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+struct RunSession {
+  /// Takes the folder. ResourceError where another process has it.
+  explicit RunSession(const RunOptions& given);
+
+  RunOptions options;
+  RunFolder folder;
+  CheckpointFolder checkpoints;
+  Progress progress;
+  Interruption interruption;
+  RunOrder order;
+  ResolvedScene resolved;
+
+  /// "`tread resume out`"
+  std::string way_on() const;
+
+  /// Of status.json: an object with stage, process and machine, still open.
+  JsonWriter status(const std::string& stage) const;
+
+  /// Says `text`, and shows it in status.json.
+  void enter(const std::string& stage, const std::string& text) const;
+};
+
+}  // namespace tread

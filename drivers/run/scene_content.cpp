@@ -1,0 +1,94 @@
+#include "drivers/run/scene_content.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "core/math/hash.hpp"
+#include "io/files/output_file.hpp"
+#include "io/text/json_reader.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kChecksums = "scene.files.json";
+constexpr const char* kFile = "file ";  ///< begins the key of a file's checksum
+
+std::string checksum(const std::string& text) {
+  Hash hash;
+  hash.add(std::as_bytes(std::span(text)));
+  return fmt::format("{:016x}", hash.value());
+}
+
+bool matters(std::string_view path) {
+  constexpr std::array<std::string_view, 5> kIdle = {"scene.title", "output.progress_interval",
+                                                     "output.checkpoint_interval", "output.disk_limit",
+                                                     "contact.depth_room"};
+  return !path.starts_with("stop.") && !path.starts_with("forks") &&
+         std::find(kIdle.begin(), kIdle.end(), path) == kIdle.end();
+}
+
+}  // namespace
+
+SceneContent scene_content(const ResolvedScene& resolved) {
+  SceneContent content;
+  for (const Entry& entry : resolved.entries)
+    if (matters(entry.path))
+      content[entry.path] = entry.unit.empty() ? entry.value : entry.value + " " + entry.unit;
+  for (const auto& [place, text] : resolved.source.files) content[file_key(place)] = checksum(text);
+  return content;
+}
+
+std::string file_key(const std::string& place) {
+  return kFile + place;
+}
+
+void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
+  write_text_file(folder / kKeptScene, resolved_toml(resolved));
+  if (resolved.source.files.empty()) return;
+  JsonWriter json;
+  json.begin_object();
+  for (const auto& [place, text] : resolved.source.files)
+    json.member(place, std::string_view(checksum(text)));
+  write_text_file(folder / kChecksums, json.end_object().text());
+}
+
+KeptScene kept_scene(const fs::path& folder) {
+  KeptScene kept{resolve_scene(folder / kKeptScene), {}};
+  kept.content = scene_content(kept.resolved);
+  if (!fs::exists(folder / kChecksums)) return kept;
+  const JsonRecord checksums = read_json(folder / kChecksums);
+  for (auto& [key, value] : kept.content)
+    if (key.starts_with(kFile))
+      if (const std::string then = text_in(checksums, key.substr(std::string_view(kFile).size()));
+          !then.empty())
+        value = then;
+  return kept;
+}
+
+std::string difference(const SceneContent& here, const SceneContent& there) {
+  const auto shown = [](const SceneContent& content, const std::string& key) {
+    constexpr std::size_t kLongest = 60;
+    const auto found = content.find(key);
+    return found == content.end() ? "absent" : found->second.substr(0, kLongest);
+  };
+  for (const SceneContent* one : {&here, &there})
+    for (const auto& [key, value] : *one) {
+      const SceneContent& other = one == &here ? there : here;
+      const auto found = other.find(key);
+      if (found != other.end() && found->second != value && key.starts_with(kFile))
+        return key + " has other contents here than there";
+      if (found == other.end() || found->second != value)
+        return fmt::format("{} is {} here and {} there", key, shown(here, key), shown(there, key));
+    }
+  return "";
+}
+
+}  // namespace tread

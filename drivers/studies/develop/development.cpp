@@ -1,0 +1,143 @@
+#include "drivers/studies/develop/development.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/corrugation.hpp"
+#include "core/error.hpp"
+#include "core/travel.hpp"
+#include "drivers/engine/sections.hpp"
+#include "drivers/engine/station_plan.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kSpacing = 1e-3;       ///< of the profile's depths, at the most [m]
+constexpr double kElementsPerWave = 4;  ///< least, of a wave that wears
+constexpr double kWayBeyond = 0.02;     ///< that the wheel rolls beyond the corrugation, at the least [m]
+constexpr double kTellingDepth = 0.25;  ///< of the deepest band's
+constexpr double kTellingCoherence = 0.5;
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw InputError("tread develop: " + message);
+}
+
+void require_parts(const Scene& scene) {
+  require(scene.wear.has_value(), "the scene has no [wear]; add that table, an empty one for usual values");
+  require(scene.wheel && scene.rail && scene.motion && scene.contact,
+          "the scene needs [wheel], [rail], [contact] and [motion]");
+  require(scene.corrugation.has_value(),
+          "the scene has no [corrugation] to begin with; corrugation.kind = \"random\" is roughness");
+  require(scene.corrugation->apply == "gap",
+          "corrugation.apply = \"nodes\" would need another mesh for each passage; state \"gap\"");
+}
+
+void require_waves(const Scene& scene, const Corrugation& corrugation) {
+  const WearSpec& wear = *scene.wear;
+  const double least = kElementsPerWave * mesh_sizes(scene).contact;
+  require(
+      wear.shortest >= least * (1 - 1e-9),
+      fmt::format("wear.shortest = {:.4g} mm is below {:g} elements, {:.4g} mm, and would wear the mesh's "
+                  "noise into the rail; raise it or choose a finer mesh",
+                  1e3 * wear.shortest, kElementsPerWave, 1e3 * least));
+  const double length = corrugation.last() - corrugation.first();
+  require(wear.longest <= length * (1 + 1e-9),
+          fmt::format("wear.longest = {:.4g} mm is more than the corrugation's length, {:.4g} mm",
+                      1e3 * wear.longest, 1e3 * length));
+  const double way = travel_of(scene).last;
+  const double lacking = corrugation.last() + kWayBeyond - way;
+  require(lacking <= 0,
+          fmt::format("the wheel rolls to x = {:.4g} m and so does not pass the corrugation, which ends at "
+                      "{:.4g} m; motion.duration must be {:.4g} ms at least",
+                      way, corrugation.last(),
+                      1e3 * (scene.motion->duration + lacking / std::max(scene.motion->speed, 1e-3))));
+}
+
+WornProfile sampled(const Corrugation& corrugation) {
+  const double length = corrugation.last() - corrugation.first();
+  const auto pieces = static_cast<std::size_t>(std::ceil(length / kSpacing - 1e-9));
+  WornProfile profile{corrugation.first(), length / static_cast<double>(pieces), {}};
+  for (std::size_t i = 0; i <= pieces; ++i)
+    profile.depth.push_back(i < pieces ? corrugation.depth(profile.x(i), corrugation.centre()) : 0.0);
+  return profile;
+}
+
+}  // namespace
+
+WearPlan wear_plan(const Scene& scene) {
+  require_parts(scene);
+  const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
+  require_waves(scene, corrugation);
+  const WearSpec& wear = *scene.wear;
+  return {wear.coefficient / scene.steel.density,
+          wear.change,
+          {wear.shortest, wear.longest},
+          sampled(corrugation)};
+}
+
+void Development::add(const PassageWork& work) {
+  WornPassage passage;
+  passage.profile = profile;
+  passage.work = without(work, smooth);
+  passage.uneven = uneven_work(passage.work, profile, plan.band);
+  passage.bands = growth_bands(profile, passage.work, plan.band);
+  WearStep step = worn(profile, passage.uneven, plan.per_work, plan.change);
+  passage.passages = step.passages;
+  profile = std::move(step.profile);
+  passages.push_back(std::move(passage));
+}
+
+double Development::mean_work() const {
+  return tread::mean_work(smooth, plan.start, plan.band);
+}
+
+double Development::real_passages() const {
+  double sum = 0;
+  for (const WornPassage& passage : passages) sum += passage.passages;
+  return sum;
+}
+
+std::vector<GrowthBand> Development::bands_now() const {
+  PassageWork none = smooth;
+  std::fill(none.work.begin(), none.work.end(), 0.0);
+  return growth_bands(profile, none, plan.band);
+}
+
+std::vector<BandOutcome> outcome(const Development& development) {
+  if (development.passages.empty()) return {};
+  const std::vector<GrowthBand>& first = development.passages.front().bands;
+  const std::vector<GrowthBand>& last = development.passages.back().bands;
+  const std::vector<GrowthBand> now = development.bands_now();
+  const double rate = development.plan.per_work;
+  const double wear = rate * development.mean_work();
+  const GrowthBand* deepest_before = deepest_band(first);
+  std::vector<BandOutcome> bands;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    BandOutcome band;
+    band.wavelength = first[i].wavelength;
+    band.before = first[i].depth;
+    band.after = now[i].depth;
+    band.growth = std::log(band.after / band.before) / development.real_passages();
+    band.first_growth = rate * first[i].response.real();
+    band.last_growth = rate * last[i].response.real();
+    band.per_wear = band.first_growth / wear;
+    band.lag = first[i].lag();
+    band.coherence = first[i].coherence;
+    band.telling =
+        band.before >= kTellingDepth * deepest_before->depth && band.coherence >= kTellingCoherence;
+    bands.push_back(band);
+  }
+  return bands;
+}
+
+std::optional<BandOutcome> deepest(const std::vector<BandOutcome>& bands) {
+  const auto found =
+      std::max_element(bands.begin(), bands.end(),
+                       [](const BandOutcome& a, const BandOutcome& b) { return a.after < b.after; });
+  return found == bands.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace tread

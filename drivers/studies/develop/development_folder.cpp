@@ -1,0 +1,233 @@
+#include "drivers/studies/develop/development_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/engine/sections.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/studies/study/study_runner.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/files/history_reader.hpp"
+#include "io/files/output_file.hpp"
+#include "io/text/text_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kSmoothScene = "smooth.toml";
+constexpr const char* kPassageScene = "passage.toml";
+constexpr const char* kStart = "from.txt";  ///< the run whose state all passages begin with
+
+/// The directory's absolute path; passages are processes that are told of files in it.
+fs::path made(const fs::path& directory) {
+  make_directory(directory);
+  return fs::absolute(directory).lexically_normal();
+}
+
+/// Values that each passage states for itself.
+bool is_of_passage(const std::string& path) {
+  return path.starts_with("corrugation.") || path.starts_with("wear.") || path.starts_with("forks.") ||
+         path == "contact.depth_room" || path == "output.frames";
+}
+
+/// The scene without corrugation, wear and forks.
+std::string smooth_scene(const ResolvedScene& resolved) {
+  ResolvedScene smooth = resolved;
+  std::erase_if(smooth.entries, [](const Entry& entry) { return is_of_passage(entry.path); });
+  return resolved_toml(smooth);
+}
+
+std::string fork_table(const Scene& scene) {
+  const bool stated = scene.forks && scene.forks->at;
+  return "\n[forks]\n" + (stated ? fmt::format("at = \"{} s\"\n", *scene.forks->at) : "");
+}
+
+void require_same(const fs::path& folder, const ResolvedScene& resolved) {
+  require_no_run(folder);
+  if (!fs::exists(folder / kKeptScene)) return;
+  const std::string other = difference(scene_content(resolved), kept_scene(folder).content);
+  if (!other.empty())
+    throw InputError(
+        fmt::format("{} holds the development of another scene: {}; choose another folder with -o",
+                    folder.string(), other));
+}
+
+/// What all passages begin with: as stated, or as kept when the development began, `begun`.
+std::string start_of(const fs::path& folder, const std::string& stated, bool begun) {
+  constexpr std::size_t kLongest = 1 << 16;  // [B]
+  std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
+  if (!begun) return wanted;
+  std::string kept = fs::exists(folder / kStart) ? read_text_file(folder / kStart, kLongest) : "";
+  if (stated.empty() || wanted == kept) return kept;
+  throw InputError(
+      fmt::format("--from {}: the development in {} began with {}; leave --from out, or choose "
+                  "another folder with -o",
+                  stated, folder.string(), kept.empty() ? "a passage of its own" : kept));
+}
+
+std::string work_csv(const PassageWork& work) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "x [m],length [m],frictional_work [J/m2]\n");
+  for (std::size_t i = 0; i < work.x.size(); ++i)
+    fmt::format_to(out, "{},{},{}\n", work.x[i], work.length[i], work.work[i]);
+  return {text.data(), text.size()};
+}
+
+std::string profile_table(const WornProfile& profile) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "# x [m]  d [m]\n");
+  for (std::size_t i = 0; i < profile.depth.size(); ++i)
+    fmt::format_to(out, "{} {}\n", static_cast<double>(i) * profile.spacing, profile.depth[i]);
+  return {text.data(), text.size()};
+}
+
+PassageWork read_work(const fs::path& csv) {
+  auto columns = read_history(csv, {{"x", "m"}, {"length", "m"}, {"frictional_work", "J/m2"}});
+  return {std::move(columns[0]), std::move(columns[1]), std::move(columns[2])};
+}
+
+Error failure(const fs::path& folder, const PointStatus& status) {
+  if (status.foreign)
+    return InputError(
+        fmt::format("{} holds another run than this passage (here: the passage, there: the "
+                    "folder): {}; choose another folder with -o",
+                    folder.string(), status.why));
+  if (status.state == PointState::failed)
+    return Error(status.code, fmt::format("the passage in {} failed: {}", folder.string(), status.why));
+  return Interrupted(
+      fmt::format("the passage in {} is not done ({}{}); nothing is lost: the same command goes on",
+                  folder.string(), name_of(status.state), status.why.empty() ? "" : ", " + status.why));
+}
+
+}  // namespace
+
+DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& resolved, Options options)
+    : folder_(made(path)), scene_(resolved.scene), options_(std::move(options)) {
+  require_same(folder_.path(), resolved);
+  for (const char* name : {"work", "profiles"}) make_directory(folder_ / name);
+  keep_scene(folder_.path(), resolved);
+  const bool begun = fs::exists(work_path(0)) || fs::exists(run_path(0) / kCheckpointFolder);
+  options_.from = start_of(folder_.path(), options_.from, begun);
+  if (!options_.from.empty()) write_text_file(folder_ / kStart, options_.from);
+  const std::string smooth = smooth_scene(resolved);
+  write_text_file(folder_ / kSmoothScene, smooth + (options_.from.empty() ? fork_table(scene_) : ""));
+  write_text_file(folder_ / kPassageScene, smooth);
+}
+
+fs::path DevelopmentFolder::profile_path(int number) const {
+  return folder_.path() / "profiles" / fmt::format("{:04}.txt", number);
+}
+
+fs::path DevelopmentFolder::work_path(int number) const {
+  return folder_.path() / "work" / fmt::format("{:04}.csv", number);
+}
+
+fs::path DevelopmentFolder::run_path(int number) const {
+  return folder_.path() / fmt::format("passage-{:04}", number);
+}
+
+std::vector<std::string> DevelopmentFolder::overrides(int number) const {
+  std::vector<std::string> list = {"output.frames=0"};
+  if (number == 0) {
+    // Waves that grow find room; the others, and all that begin with a run's state, take over its room.
+    if (options_.from.empty())
+      list.push_back(fmt::format("contact.depth_room={} m",
+                                 std::max(forks_room(scene_), 2 * corrugation_depth(scene_))));
+    return list;
+  }
+  const CorrugationSpec& spec = *scene_.corrugation;
+  const Corrugation start = corrugation_of(spec, 0);
+  list.insert(list.end(), {"corrugation.kind=table", "corrugation.apply=gap",
+                           "corrugation.file=" + profile_path(number - 1).string(),
+                           fmt::format("corrugation.start={} m", start.first()),
+                           fmt::format("corrugation.width={} m", spec.width)});
+  if (spec.centre) list.push_back(fmt::format("corrugation.centre={} m", *spec.centre));
+  return list;
+}
+
+void DevelopmentFolder::roll(int number, Progress& progress) const {
+  StudyPlan plan;
+  plan.folder = folder_.path();
+  plan.study.scene = folder_ / (number == 0 ? kSmoothScene : kPassageScene);
+  plan.threads = options_.threads;
+  PlannedPoint point;
+  point.name = run_path(number).filename().string();
+  point.overrides = overrides(number);
+  point.resolved = resolve_scene(plan.study.scene, point.overrides);
+  point.content = scene_content(point.resolved);
+  point.folder = run_path(number);
+  point.from = number > 0 && options_.from.empty() ? run_path(0).string() : options_.from;
+  point.status = look_into(point.folder, point.content);
+  if (point.status.foreign) throw failure(point.folder, point.status);
+  plan.points.push_back(std::move(point));
+  const std::string stopped_by = StudyRunner(plan, folder_, progress).run(true);
+  if (!stopped_by.empty())
+    throw Interrupted(fmt::format("stopped by {} in passage {}; nothing is lost: the same command goes on",
+                                  stopped_by, number));
+  const PlannedPoint& ended = plan.points.front();
+  if (ended.status.state != PointState::done) throw failure(ended.folder, ended.status);
+}
+
+void DevelopmentFolder::keep_profile(int number, const WornProfile& profile) const {
+  write_text_file(profile_path(number), profile_table(profile));
+}
+
+PassageWork DevelopmentFolder::pass(int number, const WornProfile* profile, Progress& progress) const {
+  if (profile) keep_profile(number - 1, *profile);
+  if (!fs::exists(work_path(number))) {
+    roll(number, progress);
+    const Corrugation stretch = corrugation_of(*scene_.corrugation, 0);
+    write_text_file(work_path(number),
+                    work_csv(work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last())));
+  }
+  std::error_code ignored;
+  if (number > 1) fs::remove_all(run_path(number - 1), ignored);
+  return read_work(work_path(number));
+}
+
+PassageWork work_of_run(const fs::path& surface, double first, double last) {
+  const Hdf5File file = Hdf5File::open_to_read(surface);
+  const auto x = file.read<double>("/x");
+  const auto length = file.read<double>("/length");
+  const auto width = file.read<double>("/width");
+  const auto work = file.read<double>("/frictional_work");
+  if (x.empty() || x.front() > first || x.back() < last)
+    throw InputError(
+        fmt::format("{}: the wheel has not passed x = {:.4g} m to {:.4g} m; motion.duration must "
+                    "be longer",
+                    surface.string(), first, last));
+  const std::size_t rows = width.size();
+  std::vector<std::size_t> stations;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (x[i] >= first && x[i] <= last) stations.push_back(i);
+  std::vector<double> share(rows, 0.0);  // of a row in the stretch's work [J]
+  double whole = 0;
+  for (const std::size_t i : stations)
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double part = length[i] * work[i * rows + row] * width[row];
+      share[row] += part;
+      whole += part;
+    }
+  PassageWork result;
+  for (const std::size_t i : stations) {
+    double across = 0;
+    for (std::size_t row = 0; row < rows && whole > 0; ++row)
+      across += work[i * rows + row] * share[row] / whole;
+    result.x.push_back(x[i]);
+    result.length.push_back(length[i]);
+    result.work.push_back(across);
+  }
+  return result;
+}
+
+}  // namespace tread

@@ -1,0 +1,32 @@
+#pragma once
+// How waves of a profile grow, from the work that they cause and from profiles before and after.
+// [theory.md, Wear]
+
+#include <complex>
+#include <vector>
+
+#include "drivers/studies/develop/wear.hpp"
+
+namespace tread {
+
+/// A one-third octave band of a profile and of the work over it.
+struct GrowthBand {
+  double wavelength = 0;  ///< nominal [m]
+  double depth = 0;       ///< root mean square [m]
+  /// Work per depth, H [J/m3]: with a positive real part the work is larger in troughs, and the wave grows.
+  std::complex<double> response;
+  double coherence = 0;  ///< share of the work in the band that H explains [-]; 1 where it holds one line
+
+  /// By which the work's maximum lies past the trough as the wheel rolls, in waves, -0.5 to 0.5.
+  double lag() const;
+};
+
+/// The bands within `band` that hold a line of the stretch, longest waves first; `uneven`: work of the
+/// passage over the profile. The ends of both fade. [theory.md, eq. (W5)]
+std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWork& uneven,
+                                     const WearBand& band);
+
+/// The band whose depth is largest; nullptr: there is none.
+const GrowthBand* deepest_band(const std::vector<GrowthBand>& bands);
+
+}  // namespace tread

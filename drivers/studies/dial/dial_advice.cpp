@@ -1,0 +1,108 @@
+#include "drivers/studies/dial/dial_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "drivers/process/progress.hpp"
+#include "io/report/markup.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace {
+
+double wanted_error(const std::string& text) {
+  try {
+    const bool percent = text.ends_with("%");
+    std::string number = percent ? text.substr(0, text.size() - 1) : text;
+    number.erase(number.find_last_not_of(' ') + 1);
+    const double error = parse_number(number) / (percent ? 100 : 1);
+    if (error > 0 && error < 1) return error;
+  } catch (const InputError&) {
+    // told below
+  }
+  throw InputError(fmt::format("--error {}: expected a share above 0 and below 100 %, such as 2%", text));
+}
+
+Estimate cost_with(const ResolvedScene& resolved, const std::vector<std::string>& settings) {
+  std::vector<std::string> overrides = resolved.overrides;
+  overrides.insert(overrides.end(), settings.begin(), settings.end());
+  Model model(resolve_scene(resolved.source, overrides).scene);
+  return estimate(model);
+}
+
+std::string settings_text(const DialRow& row) {
+  std::string text;
+  for (const std::string& one : row.settings) text += fmt::format(" --set \"{}\"", one);
+  return text;
+}
+
+/// Whether the scene's element size is in the way of the row's quality.
+bool hides_quality(const ResolvedScene& resolved, const DialRow& row) {
+  const auto sets = [&](const char* key) {
+    return std::any_of(row.settings.begin(), row.settings.end(),
+                       [&](const std::string& one) { return one.starts_with(std::string(key) + "="); });
+  };
+  return resolved.scene.element_size && sets("scene.quality") && !sets("scene.element_size");
+}
+
+std::string percent_text(double share) {
+  return readable(100 * share, 2) + " %";
+}
+
+}  // namespace
+
+std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions& options) {
+  if (options.error.empty()) return std::nullopt;
+  require_quantity("--quantity", options.quantity);
+  const DialTable table = options.dial.empty() ? measured_dial() : read_dial(options.dial);
+  Advice advice{wanted_error(options.error), options.quantity, table.scene, table.reference, {}, {}, {}};
+  const std::vector<const DialRow*> front = pareto_front(table, advice.quantity, dial_cost(options.cost));
+  if (!front.empty()) advice.nearest = *front.back();
+  if (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, dial_cost(options.cost))) {
+    advice.row = *row;
+    advice.cost = cost_with(resolved, row->settings);
+    advice.hidden_quality = hides_quality(resolved, *row);
+  }
+  return advice;
+}
+
+std::string advice_text(const Advice& advice) {
+  const std::string what = advice.quantity == kAllQuantities ? "every quantity" : advice.quantity;
+  std::string text = fmt::format("Error     at most {} in {}: ", percent_text(advice.wanted), what);
+  if (!advice.row) {
+    text += "no setting measured is as near";
+    if (advice.nearest)
+      text += fmt::format("; the nearest, {}, is {} off", advice.nearest->point,
+                          percent_text(error_of(*advice.nearest, advice.quantity).value_or(0)));
+    return text +
+           fmt::format("\n          measured on \"{}\" against {}\n", advice.measured_on, advice.reference);
+  }
+  text += fmt::format("{}, which was {} off\n", advice.row->point,
+                      percent_text(error_of(*advice.row, advice.quantity).value_or(0)));
+  text += fmt::format("          measured on \"{}\" against {}\n", advice.measured_on, advice.reference);
+  text += fmt::format("         {}\n", settings_text(*advice.row));
+  if (advice.hidden_quality)
+    text += "          and scene.element_size left out of the scene, which hides the quality\n";
+  return text + fmt::format("          this scene with it: about {}, {} elements, {} steps\n",
+                            duration_text(advice.cost->seconds()), advice.cost->elements, advice.cost->steps);
+}
+
+void add_advice(const Advice& advice, JsonWriter& json) {
+  json.key("advice").begin_object().member("wanted", advice.wanted);
+  json.member("quantity", std::string_view(advice.quantity));
+  json.member("measured_on", std::string_view(advice.measured_on));
+  json.member("reference", std::string_view(advice.reference));
+  if (advice.row) {
+    json.member("point", std::string_view(advice.row->point));
+    json.member("error", error_of(*advice.row, advice.quantity).value_or(0));
+    json.key("settings").begin_array();
+    for (const std::string& one : advice.row->settings) json.value(std::string_view(one));
+    json.end_array().member("seconds", advice.cost->seconds());
+  }
+  json.end_object();
+}
+
+}  // namespace tread

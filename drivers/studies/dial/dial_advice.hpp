@@ -1,0 +1,43 @@
+#pragma once
+// Which setting leads near enough for the least cost, as a dial has measured it.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "drivers/results/estimate.hpp"
+#include "drivers/studies/dial/dial_table.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+struct AdviceOptions {
+  std::string error;                      ///< "2%" or "0.02"; empty: no advice is wanted
+  std::string quantity = kAllQuantities;  ///< or a DialQuantity's name
+  std::filesystem::path dial;             ///< folder or file; empty: measured_dial()
+  std::string cost = "element-steps";     ///< or "minutes"
+};
+
+/// What was asked and what the table says.
+struct Advice {
+  double wanted = 0;  ///< [-]
+  std::string quantity;
+  std::string measured_on;         ///< title of the passage that the table is of
+  std::string reference;           ///< of its errors
+  std::optional<DialRow> row;      ///< the cheapest; absent where none is as near
+  std::optional<DialRow> nearest;  ///< of all
+  std::optional<Estimate> cost;    ///< of the scene with the row's settings, with the threads in use
+  bool hidden_quality = false;     ///< the row sets the quality, but the scene states an element size
+};
+
+/// Nothing where none is wanted. InputError for options or a table that do not read; ProblemsError where the
+/// row's settings do not suit the scene.
+std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions& options);
+
+std::string advice_text(const Advice& advice);
+
+/// As the member "advice".
+void add_advice(const Advice& advice, JsonWriter& json);
+
+}  // namespace tread

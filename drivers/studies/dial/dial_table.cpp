@@ -1,0 +1,214 @@
+#include "drivers/studies/dial/dial_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.hpp"
+#include "drivers/studies/dial/measured_dial.hpp"
+#include "drivers/studies/study/study_figures.hpp"
+#include "io/text/json_lines.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/text_file.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr const char* kSeparator = "; ";  ///< between settings
+constexpr double kAsCheap = 1.01;         ///< of the least cost: as cheap
+
+DialRow row_of(const FinishedRun& run, const FinishedRun& reference) {
+  const auto number = [&](const char* path) { return run.number(path).value_or(0); };
+  DialRow row;
+  row.point = run.label;
+  row.elements = number("elements");
+  row.steps = number("steps");
+  row.minutes =
+      (number("mesh_s") + number("preload_s") + number("rolling_s")) * std::max(1.0, number("threads")) / 60;
+  for (const DialQuantity& quantity : dial_quantities())
+    if (const auto difference = run_difference(run, reference, quantity))
+      row.differences[quantity.name] =
+          run.label == reference.label ? CurveDifference{0, 0, 0.0, 0.0} : *difference;
+  return row;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  const std::string separator = kSeparator;
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(separator, at), text.size());
+    parts.push_back(text.substr(at, end - at));
+    at = end + separator.size();
+  }
+  return parts;
+}
+
+double required_number(const JsonRecord& record, const std::string& key, const std::string& name) {
+  const auto number = number_in(record, key);
+  if (!number)
+    throw InputError(fmt::format(
+        "{}: a line has no number \"{}\"; expected the dial.jsonl that `tread dial` leaves", name, key));
+  return *number;
+}
+
+/// Those beside the reference that have an error in the quantity.
+std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity) {
+  std::vector<const DialRow*> rows;
+  for (const DialRow& row : table.rows)
+    if (row.point != table.reference && error_of(row, quantity)) rows.push_back(&row);
+  return rows;
+}
+
+DialRow row_of(const JsonRecord& record, const std::string& name) {
+  DialRow row;
+  row.point = text_in(record, "point");
+  row.settings = split(text_in(record, "settings"));
+  row.elements = required_number(record, "elements", name);
+  row.steps = required_number(record, "steps", name);
+  row.minutes = required_number(record, "minutes", name);
+  for (const DialQuantity& quantity : dial_quantities()) {
+    const auto error = number_in(record, quantity.name + "_error");
+    if (!error) continue;
+    CurveDifference& difference = row.differences[quantity.name];
+    difference.error = *error;
+    difference.mean = required_number(record, quantity.name + "_mean", name);
+    difference.range = number_in(record, quantity.name + "_range");
+    difference.shift = number_in(record, quantity.name + "_shift_m");
+  }
+  return row;
+}
+
+std::string optional_cell(const std::optional<double>& value) {
+  return value ? fmt::format(",{:.4g}", *value) : ",";
+}
+
+}  // namespace
+
+DialCost dial_cost(const std::string& text) {
+  if (text == "minutes") return DialCost::minutes;
+  if (text == "element-steps") return DialCost::element_steps;
+  throw InputError(fmt::format("--cost {}: expected minutes or element-steps", text));
+}
+
+double cost_of(const DialRow& row, DialCost cost) {
+  return cost == DialCost::minutes ? row.minutes : row.element_steps();
+}
+
+void require_quantity(const std::string& option, const std::string& quantity) {
+  std::string known = kAllQuantities;
+  for (const DialQuantity& one : dial_quantities()) {
+    if (one.name == quantity) return;
+    known += ", " + one.name;
+  }
+  if (quantity != kAllQuantities)
+    throw InputError(fmt::format("{} {}: not a quantity of the dial; known: {}", option, quantity, known));
+}
+
+std::optional<double> error_of(const DialRow& row, const std::string& quantity) {
+  std::optional<double> largest;
+  for (const auto& [name, difference] : row.differences)
+    if (name == quantity || quantity == kAllQuantities)
+      largest = std::max(largest.value_or(0), difference.error);
+  return largest;
+}
+
+std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost) {
+  std::vector<const DialRow*> rows = compared_rows(table, quantity);
+  std::sort(rows.begin(), rows.end(), [&](const DialRow* a, const DialRow* b) {
+    return std::pair(cost_of(*a, cost), *error_of(*a, quantity)) <
+           std::pair(cost_of(*b, cost), *error_of(*b, quantity));
+  });
+  std::vector<const DialRow*> front;
+  for (const DialRow* row : rows)
+    if (front.empty() || *error_of(*row, quantity) < *error_of(*front.back(), quantity)) front.push_back(row);
+  return front;
+}
+
+const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost) {
+  std::vector<const DialRow*> rows = compared_rows(table, quantity);
+  std::erase_if(rows, [&](const DialRow* row) { return *error_of(*row, quantity) > wanted; });
+  const auto first = [&](const auto& rank) {
+    const auto found = std::min_element(
+        rows.begin(), rows.end(), [&](const DialRow* x, const DialRow* y) { return rank(*x) < rank(*y); });
+    return found == rows.end() ? nullptr : *found;
+  };
+  const DialRow* least = first([&](const DialRow& row) { return cost_of(row, cost); });
+  if (!least) return nullptr;
+  const double most = kAsCheap * cost_of(*least, cost);
+  std::erase_if(rows, [&](const DialRow* row) { return cost_of(*row, cost) > most; });
+  return first([&](const DialRow& row) { return std::pair(row.settings.size(), *error_of(row, quantity)); });
+}
+
+DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& reference) {
+  DialTable table;
+  table.scene = reference.scene.title;
+  table.reference = reference.label;
+  for (const FinishedRun& run : runs) table.rows.push_back(row_of(run, reference));
+  return table;
+}
+
+std::string dial_csv(const DialTable& table) {
+  std::string text = "point,settings,elements [-],steps [-],element_steps [-],core_time [min]";
+  for (const DialQuantity& quantity : dial_quantities())
+    text += fmt::format(",{0}_error [-],{0}_mean [-],{0}_range [-],{0}_shift [m]", quantity.name);
+  text += ",reference\n";
+  for (const DialRow& row : table.rows) {
+    text += fmt::format("{},{},{:.9g},{:.9g},{:.9g},{:.4g}", csv_cell(row.point),
+                        csv_cell(fmt::format("{}", fmt::join(row.settings, kSeparator))), row.elements,
+                        row.steps, row.element_steps(), row.minutes);
+    for (const DialQuantity& quantity : dial_quantities()) {
+      const auto found = row.differences.find(quantity.name);
+      const bool known = found != row.differences.end();
+      text += known ? fmt::format(",{:.4g},{:.4g}", found->second.error, found->second.mean) : ",,";
+      text += optional_cell(known ? found->second.range : std::nullopt);
+      text += optional_cell(known ? found->second.shift : std::nullopt);
+    }
+    text += fmt::format(",{}\n", csv_cell(table.reference));
+  }
+  return text;
+}
+
+std::string dial_lines(const DialTable& table) {
+  std::string text;
+  for (const DialRow& row : table.rows) {
+    JsonWriter json(JsonWriter::Layout::line);
+    json.begin_object().member("scene", std::string_view(table.scene));
+    json.member("reference", std::string_view(table.reference)).member("point", std::string_view(row.point));
+    json.member("settings", std::string_view(fmt::format("{}", fmt::join(row.settings, kSeparator))));
+    json.member("elements", row.elements).member("steps", row.steps).member("minutes", row.minutes);
+    for (const auto& [name, difference] : row.differences) {
+      json.member(name + "_error", difference.error).member(name + "_mean", difference.mean);
+      if (difference.range) json.member(name + "_range", *difference.range);
+      if (difference.shift) json.member(name + "_shift_m", *difference.shift);
+    }
+    text += json.end_object().text();
+  }
+  return text;
+}
+
+DialTable parse_dial(const std::string& text, const std::string& name) {
+  DialTable table;
+  for (const JsonRecord& record : parse_json_lines(text, name)) {
+    table.scene = text_in(record, "scene");
+    table.reference = text_in(record, "reference");
+    table.rows.push_back(row_of(record, name));
+  }
+  if (table.rows.empty()) throw InputError(fmt::format("{}: it holds no run of a dial", name));
+  return table;
+}
+
+DialTable read_dial(const std::filesystem::path& path) {
+  constexpr std::size_t kLargest = 16 << 20;  // [B]
+  const bool folder = std::filesystem::is_directory(path);
+  const std::filesystem::path file = folder ? path / "dial.jsonl" : path;
+  return parse_dial(read_text_file(file, kLargest), file.string());
+}
+
+const DialTable& measured_dial() {
+  static const DialTable table = parse_dial(kMeasuredDial, "the program's own table");
+  return table;
+}
+
+}  // namespace tread

@@ -1,0 +1,75 @@
+#pragma once
+// What settings cost and how far their passages are from a reference; the cheapest one for a wanted error.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/studies/dial/dial_measures.hpp"
+
+namespace tread {
+
+/// One run.
+struct DialRow {
+  std::string point;
+  std::vector<std::string> settings;  ///< what tells it from the scene: "scene.element_size=5 mm"
+  double elements = 0;
+  double steps = 0;
+  double minutes = 0;  ///< of a core: mesh, preload and rolling times threads [min]
+  std::map<std::string, CurveDifference> differences;  ///< by DialQuantity::name
+
+  double element_steps() const { return elements * steps; }
+};
+
+struct DialTable {
+  std::string scene;      ///< title of the passage
+  std::string reference;  ///< point or folder that the rows are compared with
+  std::vector<DialRow> rows;
+};
+
+/// What a front is drawn over.
+enum class DialCost { minutes, element_steps };
+
+/// "minutes", "element-steps". InputError for any other text.
+DialCost dial_cost(const std::string& text);
+
+double cost_of(const DialRow& row, DialCost cost);
+
+/// The largest of a row's errors counts as the quantity "all".
+inline constexpr const char* kAllQuantities = "all";
+
+/// InputError where it is neither "all" nor a DialQuantity's name.
+void require_quantity(const std::string& option, const std::string& quantity);
+
+/// The row's error [-] in a quantity; nothing where it was not compared in it.
+std::optional<double> error_of(const DialRow& row, const std::string& quantity);
+
+/// Rows that none is both as cheap and as near as, cheapest first. The reference, whose error says nothing,
+/// is not among them.
+std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost);
+
+/// The cheapest row whose error is `wanted` [-] at most, of several as cheap within 1 % the one with the
+/// fewest settings, then the nearest; null where there is none.
+const DialRow* cheapest(const DialTable& table, const std::string& quantity, double wanted, DialCost cost);
+
+/// The runs beside the reference. InputError where their curves do not read.
+DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& reference);
+
+/// A line a run, for spreadsheets; units in the header.
+std::string dial_csv(const DialTable& table);
+
+/// The same as flat JSON objects, a line each, which parse_dial() reads.
+std::string dial_lines(const DialTable& table);
+
+/// Messages call the text `name`. InputError where it is not such a table.
+DialTable parse_dial(const std::string& text, const std::string& name);
+
+/// dial.jsonl of a dial's folder, or such a file. InputError.
+DialTable read_dial(const std::filesystem::path& path);
+
+/// The table of docs/dial.md, measured on scenes/corrugation-d.toml.
+const DialTable& measured_dial();
+
+}  // namespace tread

@@ -1,0 +1,175 @@
+#include "drivers/studies/multibody/calibration.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/math/interpolation.hpp"
+#include "core/parallel/each_item.hpp"
+#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/run/scene_content.hpp"
+#include "io/files/history_reader.hpp"
+#include "io/scene/scene_reader.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kSoftest = 0.05;  ///< of the scene's C
+constexpr double kStiffest = 3;
+constexpr int kScan = 24;    ///< values tried at first
+constexpr int kRefine = 24;  ///< more, about the best
+
+struct Curve {
+  std::vector<double> x, force;
+};
+
+/// Model and run over the stretch that both cover.
+class Fit {
+ public:
+  Fit(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step)
+      : model_(model), step_(step), run_{run.x, run.force} {
+    const Span stretch = evaluated_stretch(model.scene, model.corrugation);
+    first = std::max(stretch.first, run.x.front());
+    last = std::min(stretch.last, run.x.back());
+    for (std::size_t i = 0; i < run.x.size(); ++i)
+      if (run.x[i] >= first && run.x[i] <= last) {
+        x.push_back(run.x[i]);
+        force_.push_back(run.force[i]);
+      }
+    model_.speed = run.speed_between(first, last);
+  }
+
+  CurveFit of_run() const { return fit(run_); }
+  CurveFit of_model(double contact) const { return fit(rolled(contact)); }
+  double misfit(double contact) const { return of_model(contact).misfit; }
+  double speed() const { return model_.speed; }
+
+  double first = 0, last = 0;  ///< [m]
+  std::vector<double> x;       ///< of the run between them [m]
+
+ private:
+  Curve rolled(double contact) const {
+    MultibodyModel model = model_;
+    model.vehicle.contact = contact;
+    const MultibodyResult result = run_multibody(model, step_);
+    Curve curve;
+    for (const MultibodySample& s : result.samples) {
+      curve.x.push_back(s.x);
+      curve.force.push_back(s.force);
+    }
+    return curve;
+  }
+
+  CurveFit fit(const Curve& curve) const {
+    CurveFit fit;
+    double squares = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double value = value_at(curve.x, curve.force, x[i]);
+      fit.values.push_back(value);
+      squares += (value - force_[i]) * (value - force_[i]);
+    }
+    fit.misfit = std::sqrt(squares / static_cast<double>(x.size()));
+    fit.force = statistics(fit.values);
+    if (model_.scene.corrugation && model_.scene.corrugation->kind == "sine")
+      fit.shift = mean_shift(
+          crest_peaks(model_.corrugation, model_.scene.corrugation->wavelength, curve.x, curve.force));
+    return fit;
+  }
+
+  MultibodyModel model_;
+  MultibodyStep step_;
+  Curve run_;
+  std::vector<double> force_;  ///< of the run at x [N]
+};
+
+void require_same_passage(const MultibodyModel& model, const TransientRun& run) {
+  const MultibodyModel theirs = multibody_model(run.scene, model.theory);
+  std::string apart = track_difference(model, theirs);
+  if (apart.empty()) apart = corrugation_difference(model, theirs);
+  const double ours = model.scene.motion->speed;
+  if (apart.empty() && std::abs(ours - theirs.speed) > 1e-6 * ours)
+    apart = fmt::format("motion.speed is {:.6g} m/s here and {:.6g} m/s there", ours, theirs.speed);
+  if (!apart.empty())
+    throw InputError(
+        fmt::format("--calibrate {}: {} (here: the scene, there: the run); calibrate with the "
+                    "run's own scene, {}",
+                    run.directory.string(), apart, (run.directory / kKeptScene).string()));
+}
+
+}  // namespace
+
+double TransientRun::speed_between(double first, double last) const {
+  const auto begin = std::lower_bound(x.begin(), x.end(), first) - x.begin();
+  const auto end = std::upper_bound(x.begin(), x.end(), last) - x.begin();
+  if (end - begin < 2) return 0;
+  const auto a = static_cast<std::size_t>(begin);
+  const auto b = static_cast<std::size_t>(end) - 1;
+  return (x[b] - x[a]) / (time[b] - time[a]);
+}
+
+TransientRun read_transient_run(const std::filesystem::path& directory) {
+  TransientRun run;
+  run.directory = directory;
+  run.scene = read_scene(directory / kKeptScene);
+  std::vector<std::vector<double>> columns =
+      read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {"vertical_force", "N"}});
+  run.time = std::move(columns[0]);
+  run.x = std::move(columns[1]);
+  run.force = std::move(columns[2]);
+  if (run.x.size() < 2 || !std::is_sorted(run.x.begin(), run.x.end()))
+    throw InputError(fmt::format("{}: expected at least two rows with a growing wheel_x",
+                                 (directory / "histories.csv").string()));
+  return run;
+}
+
+Calibration calibrate(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step) {
+  require_same_passage(model, run);
+  const Fit fit(model, run, step);
+  const double wave = model.scene.corrugation && model.scene.corrugation->kind == "sine"
+                          ? model.scene.corrugation->wavelength
+                          : 0.05;
+  if (fit.last - fit.first < wave)
+    throw InputError(fmt::format(
+        "--calibrate {}: the run covers x = {:.3f} to {:.3f} m, less than {:.3g} mm of the stretch that is "
+        "evaluated; let it roll further (motion.duration)",
+        run.directory.string(), run.x.front(), run.x.back(), 1e3 * wave));
+  Calibration c;
+  c.first = fit.first;
+  c.last = fit.last;
+  c.speed = fit.speed();
+  c.x = fit.x;
+  c.run = fit.of_run();
+  c.before = fit.of_model(model.vehicle.contact);
+
+  // A scan, then as many again between the neighbours of the best.
+  const auto tried = [&](double low, double high, int count) {
+    std::vector<std::pair<double, double>> found(static_cast<std::size_t>(count) + 1);
+    each_item(found.size(), [&](std::size_t i) {
+      const double factor = low * std::pow(high / low, static_cast<double>(i) / count);
+      found[i] = {factor, fit.misfit(factor * model.vehicle.contact)};
+    });
+    return found;
+  };
+  std::vector<std::pair<double, double>> all = tried(kSoftest, kStiffest, kScan);
+  const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto best = std::min_element(all.begin(), all.end(), less);
+  c.at_bound = best == all.begin() || best == all.end() - 1;
+  if (!c.at_bound) {
+    const auto finer = tried((best - 1)->first, (best + 1)->first, kRefine);
+    all.insert(all.end(), finer.begin() + 1, finer.end() - 1);
+  }
+  std::sort(all.begin(), all.end());
+  const double factor = std::min_element(all.begin(), all.end(), less)->first;
+  c.contact = factor * model.vehicle.contact;
+  c.after = fit.of_model(c.contact);
+  for (const auto& [tried_factor, misfit] : all) {
+    c.factors.push_back(tried_factor);
+    c.misfits.push_back(misfit);
+  }
+  return c;
+}
+
+}  // namespace tread

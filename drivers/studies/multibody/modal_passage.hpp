@@ -1,0 +1,79 @@
+#pragma once
+// The multi-body approach: a wheel as a mass on a Hertz spring over a modal rail on its fastenings, in the
+// time domain. [theory.md, Multi-body approach]
+
+#include <vector>
+
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/studies/multibody/modal_beam.hpp"
+
+namespace tread {
+
+/// The modal rail on its supports.
+class ModalTrack {
+ public:
+  ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports);
+
+  const ModalBeam& beam() const { return beam_; }
+
+  /// Modal coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
+  std::vector<double> static_state(double x, double force) const;
+
+  /// Adds the modal forces of springs and dampers; `scratch` holds a value of each support.
+  void support_forces(const std::vector<double>& state, const std::vector<double>& rate,
+                      std::vector<double>& forces, std::vector<double>& scratch) const;
+  std::size_t supports() const { return stiffness_.size(); }
+
+  /// What the supports add to the squares of the modes' frequencies at the most [rad2/s2], and their largest
+  /// rate of decay [1/s]: estimates.
+  double support_stiffness() const;
+  double support_damping() const;
+
+ private:
+  double largest(const std::vector<double>& weight) const;
+
+  ModalBeam beam_;
+  std::vector<double> stiffness_, damping_;  ///< by support
+  std::vector<double> by_support_;           ///< mode values, support by support
+};
+
+/// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference where nothing is
+/// damped, second order with dampers, one evaluation of the forces a step. [theory.md, eq. M4]
+/// A copy goes on by itself over the same track: runs with a common beginning share it.
+class ModalPassage {
+ public:
+  /// In equilibrium at x, at rest. The vehicle does not bend (no BeamVehicle::bending).
+  ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt);
+
+  /// One step; the wheel is then at x over `roughness` (positive: the rail is lower) [m]. NumericalError when
+  /// the step is not stable.
+  void step(double x, double roughness = 0);
+
+  double time() const { return time_; }
+  double dt() const { return dt_; }
+  double force() const { return force_; }    ///< F_N [N]
+  double rail() const { return rail_; }      ///< deflection of the rail under the wheel [m]
+  double wheel() const { return wheel_.z; }  ///< of the wheel, downwards [m]
+  double sprung() const { return sprung_.z; }
+
+ private:
+  struct Mass {
+    double z = 0, rate = 0, acceleration = 0, before = 0;  ///< downwards [m], [m/s], [m/s2]
+    void move(double dt, double blend);
+  };
+  void accelerate(double x, double roughness);
+
+  const ModalTrack* track_;
+  BeamVehicle vehicle_;
+  double dt_;
+  std::vector<double> state_, rate_, acceleration_, before_;  ///< by mode; before_: of the last step
+  std::vector<double> shape_, scratch_;
+  Mass wheel_, sprung_;
+  bool first_ = true;
+  double time_ = 0, force_ = 0, rail_ = 0;
+};
+
+/// Half the step at which track and vehicle together become unstable, as far as estimates go [s].
+double passage_step(const ModalTrack& track, const BeamVehicle& vehicle);
+
+}  // namespace tread

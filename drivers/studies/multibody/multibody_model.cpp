@@ -1,0 +1,222 @@
+#include "drivers/studies/multibody/multibody_model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/rail_beam.hpp"
+#include "drivers/engine/sections.hpp"
+#include "kernels/half_space/half_space.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kTopFrequency = 20e3;  ///< of the modes [Hz]
+constexpr double kBeyond = 0.1;         ///< of the way beyond what is evaluated [m]
+constexpr double kEndOfRail = 0.3;      ///< least distance of the wheel from the rail's ends [m]
+
+void require_parts(const Scene& scene) {
+  const auto need = [](bool there, const char* what) {
+    if (!there)
+      throw InputError(fmt::format(
+          "tread multibody: the scene has no {}; it needs a half wheelset under [vehicle] or [load], a rail "
+          "on fastenings, and [motion] with a speed",
+          what));
+  };
+  need(scene.wheel && scene.wheel->shape == "half_wheelset", "half wheelset ([wheel])");
+  need(scene.rail && scene.fastenings, "rail on fastenings ([rail], [fastenings])");
+  need(scene.contact.has_value(), "[contact]");
+  need(scene.motion && scene.motion->speed > 0, "speed ([motion])");
+}
+
+BeamVehicle lumped_vehicle(const Scene& scene) {
+  BeamVehicle vehicle;
+  vehicle.gravity = scene.gravity;
+  vehicle.unsprung_mass = scene.wheel->mass;
+  if (scene.vehicle) {
+    vehicle.unsprung_mass += scene.vehicle->unsprung_mass;
+    vehicle.sprung_mass = scene.vehicle->sprung_mass;
+    vehicle.stiffness = scene.vehicle->suspension_stiffness;
+    vehicle.damping = scene.vehicle->suspension_damping;
+  }
+  if (scene.load) vehicle.pressed = scene.load->wheel_load;
+  return vehicle;
+}
+
+/// As the scene states it.
+Corrugation stated_corrugation(const MultibodyModel& model) {
+  const auto& spec = model.scene.corrugation;
+  return spec ? corrugation_of(*spec, spec->centre.value_or(model.contact_y)) : Corrugation{};
+}
+
+/// Empty where both are the same.
+std::string difference(const char* name, const char* unit, double here, double there) {
+  constexpr double kRounding = 1e-6;
+  constexpr double kNothing = 1e-9;  // in any of the units
+  if (std::abs(here - there) <= std::max(kNothing, kRounding * std::abs(here))) return "";
+  return fmt::format("{} is {:.6g}{} here and {:.6g}{} there", name, here, unit, there, unit);
+}
+
+}  // namespace
+
+const char* name_of(BeamTheory theory) {
+  switch (theory) {
+    case BeamTheory::euler:
+      return "Euler";
+    case BeamTheory::timoshenko:
+      return "Timoshenko";
+    default:
+      return "Timoshenko (spread)";
+  }
+}
+
+double MultibodyModel::contact_stiffness() const {
+  return 1.5 * vehicle.contact * std::cbrt(vehicle.load() / vehicle.contact);
+}
+
+MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
+  require_parts(scene);
+  MultibodyModel model;
+  model.scene = scene;
+  model.theory = theory;
+  const BeamSection section = rail_beam_section(scene);
+  model.rail = theory == BeamTheory::euler ? euler(section, scene.steel) : timoshenko(section, scene.steel);
+  if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
+  model.supports = rail_supports(scene);
+  model.vehicle = lumped_vehicle(scene);
+
+  const MeshSizes sizes = mesh_sizes(scene);
+  const double radius = 0.5 * scene.wheel->diameter;
+  const Section rail =
+      scene.rail->profile == "box" ? box_rail_section(scene, sizes) : rail_sections(scene, sizes).cap;
+  const Section tread = wheel_sections(scene, sizes, plan_wheel(radius, {}, sizes)).sections.tread;
+  const LateralGap gap = lateral_gap(SurfaceProfile(rail), SurfaceProfile(tread));
+  model.contact_y = gap.lowest;
+  model.radius_y = gap.radius;
+  model.patch =
+      hertz(radius, gap.radius, contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio),
+            model.vehicle.load());
+  model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
+
+  model.corrugation = stated_corrugation(model);
+  model.speed = scene.motion->speed;
+  const double left = -scene.rail->origin;
+  model.start =
+      scene.start() == "rigid" ? 0 : left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
+  model.end = std::max(evaluated_stretch(scene, model.corrugation).last, model.corrugation.last()) + kBeyond;
+  const double last = left + scene.rail->length - kEndOfRail;
+  if (model.start < left + kEndOfRail || model.end > last || model.start >= model.end)
+    throw InputError(
+        fmt::format("tread multibody: the wheel would roll from x = {:.3f} to {:.3f} m, the rail lets it go "
+                    "from {:.3f} to "
+                    "{:.3f} m; state a longer rail.length or another rail.origin",
+                    model.start, model.end, left + kEndOfRail, last));
+  return model;
+}
+
+std::string track_difference(const MultibodyModel& here, const MultibodyModel& there) {
+  std::string first;
+  const auto compare = [&](const char* name, const char* unit, double ours, double theirs) {
+    if (first.empty()) first = difference(name, unit, ours, theirs);
+  };
+  compare("the wheel load", " N", here.vehicle.load(), there.vehicle.load());
+  compare("the unsprung mass", " kg", here.vehicle.unsprung_mass, there.vehicle.unsprung_mass);
+  compare("the sprung mass", " kg", here.vehicle.sprung_mass, there.vehicle.sprung_mass);
+  compare("the suspension's stiffness", " N/m", here.vehicle.stiffness, there.vehicle.stiffness);
+  compare("the suspension's damping", " N s/m", here.vehicle.damping, there.vehicle.damping);
+  compare("the rail's E I", " N m2", here.rail.bending_stiffness, there.rail.bending_stiffness);
+  compare("the rail's kappa G A", " N", here.rail.shear_stiffness, there.rail.shear_stiffness);
+  compare("the rail's mass", " kg/m", here.rail.mass, there.rail.mass);
+  const auto count = [](const MultibodyModel& one) { return static_cast<double>(one.supports.size()); };
+  compare("the number of fastenings", "", count(here), count(there));
+  for (std::size_t i = 0; i < std::min(here.supports.size(), there.supports.size()); ++i) {
+    const BeamSupport& ours = here.supports[i];
+    const BeamSupport& theirs = there.supports[i];
+    compare("a fastening's x", " m", ours.x, theirs.x);
+    compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
+    compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
+  }
+  return first;
+}
+
+std::string corrugation_difference(const MultibodyModel& here, const MultibodyModel& there) {
+  const Corrugation ours = stated_corrugation(here);
+  const Corrugation theirs = stated_corrugation(there);
+  if (ours.smooth() && theirs.smooth()) return "";
+  for (const std::string& apart : {difference("the corrugation's start", " m", ours.first(), theirs.first()),
+                                   difference("the corrugation's end", " m", ours.last(), theirs.last())})
+    if (!apart.empty()) return apart;
+  constexpr int kPlaces = 1000;
+  constexpr double kSame = 0.01;  // of the largest depth: where the wheel touches hangs a little on the mesh
+  double deepest = 0;
+  double apart = 0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double x = ours.first() + (ours.last() - ours.first()) * i / kPlaces;
+    const double depth = ours.depth(x, ours.centre());
+    deepest = std::max(deepest, std::abs(depth));
+    apart = std::max(apart, std::abs(depth - theirs.depth(x, theirs.centre())));
+  }
+  if (apart <= kSame * deepest) return "";
+  return fmt::format("the corrugations' depths differ by up to {:.3g} mm", 1e3 * apart);
+}
+
+Corrugation with_wavelength(const MultibodyModel& model, double wavelength) {
+  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
+    throw InputError("tread multibody: the wavelength can only be changed where [corrugation] is a sine");
+  CorrugationSpec spec = *model.scene.corrugation;
+  spec.wavelength = wavelength;
+  return corrugation_of(spec, spec.centre.value_or(model.contact_y));
+}
+
+double contact_filter_gain(const MultibodyModel& model, double wavelength) {
+  using namespace half_space;
+  const HertzPatch& patch = model.patch;
+  const CorrugationSpec& spec = *model.scene.corrugation;
+  const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 8;
+  // A trough more curved than the wheel is bridged, from crest to crest at the most.
+  const double curvature = 0.5 * spec.depth * std::pow(2 * std::numbers::pi / wavelength, 2);
+  const bool bridged = curvature * 0.5 * model.scene.wheel->diameter > 0.5;
+  const double half_length =
+      std::max(2.0 * patch.semi_axis_x, bridged ? 0.5 * wavelength + patch.semi_axis_x : 0.0);
+  const Influence influence(centred_grid(half_length, 2 * patch.semi_axis_y, cell),
+                            {model.scene.steel.youngs_modulus, model.scene.steel.poissons_ratio});
+  const Gap smooth = quadratic_gap(0.5 * model.scene.wheel->diameter, model.radius_y);
+  const auto approach = [&](double phase) {
+    return press(
+               influence,
+               [&](double x, double y) {
+                 const double across = std::max(0.0, 1 - y * y / (spec.width * spec.width));
+                 return smooth(x, y) + 0.5 * spec.depth * across *
+                                           (1 - std::cos(2 * std::numbers::pi * x / wavelength + phase));
+               },
+               model.vehicle.load())
+        .approach;
+  };
+  return (approach(std::numbers::pi) - approach(0)) / spec.depth;
+}
+
+double apply_contact_filter(MultibodyModel& model) {
+  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
+    throw InputError("tread multibody --filter: the gain is that of a sine; [corrugation] is none");
+  CorrugationSpec spec = *model.scene.corrugation;
+  const double gain = contact_filter_gain(model, spec.wavelength);
+  spec.depth *= gain;
+  model.corrugation = corrugation_of(spec, spec.centre.value_or(model.contact_y));
+  return gain;
+}
+
+ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
+  const double length = model.scene.rail->length;
+  const int count = modes.value_or(modes_below(model.rail, length, kTopFrequency));
+  return {
+      ModalBeam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail)),
+      model.supports};
+}
+
+}  // namespace tread

@@ -1,0 +1,48 @@
+#pragma once
+// What `tread multibody` shows: tables, figures, files.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/studies/multibody/response_map.hpp"
+#include "io/report/report.hpp"
+
+namespace tread {
+
+/// Everything that a call computed.
+struct MultibodyOutcome {
+  MultibodyModel model;
+  MultibodyResult result;
+  std::optional<double> filter_gain;       ///< with --filter [-]
+  std::optional<Calibration> calibration;  ///< with --calibrate
+  std::optional<ResponseMap> map;          ///< with --map
+  std::vector<MapDot> dots;
+  double seconds = 0;
+};
+
+/// The passage in a few rows.
+Table multibody_table(const MultibodyOutcome& outcome);
+
+/// The fit in a few rows.
+Table calibration_table(const Calibration& calibration, const MultibodyModel& model);
+
+std::string multibody_json(const MultibodyOutcome& outcome);
+
+/// CSV files, a unit in every column's head.
+std::string passage_csv(const MultibodyModel& model, const MultibodyResult& result);
+std::string calibration_csv(const Calibration& calibration);
+std::string map_csv(const ResponseMap& map);
+
+/// F_N over the corrugation or the solution zone.
+Figure passage_figure(const MultibodyOutcome& outcome);
+
+/// F_N of the transient run and of both springs.
+Figure calibration_figure(const MultibodyOutcome& outcome);
+
+/// The largest F_N over static against speed and wavelength.
+Heatmap response_heatmap(const MultibodyOutcome& outcome);
+
+Report multibody_report(const MultibodyOutcome& outcome, const std::string& command);
+
+}  // namespace tread

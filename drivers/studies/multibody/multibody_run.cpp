@@ -1,0 +1,99 @@
+#include "drivers/studies/multibody/multibody_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "drivers/engine/evaluated_stretch.hpp"
+
+namespace tread {
+
+namespace {
+
+double wavelength_of(const MultibodyModel& model) {
+  const auto& spec = model.scene.corrugation;
+  return spec && spec->kind == "sine" ? spec->wavelength : 0;
+}
+
+void evaluate(const MultibodyModel& model, MultibodyResult& r) {
+  const Span stretch = evaluated_stretch(model.scene, model.corrugation);
+  r.evaluated_first = stretch.first;
+  r.evaluated_last = stretch.last;
+  const auto between = [](double first, double last) {
+    return [first, last](const MultibodySample& s) { return s.x >= first && s.x <= last; };
+  };
+  const auto force = [](const MultibodySample& s) { return s.force; };
+  const auto evaluated = between(stretch.first, stretch.last);
+  r.force = statistics(r.samples, evaluated, force);
+  r.loss_of_contact =
+      statistics(r.samples, evaluated, [](const MultibodySample& s) { return s.force > 0 ? 0.0 : 1.0; }).mean;
+  const double before = model.corrugation.smooth() ? stretch.last : model.corrugation.first();
+  r.passing =
+      0.5 * statistics(r.samples, between(before - model.scene.fastenings->spacing, before), force).range();
+  if (const double wave = wavelength_of(model); wave > 0) {
+    std::vector<double> x, f;
+    for (const MultibodySample& s : r.samples) {
+      x.push_back(s.x);
+      f.push_back(s.force);
+    }
+    r.peaks = crest_peaks(model.corrugation, wave, x, f);
+  }
+}
+
+}  // namespace
+
+std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
+                                   const std::vector<double>& x, const std::vector<double>& force) {
+  std::vector<CrestPeak> peaks;
+  const double half = 0.5 * wavelength;
+  for (double crest = corrugation.first() + wavelength; crest < corrugation.last() - half;
+       crest += wavelength) {
+    const auto first = std::lower_bound(x.begin(), x.end(), crest - half);
+    const auto last = std::upper_bound(first, x.end(), crest + half);
+    if (first == x.begin() || last == x.end() || first == last) continue;
+    const auto at = std::max_element(force.begin() + (first - x.begin()), force.begin() + (last - x.begin()));
+    const double peak = x[static_cast<std::size_t>(at - force.begin())];
+    peaks.push_back({crest, peak, *at, 2 * std::numbers::pi * (crest - peak) / wavelength});
+  }
+  return peaks;
+}
+
+double mean_shift(const std::vector<CrestPeak>& peaks) {
+  double sum = 0;
+  for (const CrestPeak& p : peaks) sum += p.shift;
+  return peaks.empty() ? 0 : sum / static_cast<double>(peaks.size());
+}
+
+double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double speed, double wavelength) {
+  constexpr double kOfAWave = 40;
+  const double stable = passage_step(track, vehicle);
+  return wavelength > 0 ? std::min(stable, wavelength / speed / kOfAWave) : stable;
+}
+
+MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step) {
+  const ModalTrack track = modal_track(model, step.modes);
+  // Estimates of the stable step are good to a factor of two; beyond, nothing is left to try.
+  const double longest = 4 * passage_step(track, model.vehicle);
+  if (step.step && *step.step > longest)
+    throw InputError(fmt::format("--step {:.4g} s: steps beyond {:.2g} s cannot be stable with {} modes",
+                                 *step.step, longest, track.beam().modes()));
+  MultibodyResult r;
+  r.modes = track.beam().modes();
+  r.dt = step.step.value_or(chosen_step(track, model.vehicle, model.speed, wavelength_of(model)));
+  r.static_rail = ModalPassage(track, model.vehicle, 0, r.dt).rail();
+  ModalPassage passage(track, model.vehicle, model.start, r.dt);
+  const auto depth = [&](double x) { return model.roughness(x); };
+  roll(passage, model.speed, model.start, model.end, depth, [&](double x, double roughness) {
+    ++r.steps;
+    if (x >= 0)
+      r.samples.push_back(
+          {passage.time(), x, passage.force(), passage.wheel(), passage.rail(), passage.sprung(), roughness});
+  });
+  evaluate(model, r);
+  return r;
+}
+
+}  // namespace tread

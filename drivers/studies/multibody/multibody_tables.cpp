@@ -1,0 +1,204 @@
+// Tables, JSON and CSV of `tread multibody`.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "drivers/studies/multibody/multibody_report.hpp"
+#include "io/report/markup.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s) {
+  json.key(key).begin_object();
+  json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
+}
+
+void add_fit(JsonWriter& json, std::string_view key, const CurveFit& fit) {
+  json.key(key).begin_object();
+  add_statistics(json, "vertical_force_N", fit.force);
+  json.member("vertical_force_range_N", fit.force.range());
+  json.member("mean_shift_before_crests_rad", fit.shift);
+  json.member("misfit_rms_N", fit.misfit).end_object();
+}
+
+void add_calibration(JsonWriter& json, const MultibodyOutcome& o) {
+  const Calibration& c = *o.calibration;
+  json.key("calibration").begin_object();
+  json.member("contact_C_N_per_m1.5", c.contact);
+  json.member("contact_C_over_hertz", c.contact / o.model.vehicle.contact);
+  json.member("best_at_bound_of_search", c.at_bound);
+  json.key("stretch_x_m").begin_array().value(c.first).value(c.last).end_array();
+  add_fit(json, "run", c.run);
+  add_fit(json, "hertz", c.before);
+  add_fit(json, "fitted", c.after);
+  json.end_object();
+}
+
+void add_map(JsonWriter& json, const MultibodyOutcome& o) {
+  const ResponseMap& map = *o.map;
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (map.points[i].max > map.points[largest].max) largest = i;
+  const std::size_t waves = map.axes.wavelength.values.size();
+  json.key("map").begin_object();
+  json.member("points", map.points.size());
+  json.member("dt_s_at_lowest_speed", map.dt_first).member("dt_s_at_highest_speed", map.dt_last);
+  json.key("largest").begin_object();
+  json.member("speed_m_per_s", map.axes.speed.values[largest / waves]);
+  json.member("wavelength_m", map.axes.wavelength.values[largest % waves]);
+  json.member("max_over_static", map.points[largest].max).end_object();
+  json.key("dots").begin_array();
+  for (const MapDot& dot : o.dots)
+    json.begin_object()
+        .member("run", std::string_view(dot.label))
+        .member("speed_m_per_s", dot.speed)
+        .member("wavelength_m", dot.wavelength)
+        .member("max_over_static", dot.max)
+        .member("min_over_static", dot.min)
+        .member("remark", std::string_view(dot.remark))
+        .end_object();
+  json.end_array().end_object();
+}
+
+std::string in_pi(double radians) {
+  return fmt::format("{:.3f}", radians / std::numbers::pi);
+}
+
+}  // namespace
+
+Table multibody_table(const MultibodyOutcome& o) {
+  const MultibodyModel& m = o.model;
+  const MultibodyResult& r = o.result;
+  Table table{"", {{"Quantity"}, {"Value", Align::right}, {"Unit"}, {"Remark"}}, {}};
+  const auto add = [&](std::string name, std::string value, std::string unit, std::string remark = "") {
+    table.rows.push_back({std::move(name), std::move(value), std::move(unit), std::move(remark)});
+  };
+  add("Largest F_N", readable(1e-3 * r.force.max), "kN",
+      fmt::format("x = {:.3f} ... {:.3f} m", r.evaluated_first, r.evaluated_last));
+  add("Smallest F_N", readable(1e-3 * r.force.min), "kN");
+  add("Static F_N", readable(1e-3 * m.vehicle.load()), "kN");
+  add("Way without contact", readable(100 * r.loss_of_contact, 3), "%", "of the same stretch");
+  add("Half range of F_N over a fastening span / static", readable(100 * r.passing / m.vehicle.load(), 3),
+      "%", m.corrugation.smooth() ? "last span" : "last span before the corrugation");
+  if (!r.peaks.empty()) {
+    add("F_N's peak before the first crest", in_pi(r.peaks.front().shift), "pi",
+        "a wavelength is 2 pi; the crest a wave behind the corrugation's start");
+    add("Mean over the crests", in_pi(mean_shift(r.peaks)), "pi");
+  }
+  add("Rail deflection at rest", readable(1e3 * r.static_rail), "mm",
+      fmt::format("{} beam, under the wheel at x = 0", name_of(m.theory)));
+  add("Contact stiffness at rest", readable(1e-9 * m.contact_stiffness()), "GN/m",
+      fmt::format("C = {} N/m^1.5", readable(m.vehicle.contact)));
+  if (o.filter_gain) add("Gain of the contact filter", readable(*o.filter_gain), "");
+  return table;
+}
+
+Table calibration_table(const Calibration& c, const MultibodyModel& model) {
+  Table table{"",
+              {{"F_N over the stretch"},
+               {"Unit"},
+               {"Transient run", Align::right},
+               {"Hertz spring", Align::right},
+               {"Fitted spring", Align::right}},
+              {}};
+  const auto add = [&](const char* name, const char* unit, const auto& value) {
+    table.rows.push_back({name, unit, value(c.run), value(c.before), value(c.after)});
+  };
+  const auto kn = [](double newtons) { return readable(1e-3 * newtons); };
+  add("largest", "kN", [&](const CurveFit& f) { return kn(f.force.max); });
+  add("smallest", "kN", [&](const CurveFit& f) { return kn(f.force.min); });
+  add("range", "kN", [&](const CurveFit& f) { return kn(f.force.range()); });
+  add("range / that of the run", "-",
+      [&](const CurveFit& f) { return readable(f.force.range() / c.run.force.range(), 3); });
+  add("mean shift of the peaks before the crests", "pi", [&](const CurveFit& f) { return in_pi(f.shift); });
+  add("difference from the run, root mean square", "kN", [&](const CurveFit& f) { return kn(f.misfit); });
+  table.rows.push_back({"C / Hertz", "-", "–", "1", readable(c.contact / model.vehicle.contact, 3)});
+  return table;
+}
+
+std::string multibody_json(const MultibodyOutcome& o) {
+  const MultibodyModel& m = o.model;
+  const MultibodyResult& r = o.result;
+  JsonWriter json;
+  json.begin_object();
+  json.member("title", std::string_view(m.scene.title));
+  json.member("beam", name_of(m.theory)).member("modes", r.modes);
+  json.member("dt_s", r.dt).member("steps", r.steps).member("seconds", o.seconds);
+  json.member("speed_m_per_s", m.speed);
+  json.member("static_wheel_load_N", m.vehicle.load());
+  json.member("static_rail_deflection_m", r.static_rail);
+  json.member("contact_C_N_per_m1.5", m.vehicle.contact);
+  json.member("contact_stiffness_N_per_m", m.contact_stiffness());
+  json.member("contact_y_m", m.contact_y);
+  json.member("bending_stiffness_N_m2", m.rail.bending_stiffness);
+  json.member("shear_stiffness_N", m.rail.shear_stiffness);
+  json.member("rail_mass_kg_per_m", m.rail.mass);
+  json.member("unsprung_mass_kg", m.vehicle.unsprung_mass);
+  if (o.filter_gain) json.member("contact_filter_gain", *o.filter_gain);
+  json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
+  add_statistics(json, "vertical_force_N", r.force);
+  json.member("loss_of_contact_share", r.loss_of_contact);
+  json.member("passing_half_range_N", r.passing);
+  json.key("crests").begin_array();
+  for (const CrestPeak& p : r.peaks)
+    json.begin_object()
+        .member("crest_x_m", p.crest)
+        .member("peak_x_m", p.peak)
+        .member("peak_N", p.force)
+        .member("shift_before_crest_rad", p.shift)
+        .end_object();
+  json.end_array();
+  if (o.calibration) add_calibration(json, o);
+  if (o.map) add_map(json, o);
+  json.end_object();
+  return json.text();
+}
+
+std::string passage_csv(const MultibodyModel& model, const MultibodyResult& result) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text),
+                 "time [s],wheel_x [m],vertical_force [N],wheel_deflection [m],rail_deflection [m],"
+                 "sprung_deflection [m],corrugation_depth [m]\n");
+  const double interval = model.scene.output.history_interval;
+  const auto every = static_cast<std::size_t>(std::max(1.0, std::round(interval / result.dt)));
+  for (std::size_t i = 0; i < result.samples.size(); i += every) {
+    const MultibodySample& s = result.samples[i];
+    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", s.time,
+                   s.x, s.force, s.wheel, s.rail, s.sprung, s.roughness);
+  }
+  return fmt::to_string(text);
+}
+
+std::string calibration_csv(const Calibration& c) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text),
+                 "wheel_x [m],vertical_force_run [N],vertical_force_hertz [N],vertical_force_fitted [N]\n");
+  for (std::size_t i = 0; i < c.x.size(); ++i)
+    fmt::format_to(std::back_inserter(text), "{:.9g},{:.9g},{:.9g},{:.9g}\n", c.x[i], c.run.values[i],
+                   c.before.values[i], c.after.values[i]);
+  return fmt::to_string(text);
+}
+
+std::string map_csv(const ResponseMap& map) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text),
+                 "speed [m/s],wavelength [m],passing_frequency [Hz],max_over_static [-],min_over_static [-],"
+                 "loss_of_contact [-]\n");
+  const std::vector<double>& speeds = map.axes.speed.values;
+  const std::vector<double>& waves = map.axes.wavelength.values;
+  for (std::size_t i = 0; i < speeds.size(); ++i)
+    for (std::size_t j = 0; j < waves.size(); ++j) {
+      const MapPoint& p = map.at(i, j);
+      fmt::format_to(std::back_inserter(text), "{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g}\n", speeds[i],
+                     waves[j], speeds[i] / waves[j], p.max, p.min, p.loss_of_contact);
+    }
+  return fmt::to_string(text);
+}
+
+}  // namespace tread

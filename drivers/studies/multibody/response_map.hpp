@@ -1,0 +1,61 @@
+#pragma once
+// Thousands of passages: the response over speed and wavelength.
+
+#include <string>
+#include <vector>
+
+#include "drivers/studies/multibody/calibration.hpp"
+#include "drivers/studies/multibody/multibody_run.hpp"
+
+namespace tread {
+
+/// Evenly spaced values.
+struct MapAxis {
+  std::string unit;            ///< as the user writes it, "km/h"
+  std::vector<double> values;  ///< growing, SI
+};
+
+struct MapAxes {
+  MapAxis speed;       ///< [m/s]
+  MapAxis wavelength;  ///< [m]
+};
+
+/// From "speed=100:500:10km/h" and "wavelength=40:150:2mm", in any order: first, last and step, whose unit
+/// holds for all three. InputError that says what is wrong.
+MapAxes parse_map_axes(const std::vector<std::string>& texts);
+
+/// F_N over the evaluated stretch, over the static load.
+struct MapPoint {
+  double max = 0, min = 0;     ///< [-]
+  double loss_of_contact = 0;  ///< share of the stretch
+};
+
+struct ResponseMap {
+  MapAxes axes;
+  std::vector<MapPoint> points;      ///< speed by speed, wavelengths running fastest
+  double dt_first = 0, dt_last = 0;  ///< steps at the lowest and the highest speed [s]
+
+  const MapPoint& at(std::size_t speed, std::size_t wavelength) const {
+    return points[speed * axes.wavelength.values.size() + wavelength];
+  }
+};
+
+/// All passages with the model's depth of corrugation, start and fastenings. What lies before the corrugation
+/// is rolled once a speed. `filtered`: each wavelength as deep as the contact filter leaves it. InputError
+/// without a sine.
+ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const MultibodyStep& step,
+                         bool filtered);
+
+/// A transient run on the map.
+struct MapDot {
+  std::string label;        ///< name of its directory
+  double speed = 0;         ///< on the evaluated stretch [m/s]
+  double wavelength = 0;    ///< [m]
+  double max = 0, min = 0;  ///< F_N over the run's static load [-]
+  std::string remark;       ///< where its scene is not the map's
+};
+
+/// InputError where the run has no sine or has not reached it.
+MapDot map_dot(const MultibodyModel& model, const TransientRun& run);
+
+}  // namespace tread

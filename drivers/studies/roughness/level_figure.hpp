@@ -1,0 +1,20 @@
+#pragma once
+// Roughness levels of rails beside the limit of ISO 3095. [paper, Fig. 14]
+
+#include <string>
+#include <vector>
+
+#include "drivers/studies/roughness/roughness_levels.hpp"
+#include "io/report/report.hpp"
+
+namespace tread {
+
+struct NamedLevels {
+  std::string label;  ///< of the rail
+  RoughnessLevels levels;
+};
+
+/// Over the bands from short to long.
+Figure level_figure(const std::vector<NamedLevels>& rails);
+
+}  // namespace tread

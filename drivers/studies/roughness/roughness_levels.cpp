@@ -1,0 +1,139 @@
+#include "drivers/studies/roughness/roughness_levels.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/parallel/each_item.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kReference = 1e-6;  // [m]
+constexpr double kWavesInSegment = 4;
+constexpr double kSamplesInWave = 2.5;
+
+double edge(double decibels_tenth) {
+  return std::pow(10.0, decibels_tenth);
+}
+
+/// Mean squares of the lines k = 0 ... lines - 1, k waves in the segment [m2].
+std::vector<double> spectrum(const double* height, std::size_t count, std::size_t lines) {
+  const auto n = static_cast<double>(count);
+  double mean = 0;
+  double moment = 0;
+  for (std::size_t j = 0; j < count; ++j) {
+    mean += height[j] / n;
+    moment += height[j] * (static_cast<double>(j) - 0.5 * (n - 1));
+  }
+  const double slope = 12 * moment / (n * (n * n - 1));
+
+  // All lines side by side, each with its own turning pointer.
+  std::vector<double> real(lines), imaginary(lines), c(lines, 1.0), s(lines, 0.0), turn_c, turn_s;
+  for (std::size_t k = 0; k < lines; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / n;
+    turn_c.push_back(std::cos(angle));
+    turn_s.push_back(std::sin(angle));
+  }
+  double window_squares = 0;
+  for (std::size_t j = 0; j < count; ++j) {
+    const double at = static_cast<double>(j);
+    const double window = 0.5 * (1 - std::cos(2 * std::numbers::pi * (at + 0.5) / n));
+    window_squares += window * window;
+    const double value = window * (height[j] - mean - slope * (at - 0.5 * (n - 1)));
+    for (std::size_t k = 0; k < lines; ++k) {
+      real[k] += value * c[k];
+      imaginary[k] += value * s[k];
+      const double next = c[k] * turn_c[k] - s[k] * turn_s[k];
+      s[k] = s[k] * turn_c[k] + c[k] * turn_s[k];
+      c[k] = next;
+    }
+  }
+  std::vector<double> squares(lines);
+  for (std::size_t k = 0; k < lines; ++k)
+    squares[k] = 2 * (real[k] * real[k] + imaginary[k] * imaginary[k]) / (n * window_squares);
+  return squares;
+}
+
+}  // namespace
+
+double RoughnessBand::shortest() const {
+  return middle * edge(-0.05);
+}
+
+double RoughnessBand::longest() const {
+  return middle * edge(0.05);
+}
+
+const std::vector<RoughnessBand>& roughness_bands() {
+  static const std::vector<RoughnessBand> bands = [] {
+    // Nominal wavelength [mm] and limit [dB]. [ISO 3095:2013, Fig. 2]
+    constexpr double kTable[][2] = {{400, 17.1},  {315, 15.0},  {250, 13.0}, {200, 11.0}, {160, 9.0},
+                                    {125, 7.0},   {100, 4.9},   {80, 2.9},   {63, 0.9},   {50, -1.1},
+                                    {40, -3.2},   {31.5, -5.0}, {25, -5.6},  {20, -6.2},  {16, -6.8},
+                                    {12.5, -7.4}, {10, -8.0},   {8, -8.6},   {6.3, -9.2}, {5, -9.8},
+                                    {4, -10.4},   {3.15, -11.0}};
+    std::vector<RoughnessBand> list;
+    for (const auto& [nominal, limit] : kTable)
+      list.push_back({1e-3 * nominal, 1e-3 * edge(std::round(10 * std::log10(nominal)) / 10), limit});
+    return list;
+  }();
+  return bands;
+}
+
+RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment) {
+  const std::size_t count = std::min(
+      profile.height.size(), static_cast<std::size_t>(std::max(1.0, std::round(segment / profile.spacing))));
+  RoughnessLevels levels;
+  levels.segment_length = static_cast<double>(count) * profile.spacing;
+  const double line = 1 / levels.segment_length;  // spacing of the lines [1/m]
+  const auto resolved = [&](const RoughnessBand& band) {
+    return kWavesInSegment * band.nominal <= levels.segment_length * (1 + 1e-9) &&
+           band.shortest() >= kSamplesInWave * profile.spacing;
+  };
+  const std::vector<RoughnessBand>& bands = roughness_bands();
+  double finest = 0;
+  for (const RoughnessBand& band : bands)
+    if (resolved(band)) finest = std::max(finest, 1 / band.shortest());
+  if (finest == 0)
+    throw InputError(
+        fmt::format("no band of 400 to 3.15 mm fits a record of {:.4g} m with a sample every {:.3g} mm: a "
+                    "segment must hold "
+                    "{} waves, a wave {} samples; measure longer or finer, or state a longer --segment",
+                    profile.length(), 1e3 * profile.spacing, kWavesInSegment, kSamplesInWave));
+
+  const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(std::lround(finest / line)) + 2);
+  const std::size_t hop = std::max<std::size_t>(1, count / 2);
+  // As many as lie half a segment apart at the most, evenly, the last at the record's end.
+  const std::size_t way = profile.height.size() - count;
+  const std::size_t gaps = (way + hop - 1) / hop;
+  const std::size_t segments = gaps + 1;
+  std::vector<std::vector<double>> spectra(segments);
+  each_item(segments, [&](std::size_t i) {
+    const std::size_t first = gaps > 0 ? i * way / gaps : 0;
+    spectra[i] = spectrum(profile.height.data() + first, count, lines);
+  });
+  levels.segments = static_cast<int>(segments);
+  for (const RoughnessBand& band : bands) {
+    if (!resolved(band)) {
+      levels.level.emplace_back();
+      continue;
+    }
+    double square = 0;
+    for (std::size_t k = 1; k < lines; ++k) {
+      const double low = std::max((static_cast<double>(k) - 0.5) * line, 1 / band.longest());
+      const double high = std::min((static_cast<double>(k) + 0.5) * line, 1 / band.shortest());
+      if (high <= low) continue;
+      for (const std::vector<double>& s : spectra)
+        square += s[k] * (high - low) / line / static_cast<double>(segments);
+    }
+    levels.level.emplace_back(10 * std::log10(square / (kReference * kReference)));
+  }
+  return levels;
+}
+
+}  // namespace tread

@@ -1,0 +1,74 @@
+#include "drivers/studies/study/finished_run.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "drivers/engine/sections.hpp"
+
+namespace tread {
+
+Corrugation FinishedRun::corrugation() const {
+  return scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
+}
+
+FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& scene,
+                              const std::string& label) {
+  return {label, folder, scene, read_json(folder / "summary.json")};
+}
+
+const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label) {
+  const auto found =
+      std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) { return run.label == label; });
+  return found == runs.end() ? nullptr : &*found;
+}
+
+CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
+  std::vector<std::vector<double>> columns = read_history(run.folder / curve.file, {curve.x, curve.y});
+  for (double& x : columns[0]) x *= curve.x_scale;
+  for (double& y : columns[1]) y *= curve.y_scale;
+  return {std::move(columns[0]), std::move(columns[1])};
+}
+
+const std::vector<ResultColumn>& result_columns() {
+  static const std::vector<ResultColumn> columns = {
+      {"static_wheel_load", "N", "static_wheel_load_N", "Static F_N [kN]", 1e-3},
+      {"vertical_force_max", "N", "vertical_force_N.max", "Largest F_N [kN]", 1e-3},
+      {"vertical_force_min", "N", "vertical_force_N.min", "Smallest F_N [kN]", 1e-3},
+      {"vertical_force_mean", "N", "vertical_force_N.mean", "", 1e-3},
+      {"longitudinal_force_max", "N", "longitudinal_force_N.max", "F_L, max [kN]", 1e-3},
+      {"longitudinal_force_min", "N", "longitudinal_force_N.min", "F_L, min [kN]", 1e-3},
+      {"longitudinal_force_mean", "N", "longitudinal_force_N.mean", "Mean F_L [kN]", 1e-3},
+      {"traction_coefficient_steady", "-", "traction_coefficient", ""},
+      {"creepage_steady", "-", "creepage_percent", "Creepage [%]", 100, 1e-2},
+      {"creepage_max", "-", "creepage_max_percent", "Largest creepage [%]", 100, 1e-2},
+      {"full_slip_share", "-", "full_slip_share", "Full slip [%]", 100},
+      {"max_pressure", "Pa", "surface.max_pressure_Pa", "Pressure [MPa]", 1e-6},
+      {"max_shear", "Pa", "surface.max_shear_Pa", "Shear [MPa]", 1e-6},
+      {"max_von_mises", "Pa", "surface.max_von_mises_Pa", "Von Mises [MPa]", 1e-6},
+      {"axis_von_mises_mean", "Pa", "surface.axis_max_von_mises_Pa.mean", ""},
+      {"axis_von_mises_max", "Pa", "surface.axis_max_von_mises_Pa.max", ""},
+      {"axis_von_mises_min", "Pa", "surface.axis_max_von_mises_Pa.min", ""},
+      {"axis_cell_work_mean", "J", "surface.axis_frictional_work_J_in_1.1_mm_cell.mean", "Work, mean [mJ]",
+       1e3},
+      {"axis_cell_work_max", "J", "surface.axis_frictional_work_J_in_1.1_mm_cell.max", ""},
+      {"axis_cell_work_min", "J", "surface.axis_frictional_work_J_in_1.1_mm_cell.min", ""},
+      {"axis_cell_work_range", "J", "surface.axis_frictional_work_range_J_in_1.1_mm_cell", "Work, range [mJ]",
+       1e3},
+      {"frictional_work", "J", "frictional_work_J", ""},
+      {"energy_error", "-", "energy_error", ""},
+      {"elements", "-", "elements", ""},
+      {"steps", "-", "steps", "Steps"},
+      {"dt", "s", "dt_s", ""},
+      {"preload_time", "s", "preload_s", ""},
+      {"rolling_time", "s", "rolling_s", "Rolling [s]"},
+  };
+  return columns;
+}
+
+std::optional<double> result_of(const FinishedRun& run, const ResultColumn& column) {
+  const std::optional<double> value = run.number(column.path);
+  return value ? std::optional(column.si_scale * *value) : std::nullopt;
+}
+
+}  // namespace tread

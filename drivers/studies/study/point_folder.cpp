@@ -1,0 +1,143 @@
+#include "drivers/studies/study/point_folder.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <optional>
+#include <system_error>
+
+#include "drivers/engine/sections.hpp"
+#include "drivers/process/machine.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/files/output_file.hpp"
+#include "io/text/json_reader.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFailure = "failed.json";
+
+/// What the last process said at its end.
+std::string last_words(const fs::path& log) {
+  constexpr std::streamoff kEnd = 4000;  // [B]
+  std::ifstream stream(log, std::ios::binary | std::ios::ate);
+  if (!stream) return "";
+  const std::streamoff size = stream.tellg();
+  stream.seekg(std::max<std::streamoff>(0, size - kEnd));
+  std::string text(static_cast<std::size_t>(std::min(size, kEnd)), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const auto begin = text.rfind("tread: ");
+  if (begin == std::string::npos) return "";
+  text.erase(0, begin + std::strlen("tread: "));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  text.erase(text.find_last_not_of(' ') + 1);
+  return text;
+}
+
+/// Resources may be there the next time; the same computation comes to the same end.
+bool leads_to_the_same_end(const ProcessEnd& end) {
+  return end.signal == 0 && end.code != static_cast<int>(ExitCode::resources);
+}
+
+std::string reason(const fs::path& folder, const ProcessEnd& end) {
+  if (end.signal != 0)
+    return fmt::format("signal {} ({}) ended it; the system ends processes when memory is short", end.signal,
+                       ::strsignal(end.signal));
+  const std::string words = last_words(log_of(folder));
+  return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
+}
+
+/// Of a process that failed; any code that is not the program's own counts as the machine's.
+ExitCode exit_code(std::optional<double> code) {
+  for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
+    if (code && *code == static_cast<double>(known)) return known;
+  return ExitCode::resources;
+}
+
+/// Of the run in the folder: why it is not that of the scene, and what it keeps.
+void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
+  try {
+    const KeptScene there = kept_scene(folder);
+    status.why = difference(scene, there.content);
+    if (there.resolved.scene.forks) status.keeps_at = there.resolved.scene.forks->at;
+    status.room = depth_room(there.resolved.scene);
+  } catch (const InputError& error) {
+    status.why = fmt::format("its scene does not read: {}", error.what());
+  }
+  status.foreign = !status.why.empty();
+}
+
+void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
+  JsonWriter json;
+  json.begin_object().member("exit", end.code).member("signal", end.signal);
+  json.member("why", std::string_view(why)).member("anew", leads_to_the_same_end(end));
+  write_text_file(folder / kFailure, json.end_object().text());
+}
+
+}  // namespace
+
+const char* name_of(PointState state) {
+  switch (state) {
+    case PointState::interrupted:
+      return "interrupted";
+    case PointState::running:
+      return "running";
+    case PointState::done:
+      return "done";
+    case PointState::failed:
+      return "failed";
+    default:
+      return "waiting";
+  }
+}
+
+PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
+  PointStatus status;
+  const CheckpointFolder checkpoints(folder / "checkpoint");
+  const bool begun = checkpoints.has_order() || !checkpoints.states().empty();
+  const bool finished = !begun && fs::exists(folder / "summary.json");
+  const bool stated = fs::exists(folder / kKeptScene);
+  if (stated && (begun || finished)) look_at_scene(folder, scene, status);
+  if (finished) {
+    status.state = PointState::done;
+  } else if (fs::exists(folder / kFailure)) {
+    const JsonRecord failure = read_json(folder / kFailure);
+    status.state = PointState::failed;
+    if (!status.foreign) status.why = text_in(failure, "why");
+    status.code = exit_code(number_in(failure, "exit"));
+    status.anew = !begun || truth_in(failure, "anew");
+  } else if (begun) {
+    status.state = PointState::interrupted;
+  }
+  return status;
+}
+
+void note_end(const fs::path& folder, const ProcessEnd& end) {
+  const bool stopped = end.signal == 0 && end.code == static_cast<int>(ExitCode::resumable);
+  const bool done = end.signal == 0 && end.code == static_cast<int>(ExitCode::done);
+  if (done || stopped) {
+    std::error_code ignored;
+    fs::remove(folder / kFailure, ignored);
+    return;
+  }
+  write_failure(folder, end, reason(folder, end));
+}
+
+void note_failure(const fs::path& folder, ExitCode code, const std::string& why) {
+  make_directory(folder);
+  write_failure(folder, {static_cast<int>(code), 0}, why);
+}
+
+fs::path log_of(const fs::path& folder) {
+  return folder / "log.txt";
+}
+
+}  // namespace tread

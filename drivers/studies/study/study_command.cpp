@@ -1,0 +1,187 @@
+#include "drivers/studies/study/study_command.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "drivers/process/interruption.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "drivers/studies/study/shared_rolling.hpp"
+#include "drivers/studies/study/study_runner.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/text_file.hpp"
+
+namespace tread {
+
+namespace {
+
+int stated(int option, int study) {
+  return option > 0 ? option : study;
+}
+
+/// Before the cost is known: as many runs as cores have room for.
+void choose_processes(StudyPlan& plan, const StudyOptions& options) {
+  const int cores = machine_cores();
+  plan.threads = stated(options.threads, plan.study.threads);
+  const int each = std::max(1, plan.threads);
+  const int jobs = stated(options.jobs, plan.study.jobs);
+  plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
+  if (plan.jobs * each > cores)
+    throw InputError(
+        fmt::format("{} runs at once with {} threads each need {} cores, this machine has {}: lower --jobs "
+                    "or --threads (study.jobs, study.threads)",
+                    plan.jobs, each, plan.jobs * each, cores));
+}
+
+/// Fewer runs at once where memory is short and their number was not stated.
+void mind_memory(StudyPlan& plan, const StudyOptions& options) {
+  if (stated(options.jobs, plan.study.jobs) > 0) return;
+  while (plan.jobs > 1 && total_cost(plan).memory > machine_memory()) --plan.jobs;
+}
+
+std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
+  const std::string saved =
+      cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
+  const std::string threads =
+      plan.threads > 0 ? fmt::format("{} thread{} each", plan.threads, plan.threads == 1 ? "" : "s")
+                       : fmt::format("all {} cores", machine_cores());
+  return fmt::format(
+      "{} run{} at once, {}: about {} ({} one after the other{}), {} on the disk, {} of memory (the machine "
+      "has {})",
+      plan.jobs, plan.jobs == 1 ? "" : "s", threads, duration_text(cost.wall), duration_text(cost.seconds),
+      saved, bytes_text(cost.disk), bytes_text(cost.memory), bytes_text(machine_memory()));
+}
+
+std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
+  JsonWriter json;
+  json.begin_object().member("jobs", plan.jobs).member("threads", plan.threads);
+  json.member("wall_s", cost.wall).member("seconds", cost.seconds).member("saved_seconds", cost.saved);
+  json.member("disk_bytes", cost.disk).member("memory_bytes", cost.memory);
+  json.key("points").begin_array();
+  for (const PlannedPoint& point : plan.points) {
+    json.begin_object().member("name", std::string_view(point.name));
+    json.member("state", name_of(point.status.state));
+    if (point.cost)
+      json.member("elements", point.cost->elements)
+          .member("steps", point.cost->steps)
+          .member("seconds", point.cost->seconds())
+          .member("disk_bytes", point.cost->disk.results + point.cost->disk.frames);
+    const std::string begins = beginning_text(plan, point);
+    if (!begins.empty()) json.member("begins", std::string_view(begins));
+    json.end_object();
+  }
+  return json.end_array().end_object().text();
+}
+
+void require_disk(const StudyPlan& plan, const StudyCost& cost) {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(plan.folder, error);
+  if (error || static_cast<std::uintmax_t>(cost.disk) <= space.available) return;
+  throw ResourceError(fmt::format(
+      "the study needs about {}, the disk of {} has {} left; free some or choose "
+      "another folder with -o",
+      bytes_text(cost.disk), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
+}
+
+/// Where the study brings its own.
+void leave_scene(const Study& study) {
+  if (study.scene_text.empty()) return;
+  constexpr std::size_t kLargest = 1 << 20;  // [B]
+  if (std::filesystem::exists(study.scene) && read_text_file(study.scene, kLargest) != study.scene_text)
+    throw InputError(fmt::format("{}: it is not the scene that belongs there; choose another folder with -o",
+                                 study.scene.string()));
+  write_text_file(study.scene, study.scene_text);
+}
+
+/// What is to be said of points that did not come to their end.
+std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
+                               const std::string& way_on) {
+  std::string failures;
+  int failed = 0;
+  int left = 0;
+  for (const PlannedPoint& point : plan.points) {
+    if (point.status.state == PointState::failed)
+      failures += fmt::format("\n  {}: {}", point.name, point.status.why), ++failed;
+    else if (point.status.state != PointState::done)
+      ++left;
+  }
+  if (!stopped_by.empty())
+    return Interrupted(
+        fmt::format("stopped by {}; nothing is lost: {} goes on with {} points", stopped_by, way_on, left));
+  if (failed > 0)
+    return Error(plan.failure_code(), fmt::format("{} of {} points failed:{}\n{} --retry tries them again",
+                                                  failed, plan.points.size(), failures, way_on));
+  if (left > 0)
+    return Interrupted(fmt::format("{} points are not done (see the log above); {} goes on", left, way_on));
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_overrides(Study& study, const StudyOptions& options) {
+  if (options.no_share) study.share = false;
+  const auto refuse_varied = [&](const std::string& text) {
+    const std::string key = text.substr(0, text.find_first_of(" \t="));
+    for (const StudyPoint& point : study.points)
+      for (const StudySetting& setting : point.varied)
+        if (setting.key == key)
+          throw InputError(
+              fmt::format("--set {}: the points of {} differ in {}; leave it out, or change the study", text,
+                          study.name, key));
+  };
+  std::vector<std::string> all;
+  if (!options.quality.empty()) all.push_back("scene.quality=" + options.quality);
+  all.insert(all.end(), options.overrides.begin(), options.overrides.end());
+  for (const std::string& text : all) {
+    refuse_varied(text);
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw InputError(fmt::format("--set {}: expected key=value, such as \"motion.speed=250 km/h\"", text));
+    study.common.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+}
+
+std::optional<Error> run_study(const Study& study, const StudyOptions& options,
+                               const std::function<void(const StudyPlan&)>& leave) {
+  StudyPlan plan = plan_study(study, options.output);
+  choose_processes(plan, options);
+  if (options.output.empty() && !options.list)
+    throw InputError("-o is missing: the folder for the runs; --list shows them without it");
+  const std::string way_on = fmt::format("`{}`", options.command);
+  Progress progress(options.quiet);
+  Interruption interruption("tread: stopped before the first run", fmt::format("tread: stopped at once; the "
+                                                                               "runs go on from their last "
+                                                                               "checkpoints with {}",
+                                                                               way_on));
+  std::optional<RunFolder> folder;
+  if (!options.list) {
+    require_no_run(plan.folder);
+    make_directory(plan.folder);
+    folder.emplace(plan.folder);
+  }
+  if (!options.output.empty()) look_into_folders(plan);
+  project_cost(plan, options.retry);
+  mind_memory(plan, options);
+  const StudyCost cost = total_cost(plan);
+  if (options.list) {
+    fmt::print("{}", options.json ? plan_json(plan, cost)
+                                  : plain_text(plan_table(plan)) + "\n" + cost_text(plan, cost) + "\n");
+    return std::nullopt;
+  }
+  require_disk(plan, cost);
+  leave_scene(study);
+  progress.say(plain_text(plan_table(plan)) + "\n[sweep] " + cost_text(plan, cost));
+  interruption.defer();
+  const std::string stopped_by = StudyRunner(plan, *folder, progress).run(options.retry);
+  leave(plan);
+  return shortfall(plan, stopped_by, way_on);
+}
+
+}  // namespace tread

@@ -1,0 +1,301 @@
+#include "drivers/studies/study/study_plan.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <set>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/fork.hpp"
+#include "drivers/run/preload_cache.hpp"
+#include "drivers/studies/study/shared_rolling.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/scene/problems.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Whether a key's path is another's or leads into its table.
+bool lies_in(const std::string& path, const std::string& table) {
+  return path == table || path.starts_with(table + ".");
+}
+
+/// Problems of many points, each told once: with the first point that has it unless all have it.
+class PointProblems {
+ public:
+  explicit PointProblems(const Study& study) : study_(study) {}
+
+  void add(const PlannedPoint& point, const Problem& problem) {
+    Problem placed = problem;
+    const auto place = [&](const std::vector<StudySetting>& settings) {
+      for (const StudySetting& s : settings)
+        if (s.line > 0 && (lies_in(s.key, problem.key) || lies_in(problem.key, s.key)))
+          std::tie(placed.file, placed.line, placed.column) = std::tie(study_.name, s.line, s.column);
+    };
+    if (problem.file == "--set") {
+      place(study_.common);
+      place(point.varied);
+    }
+    const auto identity =
+        std::make_tuple(placed.file, placed.line, placed.column, placed.key, placed.message);
+    Told& told = told_[identity];
+    if (told.count++ == 0) std::tie(told.problem, told.point) = std::tie(placed, point.name);
+  }
+
+  void throw_if_any() const {
+    std::vector<Problem> problems;
+    for (const auto& [identity, told] : told_) {
+      problems.push_back(told.problem);
+      const bool placed = told.problem.file == study_.name;
+      if (!placed && told.count < static_cast<int>(study_.points.size()))
+        problems.back().message += fmt::format(" (point {})", told.point);
+    }
+    if (!problems.empty()) throw ProblemsError(std::move(problems));
+  }
+
+ private:
+  struct Told {
+    Problem problem;
+    std::string point;
+    int count = 0;
+  };
+  const Study& study_;
+  std::map<std::tuple<std::string, int, int, std::string, std::string>, Told> told_;
+};
+
+PlannedPoint planned(const Study& study, const StudyPoint& point, const std::filesystem::path& folder) {
+  PlannedPoint p;
+  p.name = point.name;
+  p.varied = point.varied;
+  for (const StudySetting& s : point.own) p.overrides.push_back(s.as_override());
+  for (const StudySetting& s : study.common) p.overrides.push_back(s.as_override());
+  for (const StudySetting& s : point.varied) p.overrides.push_back(s.as_override());
+  p.folder = folder / point.name;
+  return p;
+}
+
+void refuse_doubles(const StudyPlan& plan, PointProblems& problems) {
+  std::map<SceneContent, std::string> known;
+  for (const PlannedPoint& point : plan.points) {
+    const auto [first, is_new] = known.try_emplace(point.content, point.name);
+    const int line = point.varied.empty() ? 0 : point.varied.back().line;
+    if (!is_new)
+      problems.add(point, {plan.study.name, line, 0, "",
+                           fmt::format("the points {} and {} are the same scene: leave one of them out",
+                                       first->second, point.name)});
+  }
+}
+
+/// With `act(point)` for each; what it refuses is collected.
+void for_each_point(StudyPlan& plan, PointProblems& problems, const std::function<void(PlannedPoint&)>& act) {
+  for (PlannedPoint& point : plan.points) {
+    try {
+      act(point);
+    } catch (const ProblemsError& error) {
+      for (const Problem& problem : error.problems) problems.add(point, problem);
+    } catch (const InputError& error) {
+      problems.add(point, {plan.study.scene.string(), 0, 0, "", error.what()});
+    }
+  }
+}
+
+/// Traction acts on the mesh by it.
+std::string run_text(const PlannedPoint& point) {
+  const Span run = run_span(point.resolved.scene);
+  return fmt::format("{:.3f} m to {:.3f} m", run.first, run.last);
+}
+
+/// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
+/// wheel goes its way, and over what corrugation by gap.
+SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
+  SceneContent content = point.content;
+  std::erase_if(content, [&](const auto& entry) {
+    return entry.first == "motion.speed" || entry.first == "motion.duration" ||
+           entry.first.starts_with("motion.traction.") ||
+           (can_share(point.resolved.scene) && entry.first.starts_with("corrugation"));
+  });
+  if (const auto room = room_of(plan, point)) content["room"] = fmt::format("{}", *room);
+  content["run"] = run_text(point);
+  return content;
+}
+
+SceneContent preload_content(const PlannedPoint& point) {
+  SceneContent content = point.content;
+  std::erase_if(content, [](const auto& entry) { return acts_on_rolling_alone(entry.first); });
+  content["run"] = run_text(point);
+  return content;
+}
+
+double duration_of(const PlannedPoint& point) {
+  return point.resolved.scene.motion ? point.resolved.scene.motion->duration : 0;
+}
+
+/// Of the same model over `ratio` times the duration.
+Estimate prolonged(Estimate cost, double ratio) {
+  const auto times = [ratio](std::int64_t number) {
+    return std::llround(static_cast<double>(number) * ratio);
+  };
+  cost.steps = times(cost.steps);
+  cost.rolling_seconds *= ratio;
+  cost.disk.rows = times(cost.disk.rows);
+  cost.disk.results = times(cost.disk.results);
+  cost.disk.forks = times(cost.disk.forks);
+  return cost;
+}
+
+/// Takes from the costs what others compute: preloads that the cache will have, the rolling before a state.
+void subtract_shared(StudyPlan& plan) {
+  const bool cached = preload_cache("").has_value();
+  std::set<SceneContent> solved;
+  for (PlannedPoint& point : plan.points) {
+    if (!point.cost) continue;
+    const double before = point.cost->seconds();
+    const bool from_state = begins_with_state(plan, point);
+    if (from_state) point.cost->rolling_seconds *= 1 - plan.shared[*point.shared].until / duration_of(point);
+    const bool known = cached && !solved.insert(preload_content(point)).second;
+    if (from_state || known) point.cost->preload_seconds = 0;
+    if (!point.keeps_state && !point.resolved.scene.forks)
+      point.cost->disk.results -= std::exchange(point.cost->disk.forks, 0);
+    point.saved_seconds = before - point.cost->seconds();
+  }
+}
+
+}  // namespace
+
+int machine_cores() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::int64_t machine_memory() {
+  return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
+}
+
+ExitCode StudyPlan::failure_code() const {
+  for (const PlannedPoint& point : points)
+    if (point.status.state == PointState::failed) return point.status.code;
+  return ExitCode::done;
+}
+
+StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
+  StudyPlan plan;
+  plan.study = study;
+  plan.folder = folder;
+  PointProblems problems(study);
+  const SceneSource source = study.scene_text.empty()
+                                 ? load_scene_source(study.scene)
+                                 : SceneSource{study.scene.string(), study.scene_text, folder};
+  for (const StudyPoint& point : study.points) plan.points.push_back(planned(study, point, folder));
+  for_each_point(plan, problems, [&](PlannedPoint& point) {
+    point.resolved = resolve_scene(source, point.overrides);
+    point.content = scene_content(point.resolved);
+  });
+  problems.throw_if_any();
+  refuse_doubles(plan, problems);
+  problems.throw_if_any();
+  if (study.share) find_shared_rolling(plan);
+  return plan;
+}
+
+void look_into_folders(StudyPlan& plan) {
+  std::string foreign;
+  for (PlannedPoint& point : plan.points) {
+    point.status = look_into(point.folder, point.content);
+    if (point.status.foreign) foreign += fmt::format("\n{}: {}", point.folder.string(), point.status.why);
+  }
+  if (!foreign.empty())
+    throw InputError(
+        fmt::format("{} holds runs of other scenes; choose another folder with -o, or remove theirs (here: "
+                    "this study, there: the folder):{}",
+                    plan.folder.string(), foreign));
+}
+
+void project_cost(StudyPlan& plan, bool retry) {
+  use_threads({std::max(1, plan.threads), ""});
+  PointProblems problems(plan.study);
+  struct Built {
+    const PlannedPoint* point;
+    std::optional<Approach> approach;
+  };
+  std::map<SceneContent, Built> known;
+  for_each_point(plan, problems, [&](PlannedPoint& point) {
+    if (!point.to_run(retry)) return;
+    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point, std::nullopt});
+    Built& built = first->second;
+    if (is_new) {
+      Model model(keeping_scene(plan, point));
+      if (model.contact) built.approach = approach_of(model);
+      point.cost = estimate(model);
+    } else if (const PlannedPoint& same = *built.point; same.cost) {
+      const bool rolls = duration_of(same) > 0;
+      point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
+    }
+    if (built.approach) place_state(plan, point, *built.approach);
+  });
+  problems.throw_if_any();
+  choose_keepers(plan, retry);
+  subtract_shared(plan);
+}
+
+StudyCost total_cost(const StudyPlan& plan) {
+  StudyCost cost;
+  double longest = 0;
+  std::vector<std::int64_t> memory;
+  std::vector<std::int64_t> checkpoints;
+  for (const PlannedPoint& point : plan.points) {
+    if (!point.cost) continue;
+    cost.seconds += point.cost->seconds();
+    cost.saved += point.saved_seconds;
+    longest = std::max(longest, begins_with_state(plan, point) ? point.cost->seconds() + point.saved_seconds
+                                                               : point.cost->seconds());
+    cost.disk += point.cost->disk.results + point.cost->disk.frames;
+    memory.push_back(point.cost->memory);
+    checkpoints.push_back(point.cost->disk.checkpoints);
+  }
+  const auto of_the_largest = [&](std::vector<std::int64_t>& values) {
+    std::sort(values.rbegin(), values.rend());
+    const auto count = std::min(values.size(), static_cast<std::size_t>(plan.jobs));
+    return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count),
+                           std::int64_t{0});
+  };
+  cost.wall = plan.threads > 0 ? std::max(longest, cost.seconds / plan.jobs) : cost.seconds / machine_cores();
+  cost.disk += of_the_largest(checkpoints);
+  cost.memory = of_the_largest(memory);
+  return cost;
+}
+
+Table plan_table(const StudyPlan& plan) {
+  Table table{"",
+              {{"Point"},
+               {"State"},
+               {"Elements", Align::right},
+               {"Steps", Align::right},
+               {"Time", Align::right},
+               {"Disk", Align::right}},
+              {}};
+  if (!plan.shared.empty()) table.columns.push_back({"Begins"});
+  for (const PlannedPoint& point : plan.points) {
+    std::vector<std::string> row = {point.name, name_of(point.status.state), "", "", "", ""};
+    if (point.cost)
+      row = {row[0],
+             row[1],
+             grouped(point.cost->elements),
+             grouped(point.cost->steps),
+             duration_text(point.cost->seconds()),
+             bytes_text(point.cost->disk.results + point.cost->disk.frames)};
+    if (!plan.shared.empty()) row.push_back(beginning_text(plan, point));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace tread

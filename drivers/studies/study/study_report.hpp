@@ -1,0 +1,40 @@
+#pragma once
+// What a study leaves: sweep.csv and report.html.
+
+#include <string>
+#include <vector>
+
+#include "drivers/studies/study/finished_run.hpp"
+#include "drivers/studies/study/study_plan.hpp"
+#include "io/report/report.hpp"
+
+namespace tread {
+
+/// Of the points that are done, in their order. InputError where a summary does not read.
+std::vector<FinishedRun> finished_runs(const StudyPlan& plan);
+
+/// The key's value in a point's scene in the key's unit of documentation, "300"; a text as it is.
+std::string value_text(const PlannedPoint& point, const std::string& key);
+
+/// Keys that any point varies, in order of appearance.
+std::vector<std::string> varied_keys(const StudyPlan& plan);
+
+/// A row a point: name, state, varied keys in their units, results in SI; the results of points that are not
+/// done are empty.
+std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
+
+/// The same as JSON.
+std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
+
+/// Headline results of the runs for readers.
+Table result_table(const std::vector<FinishedRun>& runs);
+
+/// Forces, creepage, Von Mises stress and frictional work of runs that have rolled, over one another.
+Chapter curve_chapter(const std::vector<FinishedRun>& rolled);
+
+/// The points' state and values.
+Table point_table(const StudyPlan& plan);
+
+Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command);
+
+}  // namespace tread

@@ -1,0 +1,227 @@
+#include "drivers/studies/study/study_runner.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <thread>
+
+#include "core/error.hpp"
+#include "drivers/process/interruption.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/studies/study/shared_rolling.hpp"
+#include "io/text/json_reader.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kShowInterval = 5;                    ///< [s]
+constexpr auto kLook = std::chrono::milliseconds(50);  ///< between looks at the children
+
+/// What the run shows of itself; nothing before its first status.
+JsonRecord status_of(const PlannedPoint& point) {
+  try {
+    return read_json(point.folder / "status.json");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+int count(const StudyPlan& plan, PointState state) {
+  return static_cast<int>(
+      std::count_if(plan.points.begin(), plan.points.end(),
+                    [state](const PlannedPoint& point) { return point.status.state == state; }));
+}
+
+}  // namespace
+
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count) {
+  const PointStatus& status = point.status;
+  const std::string threads = std::to_string(count);
+  const bool failed = status.state == PointState::failed;
+  if (status.state == PointState::interrupted || (failed && !status.anew))
+    return {"resume", point.folder.string(), "-t", threads};
+  std::vector<std::string> arguments = {"run", plan.study.scene.string()};
+  for (const std::string& text : point.overrides) arguments.insert(arguments.end(), {"--set", text});
+  arguments.insert(arguments.end(), {"-o", point.folder.string(), "-t", threads});
+  if (!point.from.empty()) arguments.insert(arguments.end(), {"--from", point.from});
+  if (failed) arguments.emplace_back("--overwrite");
+  const std::vector<std::string> sharing = sharing_arguments(plan, point);
+  arguments.insert(arguments.end(), sharing.begin(), sharing.end());
+  return arguments;
+}
+
+StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress)
+    : plan_(&plan), folder_(&folder), progress_(&progress) {}
+
+std::string StudyRunner::run(bool retry) {
+  for (PlannedPoint& point : plan_->points)
+    if (point.to_run(retry)) queue_.push_back(&point);
+  for (;;) {
+    obey();
+    while (stopped_by_.empty()) {
+      const int threads = threads_for_next();
+      PlannedPoint* point = threads > 0 ? take_next() : nullptr;
+      if (!point) break;
+      start(*point, threads);
+    }
+    if (progress_->due(kShowInterval)) show();
+    if (running_.empty()) break;
+    std::this_thread::sleep_for(kLook);
+    collect_ended();
+  }
+  show();
+  return stopped_by_;
+}
+
+/// The idle cores are dealt out among the points that can begin now; 0: none can.
+int StudyRunner::threads_for_next() const {
+  const auto ready = std::count_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
+    return !waits_for_state(*plan_, *point);
+  });
+  const int beginning = std::min(static_cast<int>(ready), plan_->jobs - static_cast<int>(running_.size()));
+  if (beginning <= 0) return 0;
+  if (plan_->threads > 0) return plan_->threads;
+  int idle = machine_cores();
+  for (const Running& running : running_) idle -= running.threads;
+  return idle > 0 ? std::max(1, idle / beginning) : 0;
+}
+
+/// The first that waits for nobody; nullptr: none, now.
+PlannedPoint* StudyRunner::take_next() {
+  const auto next = std::find_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
+    return !waits_for_state(*plan_, *point);
+  });
+  if (next == queue_.end()) return nullptr;
+  PlannedPoint* point = *next;
+  queue_.erase(next);
+  return point;
+}
+
+void StudyRunner::start(PlannedPoint& point, int threads) {
+  make_directory(point.folder);
+  if (is_taken(point.folder)) {
+    point.status = {PointState::running, "another process works on its folder"};
+    progress_->say(fmt::format("[{}] left alone: {}", point.name, point.status.why));
+    return;
+  }
+  const std::vector<std::string> arguments = point_arguments(*plan_, point, threads);
+  progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder)), threads, progress_->seconds()});
+  point.status = {PointState::running, ""};
+}
+
+void StudyRunner::collect_ended() {
+  for (std::size_t i = 0; i < running_.size();) {
+    ProcessEnd end;
+    if (!running_[i].process.ended(end)) {
+      ++i;
+      continue;
+    }
+    note_ended(running_[i], end);
+    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
+  PlannedPoint& point = *running.point;
+  const bool told_to_stop = !stopped_by_.empty() && end.signal == SIGTERM;
+  note_end(point.folder, told_to_stop ? ProcessEnd{static_cast<int>(ExitCode::resumable), 0} : end);
+  point.status = look_into(point.folder, point.content);
+  if (point.status.foreign)
+    point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};
+  const std::string time = duration_text(progress_->seconds() - running.started);
+  const std::string why = point.status.why.empty() ? "" : ": " + point.status.why;
+  progress_->say(fmt::format("[{}] {} after {}{}", point.name, name_of(point.status.state), time, why));
+  for (PlannedPoint* other : replace_keeper(*plan_, point)) {
+    if (std::erase(queue_, other) == 0) continue;
+    fail_with(point, *other);
+  }
+}
+
+/// The point would come to the same end as `keeper`, whose state it was to begin with.
+void StudyRunner::fail_with(const PlannedPoint& keeper, PlannedPoint& point) {
+  note_failure(point.folder, keeper.status.code,
+               fmt::format("not begun: up to {:.6g} ms it is the run of {}, which failed before: {}",
+                           1e3 * plan_->shared[*point.shared].until, keeper.name, keeper.status.why));
+  point.status = look_into(point.folder, point.content);
+  progress_->say(fmt::format("[{}] {}", point.name, point.status.why));
+}
+
+void StudyRunner::obey() {
+  if (!stopped_by_.empty()) return;
+  if (const char* signal = Interruption::stop_wanted()) stop(signal);
+  bool checkpoint = Interruption::take_checkpoint_wanted();
+  const std::optional<RunRequest> request = folder_->take_request();
+  if (request == RunRequest::stop) stop("tread ctl");
+  checkpoint = checkpoint || request == RunRequest::checkpoint;
+  if (checkpoint)
+    for (const Running& running : running_) running.process.send(SIGUSR1);
+}
+
+void StudyRunner::stop(const std::string& why) {
+  stopped_by_ = why;
+  progress_->say(
+      fmt::format("[sweep] {}: waiting until {} runs have left a checkpoint", why, running_.size()));
+  for (const Running& running : running_) running.process.send(SIGTERM);
+}
+
+double StudyRunner::seconds_left() const {
+  // Threads that work, and what one of them alone would take; costs are those of the plan's threads, or one.
+  const int each = std::max(1, plan_->threads);
+  const int workers = plan_->threads > 0 ? plan_->jobs * each : machine_cores();
+  double sum = 0;
+  double longest = 0;
+  const auto add = [&](double seconds, int threads) {
+    sum += seconds * threads;
+    longest = std::max(longest, seconds);
+  };
+  for (const PlannedPoint* point : queue_) {
+    const double seconds = point->cost ? point->cost->seconds() : 0;
+    plan_->threads > 0 ? add(seconds, each) : add(seconds / workers, workers);
+  }
+  for (const Running& running : running_) {
+    const double whole = running.point->cost ? running.point->cost->seconds() : 0;
+    const double guess =
+        std::max(0.0, whole * each / running.threads - (progress_->seconds() - running.started));
+    add(number_in(status_of(*running.point), "left_s").value_or(guess), running.threads);
+  }
+  return std::max(longest, sum / workers);
+}
+
+void StudyRunner::show() {
+  const StudyPlan& plan = *plan_;
+  const double left = seconds_left();
+  std::string line = fmt::format("[sweep] {} of {} done", count(plan, PointState::done), plan.points.size());
+  if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
+  JsonWriter json;
+  json.begin_object().member("stage", running_.empty() ? "ended" : "sweep").member("process", ::getpid());
+  for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
+                                 PointState::done, PointState::failed})
+    json.member(name_of(state), count(plan, state));
+  json.member("left_s", left).key("points").begin_array();
+  for (const PlannedPoint& point : plan.points) {
+    json.begin_object().member("name", std::string_view(point.name));
+    json.member("state", name_of(point.status.state));
+    if (!point.status.why.empty()) json.member("why", std::string_view(point.status.why));
+    json.end_object();
+  }
+  folder_->show_status(json.end_array().end_object().text());
+  for (const Running& running : running_) {
+    const JsonRecord status = status_of(*running.point);
+    const auto time = number_in(status, "time_s");
+    const auto duration = number_in(status, "duration_s");
+    line += fmt::format(
+        "  {}: {}", running.point->name,
+        time && duration ? fmt::format("{:.1f} %", 100 * *time / *duration) : text_in(status, "stage"));
+  }
+  if (!running_.empty()) line += fmt::format("  ETA {}", duration_text(left));
+  progress_->say(line);
+}
+
+}  // namespace tread

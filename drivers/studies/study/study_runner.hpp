@@ -1,0 +1,54 @@
+#pragma once
+// The runs of a study as child processes, as many at once as the plan allows.
+
+#include <string>
+#include <vector>
+
+#include "drivers/process/child_process.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "drivers/studies/study/study_plan.hpp"
+
+namespace tread {
+
+/// Runs what is to run: a point begins with `tread run`, with another one's state where rolling is shared,
+/// and goes on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys
+/// `tread ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
+class StudyRunner {
+ public:
+  StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress);
+
+  /// Until every point has ended or the study is stopped; fills the points' status. What stopped it, empty
+  /// where nothing did. `retry`: failed points, too.
+  std::string run(bool retry);
+
+ private:
+  struct Running {
+    PlannedPoint* point;
+    ChildProcess process;
+    int threads;
+    double started;  ///< on the progress' clock [s]
+  };
+  int threads_for_next() const;
+  PlannedPoint* take_next();
+  void start(PlannedPoint& point, int threads);
+  void collect_ended();
+  void note_ended(const Running& running, const ProcessEnd& end);
+  void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
+  void obey();
+  void stop(const std::string& why);
+  void show();
+  double seconds_left() const;
+
+  StudyPlan* plan_;
+  const RunFolder* folder_;
+  Progress* progress_;
+  std::vector<PlannedPoint*> queue_;  ///< the next one first
+  std::vector<Running> running_;
+  std::string stopped_by_;
+};
+
+/// The command line of a point after "tread".
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads);
+
+}  // namespace tread

@@ -1,0 +1,136 @@
+#include "io/files/content_cache.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <system_error>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/math/hash.hpp"
+#include "io/files/output_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kKind = "cached";
+/// To be raised whenever the form of the files changes; what they hold has its version in the key.
+constexpr int kVersion = 1;
+constexpr const char* kKey = "key";
+constexpr const char* kSuffix = ".h5";
+constexpr const char* kClaims = "claims.lock";  ///< stays, empty
+constexpr std::size_t kDigits = 16;
+
+std::uint64_t hash_of(const std::string& key) {
+  Hash hash;
+  hash.add(std::as_bytes(std::span(key)));
+  return hash.value();
+}
+
+fs::path path_of(const fs::path& folder, const std::string& key) {
+  return folder / fmt::format("{:016x}{}", hash_of(key), kSuffix);
+}
+
+void create(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+}
+
+/// Whether path_of() gives such names: nothing else in the folder is touched.
+bool is_entry(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  return path.extension() == kSuffix && stem.size() == kDigits &&
+         stem.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+/// For those who change the folder; readers see whole files without it.
+FileLock take(const fs::path& folder) {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    if (std::optional<FileLock> lock = FileLock::try_folder(folder)) return std::move(*lock);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  throw ResourceError(fmt::format("another process has held {} for 10 s", folder.string()));
+}
+
+/// What a process that was killed while it wrote has left; under the lock.
+void remove_parts(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".part" && is_entry(entry.path().stem()))
+      fs::remove(entry.path(), ignored);
+}
+
+}  // namespace
+
+std::optional<SealedContent> ContentCache::find(const std::string& key, std::string& refused) const {
+  const fs::path path = path_of(folder_, key);
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
+  try {
+    SealedContent content = read_sealed(path, kKind, kVersion);
+    if (sealed_entry<std::string>(content, kKey) != key) return std::nullopt;  // another one of the same hash
+    content.erase(kKey);
+    fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+    return content;
+  } catch (const InputError& error) {
+    refused = error.what();
+    return std::nullopt;
+  }
+}
+
+void ContentCache::store(const std::string& key, SealedContent content) const {
+  create(folder_);
+  content[kKey] = key;
+  const FileLock lock = take(folder_);
+  remove_parts(folder_);
+  replace_file(path_of(folder_, key),
+               [&](const fs::path& part) { write_sealed(part, kKind, kVersion, content); });
+  trim();
+}
+
+std::optional<FileLock> ContentCache::claim(const std::string& key) const {
+  create(folder_);
+  return FileLock::try_number(folder_ / kClaims, hash_of(key));
+}
+
+std::vector<ContentCache::Entry> ContentCache::entries() const {
+  std::vector<Entry> list;
+  std::error_code error;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder_, error)) {
+    if (!is_entry(file.path()) || file.is_symlink(error) || !file.is_regular_file(error)) continue;
+    const auto bytes = static_cast<std::int64_t>(file.file_size(error));
+    const fs::file_time_type used = error ? fs::file_time_type{} : file.last_write_time(error);
+    if (!error) list.push_back({file.path(), bytes, used});  // else another process has removed it
+  }
+  std::sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.used > b.used; });
+  return list;
+}
+
+void ContentCache::trim() const {
+  std::int64_t sum = 0;
+  std::error_code ignored;
+  for (const Entry& entry : entries()) {
+    sum += entry.bytes;
+    if (sum > limit_) fs::remove(entry.path, ignored);
+  }
+}
+
+void ContentCache::clear() const {
+  if (!fs::exists(folder_)) return;
+  const FileLock lock = take(folder_);
+  remove_parts(folder_);
+  for (const Entry& entry : entries()) {
+    std::error_code error;
+    fs::remove(entry.path, error);
+    if (error) throw ResourceError(fmt::format("cannot remove {}: {}", entry.path.string(), error.message()));
+  }
+}
+
+}  // namespace tread

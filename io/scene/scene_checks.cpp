@@ -1,0 +1,290 @@
+#include "io/scene/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/travel.hpp"
+#include "io/scene/schema.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kRailEndMargin =
+    0.02;  ///< the wheel's contact point stays this far from the rail's ends [m]
+constexpr double kLengthTolerance = 1e-9;  ///< lengths that differ by less are equal [m]
+
+class Checker {
+ public:
+  explicit Checker(const Scene& scene) : scene_(scene) {}
+
+  std::vector<SceneProblem> run() {
+    check_values();
+    check_components();
+    check_materials();
+    if (scene_.wheel) check_wheel(*scene_.wheel);
+    if (scene_.rail) check_rail(*scene_.rail);
+    if (scene_.motion) check_motion(*scene_.motion);
+    if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
+    if (scene_.rail && scene_.pulse) {
+      require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
+              "the pulse is longer than the bar");
+    }
+    if (scene_.rail && scene_.hammer) check_hammer(*scene_.rail, *scene_.hammer);
+    return std::move(problems_);
+  }
+
+ private:
+  /// Adds a problem unless the condition holds or one of the keys is already known to be wrong.
+  void require(bool condition, std::vector<std::string> keys, std::string message) {
+    const auto wrong = [&](const std::string& key) { return wrong_.count(key) > 0; };
+    if (condition || std::any_of(keys.begin(), keys.end(), wrong)) return;
+    problems_.push_back({std::move(keys), std::move(message)});
+  }
+
+  void check_values() {
+    Scene copy = scene_;
+    for (const Key& key : scene_keys()) {
+      if (!key.locate) continue;
+      const std::optional<double> value = number_at(key.locate(copy));
+      if (!value || key.range.contains(*value)) continue;
+      const std::string text =
+          key.unit.empty() ? fmt::format("{:.6g}", *value) : format_quantity(*value, key.unit);
+      require(false, {key.path}, fmt::format("{} is not allowed; it must be {}", text, describe_range(key)));
+      wrong_.insert(key.path);
+    }
+  }
+
+  void check_components() {
+    const Scene& s = scene_;
+    require(!s.fastenings || s.rail, {"fastenings"}, "fastenings need a rail; add [rail]");
+    require(!s.slab_track || s.fastenings, {"slab"}, "a slab needs fastenings; add [fastenings]");
+    require(!s.vehicle || s.wheel, {"vehicle"}, "a vehicle needs a wheel; add [wheel]");
+    require(!s.load || s.wheel, {"load"}, "a load needs a wheel; add [wheel]");
+    require(!s.vehicle || !s.load, {"load", "vehicle"},
+            "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
+    require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
+    require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
+    require(!s.contact || s.vehicle || s.load || s.gravity > 0, {"contact", "load"},
+            "nothing presses the wheel on the rail; add [load] or [vehicle], or state scene.gravity");
+    require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");
+    require(!s.plane_strain || !s.rail || s.rail->profile == "box", {"scene.plane_strain", "rail.profile"},
+            "plane strain needs a block under the tyre; state rail.profile = \"box\"");
+    require(!s.pulse || (s.rail && !s.wheel), {"pulse"}, "a pulse needs [rail] and no wheel");
+    require(!s.pulse || s.motion, {"pulse"}, "a pulse needs [motion] with the duration");
+    require(!s.wear || s.wear->shortest < s.wear->longest, {"wear.shortest", "wear.longest"},
+            "the shortest wave that wears is not shorter than the longest");
+    require(!s.hammer || s.rail, {"hammer"}, "a hammer needs [rail]");
+    require(!s.hammer || s.motion, {"hammer"}, "a hammer needs [motion] with the duration");
+    require(!s.forks || (s.motion && s.contact), {"forks"}, "forks need [motion] and [contact]");
+    require(!s.motion || s.pulse || s.wheel || (s.hammer && s.rail), {"motion"},
+            "motion needs [wheel], or [pulse] on a bar, or [rail] and [hammer]");
+    require(!s.motion || !s.wheel || s.rail || (!s.load && !s.vehicle), {"motion", "rail"},
+            "a wheel without a rail moves freely and carries neither load nor vehicle; add [rail], or state "
+            "load.present = false or vehicle.present = false");
+    require(s.wheel || s.rail, {"scene.based_on"},
+            "the scene is empty; add [wheel] or [rail], or scene.based_on = \"highspeed-slab-2014\"");
+  }
+
+  void check_materials() {
+    const auto need = [&](const Material& material, const std::string& name, const std::string& user) {
+      require(!material.name.empty(), {"material." + name},
+              fmt::format("the {} needs [material.{}]", user, name));
+    };
+    if (scene_.wheel || scene_.rail) need(scene_.steel, "steel", scene_.wheel ? "wheel" : "rail");
+    for (const auto& [name, material] :
+         {std::pair("steel", &scene_.steel), std::pair("slab", &scene_.slab),
+          std::pair("gap_filler", &scene_.gap_filler), std::pair("mortar", &scene_.mortar)}) {
+      const std::string table = fmt::format("material.{}", name);
+      require(
+          !material->damping_up_to || material->rayleigh_beta > 0,
+          {table + ".damping_up_to", table + ".damping"},
+          "a frequency up to which damping holds belongs to damping = { kind = \"rayleigh_beta\", value = "
+          "\"1e-4 s\" }");
+    }
+    if (!scene_.slab_track) return;
+    need(scene_.slab, "slab", "slab");
+    need(scene_.gap_filler, "gap_filler", "slab");
+    need(scene_.mortar, "mortar", "slab");
+    const auto damped_alike = [](const Material& a, const Material& b) {
+      return a.rayleigh_beta == b.rayleigh_beta && a.high_frequency_fraction == b.high_frequency_fraction &&
+             a.damping_up_to == b.damping_up_to;
+    };
+    require(
+        damped_alike(scene_.slab, scene_.gap_filler) && damped_alike(scene_.slab, scene_.mortar),
+        {"material.slab.damping", "material.gap_filler.damping", "material.mortar.damping",
+         "material.slab.damping_up_to", "material.gap_filler.damping_up_to", "material.mortar.damping_up_to"},
+        "slab, gap filler and mortar are damped as one body; state the same damping for all three");
+    require(scene_.slab_track->gap < scene_.slab_track->pitch, {"slab.gap", "slab.pitch"},
+            "the gap is not shorter than the pitch of slab and gap together");
+  }
+
+  void check_wheel(const WheelSpec& wheel) {
+    const bool arc = wheel.profile == "arc" || wheel.profile == "cylinder";
+    if (wheel.shape == "tyre") {
+      require(arc, {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
+      require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
+              "the ring is thicker than the wheel's radius");
+      require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
+              {"wheel.width", "wheel.crown_radius", "wheel.profile"},
+              "the ring is wider than the arc of its profile");
+      const bool guided = wheel.bore == "guided";
+      require(!guided || !scene_.vehicle, {"wheel.bore", "vehicle"},
+              "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
+      require(
+          !wheel.overhang || scene_.gravity == 0, {"wheel.overhang", "scene.gravity"},
+          "a part of a ring is not balanced about its axle; state scene.gravity = 0, or leave the overhang "
+          "out");
+      const double run = scene_.motion ? scene_.motion->speed * scene_.motion->duration : 0;
+      require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
+              {"wheel.overhang", "motion.duration"},
+              "the wheel rolls on most of its ring; leave the overhang out");
+    } else {
+      require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA or a file");
+    }
+  }
+
+  void check_rail(const RailSpec& rail) {
+    require(rail.origin <= rail.length, {"rail.origin", "rail.length"}, "x = 0 lies beyond the rail's end");
+    require(rail.crown_radius == 0 || rail.width < 2 * rail.crown_radius, {"rail.width", "rail.crown_radius"},
+            "the box is wider than its running surface's arc");
+    const bool fastened = rail.support == "fastenings";
+    require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
+            "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
+    require(rail.support != "free" || scene_.wheel || !scene_.motion || scene_.gravity == 0,
+            {"rail.support", "scene.gravity"},
+            "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
+    require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
+            fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
+                        rail.support));
+    if (scene_.fastenings) check_fastenings(rail, *scene_.fastenings);
+    if (!scene_.wheel) return;
+    const double left = -rail.origin;
+    const double right = rail.length - rail.origin;
+    const double zone_end = scene_.zone_start + scene_.zone_length;
+    require(scene_.zone_start >= left - kLengthTolerance && zone_end <= right + kLengthTolerance,
+            {"solution_zone.start", "solution_zone.length", "rail.length", "rail.origin"},
+            fmt::format(
+                "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
+                scene_.zone_start, zone_end, left, right));
+    require(rail.origin >= kRailEndMargin, {"rail.origin"},
+            fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
+    const Travel travel = travel_of(scene_);
+    const auto require_on_rail = [&](bool holds, double x, double end) {
+      require(holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
+              fmt::format(
+                  "the wheel rolls to x = {:.6g} m, beyond {:.6g} m, where it is {:g} m from the rail's end",
+                  x, end, kRailEndMargin));
+    };
+    const double last = right - kRailEndMargin;
+    const double first = std::min(left + kRailEndMargin, 0.0);
+    require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
+    require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
+  }
+
+  void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {
+    const double half = fastenings.pad_length / 2;
+    const double last = fastenings.first + (fastenings.count - 1) * fastenings.spacing;
+    require(fastenings.first - half >= -kLengthTolerance, {"fastenings.first", "fastenings.pad_length"},
+            "the first fastening's pad begins before the rail's left end");
+    require(last + half <= rail.length + kLengthTolerance,
+            {"fastenings.count", "fastenings.spacing", "fastenings.first", "fastenings.pad_length",
+             "rail.length"},
+            fmt::format("the last fastening's pad ends at {:.6g} m, beyond the rail of {:.6g} m", last + half,
+                        rail.length));
+    require(fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
+            {"fastenings.pad_length", "fastenings.spacing"}, "the pads of neighbouring fastenings overlap");
+    require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
+            {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
+  }
+
+  void check_motion(const MotionSpec& motion) {
+    require(motion.start != "rolling" || (scene_.fastenings && scene_.wheel && scene_.wheel->bore == "free"),
+            {"motion.start"},
+            "only a free wheel on a rail on [fastenings] can have been rolling; state start = \"moving\"");
+    require(!motion.traction_mu || !motion.traction_torque, {"motion.traction.torque", "motion.traction.mu"},
+            "state the traction by mu or by torque, not both");
+    require(motion.creepage == 0 || motion.speed > 0, {"motion.creepage", "motion.speed"},
+            "a wheel that stands has no creepage; state motion.speed");
+    require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
+            "the state for forks is kept after the run's end");
+    if (scene_.wheel && !scene_.steel.name.empty()) check_rim(motion, scene_.steel);
+    if (!motion.traction_mu || !scene_.contact) return;
+    require(
+        std::abs(*motion.traction_mu) <= scene_.contact->friction, {"motion.traction.mu", "contact.friction"},
+        fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
+                    *motion.traction_mu, scene_.contact->friction));
+  }
+
+  void check_hammer(const RailSpec& rail, const HammerSpec& hammer) {
+    const double left = -rail.origin;
+    const double right = rail.length - rail.origin;
+    require(hammer.position >= left - kLengthTolerance && hammer.position <= right + kLengthTolerance,
+            {"hammer.position", "rail.length", "rail.origin"},
+            fmt::format("the struck point, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m",
+                        hammer.position, left, right));
+  }
+
+  /// A thin ring that spins strains by rho v^2 / E.
+  void check_rim(const MotionSpec& motion, const Material& steel) {
+    constexpr double kLargestStrain = 0.01;
+    const double fastest = std::sqrt(kLargestStrain * steel.youngs_modulus / steel.density);
+    const double rim = motion.speed * std::abs(motion.spin_ratio());
+    require(rim <= fastest,
+            {"motion.creepage", "motion.speed", "material.steel.youngs_modulus", "material.steel.density"},
+            fmt::format(
+                "the wheel's rim moves at {:.4g} m/s: spinning alone strains it by {:.2g}, which is not the "
+                "small strain of linear elasticity; it must stay below {:.4g} m/s",
+                rim, rim * rim * steel.density / steel.youngs_modulus, fastest));
+  }
+
+  void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
+    const bool table = corrugation.kind == "table";
+    if (corrugation.kind == "sine")
+      require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
+              {"corrugation.wavelength", "corrugation.length"},
+              "not one wave fits into the corrugation's length");
+    if (corrugation.kind == "random") {
+      require(corrugation.shortest < corrugation.longest, {"corrugation.shortest", "corrugation.longest"},
+              "the roughness' shortest wave is not shorter than its longest");
+      require(corrugation.longest <= corrugation.length + kLengthTolerance,
+              {"corrugation.longest", "corrugation.length"},
+              "the roughness' longest wave does not fit into its length");
+    }
+    if (table && corrugation.table_x.empty()) return;
+    const double first = corrugation.start + (table ? corrugation.table_x.front() : 0);
+    const double last = corrugation.start + (table ? corrugation.table_x.back() : corrugation.length);
+    const auto inside = [&](double left, double right) {
+      return first >= left - kLengthTolerance && last <= right + kLengthTolerance;
+    };
+    const std::string extent = fmt::format("the corrugation, x = {:.6g} m to {:.6g} m,", first, last);
+    std::vector<std::string> keys{"corrugation.start", table ? "corrugation.file" : "corrugation.length"};
+    const bool on_rail = inside(-rail.origin, rail.length - rail.origin);
+    const double zone_end = scene_.zone_start + scene_.zone_length;
+    require(!on_rail || inside(scene_.zone_start, zone_end),
+            {keys[0], keys[1], "solution_zone.start", "solution_zone.length"},
+            fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, scene_.zone_start,
+                        zone_end));
+    require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
+            fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
+                        rail.length - rail.origin));
+  }
+
+  const Scene& scene_;
+  std::set<std::string> wrong_;
+  std::vector<SceneProblem> problems_;
+};
+
+}  // namespace
+
+std::vector<SceneProblem> validate(const Scene& scene) {
+  return Checker(scene).run();
+}
+
+}  // namespace tread

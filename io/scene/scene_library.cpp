@@ -1,0 +1,101 @@
+#include "io/scene/scene_library.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::string_view kTable1 = "Table 1";
+constexpr std::string_view kText = "section 2.1.1";
+constexpr std::string_view kCorrugation = "section 2.3, corrugation D";
+constexpr std::string_view kPad = "rail pad of the fastening WJ-7";
+constexpr std::string_view kSlab = "half of a CRTS II slab, 6.45 m x 2.55 m x 0.2 m";
+constexpr std::string_view kChosen = "chosen here, not stated there";
+
+LibraryEntry highspeed_slab_2014() {
+  return {"highspeed-slab-2014",
+          "Half a wheelset on half a slab track of a Chinese high-speed line: X. Zhao, Z.F. Wen, H.Y. Wang, "
+          "X.S. Jin, "
+          "M.H. Zhu, Modeling of high-speed wheel-rail rolling contact on a corrugated rail and corrugation "
+          "development, "
+          "Journal of Zhejiang University-SCIENCE A 15 (2014) 946-963. Tables and sections named as sources "
+          "are this "
+          "paper's.",
+          {
+              {"scene.gravity", "9.81 m/s2", "standard gravity"},
+              {"solution_zone.start", "2.4 m", "section 3.1, distance AB"},
+              {"solution_zone.length", "0.6 m", kChosen},
+              {"material.steel.youngs_modulus", "205.9 GPa", kTable1},
+              {"material.steel.poissons_ratio", "0.3", kTable1},
+              {"material.steel.density", "7790 kg/m3", kTable1},
+              {"material.steel.damping", "{ kind = \"high_frequency_fraction\", value = 1e-4 }",
+               "Table 1, read as a fraction of critical damping"},
+              {"material.slab.youngs_modulus", "34.5 GPa", kTable1},
+              {"material.slab.poissons_ratio", "0.25", kTable1},
+              {"material.slab.density", "2400 kg/m3", kTable1},
+              {"material.gap_filler.youngs_modulus", "29.5 GPa", kTable1},
+              {"material.gap_filler.poissons_ratio", "0.25", kTable1},
+              {"material.gap_filler.density", "2400 kg/m3", kTable1},
+              {"material.mortar.youngs_modulus", "8 GPa", kTable1},
+              {"material.mortar.poissons_ratio", "0.2", kTable1},
+              {"material.mortar.density", "1600 kg/m3", kTable1},
+              {"wheel.shape", "half_wheelset", kText},
+              {"wheel.profile", "LMA", kText},
+              {"wheel.diameter", "0.86 m", kTable1},
+              {"wheel.lateral_offset", "6.5 mm", "gauge 1435 mm, wheels 1353 mm back to back"},
+              {"wheel.mass", "586 kg", kTable1},
+              {"wheel.axle_bore", "60 mm", kChosen},
+              {"rail.profile", "CN60", kText},
+              {"rail.inclination", "1:40", kText},
+              {"rail.length", "15.2 m", kText},
+              {"rail.origin", "6.1 m", kChosen},
+              {"rail.support", "fastenings", kText},
+              {"fastenings.count", "24", kText},
+              {"fastenings.spacing", "0.65 m", "Fig. 1"},
+              {"fastenings.first", "0.125 m", kChosen},
+              {"fastenings.stiffness", "22 MN/m", kTable1},
+              {"fastenings.damping", "200 kN s/m", kTable1},
+              {"fastenings.pad_length", "0.17 m", kPad},
+              {"fastenings.pad_width", "0.15 m", kPad},
+              {"fastenings.columns", "3", kText},
+              {"fastenings.rows", "4", kText},
+              {"slab.pitch", "6.5 m", "Fig. 2, read as slab and gap together"},
+              {"slab.gap", "50 mm", "Fig. 2"},
+              {"slab.first_gap", "0 m", kChosen},
+              {"slab.width", "1.275 m", kSlab},
+              {"slab.thickness", "0.2 m", kSlab},
+              {"slab.mortar_thickness", "30 mm", "usual thickness of the CRTS II mortar"},
+              {"slab.offset", "0 m", kChosen},
+              {"vehicle.sprung_mass", "8000 kg", kTable1},
+              {"vehicle.unsprung_mass", "340 kg", kTable1},
+              {"vehicle.suspension_stiffness", "880 kN/m", kTable1},
+              {"vehicle.suspension_damping", "4 kN s/m", kTable1},
+              {"contact.friction", "0.5", kTable1},
+              {"motion.speed", "300 km/h", "section 3.2"},
+              {"motion.duration", "0.04 s", "section 2.1.2"},
+              {"motion.traction.ramp", "5 ms", "section 3.2, T1"},
+              {"corrugation.present", "false", "smooth unless the scene has the table"},
+              {"corrugation.kind", "sine", "eqs. (6), (7)"},
+              {"corrugation.wavelength", "80 mm", kCorrugation},
+              {"corrugation.depth", "0.14 mm", kCorrugation},
+              {"corrugation.width", "30 mm", kCorrugation},
+              {"corrugation.start", "2.4 m", "section 2.3"},
+              {"corrugation.length", "0.56 m", "whole waves inside the solution zone"},
+              {"corrugation.apply", "nodes", kText},
+          }};
+}
+
+}  // namespace
+
+const std::vector<LibraryEntry>& scene_library() {
+  static const std::vector<LibraryEntry> library{highspeed_slab_2014()};
+  return library;
+}
+
+const LibraryEntry* find_library_entry(std::string_view name) {
+  for (const LibraryEntry& entry : scene_library()) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace tread

@@ -1,0 +1,454 @@
+#include "io/scene/scene_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/scene/problems.hpp"
+#include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_library.hpp"
+#include "io/scene/schema.hpp"
+#include "io/scene/table_reader.hpp"
+#include "io/scene/toml_text.hpp"
+#include "io/scene/toml_value.hpp"
+#include "io/text/text.hpp"
+#include "io/text/text_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kLargestScene = 1 << 20;  // [bytes]
+constexpr std::size_t kLongestMessage = 500;    // [characters]
+constexpr std::size_t kSuggestions = 50;        // problems after which none is searched for
+
+/// Where values come from; a higher level overrides a lower one.
+enum class Level { library, file, command_line };
+
+struct Place {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+struct Origin {
+  Level level = Level::library;
+  Place place;
+  std::string source;  ///< as Entry::source
+};
+
+struct Setting {
+  std::unique_ptr<toml::node> node;
+  Origin origin;
+};
+
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const SceneSource& source) : source_(source) {}
+
+  ResolvedScene build(const std::vector<std::string>& overrides) {
+    read_file();
+    for (const std::string& text : overrides) read_override(text);
+    read_library();
+    choose_tables();
+    drop_idle_tables();
+    assign_values();
+    read_named_files();
+    check_required();
+    add_check_results();
+    if (!problems_.empty()) throw ProblemsError(std::move(problems_));
+    ResolvedScene resolved{scene_, source_.name, source_, overrides, entries()};
+    resolved.source.files = std::move(files_);
+    return resolved;
+  }
+
+ private:
+  void report(const Place& place, const std::string& key, const std::string& message) {
+    const auto shortened = [](const std::string& text) {
+      return text.size() > kLongestMessage ? text.substr(0, kLongestMessage) + "..." : text;
+    };
+    problems_.push_back({place.file, place.line, place.column, shortened(key), shortened(message)});
+    bad_.insert(key);
+  }
+
+  void read_file() {
+    const Place whole{source_.name, 0, 0};
+    const Origin origin{Level::file, whole, source_.name};
+    add_children(parse_toml(source_.text, source_.name), "", origin);
+  }
+
+  void read_override(const std::string& text) {
+    const Place place{"--set", 0, 0};
+    const auto equals = text.find('=');
+    const std::string path(trimmed(std::string_view(text).substr(0, equals)));
+    if (equals == std::string::npos || path.empty()) {
+      report(place, "",
+             fmt::format("\"{}\" is not of the form key=value, such as motion.speed=\"250 km/h\"", text));
+      return;
+    }
+    const Origin origin{Level::command_line, place, "--set"};
+    set_plain(path, std::string(trimmed(std::string_view(text).substr(equals + 1))), origin);
+  }
+
+  void read_library() {
+    const auto found = settings_.find("scene.based_on");
+    if (found == settings_.end()) return;
+    const auto* name = found->second.node->as_string();
+    const LibraryEntry* entry = name ? find_library_entry(name->get()) : nullptr;
+    if (!entry) {
+      tables_unclear_ = true;
+      std::vector<std::string> names;
+      for (const LibraryEntry& known : scene_library()) names.emplace_back(known.name);
+      report(found->second.origin.place, "scene.based_on",
+             fmt::format("expected the name of a library entry ({}), got {}", fmt::join(names, ", "),
+                         describe_node(*found->second.node)));
+      return;
+    }
+    for (const LibraryValue& value : entry->values) {
+      const Place whole{source_.name, 0, 0};
+      const Origin origin{Level::library, whole, fmt::format("{}: {}", entry->name, value.source)};
+      set_plain(std::string(value.path), std::string(value.value), origin);
+    }
+  }
+
+  void set_plain(const std::string& path, const std::string& text, const Origin& origin) {
+    const Key* key = find_key(path);
+    add(path, *parse_plain_value(text, key && (key->kind == Kind::text || key->kind == Kind::quantity)),
+        origin);
+  }
+
+  void add_children(const toml::table& table, const std::string& prefix, const Origin& origin) {
+    for (const auto& [name, node] : table) {
+      Origin own = origin;
+      if (origin.level == Level::file) {
+        const toml::source_position at = name.source().begin;
+        own.place = {source_.name, static_cast<int>(at.line), static_cast<int>(at.column)};
+        own.source = fmt::format("{}:{}", source_.name, at.line);
+      }
+      add(prefix + std::string(name.str()), node, own);
+    }
+  }
+
+  void add(const std::string& path, const toml::node& node, const Origin& origin) {
+    if (node.is_table() && is_table(path)) {
+      mention(path, origin);
+      add_children(*node.as_table(), path + ".", origin);
+    } else if (is_table(path)) {
+      const SceneTable* table = table_of(path);
+      const bool removable = table && table->removable() && table->name == path;
+      tables_unclear_ = true;
+      report(origin.place, path,
+             fmt::format("expected a table with keys among {}; got {}{}", names_in(path), describe_node(node),
+                         removable ? fmt::format(" (to leave it out, write {}.present = false)", path) : ""));
+    } else if (!find_key(path)) {
+      report(origin.place, path, unknown_key(path, node));
+      if (!table_of(path)) tables_unclear_ = true;
+    } else {
+      mention(path, origin);
+      keep_highest(path, node, origin);
+    }
+  }
+
+  void mention(const std::string& path, const Origin& origin) {
+    const SceneTable* table = table_of(path);
+    if (!table) return;
+    const auto [known, is_new] = mentioned_.try_emplace(table->name, origin);
+    if (!is_new && origin.level > known->second.level) known->second = origin;
+  }
+
+  void keep_highest(const std::string& path, const toml::node& node, const Origin& origin) {
+    const auto found = settings_.find(path);
+    if (found != settings_.end() && found->second.origin.level > origin.level) return;
+    settings_[path] = {clone(node), origin};
+  }
+
+  std::string unknown_key(const std::string& path, const toml::node& node) const {
+    const std::string what = node.is_table() ? "table" : "key";
+    const std::string similar = problems_.size() < kSuggestions ? similar_path(path) : "";
+    if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
+    const auto dot = path.rfind('.');
+    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+    const std::string known = names_in(is_table(parent) ? parent : "");
+    return fmt::format("unknown {} (known: {})", what, known);
+  }
+
+  /// Creates the components that the highest level to mention them wants.
+  void choose_tables() {
+    for (const SceneTable& table : scene_tables()) {
+      const auto found = mentioned_.find(table.name);
+      if (found == mentioned_.end() || !table.removable()) continue;
+      if (wants(table, found->second.level)) {
+        table.create(scene_);
+      } else {
+        report_unused_keys(table, found->second.level);
+      }
+    }
+  }
+
+  /// Materials of a component that the scene lacks go with it.
+  void drop_idle_tables() {
+    for (const SceneTable& table : scene_tables()) {
+      if (table.only_with.empty() || !table.exists(scene_) || table_of(table.only_with)->exists(scene_))
+        continue;
+      table.remove(scene_);
+      const Origin& origin = mentioned_.at(table.name);
+      if (origin.level == Level::library || tables_unclear_) continue;
+      report(origin.place, table.name, fmt::format("has no effect without [{}]", table.only_with));
+    }
+  }
+
+  bool wants(const SceneTable& table, Level mentioned_at) {
+    const auto present = settings_.find(table.name + ".present");
+    if (present == settings_.end() || present->second.origin.level < mentioned_at) return true;
+    try {
+      return to_boolean(*present->second.node);
+    } catch (const InputError& error) {
+      report(present->second.origin.place, present->first, error.what());
+      return true;
+    }
+  }
+
+  void report_unused_keys(const SceneTable& table, Level level) {
+    if (level == Level::library) return;
+    for (const auto& [path, setting] : settings_) {
+      if (setting.origin.level != level || path == table.name + ".present" || table_of(path) != &table)
+        continue;
+      report(setting.origin.place, path,
+             fmt::format("has no effect, because {}.present = false", table.name));
+    }
+  }
+
+  void assign_values() {
+    for (const Key& key : scene_keys()) {
+      const auto found = settings_.find(key.excludes);
+      const auto own = settings_.find(key.path);
+      if (found == settings_.end() || own == settings_.end()) continue;
+      if (own->second.origin.level > found->second.origin.level) settings_.erase(found);
+    }
+    for (const bool conditional : {false, true}) {
+      for (const Key& key : scene_keys()) {
+        if (key.locate && key.only_with.key.empty() != conditional) assign(key);
+      }
+    }
+  }
+
+  void assign(const Key& key) {
+    const auto found = settings_.find(key.path);
+    const Field field = key.locate(scene_);
+    if (found == settings_.end() || std::holds_alternative<std::monostate>(field)) return;
+    const Setting& setting = found->second;
+    if (!applies(key, scene_)) {
+      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.values.empty());
+      if (setting.origin.level == Level::library || unclear) return;
+      report(setting.origin.place, key.path,
+             key.only_with.values.empty() ? fmt::format("has no effect without [{}]", key.only_with.key)
+                                          : fmt::format("has an effect only with {} = {}", key.only_with.key,
+                                                        key.only_with.alternatives()));
+      return;
+    }
+    try {
+      read_value(key, *setting.node, source_.folder, field);
+    } catch (const InputError& error) {
+      report(setting.origin.place, key.path, error.what());
+    }
+  }
+
+  void read_named_files() {
+    if (scene_.corrugation && scene_.corrugation->kind == "table") {
+      TwoColumns columns = read_columns("corrugation.file", {.needs_units = true, .increasing = true});
+      scene_.corrugation->table_x = std::move(columns.first);
+      scene_.corrugation->table_depth = std::move(columns.second);
+    }
+    if (scene_.wheel) {
+      TwoColumns columns = read_columns("wheel.profile", {});
+      scene_.wheel->profile_y = std::move(columns.first);
+      scene_.wheel->profile_z = std::move(columns.second);
+    }
+    if (scene_.rail) {
+      TwoColumns columns = read_columns("rail.profile", {});
+      scene_.rail->profile_y = std::move(columns.first);
+      scene_.rail->profile_z = std::move(columns.second);
+    }
+  }
+
+  /// The file that the key names; empty where it names none.
+  TwoColumns read_columns(const std::string& path, const TableRules& rules) {
+    const Key* key = find_key(path);
+    const std::string& name = *std::get<std::string*>(key->locate(scene_));
+    const bool is_name = std::find(key->allowed.begin(), key->allowed.end(), name) != key->allowed.end();
+    if (name.empty() || is_name || bad_.count(path)) return {};
+    try {
+      const std::size_t known_problems = problems_.size();
+      const auto given = source_.files.find(name);
+      std::string& text = files_[name] = given != source_.files.end() ? given->second : read_table_text(name);
+      TwoColumns columns = parse_two_columns(text, name, rules, problems_);
+      if (problems_.size() > known_problems) bad_.insert(path);
+      return columns;
+    } catch (const InputError& error) {
+      report(place_of(path), path, error.what());
+      return {};
+    }
+  }
+
+  void check_required() {
+    for (const Key& key : scene_keys()) {
+      if (!key.required || settings_.count(key.path) || !applies(key, scene_)) continue;
+      if (std::holds_alternative<std::monostate>(key.locate(scene_))) continue;
+      bad_.insert(key.path);
+      if (tables_unclear_) continue;
+      const SceneTable* table = table_of(key.path);
+      const std::string kind = key.quantity ? fmt::format("a {}", key.quantity->name) : "a value";
+      report(mentioned_.at(table->name).place, key.path,
+             fmt::format("is missing; [{}] needs {}: {}", table->name, kind, key.description));
+    }
+  }
+
+  Place place_of(const std::string& path) const {
+    const auto setting = settings_.find(path);
+    if (setting != settings_.end()) return setting->second.origin.place;
+    const auto table = mentioned_.find(path);
+    return table != mentioned_.end() ? table->second.place : Place{source_.name, 0, 0};
+  }
+
+  /// The key that the user can change: the first one that stands in the file or an override.
+  std::string blamed(const std::vector<std::string>& keys) const {
+    for (const std::string& key : keys) {
+      const auto setting = settings_.find(key);
+      if (setting != settings_.end() && setting->second.origin.level > Level::library) return key;
+    }
+    return keys.front();
+  }
+
+  void add_check_results() {
+    for (const SceneProblem& problem : validate(scene_)) {
+      const auto is_bad = [&](const std::string& key) { return bad_.count(key) > 0; };
+      const auto is_value = [](const std::string& key) { return find_key(key) && find_key(key)->locate; };
+      if (std::any_of(problem.keys.begin(), problem.keys.end(), is_bad)) continue;
+      if (tables_unclear_ && !std::all_of(problem.keys.begin(), problem.keys.end(), is_value)) continue;
+      const std::string key = blamed(problem.keys);
+      const Place place = place_of(key);
+      problems_.push_back({place.file, place.line, place.column, key, problem.message});
+    }
+  }
+
+  std::vector<Entry> entries() {
+    std::vector<Entry> list;
+    for (const Key& key : scene_keys()) {
+      if (!key.locate || !applies(key, scene_)) continue;
+      const Field field = key.locate(scene_);
+      const auto setting = settings_.find(key.path);
+      const std::string source = setting == settings_.end() ? "default" : setting->second.origin.source;
+      if (std::optional<Entry> entry = make_entry(key, field)) {
+        entry->source = source;
+        list.push_back(std::move(*entry));
+      }
+    }
+    return list;
+  }
+
+  /// The entry of a field, still without its source; nothing where the field is absent or not set.
+  static std::optional<Entry> make_entry(const Key& key, const Field& field) {
+    Entry entry{key.path, "", key.quantity ? std::string(key.quantity->si) : "", "", key.description, ""};
+    if (const auto* number = std::get_if<double*>(&field)) entry.value = fmt::format("{}", **number);
+    if (const auto* number = std::get_if<int*>(&field)) entry.value = fmt::format("{}", **number);
+    if (const auto* truth = std::get_if<bool*>(&field)) entry.value = **truth ? "true" : "false";
+    if (const auto* text = std::get_if<std::string*>(&field)) entry.value = **text;
+    if (const auto* damping = std::get_if<DampingField>(&field)) {
+      const bool classical = *damping->rayleigh_beta > 0;
+      entry.value =
+          fmt::format("{}", classical ? *damping->rayleigh_beta : *damping->high_frequency_fraction);
+      if (classical) entry.unit = "s";
+    }
+    if (const auto* number = std::get_if<std::optional<double>*>(&field)) {
+      if (!**number) return std::nullopt;
+      entry.value = fmt::format("{}", ***number);
+    }
+    if (std::holds_alternative<std::monostate>(field)) return std::nullopt;
+    const std::optional<double> number = number_at(field);
+    entry.shown = number && !key.unit.empty() ? format_quantity(*number, key.unit)
+                  : entry.unit.empty()        ? entry.value
+                                              : entry.value + " " + entry.unit;
+    return entry;
+  }
+
+  const SceneSource& source_;
+  Scene scene_;
+  std::map<std::string, Setting> settings_;  ///< the highest level's value of each key
+  std::map<std::string, Origin> mentioned_;  ///< the highest level that names each table
+  std::set<std::string> bad_;                ///< keys with a problem already
+  bool tables_unclear_ = false;              ///< a table's name is wrong: what is missing cannot be told
+  std::vector<Problem> problems_;
+  std::map<std::string, std::string> files_;  ///< texts of those that the scene names
+};
+
+std::string toml_string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+/// A comment must stay on its line.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+std::string toml_value(const Key& key, const Entry& entry) {
+  std::string with_unit = entry.unit.empty() ? entry.value : toml_string(entry.value + " " + entry.unit);
+  if (key.kind == Kind::text) return toml_string(entry.value);
+  if (key.kind != Kind::damping) return with_unit;
+  const char* kind = entry.unit.empty() ? "high_frequency_fraction" : "rayleigh_beta";
+  return fmt::format("{{ kind = \"{}\", value = {} }}", kind, with_unit);
+}
+
+}  // namespace
+
+SceneSource load_scene_source(const fs::path& path) {
+  return {path.string(), read_text_file(path, kLargestScene), path.parent_path()};
+}
+
+ResolvedScene resolve_scene(const SceneSource& source, const std::vector<std::string>& overrides) {
+  return SceneBuilder(source).build(overrides);
+}
+
+ResolvedScene resolve_scene(const fs::path& path, const std::vector<std::string>& overrides) {
+  return resolve_scene(load_scene_source(path), overrides);
+}
+
+Scene read_scene(const fs::path& path, const std::vector<std::string>& overrides) {
+  return resolve_scene(path, overrides).scene;
+}
+
+std::string resolved_toml(const ResolvedScene& resolved) {
+  std::string text = "# Every value of the scene in SI, each with its source.\n";
+  const SceneTable* current = nullptr;
+  for (const Entry& entry : resolved.entries) {
+    const Key* key = find_key(entry.path);
+    const SceneTable* table = table_of(entry.path);
+    if (table != current) text += fmt::format("\n[{}]\n", table->name);
+    current = table;
+    const std::string name = entry.path.substr(table->name.size() + 1);
+    text += fmt::format("{} = {}  # {}\n", name, toml_value(*key, entry), one_line(entry.source));
+  }
+  return text;
+}
+
+}  // namespace tread

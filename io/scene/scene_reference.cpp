@@ -1,0 +1,116 @@
+// docs/scene.md, printed from the schema.
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "io/scene/scene_library.hpp"
+#include "io/scene/schema.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr const char* kIntroduction = R"(# Scene reference
+
+This page is printed from the table of keys that the program itself reads scenes with.
+
+A scene is a [TOML](https://toml.io) file. It contains what it names: a table that is absent is not modelled and costs
+nothing.
+
+* **Units.** A physical quantity is a string with its unit: `"300 km/h"`, `"0.14 mm"`, `"205.9 GPa"`, `"200 kN s/m"`. Any
+  product, quotient or power of m, g, t, s, min, h, N, Pa, Hz with the prefixes n, u, m, c, d, k, M, G will do. A blank or `*`
+  multiplies, `/` divides by the next factor alone. A bare number there is an error.
+* **Base.** `scene.based_on` names a library entry (below). Its values hold wherever the file states none. To leave out
+  a table of the base, write `present = false` in it, for example `[slab]` with `present = false`. Naming a table brings
+  in the whole table.
+* **Order.** Values come from, in rising order: the defaults, the library entry, the file, and `--set key=value` on the
+  command line, for example `--set "motion.speed=250 km/h"`.
+* **Files.** A file that a scene names is relative to the scene's folder. It holds two numbers a line, separated by
+  blanks, commas or semicolons; `#` starts a comment; a line such as `# x [m]  d [mm]` before the numbers states their units (profiles:
+  millimetres where it is missing; corrugation: required).
+* **Mistakes.** Unknown keys, wrong units, values out of range, keys without effect and parts that do not fit together are
+  errors; all are reported at once with file, line and column.
+
+"required" means that the key must be given where its table is present.
+)";
+
+/// A cell of a Markdown table.
+std::string cell(std::string text) {
+  for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
+    text.replace(at, 1, "\\|");
+  return text;
+}
+
+/// The default in the unit of documentation.
+std::string default_of(const Key& key, Scene& scene) {
+  if (key.required) return "required";
+  const Field field = key.locate(scene);
+  if (const auto* text = std::get_if<std::string*>(&field)) return fmt::format("`\"{}\"`", **text);
+  if (const auto* truth = std::get_if<bool*>(&field)) return **truth ? "`true`" : "`false`";
+  if (std::holds_alternative<DampingField>(field)) return "none";
+  const auto* optional = std::get_if<std::optional<double>*>(&field);
+  if (optional && !**optional) return "none";
+  const double value = *number_at(field);
+  return key.unit.empty() ? fmt::format("`{:.6g}`", value)
+                          : fmt::format("`\"{}\"`", format_quantity(value, key.unit));
+}
+
+std::string allowed_of(const Key& key) {
+  if (key.kind == Kind::boolean) return "`true`, `false`";
+  if (key.kind != Kind::text) return describe_range(key);
+  std::string list;
+  for (const std::string& value : key.allowed)
+    list += fmt::format("{}`\"{}\"`", list.empty() ? "" : ", ", value);
+  if (key.takes_file) list += list.empty() ? "a file" : ", or a file";
+  return list.empty() ? "any text" : list;
+}
+
+std::string meaning_of(const Key& key) {
+  std::string text = key.description;
+  if (key.only_with.key.empty()) return text;
+  const Condition& condition = key.only_with;
+  return text + (condition.values.empty()
+                     ? fmt::format(" (only with `[{}]`)", condition.key)
+                     : fmt::format(" (only with `{} = {}`)", condition.key, condition.alternatives()));
+}
+
+std::string table_section(const SceneTable& table, Scene& scene) {
+  std::string text = fmt::format("\n### [{}]\n\n{}\n\n", table.name, table.description);
+  text += "| key | default | allowed | meaning |\n|---|---|---|---|\n";
+  for (const Key& key : scene_keys()) {
+    if (table_of(key.path) != &table) continue;
+    const std::string name = key.path.substr(table.name.size() + 1);
+    const bool directive = key.kind == Kind::directive;
+    if (directive && table.removable()) continue;
+    text += fmt::format("| `{}` | {} | {} | {} |\n", name, directive ? "none" : default_of(key, scene),
+                        directive ? "a library entry" : cell(allowed_of(key)), cell(meaning_of(key)));
+  }
+  return text;
+}
+
+std::string library_section(const LibraryEntry& entry) {
+  std::string text = fmt::format("\n### {}\n\n{}\n\n| key | value | source |\n|---|---|---|\n", entry.name,
+                                 entry.description);
+  for (const LibraryValue& value : entry.values) {
+    text += fmt::format("| `{}` | `{}` | {} |\n", value.path, cell(std::string(value.value)), value.source);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  Scene everything;
+  for (const SceneTable& table : scene_tables()) {
+    if (table.removable()) table.create(everything);
+  }
+  std::string text = kIntroduction;
+  text += "\n## Tables\n";
+  for (const SceneTable& table : scene_tables()) text += table_section(table, everything);
+  text += "\n## Library\n";
+  for (const LibraryEntry& entry : scene_library()) text += library_section(entry);
+  return text;
+}
+
+}  // namespace tread

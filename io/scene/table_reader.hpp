@@ -1,0 +1,38 @@
+#pragma once
+// Two-column text files: profiles and measured corrugation depths.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/scene/problems.hpp"
+
+namespace tread {
+
+/// What a two-column file must be like. Both columns are lengths.
+struct TableRules {
+  bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
+  bool increasing = false;   ///< the first column must grow from row to row
+  std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
+};
+
+struct TwoColumns {
+  std::vector<double> first;   ///< [m]
+  std::vector<double> second;  ///< [m]
+};
+
+/// The text of such a file. Throws InputError.
+std::string read_table_text(const std::filesystem::path& path);
+
+/// Reads two numbers a line, separated by blanks, commas or semicolons; '#' starts a comment. A line before
+/// the numbers that holds two bracketed units declares them; without it, where the rules allow, both are
+/// millimetres. Every bad line is added to `problems` with its number; `path` is the file's name in them.
+TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
+                             const TableRules& rules, std::vector<Problem>& problems);
+
+/// Those of a file. Throws InputError, ProblemsError where lines are bad.
+TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules);
+
+}  // namespace tread

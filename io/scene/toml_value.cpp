@@ -1,0 +1,119 @@
+#include "io/scene/toml_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "core/error.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void wrong_type(const std::string& expected, const toml::node& node) {
+  throw InputError(fmt::format("expected {}, got {}", expected, describe_node(node)));
+}
+
+double to_number(const toml::node& node, bool ratio) {
+  const auto* text = node.as_string();
+  if (ratio && text) return parse_ratio(text->get());
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value) wrong_type(ratio ? "a number or a ratio such as \"1:40\"" : "a number without quotes", node);
+  if (!std::isfinite(*value)) throw InputError("the number must be finite");
+  return *value;
+}
+
+double to_quantity(const Quantity& quantity, const toml::node& node) {
+  if (const auto* text = node.as_string()) return parse_quantity(text->get(), quantity);
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value || !std::isfinite(*value)) {
+    throw InputError(fmt::format("got {}; {}", describe_node(node), expectation(quantity, "1")));
+  }
+  const std::string number = fmt::format("{}", *value);
+  throw InputError(fmt::format("{} has no unit; {}", number, expectation(quantity, number)));
+}
+
+int to_integer(const toml::node& node) {
+  const auto* integer = node.as_integer();
+  if (!integer) wrong_type("a whole number without quotes", node);
+  if (integer->get() != static_cast<std::int64_t>(static_cast<int>(integer->get()))) {
+    throw InputError(fmt::format("{} is too large", integer->get()));
+  }
+  return static_cast<int>(integer->get());
+}
+
+/// A name that the key allows stays; a file becomes an absolute path.
+std::string to_text(const Key& key, const toml::node& node, const fs::path& folder) {
+  const auto* text = node.as_string();
+  if (!text) wrong_type("a string in quotes", node);
+  const std::string& value = text->get();
+  const bool allowed = std::find(key.allowed.begin(), key.allowed.end(), value) != key.allowed.end();
+  if (allowed || (key.allowed.empty() && !key.takes_file)) return value;
+  const bool looks_like_file = key.allowed.empty() || value.find_first_of("./") != std::string::npos;
+  if (key.takes_file && looks_like_file && !value.empty())
+    return fs::absolute(folder / value).lexically_normal();
+  if (key.allowed.empty()) throw InputError("the file name is empty");
+  const std::string similar = similar_text(value, key.allowed);
+  throw InputError(fmt::format("\"{}\" is unknown; {}choose from: {}{}", value,
+                               similar.empty() ? "" : fmt::format("did you mean \"{}\"? ", similar),
+                               fmt::join(key.allowed, ", "), key.takes_file ? ", or a file" : ""));
+}
+
+void read_damping(const DampingField& field, const toml::node& node) {
+  constexpr const char* kForm =
+      "{ kind = \"high_frequency_fraction\", value = 1e-4 } or { kind = \"rayleigh_beta\", value = \"1e-8 "
+      "s\" }";
+  const toml::table* table = node.as_table();
+  if (!table) wrong_type(kForm, node);
+  const toml::node* value = table->get("value");
+  const std::optional<std::string> kind = (*table)["kind"].value<std::string>();
+  if (!kind || !value || table->size() != 2) throw InputError(fmt::format("expected {}", kForm));
+  *field.rayleigh_beta = 0;
+  *field.high_frequency_fraction = 0;
+  if (*kind == "rayleigh_beta") {
+    *field.rayleigh_beta = to_quantity(kTime, *value);
+  } else if (*kind == "high_frequency_fraction") {
+    *field.high_frequency_fraction = to_number(*value, false);
+  } else {
+    throw InputError(fmt::format("kind \"{}\" is unknown; expected {}", *kind, kForm));
+  }
+}
+
+}  // namespace
+
+std::string describe_node(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("the string \"{}\"", text->get());
+  if (const auto* integer = node.as_integer()) return fmt::format("the number {}", integer->get());
+  if (const auto* real = node.as_floating_point()) return fmt::format("the number {}", real->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "an array";
+  return "a date or time";
+}
+
+bool to_boolean(const toml::node& node) {
+  const auto* truth = node.as_boolean();
+  if (!truth) wrong_type("true or false without quotes", node);
+  return truth->get();
+}
+
+void read_value(const Key& key, const toml::node& node, const fs::path& folder, const Field& field) {
+  const auto real = [&] {
+    return key.kind == Kind::quantity ? to_quantity(*key.quantity, node)
+                                      : to_number(node, key.kind == Kind::ratio);
+  };
+  if (const auto* number = std::get_if<double*>(&field)) **number = real();
+  if (const auto* number = std::get_if<std::optional<double>*>(&field)) **number = real();
+  if (const auto* number = std::get_if<int*>(&field)) **number = to_integer(node);
+  if (const auto* truth = std::get_if<bool*>(&field)) **truth = to_boolean(node);
+  if (const auto* text = std::get_if<std::string*>(&field)) **text = to_text(key, node, folder);
+  if (const auto* damping = std::get_if<DampingField>(&field)) read_damping(*damping, node);
+}
+
+}  // namespace tread

@@ -1,0 +1,23 @@
+#pragma once
+// One TOML value into one field of the scene.
+
+#include <filesystem>
+#include <string>
+
+#include "io/scene/schema.hpp"
+#include "io/scene/toml_text.hpp"
+
+namespace tread {
+
+/// Sets the field. Files that it names are relative to the folder and become absolute. Throws InputError when
+/// the value does not suit the key; its range is checked later.
+void read_value(const Key& key, const toml::node& node, const std::filesystem::path& folder,
+                const Field& field);
+
+/// Throws InputError.
+bool to_boolean(const toml::node& node);
+
+/// "the string "3 m"", for messages.
+std::string describe_node(const toml::node& node);
+
+}  // namespace tread

@@ -1,0 +1,45 @@
+#pragma once
+// The points and cells of a mesh as VTK counts them.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/vec.hpp"
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// Where a block's body stands: its frame turned by `angle` about y, then moved to `origin`.
+struct Placement {
+  Vec3 origin;       ///< [m]
+  double angle = 0;  ///< [rad]
+};
+
+/// What is shown of a mesh: its elements as hexahedra, or the outer faces of its blocks as quadrilaterals
+/// whose normals point outwards.
+enum class VtkCells { elements, faces };
+
+struct VtkGrid {
+  struct Point {
+    int block, node, station;
+  };
+  /// An element, or the element behind a face.
+  struct Cell {
+    int block, quad, station;
+  };
+
+  VtkCells kind = VtkCells::elements;
+  std::vector<Point> points;               ///< that cells use; blocks share none
+  std::vector<Cell> cells;                 ///< block by block
+  std::vector<std::int64_t> connectivity;  ///< [cell][corner]: places in `points`
+
+  int corners() const { return kind == VtkCells::elements ? 8 : 4; }
+};
+
+/// `kind` of every block of the mesh. Faces by which blocks are tied to one another count as outer ones.
+VtkGrid make_vtk_grid(const Mesh& mesh, VtkCells kind);
+
+/// Where a point of an undeformed body stands. [m]
+Vec3 placed(const Placement& placement, const Vec3& at);
+
+}  // namespace tread

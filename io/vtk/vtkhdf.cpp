@@ -1,0 +1,151 @@
+#include "io/vtk/vtkhdf.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+#include "io/files/hdf5_file.hpp"
+#include "io/files/output_file.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::uint8_t kQuadrilateral = 9;  ///< VTK_QUAD
+constexpr std::uint8_t kHexahedron = 12;    ///< VTK_HEXAHEDRON
+
+/// What every frame takes from its mesh.
+constexpr std::array<const char*, 9> kShared = {
+    "NumberOfPoints", "NumberOfCells",  "NumberOfConnectivityIds", "Connectivity",      "Offsets",
+    "Types",          "CellData/block", "CellData/material",       "CellData/pitch [m]"};
+
+std::int32_t index_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto index = static_cast<std::int32_t>(found - names.begin());
+  if (found == names.end()) names.push_back(name);
+  return index;
+}
+
+/// Distance of a quad's centre from the axis. [m]
+double mean_radius(const Section& section, int quad) {
+  double sum = 0;
+  for (const int node : section.quads[static_cast<std::size_t>(quad)])
+    sum += section.q[static_cast<std::size_t>(node)];
+  return sum / 4;
+}
+
+/// Starts the file in memory: of a disk that is full HDF5 recovers badly.
+Hdf5File begin() {
+  Hdf5File file = Hdf5File::create_in_memory();
+  for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/FieldData"})
+    file.make_group(group);
+  const std::array<std::int64_t, 2> version = {1, 0};
+  file.write_attribute<std::int64_t>("/VTKHDF", "Version", version);
+  file.write_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+  return file;
+}
+
+void write_number(Hdf5File& file, const char* name, std::size_t number) {
+  const std::array<std::int64_t, 1> value = {static_cast<std::int64_t>(number)};
+  file.write<std::int64_t>(fmt::format("/VTKHDF/{}", name), value);
+}
+
+void write_points(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid,
+                  const std::vector<Placement>& placements) {
+  std::vector<double> points;
+  for (const VtkGrid::Point& point : grid.points) {
+    const auto b = static_cast<std::size_t>(point.block);
+    const Vec3 at = placed(placements[b], position(mesh.blocks[b], point.node, point.station));
+    points.insert(points.end(), {at.x, at.y, at.z});
+  }
+  write_number(file, "NumberOfPoints", grid.points.size());
+  file.write<double>("/VTKHDF/Points", points, {grid.points.size(), 3});
+}
+
+void write_topology(Hdf5File& file, const VtkGrid& grid) {
+  const std::size_t count = grid.cells.size();
+  std::vector<std::int64_t> offsets(count + 1);
+  for (std::size_t i = 0; i <= count; ++i) offsets[i] = static_cast<std::int64_t>(i) * grid.corners();
+  write_number(file, "NumberOfCells", count);
+  write_number(file, "NumberOfConnectivityIds", grid.connectivity.size());
+  file.write<std::int64_t>("/VTKHDF/Connectivity", grid.connectivity);
+  file.write<std::int64_t>("/VTKHDF/Offsets", offsets);
+  const std::uint8_t type = grid.kind == VtkCells::elements ? kHexahedron : kQuadrilateral;
+  file.write<std::uint8_t>("/VTKHDF/Types", std::vector<std::uint8_t>(count, type));
+}
+
+void write_names(Hdf5File& file, const std::string& array, const std::vector<std::string>& names) {
+  file.write_attribute(array, "names", fmt::format("{}", fmt::join(names, ",")));
+}
+
+void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
+  std::vector<std::int32_t> blocks, materials;
+  std::vector<double> pitches;
+  std::vector<std::string> block_names, material_names;
+  for (const SweptBlock& block : mesh.blocks) block_names.push_back(block.name);
+  for (const VtkGrid::Cell& cell : grid.cells) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(cell.block)];
+    const int tile = block.tile_of_station[static_cast<std::size_t>(cell.station)];
+    const int pitch_class = block.tiles[static_cast<std::size_t>(tile)].pitch_class;
+    const double pitch = block.pitch(cell.station);
+    blocks.push_back(cell.block);
+    materials.push_back(index_of(material_names, block.material(cell.quad, pitch_class).name));
+    pitches.push_back(block.sweep == Sweep::extruded ? pitch : pitch * mean_radius(block.section, cell.quad));
+  }
+  file.write<std::int32_t>("/VTKHDF/CellData/block", blocks);
+  write_names(file, "/VTKHDF/CellData/block", block_names);
+  file.write<std::int32_t>("/VTKHDF/CellData/material", materials);
+  write_names(file, "/VTKHDF/CellData/material", material_names);
+  file.write<double>("/VTKHDF/CellData/pitch [m]", pitches);
+  file.write_attribute("/VTKHDF/CellData/pitch [m]", "unit", "m");
+}
+
+/// In one chunk: coordinates repeat along the sweep, and most of a surface is out of contact.
+void write_compressed(Hdf5File& file, const std::string& name, std::span<const float> values,
+                      int components) {
+  const auto width = static_cast<std::uint64_t>(components);
+  const std::uint64_t rows = std::max<std::uint64_t>(1, values.size() / width);
+  file.make_extendible<float>(name, rows, width > 1 ? std::vector{width} : std::vector<std::uint64_t>{},
+                              Hdf5File::Storage::compressed);
+  file.append<float>(name, values);
+}
+
+void write_array(Hdf5File& file, const VtkArray& array) {
+  const std::string name =
+      fmt::format("/VTKHDF/{}/{}", array.of_cells ? "CellData" : "PointData", array.name);
+  write_compressed(file, name, array.values, array.components);
+  file.write_attribute(name, "unit", array.unit);
+  file.write_attribute(name, "description", array.description);
+}
+
+}  // namespace
+
+void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
+                    const std::vector<Placement>& placements) {
+  if (!placements.empty() && placements.size() != mesh.blocks.size())
+    throw std::logic_error("write_vtk_mesh: one placement per block");
+  const std::vector<Placement> places =
+      placements.empty() ? std::vector<Placement>(mesh.blocks.size()) : placements;
+  Hdf5File file = begin();
+  write_points(file, mesh, grid, places);
+  write_topology(file, grid);
+  write_cell_arrays(file, mesh, grid);
+  write_text_file(path, file.image());
+}
+
+void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame) {
+  Hdf5File file = begin();
+  for (const std::string name : kShared) file.link_external("/VTKHDF/" + name, frame.mesh, "/VTKHDF/" + name);
+  write_compressed(file, "/VTKHDF/Points", frame.points, 3);
+  for (const VtkArray& array : frame.arrays) write_array(file, array);
+  const std::array<double, 1> time = {frame.time};
+  file.write<double>("/VTKHDF/FieldData/time [s]", time);
+  write_text_file(path, file.image());
+}
+
+}  // namespace tread

@@ -1,0 +1,42 @@
+#pragma once
+// Meshes and fields for ParaView: static VTKHDF 1.0 files of one unstructured grid. ParaView 5.11 opens them
+// if their name ends in .hdf. [VTKHDF 1.0]
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/vtk/vtk_grid.hpp"
+
+namespace tread {
+
+/// Writes a grid of the mesh with cell arrays `block` and `material` (indices; the arrays' attribute `names`
+/// lists the names, comma-separated) and `pitch [m]`, the length of the element along the sweep. `placements`
+/// holds one per block or is empty (all at the origin). Throws ResourceError; an older file stays until the
+/// new one is complete.
+void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
+                    const std::vector<Placement>& placements = {});
+
+/// Values at the points of a grid, or at its cells.
+struct VtkArray {
+  std::string name;  ///< as ParaView shows it, with its unit; '/' would part it: "velocity [m s-1]"
+  std::string unit;
+  std::string description;
+  int components = 1;
+  bool of_cells = false;
+  std::vector<float> values;  ///< [point or cell][component]
+};
+
+/// What a grid looks like at one instant.
+struct VtkFrame {
+  std::filesystem::path mesh;  ///< the file of write_vtk_mesh(), relative to the frame's folder
+  double time = 0;             ///< [s]
+  std::vector<float> points;   ///< [point][3] [m]
+  std::vector<VtkArray> arrays;
+};
+
+/// Writes a frame: a file that shows its mesh's cells and materials by links, and points and arrays of its
+/// own; array `time [s]` beside the fields. Throws as write_vtk_mesh().
+void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame);
+
+}  // namespace tread

@@ -1,0 +1,234 @@
+#pragma once
+// Internal force of the blocks of a mesh: elasticity of total form at small strain, linear or with finite
+// rotation, Rayleigh damping in the same evaluation, and what follows from the same elements (mass, energies,
+// stresses, frequencies).
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/mesh/node_field.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+
+/// Rows and columns [3 node + component]: element nodes as in kernels/element/element.hpp, components in the
+/// nodes' local bases. [N/m]
+using ElementStiffness = std::array<std::array<double, 24>, 24>;
+
+/// The element of a block with the largest natural frequency.
+struct ElementFrequency {
+  double omega = 0;  ///< [rad/s]
+  int quad = -1;
+  int station = -1;  ///< where the element starts
+};
+
+/// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
+double von_mises(const std::array<double, 6>& stress);
+
+/// What the elements' loop reads and moves.
+template <class Real, class U>
+struct ForceFields {
+  U* displacement;            ///< [m]
+  Real* velocity;             ///< at the half step [m/s]
+  Real* force;                ///< [N]
+  const Real* lag = nullptr;  ///< of Maxwell branches, where there are any [m]
+};
+
+/// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
+/// unused lanes hold zero on entry and on return. Precisions as in kernels/lanes/tile_force.hpp. Results are
+/// the same bits for any number of threads. One object serves one caller at a time: applying it uses buffers
+/// of its own.
+template <class Real, class U = Real>
+class BasicInternalForce {
+ public:
+  /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their
+  /// nodes, turns inside out.
+  explicit BasicInternalForce(const Mesh& mesh);
+
+  /// Damping of a block: forces are those of u + beta v. [s]
+  void set_beta(int block, double beta) { blocks_[static_cast<std::size_t>(block)].beta = beta; }
+  /// Maxwell branch of a block: forces are those of u + strength q, whatever its beta. [theory.md, Maxwell
+  /// branch]
+  void set_branch(int block, double strength) { blocks_[static_cast<std::size_t>(block)].branch = strength; }
+  double branch(int block) const { return blocks_[static_cast<std::size_t>(block)].branch; }
+  double beta(int block) const { return blocks_[static_cast<std::size_t>(block)].beta; }
+
+  /// Green-Lagrange strain in the one-point stress of a block: forces balance moments about the deformed
+  /// positions, rigid rotation is free of stress. [theory.md, Finite rotation]
+  void set_finite_rotation(int block, bool on) {
+    blocks_[static_cast<std::size_t>(block)].finite_rotation = on;
+  }
+  bool finite_rotation(int block) const { return blocks_[static_cast<std::size_t>(block)].finite_rotation; }
+
+  /// f = K u, overwritten: the linear operator of all blocks, without damping. [N]
+  void apply(const U* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, nullptr, f, true}); }
+  /// f = F(u + beta v), or F(u + strength q), overwritten, with F(u) the law that the block has; v and q may
+  /// be null. [N]
+  void internal_force(const U* u, const Real* v, Real* f, const Real* q = nullptr) const {
+    evaluate(0, items_.size(), {u, v, q, f, false});
+  }
+  /// internal_force(u, v, f, q), and nodes whose force is complete move by a step while they are at hand:
+  /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force
+  /// in f.
+  void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+            const ForceFields<Real, U>& at) const {
+    evaluate(0, items_.size(),
+             {at.displacement,
+              at.velocity,
+              at.lag,
+              at.force,
+              false,
+              {&update, &loads, at.displacement, at.velocity}});
+  }
+  /// Marks of the last move(), in the order of blocks and tiles.
+  const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
+  /// internal_force for the slots of one block. Pointers are those of the whole fields.
+  void internal_force(int block, const U* u, const Real* v, Real* f) const;
+
+  /// Energy of u by the law that the block has: F is its gradient. [J]
+  DeformationEnergy energy(int block, const U* u) const;
+  /// q . K q / 2 of the block's linear law. [J]
+  double linear_energy(int block, const Real* q) const;
+
+  /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
+  /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
+  /// the material and at small strain is the true one. With the lag q, that of u + strength q. [Pa]
+  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u,
+                               ConstNodeField q = nullptr) const;
+
+  /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
+  void lumped_mass(double* mass) const;
+
+  /// Diagonal of the linear K: 3 * mesh.slots values. [N/m]
+  void diagonal(double* d) const;
+
+  /// Of the linear K.
+  ElementStiffness element_stiffness(int block, int quad, int station) const;
+
+  /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
+  double element_frequency(int block, int quad, int station) const;
+
+  /// Maximum over the elements of a block: a bound from above on its frequencies when assembled.
+  ElementFrequency max_frequency(int block) const;
+
+  /// Elements whose shape is their own (whole lanes of a tile's quad), of all blocks or of one.
+  std::int64_t perturbed_elements() const;
+  std::int64_t perturbed_elements(int block) const;
+
+  /// Bytes of coefficients and buffers.
+  std::int64_t bytes() const;
+
+  /// Instruction sets to choose from, and a choice among them (for tests and benchmarks).
+  static std::vector<const char*> instruction_sets();
+  void use_instruction_set(const char* name);
+  const char* instruction_set() const { return forces_->name; }
+
+ private:
+  struct Item {
+    int block = 0;
+    int tile = 0;
+  };
+  /// Elements of one pitch class, in the order of the plan's quads.
+  struct ClassData {
+    double cosine = 1;  ///< of half the pitch
+    double sine = 0;
+    std::vector<ElementGeometry> geometry;
+    AlignedVector<SweptConstants<Real>> constants;
+  };
+  struct BlockData {
+    FrontPlan plan;
+    std::vector<int> place;  ///< of each quad in the plan's order
+    std::vector<ClassData> classes;
+    std::vector<int> previous;              ///< tile whose last element ends in this tile, or -1
+    std::vector<unsigned char> joins_next;  ///< by tile: the loop takes the tile behind it along if it can
+    std::vector<int> row;                   ///< by tile: of what follows, or -1: no moved node near
+    std::vector<unsigned char> perturbed;   ///< [row][place]: elements touch moved nodes
+    std::vector<int> shifted;               ///< [row][section node]: index into `shifts`, or -1
+    AlignedVector<LaneShifts<Real>> shifts;
+    std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
+    std::size_t first_item = 0;
+    double beta = 0;    ///< [s]
+    double branch = 0;  ///< strength of the Maxwell branch [-]
+    bool finite_rotation = false;
+  };
+  /// An element and where its coefficients are.
+  struct Place {
+    int quad = 0;
+    int station = 0;
+    int place = 0;
+    int pitch_class = 0;
+    bool perturbed = false;
+  };
+  struct Moved {
+    const BasicTimeUpdate<Real, U>* update = nullptr;  ///< null: nothing moves
+    const StepLoads* loads = nullptr;
+    U* u = nullptr;
+    Real* v = nullptr;
+  };
+  struct Fields {
+    const U* u;
+    const Real* v;
+    const Real* q;
+    Real* f;
+    bool linear;  ///< in blocks of finite rotation too
+    Moved moved = {};
+  };
+
+  void build_swept(int block);
+  void build_perturbed(int block);
+  void mark_perturbed(int block);
+  void store_shifts(int block);
+  void join_tiles(int block);
+  bool perturbed(const BlockData& data, int tile, int place) const;
+  int shift_entry(int block, int section_node, int station) const;
+  Real shift(int block, int section_node, int station, int component) const;
+  template <class Value>
+  void spread(int block, const Place& at, const Value& value, Real (&s)[4][3], Real (&d)[4][3]) const;
+  template <class Visit>
+  void with_element(int block, const Place& at, const Visit& visit) const;
+  Place locate(int block, int quad, int station) const;
+  HexNodes element_nodes(int block, const Place& at) const;
+  ElementGeometry geometry(int block, const Place& at) const;
+  void gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const;
+  template <class Value>
+  DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation) const;
+  ElementStiffness stiffness(int block, const Place& at) const;
+  double frequency(int block, const Place& at) const;
+  template <class Visit>
+  void for_each_element(int block, const Visit& visit) const;
+
+  bool joined(std::size_t item) const {
+    const Item& at = items_[item];
+    return blocks_[static_cast<std::size_t>(at.block)].joins_next[static_cast<std::size_t>(at.tile)] != 0;
+  }
+  /// Force of a tile's last element on the station behind it: [section node][3].
+  Real* carry(const Item& item) const;
+  void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
+  void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
+  /// The item's tile and, if `tiles` is 2, the one behind it.
+  void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
+  void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
+  TileElements<Real> tile_elements(const Item& item, int tiles) const;
+  void add_carry(const Item& item, Real* f) const;
+
+  const Mesh& mesh_;
+  const TileForces* forces_;
+  std::vector<BlockData> blocks_;
+  std::vector<Item> items_;
+  std::vector<std::int64_t> cost_;                    ///< elements before each item, to share the work evenly
+  AlignedVector<Real> no_carry_;                      ///< zeros
+  mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
+  mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part
+  mutable std::vector<unsigned char> unmoved_;        ///< those, and items without elements
+};
+
+using InternalForce = BasicInternalForce<double>;
+extern template class BasicInternalForce<double>;
+extern template class BasicInternalForce<float, double>;
+extern template class BasicInternalForce<float>;
+
+}  // namespace tread

@@ -1,0 +1,104 @@
+#include "kernels/blocks/time_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "core/parallel/parallel.hpp"
+
+namespace tread {
+
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Real, class U>
+BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
+    : mesh_(mesh), inverse_mass_(inverse_mass), deferred_(index(mesh.slots / kLanes), 0) {
+  for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
+    const SweptBlock& swept = mesh.blocks[index(block)];
+    radius_.emplace_back(swept.section.q.begin(), swept.section.q.end());
+    for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) items_.push_back({block, tile});
+    all_nodes_.resize(std::max(all_nodes_.size(), index(swept.section.nodes())));
+  }
+  std::iota(all_nodes_.begin(), all_nodes_.end(), 0);
+  defer({});
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
+  for (const std::int64_t slot : slots) deferred_[index(slot / kLanes)] = 1;
+  deferred_nodes_.clear();
+  first_deferred_.assign(1, 0);
+  for (const auto [block, tile] : items_) {
+    const SweptBlock& swept = mesh_.blocks[index(block)];
+    const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
+    for (int node = 0; node < swept.section.nodes(); ++node) {
+      const Real* inverse = inverse_mass_ + (first + node) * kLanes;
+      const bool moves = std::any_of(inverse, inverse + kLanes, [](Real value) { return value > 0; });
+      if (deferred_[index(first + node)] != 0 && moves) deferred_nodes_.push_back(node);
+    }
+    first_deferred_.push_back(deferred_nodes_.size());
+  }
+}
+
+template <class Real, class U>
+TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const StepLoads& loads, U* u,
+                                                     Real* v) const {
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
+  TileMotion<Real, U> motion;
+  motion.step.dt = static_cast<Real>(loads.dt);
+  motion.u = u + dof(slot, 0);
+  motion.v = v + dof(slot, 0);
+  motion.inverse_mass = inverse_mass_ + slot;
+  motion.deferred = deferred_.data() + slot / kLanes;
+  if (swept.sweep == Sweep::extruded) {
+    motion.step.gravity = static_cast<Real>(loads.gravity);
+    return motion;
+  }
+  const double spin = loads.frame.spin;
+  motion.step.turn_c = static_cast<Real>(std::cos(2 * spin * loads.dt));
+  motion.step.turn_s = static_cast<Real>(std::sin(2 * spin * loads.dt));
+  motion.step.spin2 = static_cast<Real>(spin * spin);
+  motion.radius = radius_[index(block)].data();
+  const Tile& at = swept.tiles[index(tile)];
+  for (int l = 0; l < at.stations; ++l) {
+    const double phi = swept.stations[index(at.first_station + l)] + loads.frame.angle;
+    motion.weight[0][l] = static_cast<Real>(-loads.gravity * std::sin(phi));
+    motion.weight[1][l] = static_cast<Real>(loads.gravity * std::cos(phi));
+  }
+  return motion;
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
+                                    const unsigned char* whole) const {
+  const auto select = tile_forces().front()->loops<Real, U>().move;
+  parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t i = from; i < to; ++i) {
+      const auto [block, tile] = items_[index(i)];
+      const SweptBlock& swept = mesh_.blocks[index(block)];
+      std::span<const int> nodes(all_nodes_.data(), index(swept.section.nodes()));
+      if (whole != nullptr && whole[i] == 0)
+        nodes = {deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i)]),
+                 deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
+      if (nodes.empty()) continue;
+      const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
+      select({.sweep = swept.sweep, .vertical_only = swept.vertical_only})(
+          motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
+          fields.force + dof(slot, 0));
+    }
+  });
+}
+
+template class BasicTimeUpdate<double>;
+template class BasicTimeUpdate<float, double>;
+template class BasicTimeUpdate<float>;
+
+}  // namespace tread

@@ -1,0 +1,99 @@
+#pragma once
+// What happens at the nodes of the rail's surface, from what the integration points carry.
+// [theory.md, Fields of the surface]
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/contact/contact_point.hpp"
+#include "kernels/contact/contact_surface.hpp"
+
+namespace tread {
+
+/// The nodes of a rail's surface that contact can reach, stations along the rail times rows across it, and
+/// the cells between them.
+struct SurfaceGrid {
+  int first_edge = 0;          ///< surface edge between the first two rows
+  std::vector<double> x;       ///< by station [m]
+  std::vector<double> y;       ///< by row [m]
+  std::vector<double> length;  ///< of the rail that a station stands for [m]
+  std::vector<double> width;   ///< of the profile that a row stands for [m]
+  std::vector<int> quad;       ///< of the rail's section, under the cells between a row and the next
+
+  int stations() const { return static_cast<int>(x.size()); }
+  int rows() const { return static_cast<int>(y.size()); }
+  std::size_t nodes() const { return x.size() * y.size(); }
+  /// Place of a node in arrays [station][row].
+  std::size_t node(int station, int row) const {
+    return static_cast<std::size_t>(station) * y.size() + static_cast<std::size_t>(row);
+  }
+  /// Place of the cell that starts at a node in arrays [station][row] with a row and a station less.
+  std::size_t cell(int station, int row) const {
+    return static_cast<std::size_t>(station) * quad.size() + static_cast<std::size_t>(row);
+  }
+  /// That a node stands for [m2].
+  double area(int station, int row) const {
+    return length[static_cast<std::size_t>(station)] * width[static_cast<std::size_t>(row)];
+  }
+};
+
+/// The nodes on the edges [first_edge, last_edge) of an extruded block's surface.
+SurfaceGrid make_surface_grid(const SweptBlock& rail, const SurfaceProfile& profile, SurfaceKind kind,
+                              std::array<int, 2> edges);
+
+/// Lumped averages at a node; tractions are those of the middle of a step, zero outside of contact.
+struct NodalContact {
+  double pressure = 0;          ///< [Pa]
+  Traction shear;               ///< on the rail [Pa]
+  Traction slip_speed;          ///< of the wheel against the rail, mean over what touches [m/s]
+  double frictional_work = 0;   ///< of the step [J/m2]
+  double frictional_power = 0;  ///< shear stress times slip speed [W/m2]
+  double touching = 0;          ///< share of the node's area [-]
+  double slipping = 0;          ///< share of the node's area [-]
+
+  double shear_size() const {
+    return std::sqrt(shear.along * shear.along + shear.across * shear.across);
+  }  ///< [Pa]
+};
+
+enum class PatchState : std::uint8_t { out, stick, slip };
+
+/// A node slips where most of what touches about it slips.
+inline PatchState state_of(const NodalContact& node) {
+  if (node.touching <= 0) return PatchState::out;
+  return node.slipping > 0.5 * node.touching ? PatchState::slip : PatchState::stick;
+}
+
+/// The nodes about the patch at one instant: rows of a SurfaceGrid at a run of its stations.
+class PatchNodes {
+ public:
+  PatchNodes() = default;
+  /// Room for `stations` stations.
+  PatchNodes(SurfaceGrid grid, int stations);
+
+  /// Averages over the faces from station `first` to station `last`, both included; all points lie between.
+  /// Points without pressure count for their frictional work only.
+  void average(int first, int last, const std::vector<ContactPoint>& points);
+
+  const SurfaceGrid& grid() const { return grid_; }
+  int capacity() const { return static_cast<int>(nodes_.size()) / grid_.rows(); }  ///< stations
+  int first() const { return first_; }                                             ///< station
+  int last() const { return last_; }                                               ///< station
+  const NodalContact& at(int station, int row) const { return nodes_[grid_.node(station - first_, row)]; }
+
+  double max_pressure() const;  ///< [Pa]
+  double max_shear() const;     ///< [Pa]
+  std::int64_t bytes() const;
+
+ private:
+  void add(const ContactPoint& point);
+
+  SurfaceGrid grid_;
+  std::vector<NodalContact> nodes_;  ///< [station - first][row]
+  int first_ = 0, last_ = 0;
+};
+
+}  // namespace tread

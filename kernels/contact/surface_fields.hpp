@@ -1,0 +1,56 @@
+#pragma once
+// What a passage leaves on the rail's surface: the largest stresses and the frictional work.
+// [theory.md, Fields of the surface]
+
+#include <cstdint>
+#include <vector>
+
+#include "core/state_list.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/contact/patch_nodes.hpp"
+
+namespace tread {
+
+/// Fields over the nodes, [station][row] of a SurfaceGrid, and its cells. They only observe.
+class SurfaceFields {
+ public:
+  explicit SurfaceFields(const SurfaceGrid& grid);
+
+  /// A step: its tractions and frictional work.
+  void add_step(const PatchNodes& patch);
+
+  /// A sample that stands for `interval` [s]: frictional work as the paper sums it. [paper, eq. (5)]
+  void add_sample(const PatchNodes& patch, double interval);
+
+  /// The stress of the surface elements about the nodes under pressure; `block` is the rail's, `lag` that of
+  /// its Maxwell branch.
+  void add_stress(const PatchNodes& patch, const InternalForce& force, int block, ConstNodeField displacement,
+                  ConstNodeField lag = nullptr);
+
+  const SurfaceGrid& grid() const { return grid_; }
+  const std::vector<double>& max_pressure() const { return max_pressure_; }        ///< by node [Pa]
+  const std::vector<double>& max_shear() const { return max_shear_; }              ///< by node [Pa]
+  const std::vector<double>& max_von_mises() const { return max_von_mises_; }      ///< by cell [Pa]
+  const std::vector<double>& frictional_work() const { return frictional_work_; }  ///< by node [J/m2]
+  /// By samples; by node [J/m2].
+  const std::vector<double>& sampled_frictional_work() const { return sampled_work_; }
+
+  /// Of a node's work per area over the whole surface [J].
+  double sum(const std::vector<double>& per_area) const;
+
+  static std::int64_t bytes(const SurfaceGrid& grid);
+
+  void list_state(StateList& list) {
+    list.add("max_pressure", max_pressure_);
+    list.add("max_shear", max_shear_);
+    list.add("max_von_mises", max_von_mises_);
+    list.add("frictional_work", frictional_work_);
+    list.add("sampled_frictional_work", sampled_work_);
+  }
+
+ private:
+  SurfaceGrid grid_;
+  std::vector<double> max_pressure_, max_shear_, max_von_mises_, frictional_work_, sampled_work_;
+};
+
+}  // namespace tread

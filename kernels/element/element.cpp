@@ -1,0 +1,206 @@
+#include "kernels/element/element.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tread {
+
+namespace {
+
+constexpr int kCorner[8][3] = {{-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1},
+                               {1, -1, -1},  {1, 1, -1},  {1, 1, 1},  {1, -1, 1}};
+
+double determinant(const Mat3& m) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+         m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/// Trilinear shape function and its derivatives by (xi, eta, zeta).
+std::array<double, 4> shape(int node, const std::array<double, 3>& at) {
+  std::array<double, 3> f{};
+  for (std::size_t k = 0; k < 3; ++k) f[k] = 1 + kCorner[node][k] * at[k];
+  const int* s = kCorner[node];
+  return {f[0] * f[1] * f[2] / 8, s[0] * f[1] * f[2] / 8, s[1] * f[0] * f[2] / 8, s[2] * f[0] * f[1] / 8};
+}
+
+Mat3 jacobian(const HexNodes& nodes, const std::array<double, 3>& at) {
+  Mat3 result{};
+  for (int node = 0; node < 8; ++node) {
+    const auto n = shape(node, at);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        result[i][k] += nodes[static_cast<std::size_t>(node)][static_cast<int>(i)] * n[k + 1];
+  }
+  return result;
+}
+
+}  // namespace
+
+int mode_value(Mode mode, int node) {
+  const int* s = kCorner[node];
+  switch (mode) {
+    case mode_xi:
+      return s[0];
+    case mode_eta:
+      return s[1];
+    case mode_zeta:
+      return s[2];
+    case mode_h1:
+      return s[1] * s[2];
+    case mode_h2:
+      return s[2] * s[0];
+    case mode_h3:
+      return s[0] * s[1];
+    default:
+      return s[0] * s[1] * s[2];
+  }
+}
+
+ElementGeometry element_geometry(const HexNodes& nodes) {
+  ElementGeometry result;
+  auto& x = result.position;
+  for (int mode = 0; mode < kModes; ++mode)
+    for (int node = 0; node < 8; ++node)
+      x[static_cast<std::size_t>(mode)] +=
+          mode_value(static_cast<Mode>(mode), node) * nodes[static_cast<std::size_t>(node)];
+
+  // The integral of the Jacobian determinant is a sum of triple products of amplitudes. Its derivatives by
+  // them are the volume times the mean gradients. [theory.md, Element]
+  auto& g = result.gradient;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t k1 = (k + 1) % 3, k2 = (k + 2) % 3, h1 = mode_h1 + k1, h2 = mode_h1 + k2;
+    g[k] = cross(x[k1], x[k2]) + 1.0 / 3 * cross(x[h2], x[h1]);
+    g[mode_h1 + k] = 1.0 / 3 * (cross(x[k2], x[h1]) + cross(x[h2], x[k1]));
+  }
+  const double triple =
+      dot(x[mode_xi], g[mode_xi]) + dot(x[mode_h1], g[mode_h1]);  // every term holds xi or h1
+  result.volume = triple / 64;
+  for (Vec3& row : g) row = 1 / triple * row;
+
+  // N_I det J is of degree 3 in each coordinate: two points per direction are exact.
+  const double point = 1 / std::sqrt(3.0);
+  for (const auto& sign : kCorner) {
+    const std::array<double, 3> at = {sign[0] * point, sign[1] * point, sign[2] * point};
+    const double weight = determinant(jacobian(nodes, at));
+    for (int node = 0; node < 8; ++node)
+      result.nodal_volume[static_cast<std::size_t>(node)] += shape(node, at)[0] * weight;
+  }
+  result.smallest_jacobian = std::numeric_limits<double>::max();
+  for (const auto& sign : kCorner) {
+    const double corner = determinant(jacobian(nodes, {1.0 * sign[0], 1.0 * sign[1], 1.0 * sign[2]}));
+    result.smallest_jacobian = std::min(result.smallest_jacobian, corner / (std::abs(result.volume) / 8));
+  }
+  return result;
+}
+
+HexNodes swept_nodes(const Section& section, int quad, Sweep sweep, double pitch) {
+  HexNodes nodes;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const auto node = static_cast<std::size_t>(section.quads[static_cast<std::size_t>(quad)][corner]);
+    const double p = section.p[node];
+    const double q = section.q[node];
+    if (sweep == Sweep::extruded) {
+      nodes[corner] = {-pitch / 2, p, q};
+      nodes[corner + 4] = {pitch / 2, p, q};
+    } else {
+      nodes[corner] = {-q * std::sin(pitch / 2), p, q * std::cos(pitch / 2)};
+      nodes[corner + 4] = {q * std::sin(pitch / 2), p, q * std::cos(pitch / 2)};
+    }
+  }
+  return nodes;
+}
+
+HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material) {
+  // Polar decomposition of the centre Jacobian: x stands alone, the rotation about it has a closed form.
+  const Mat3 map = jacobian(swept, {0, 0, 0});
+  const double length = std::hypot(map[1][1] + map[2][2], map[2][1] - map[1][2]);
+  const double c = (map[1][1] + map[2][2]) / length;
+  const double s = (map[2][1] - map[1][2]) / length;
+  const std::array<double, 3> half = {map[0][0], c * map[1][1] + s * map[2][1],
+                                      c * map[2][2] - s * map[1][2]};
+  const auto h = [&](std::size_t i, std::size_t j) { return volume / (3 * half[i] * half[j]); };
+
+  // Local matrix; the 1/64 turns amplitudes that are sums of eight values into means.
+  HourglassMatrix local{};
+  const auto index = [](std::size_t i, std::size_t alpha) { return 4 * i + alpha; };
+  const auto add = [&](std::size_t a, std::size_t b, double value) {
+    local[a][b] += value / 64;
+    if (a != b) local[b][a] += value / 64;
+  };
+  const double mu = material.shear_modulus();
+  const double e = material.youngs_modulus;
+  const double nu = material.poissons_ratio;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    add(index(i, i), index(i, i), mu * (h(j, j) + h(k, k)));
+    add(index(i, i), index(j, j), mu * h(i, j));
+    const double plate = e / (1 - nu * nu);  // bending in the plane (i, j), normal k
+    add(index(i, j), index(i, j), plate * h(i, i));
+    add(index(j, i), index(j, i), plate * h(j, j));
+    add(index(i, j), index(j, i), plate * nu * h(i, j));
+    add(index(i, 3), index(i, 3), e * h(i, i) / 3);
+  }
+
+  // q' = R^T q, hence C = R C' R^T for the components of every mode.
+  const double turn[3][3] = {{1, 0, 0}, {0, c, -s}, {0, s, c}};
+  HourglassMatrix result{};
+  for (std::size_t row = 0; row < 12; ++row)
+    for (std::size_t column = 0; column < 12; ++column)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          result[row][column] +=
+              turn[row / 4][i] * local[index(i, row % 4)][index(j, column % 4)] * turn[column / 4][j];
+  return result;
+}
+
+template <class Real>
+SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
+                                     const Material& material) {
+  SweptConstants<Real> c{};
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  constexpr std::size_t kAlong[4] = {mode_xi, mode_h2, mode_h3, mode_h4};
+  constexpr std::size_t kAcross[3] = {mode_eta, mode_zeta, mode_h1};
+  for (std::size_t m = 0; m < 3; ++m) {
+    c.gradient_x[m] = real(geometry.gradient[kAlong[m]].x);
+    c.gradient_y[m] = real(geometry.gradient[kAcross[m]].y);
+    c.gradient_z[m] = real(geometry.gradient[kAcross[m]].z);
+    c.position_y[m] = real(geometry.position[kAcross[m]].y);
+    c.position_z[m] = real(geometry.position[kAcross[m]].z);
+  }
+  for (std::size_t m = 0; m < 4; ++m) c.position_x[m] = real(geometry.position[kAlong[m]].x);
+  c.inverse_volume = real(1 / geometry.volume);
+  c.lambda = real(material.lame_lambda() * geometry.volume);
+  c.mu = real(material.shear_modulus() * geometry.volume);
+
+  enum : std::size_t { x1, x2, x3, x4, y1, y2, y3, y4, z1, z2, z3, z4 };
+  const auto entry = [&](std::size_t a, std::size_t b) { return real(hourglass[a][b]); };
+  HourglassConstants<Real>& h = c.hourglass;
+  constexpr std::size_t kEven[4] = {x2, x3, y1, z1};
+  constexpr std::size_t kOdd[5] = {x1, y2, z2, y3, z3};
+  for (std::size_t a = 0; a < 4; ++a) h.even_diagonal[a] = entry(kEven[a], kEven[a]);
+  h.x2_y1 = entry(x2, y1);
+  h.x2_z1 = entry(x2, z1);
+  h.x3_y1 = entry(x3, y1);
+  h.x3_z1 = entry(x3, z1);
+  h.y1_z1 = entry(y1, z1);
+  h.x4 = entry(x4, x4);
+  std::size_t upper = 0;
+  for (std::size_t a = 0; a < 5; ++a) {
+    h.odd_diagonal[a] = entry(kOdd[a], kOdd[a]);
+    for (std::size_t b = a + 1; b < 5; ++b) h.odd_upper[upper++] = entry(kOdd[a], kOdd[b]);
+  }
+  h.y4 = entry(y4, y4);
+  h.z4 = entry(z4, z4);
+  h.y4_z4 = entry(y4, z4);
+  return c;
+}
+
+template SweptConstants<double> swept_constants(const ElementGeometry&, const HourglassMatrix&,
+                                                const Material&);
+template SweptConstants<float> swept_constants(const ElementGeometry&, const HourglassMatrix&,
+                                               const Material&);
+
+}  // namespace tread

@@ -1,0 +1,85 @@
+#pragma once
+// Geometry and coefficients of the 8-node hexahedron: one stress point with volume-averaged gradients and an
+// assumed-strain hourglass stiffness. [theory.md, Element; Flanagan and Belytschko 1981; Belytschko and
+// Bindeman 1993]
+//
+// Nodes 0 ... 3 are the quad's corners (eta, zeta) = (-1,-1), (1,-1), (1,1), (-1,1) at xi = -1, nodes 4 ... 7
+// the same at xi = +1. A nodal field is the sum of eight base vectors of +-1; its amplitudes here are the
+// plain sums A_m = sum_I base_mI u_I, without the factor 1/8.
+
+#include <array>
+
+#include "core/material.hpp"
+#include "core/math/vec.hpp"
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// Non-constant base vectors: three linear ones and the hourglass shapes h1 = eta zeta, h2 = zeta xi,
+/// h3 = xi eta, h4 = xi eta zeta.
+enum Mode { mode_xi, mode_eta, mode_zeta, mode_h1, mode_h2, mode_h3, mode_h4, kModes };
+inline constexpr int kHourglassModes = 4;
+
+/// Modes that mean gradients see: h4 has none, in any shape.
+inline constexpr int kGradientModes = 6;
+
+using HexNodes = std::array<Vec3, 8>;
+
+/// Value of a base vector at a node: +1 or -1.
+int mode_value(Mode mode, int node);
+
+/// Exact integrals over the trilinear map of one element.
+struct ElementGeometry {
+  double volume = 0;                        ///< [m3]
+  double smallest_jacobian = 0;             ///< over the corners, by volume / 8 [-]
+  std::array<double, 8> nodal_volume = {};  ///< integral of N_I [m3]
+  /// Amplitudes of the positions. Those of the hourglass modes are what a linear field leaves in them. [m]
+  std::array<Vec3, kModes> position = {};
+  /// Mean gradients of a field of amplitudes A: g_ij = sum_m A_im gradient[m][j]. [1/m]
+  std::array<Vec3, kGradientModes> gradient = {};
+};
+
+ElementGeometry element_geometry(const HexNodes& nodes);
+
+/// Nodes of the unperturbed elements of (quad, pitch) in the frame of the element's middle: extruded (x, y,
+/// z) about the middle of the length; revolved (t, y, r) about the axis at the middle angle.
+HexNodes swept_nodes(const Section& section, int quad, Sweep sweep, double pitch);
+
+/// Hourglass stiffness over Q_(i alpha) = A_(i alpha) - sum_j g_ij position[h_alpha][j] in the order [4 i +
+/// alpha], i = x, y, z of the element's middle frame. Energy = Q^T C Q / 2. The element must be swept:
+/// symmetric about xi = 0, so that its local axes turn about the sweep only. [N/m]
+using HourglassMatrix = std::array<std::array<double, 12>, 12>;
+HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material);
+
+/// The entries of HourglassMatrix that the symmetry of a swept element leaves.
+template <class Real>
+struct HourglassConstants {
+  Real even_diagonal[4];  ///< of (x2, x3, y1, z1)
+  Real x2_y1, x2_z1, x3_y1, x3_z1, y1_z1;
+  Real x4;
+  Real odd_diagonal[5];  ///< of (x1, y2, z2, y3, z3)
+  Real odd_upper[10];    ///< their upper triangle by rows
+  Real y4, z4, y4_z4;
+};
+
+/// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the
+/// modes (xi, h2, h3) only, d/dy and d/dz to (eta, zeta, h1) only. In extruded elements the gradients of h1
+/// and the positions of h2, h3, h4 vanish too.
+template <class Real>
+struct SweptConstants {
+  Real gradient_x[3];  ///< of xi, h2, h3 [1/m]
+  Real gradient_y[3];  ///< of eta, zeta, h1 [1/m]
+  Real gradient_z[3];
+  Real position_x[4];  ///< of xi, h2, h3, h4 [m]
+  Real position_y[3];  ///< of eta, zeta, h1 [m]
+  Real position_z[3];
+  Real lambda, mu;      ///< Lame's constants times the volume [N m]
+  Real inverse_volume;  ///< [1/m3]
+  HourglassConstants<Real> hourglass;
+};
+
+template <class Real>
+SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
+                                     const Material& material);
+
+}  // namespace tread

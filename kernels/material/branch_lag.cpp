@@ -1,0 +1,33 @@
+#include "kernels/material/branch_lag.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/parallel/chunks.hpp"
+
+namespace tread {
+
+template <class Real>
+BranchLag<Real>::BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches)
+    : mesh_(mesh), branches_(std::move(branches)), q_(static_cast<std::size_t>(3 * mesh.slots), 0) {}
+
+template <class Real>
+void BranchLag<Real>::advance(const Real* v, double dt) {
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    if (!branches_[b]) continue;
+    const double time = branches_[b]->time;
+    const auto kept = static_cast<Real>(std::exp(-dt / time));
+    const auto gained = static_cast<Real>(-time * std::expm1(-dt / time));
+    const SweptBlock& block = mesh_.blocks[b];
+    Real* const q = q_.data() + dof(block.base, 0);
+    const Real* const of = v + dof(block.base, 0);
+    for_chunks(3 * block.slots(), [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) q[i] = kept * q[i] + gained * of[i];
+    });
+  }
+}
+
+template class BranchLag<double>;
+template class BranchLag<float>;
+
+}  // namespace tread

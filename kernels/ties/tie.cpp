@@ -1,0 +1,395 @@
+#include "kernels/ties/tie.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Where a secondary node sits on a primary face: two section nodes, two stations, fractions along both.
+struct FacePoint {
+  std::array<int, 2> section_node;
+  std::array<int, 2> station;
+  double across;  ///< fraction from section_node[0] to [1]
+  double along;   ///< fraction from station[0] to [1]
+};
+
+/// Primary section edge under each secondary section node.
+struct SectionPoint {
+  std::array<int, 2> node;
+  double fraction;
+};
+
+std::vector<SectionPoint> locate_in_section(const SweptBlock& fine, const std::vector<int>& fine_path,
+                                            const SweptBlock& coarse, const std::vector<int>& coarse_path) {
+  std::vector<SectionPoint> points;
+  for (const int node : fine_path) {
+    const double p = fine.section.p[static_cast<std::size_t>(node)];
+    const double q = fine.section.q[static_cast<std::size_t>(node)];
+    SectionPoint best{{-1, -1}, 0};
+    double distance = 1e30;
+    for (std::size_t i = 0; i + 1 < coarse_path.size(); ++i) {
+      const auto a = static_cast<std::size_t>(coarse_path[i]);
+      const auto b = static_cast<std::size_t>(coarse_path[i + 1]);
+      const double dp = coarse.section.p[b] - coarse.section.p[a];
+      const double dq = coarse.section.q[b] - coarse.section.q[a];
+      const double length2 = dp * dp + dq * dq;
+      const double fraction =
+          std::clamp(((p - coarse.section.p[a]) * dp + (q - coarse.section.q[a]) * dq) / length2, 0.0, 1.0);
+      const double off =
+          std::hypot(coarse.section.p[a] + fraction * dp - p, coarse.section.q[a] + fraction * dq - q);
+      if (off < distance) {
+        distance = off;
+        best = {{coarse_path[i], coarse_path[i + 1]}, fraction};
+      }
+    }
+    if (distance > 1e-9)
+      throw InputError(
+          fmt::format("tie of '{}' to '{}': section node {} at ({:.6f}, {:.6f}) m lies {:.3e} m off the "
+                      "coarse line; make both lines coincide",
+                      fine.name, coarse.name, node, p, q, distance));
+    if (best.fraction < 1e-9) best.fraction = 0;
+    if (best.fraction > 1 - 1e-9) best.fraction = 1;
+    points.push_back(best);
+  }
+  return points;
+}
+
+struct StationPoint {
+  std::array<int, 2> station;
+  double fraction;
+};
+
+StationPoint locate_along(const SweptBlock& fine, int station, const SweptBlock& coarse) {
+  constexpr double turn = 2 * std::numbers::pi;
+  constexpr double tolerance = 1e-9;
+  double at = fine.stations[static_cast<std::size_t>(station)];
+  const double first = coarse.stations.front();
+  if (coarse.closed) at = first + std::fmod(std::fmod(at - first, turn) + turn, turn);
+  if (coarse.closed && first + turn - at < tolerance) at = first;
+  const auto above = std::upper_bound(coarse.stations.begin(), coarse.stations.end(), at + tolerance);
+  int j = static_cast<int>(above - coarse.stations.begin()) - 1;
+  const int count = coarse.station_count();
+  if (!coarse.closed && j == count - 1 && at < coarse.stations.back() + tolerance) j = count - 2;
+  if (j < 0 || (!coarse.closed && j >= count - 1))
+    throw InputError(fmt::format("tie of '{}' to '{}': station {} at {:.6f} lies beyond the coarse block",
+                                 fine.name, coarse.name, station, at));
+  const int next = j + 1 < count ? j + 1 : 0;
+  const double span = next > 0 ? coarse.stations[static_cast<std::size_t>(next)] : first + turn;
+  const double here = coarse.stations[static_cast<std::size_t>(j)];
+  double fraction = (at - here) / (span - here);
+  if (fraction < tolerance) fraction = 0;
+  if (fraction > 1 - tolerance) fraction = 1;
+  return {{j, next}, fraction};
+}
+
+const std::vector<int>& path_of(const SweptBlock& block, const std::string& name) {
+  const auto found = block.section.paths.find(name);
+  if (found == block.section.paths.end())
+    throw InputError(fmt::format("block '{}' has no section path '{}' to tie", block.name, name));
+  return found->second;
+}
+
+template <class Visit>
+void for_each_secondary(const Mesh& mesh, const TieSpec& spec, Visit visit) {
+  const SweptBlock& fine = mesh.blocks[static_cast<std::size_t>(spec.secondary)];
+  const SweptBlock& coarse = mesh.blocks[static_cast<std::size_t>(spec.primary)];
+  const auto& fine_path = path_of(fine, spec.secondary_path);
+  const auto across = locate_in_section(fine, fine_path, coarse, path_of(coarse, spec.primary_path));
+  for (int station = 0; station < fine.station_count(); ++station) {
+    const StationPoint along = locate_along(fine, station, coarse);
+    for (std::size_t i = 0; i < fine_path.size(); ++i)
+      visit(fine_path[i], station,
+            FacePoint{across[i].node, along.station, across[i].fraction, along.fraction});
+  }
+}
+
+double face_weight(const FacePoint& face, int corner) {
+  const double across = corner % 2 == 0 ? 1 - face.across : face.across;
+  const double along = corner / 2 == 0 ? 1 - face.along : face.along;
+  return across * along;
+}
+
+}  // namespace
+
+void place_on_chords(Mesh& mesh, const TieSpec& spec) {
+  SweptBlock& fine = mesh.blocks[static_cast<std::size_t>(spec.secondary)];
+  const SweptBlock& coarse = mesh.blocks[static_cast<std::size_t>(spec.primary)];
+  if (fine.sweep == Sweep::extruded) return;  // straight: the nodes lie there already
+  for_each_secondary(mesh, spec, [&](int node, int station, const FacePoint& face) {
+    Vec3 target;
+    for (int corner = 0; corner < 4; ++corner)
+      target += face_weight(face, corner) * position(coarse,
+                                                     face.section_node[static_cast<std::size_t>(corner % 2)],
+                                                     face.station[static_cast<std::size_t>(corner / 2)]);
+    const Vec3 shift = to_local(fine, station, 0, target - position(fine, node, station));
+    if (norm(shift) > 1e-12) fine.node_shift[fine.slot(node, station)] += shift;
+  });
+}
+
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A station of the other block that has a share in one of the own.
+struct StationShare {
+  int station;
+  double share;
+  double turn;  ///< from the other's basis to the own [rad]
+};
+
+/// By station of either block.
+struct SharesAlong {
+  std::vector<std::vector<StationShare>> of_fine, of_coarse;
+};
+
+SharesAlong shares_along(const SweptBlock& fine, const SweptBlock& coarse) {
+  SharesAlong shares;
+  shares.of_fine.resize(fine.stations.size());
+  shares.of_coarse.resize(coarse.stations.size());
+  for (int station = 0; station < fine.station_count(); ++station) {
+    const StationPoint along = locate_along(fine, station, coarse);
+    const std::array<double, 2> share = {1 - along.fraction, along.fraction};
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (share[end] == 0) continue;
+      const int primary = along.station[end];
+      const double turn = fine.sweep == Sweep::extruded
+                              ? 0.0
+                              : fine.stations[index(station)] - coarse.stations[index(primary)];
+      shares.of_fine[index(station)].push_back({primary, share[end], turn});
+      shares.of_coarse[index(primary)].push_back({station, share[end], -turn});
+    }
+  }
+  return shares;
+}
+
+/// Two sums into one node would depend on which comes first.
+void require_one_sum_per_node(const TieSums& sums) {
+  std::vector<std::int64_t> nodes;
+  for (const TieSums::Item& item : sums.items)
+    for (int n = 0; n < item.node_count; ++n)
+      nodes.push_back(item.own + std::int64_t{3 * kLanes} * sums.nodes[item.first_node + index(n)].node);
+  std::sort(nodes.begin(), nodes.end());
+  if (std::adjacent_find(nodes.begin(), nodes.end()) != nodes.end())
+    throw InputError("a node belongs to two ties; tie their blocks on lines without common nodes");
+}
+
+/// Section nodes of a tie's side.
+struct LinkedLine {
+  std::size_t first_other, first_node;  ///< into TieSums
+};
+
+LinkedLine next_line(const TieSums& sums) {
+  return {sums.others.size(), sums.nodes.size()};
+}
+
+/// Adds the tiles of `own`, whose section nodes from `line` on are linked to those of `other`.
+void add_items(TieSums& sums, const LinkedLine& line, const SweptBlock& own, const SweptBlock& other,
+               const std::vector<std::vector<StationShare>>& shares) {
+  const auto place = [&](const SweptBlock& block, int station) {
+    return dof(block.base + block.slot(0, station), 0);
+  };
+  for (const Tile& tile : own.tiles) {
+    const auto begin = shares.begin() + tile.first_station;
+    std::size_t most = 0;
+    for (auto it = begin; it != begin + tile.stations; ++it) most = std::max(most, it->size());
+    if (most == 0) continue;
+    sums.items.push_back({place(own, tile.first_station), sums.stations.size(), static_cast<int>(most),
+                          line.first_other, static_cast<int>(sums.others.size() - line.first_other),
+                          line.first_node, static_cast<int>(sums.nodes.size() - line.first_node)});
+    for (std::size_t k = 0; k < most; ++k) {
+      StationLink& link = sums.stations.emplace_back();
+      std::fill_n(link.at, kLanes, place(other, 0));  // without a share any will do
+      for (int lane = 0; lane < tile.stations; ++lane) {
+        if (k >= begin[lane].size()) continue;
+        const StationShare& share = begin[lane][k];
+        link.at[lane] = place(other, share.station);
+        link.share[lane] = share.share;
+        link.cosine[lane] = share.share * std::cos(share.turn);
+        link.sine[lane] = share.share * std::sin(share.turn);
+      }
+    }
+  }
+}
+
+std::int64_t slot_of(std::int64_t unknown) {
+  return unknown / (3 * kLanes) * kLanes + unknown % kLanes;
+}
+
+/// visit(own slot, other slot, weight) for every link with a weight.
+template <class Visit>
+void for_each_link(const TieSums& sums, const Visit& visit) {
+  for (const TieSums::Item& item : sums.items)
+    for (int n = 0; n < item.node_count; ++n)
+      for (int lane = 0; lane < kLanes; ++lane)
+        for (int k = 0; k < item.station_count; ++k) {
+          const LinkedNode& node = sums.nodes[item.first_node + index(n)];
+          const StationLink& station = sums.stations[item.first_station + index(k)];
+          for (int i = node.first; i < node.last; ++i) {
+            const NodeLink& link = sums.links[index(i)];
+            const double weight = link.share * station.share[lane];
+            if (weight > 0)
+              visit(slot_of(item.own + lane) + std::int64_t{node.node} * kLanes,
+                    slot_of(station.at[lane]) +
+                        std::int64_t{sums.others[item.first_other + index(link.other)]} * kLanes,
+                    weight);
+          }
+        }
+}
+
+/// The sums replace the fields' values, or are added to them.
+void sum_up(const TieSums& sums, bool add, std::initializer_list<NodeField> fields) {
+  parallel_ranges(static_cast<std::int64_t>(sums.items.size()), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const TieSums::Item& item = sums.items[index(i)];
+      TieTile tile;
+      tile.own = item.own;
+      tile.stations = sums.stations.data() + item.first_station;
+      tile.station_count = item.station_count;
+      tile.others = sums.others.data() + item.first_other;
+      tile.other_count = item.other_count;
+      tile.nodes = sums.nodes.data() + item.first_node;
+      tile.node_count = item.node_count;
+      tile.links = sums.links.data();
+      for (const NodeField& field : fields)
+        field.visit([&](auto* values) { tile_forces().front()->sum(tile, add, values); });
+    }
+  });
+}
+
+}  // namespace
+
+Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
+  for (const TieSpec& spec : specs) join(mesh, spec);
+  require_one_sum_per_node(to_secondary_);
+  require_one_sum_per_node(to_primary_);
+  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+    secondary_.push_back(secondary);
+    primary_.push_back(primary);
+  });
+  for (std::vector<std::int64_t>* slots : {&secondary_, &primary_}) {
+    std::sort(slots->begin(), slots->end());
+    slots->erase(std::unique(slots->begin(), slots->end()), slots->end());
+  }
+  for (const std::int64_t slot : secondary_)
+    if (std::binary_search(primary_.begin(), primary_.end(), slot))
+      throw InputError("a node is both secondary and primary of a tie; tie its block on another line");
+}
+
+void Ties::join(const Mesh& mesh, const TieSpec& spec) {
+  const SweptBlock& fine = mesh.blocks[index(spec.secondary)];
+  const SweptBlock& coarse = mesh.blocks[index(spec.primary)];
+  const auto& fine_path = path_of(fine, spec.secondary_path);
+  const auto& coarse_path = path_of(coarse, spec.primary_path);
+  const auto points = locate_in_section(fine, fine_path, coarse, coarse_path);
+  for (const std::vector<int>* path : {&fine_path, &coarse_path})
+    if (path->size() > index(kMostTiedNodes))
+      throw InputError(
+          fmt::format("tie of '{}' to '{}': {} section nodes on a line, at most {} are possible; make "
+                      "the elements larger",
+                      fine.name, coarse.name, path->size(), kMostTiedNodes));
+
+  const SharesAlong shares = shares_along(fine, coarse);
+  const LinkedLine fine_line = next_line(to_secondary_);
+  const LinkedLine coarse_line = next_line(to_primary_);
+  const auto across = [](const SectionPoint& point, std::size_t end) {
+    return end == 0 ? 1 - point.fraction : point.fraction;
+  };
+  const auto add_node = [](TieSums& sums, int node, const std::vector<NodeLink>& links) {
+    if (links.empty()) return;
+    const int first = static_cast<int>(sums.links.size());
+    sums.links.insert(sums.links.end(), links.begin(), links.end());
+    sums.nodes.push_back({node, first, static_cast<int>(sums.links.size())});
+  };
+  const auto other_of = [](TieSums& sums, const LinkedLine& line, int node) {
+    const auto begin = sums.others.begin() + static_cast<std::ptrdiff_t>(line.first_other);
+    const auto known = std::find(begin, sums.others.end(), node);
+    const int other = static_cast<int>(known - begin);
+    if (known == sums.others.end()) sums.others.push_back(node);
+    return other;
+  };
+  for (std::size_t i = 0; i < fine_path.size(); ++i) {
+    std::vector<NodeLink> links;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (across(points[i], end) > 0)
+        links.push_back({other_of(to_secondary_, fine_line, points[i].node[end]), across(points[i], end)});
+    add_node(to_secondary_, fine_path[i], links);
+  }
+  for (const int node : coarse_path) {
+    std::vector<NodeLink> links;
+    for (std::size_t i = 0; i < fine_path.size(); ++i)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (points[i].node[end] == node && across(points[i], end) > 0)
+          links.push_back({other_of(to_primary_, coarse_line, fine_path[i]), across(points[i], end)});
+    add_node(to_primary_, node, links);
+  }
+  add_items(to_secondary_, fine_line, fine, coarse, shares.of_fine);
+  add_items(to_primary_, coarse_line, coarse, fine, shares.of_coarse);
+}
+
+std::vector<TiedSlot> Ties::tied_slots() const {
+  std::vector<TiedSlot> slots;
+  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+    slots.push_back({secondary, primary});
+  });
+  std::stable_sort(slots.begin(), slots.end(),
+                   [](const TiedSlot& a, const TiedSlot& b) { return a.secondary < b.secondary; });
+  return slots;
+}
+
+std::int64_t Ties::bytes() const {
+  std::size_t sum = (secondary_.size() + primary_.size()) * sizeof(std::int64_t);
+  for (const TieSums* sums : {&to_secondary_, &to_primary_})
+    sum += sums->items.size() * sizeof(TieSums::Item) + sums->stations.size() * sizeof(sums->stations[0]) +
+           sums->others.size() * sizeof(int) + sums->nodes.size() * sizeof(LinkedNode) +
+           sums->links.size() * sizeof(sums->links[0]);
+  return static_cast<std::int64_t>(sum);
+}
+
+void Ties::follow(std::initializer_list<NodeField> fields) const {
+  sum_up(to_secondary_, false, fields);
+}
+
+void Ties::hand_over(NodeField force) const {
+  sum_up(to_primary_, true, {force});
+}
+
+void Ties::gather(double* force) const {
+  hand_over(force);
+  clear(force);
+}
+
+void Ties::clear(double* field) const {
+  parallel_ranges(secondary_count(), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      for (int c = 0; c < 3; ++c) field[dof(secondary_[index(i)], c)] = 0;
+  });
+}
+
+void Ties::gather_diagonal(double* diagonal) const {
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    for (int c = 0; c < 3; ++c) diagonal[dof(primary, c)] += weight * weight * diagonal[dof(secondary, c)];
+  });
+  for (const std::int64_t slot : secondary_)
+    for (int c = 0; c < 3; ++c) diagonal[dof(slot, c)] = 0;
+}
+
+void Ties::gather_mass(double* mass) const {
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    mass[primary] += weight * mass[secondary];
+  });
+  for (const std::int64_t slot : secondary_) mass[slot] = 0;
+}
+
+}  // namespace tread

@@ -1,0 +1,251 @@
+#include "kernels/update/body_motion.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel/parallel.hpp"
+
+namespace tread {
+
+namespace {
+
+/// A turn by an angle about +y: between the bases (t, y, r) of two angles, or to Cartesian axes.
+struct Turn {
+  double cosine = 1, sine = 0;
+
+  Turn() = default;
+  explicit Turn(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
+  /// turn(a, angle)
+  Vec3 of(const Vec3& a) const { return {cosine * a.x + sine * a.z, a.y, -sine * a.x + cosine * a.z}; }
+  /// cylindrical_to_cartesian(angle, a), and back
+  Vec3 to_cartesian(const Vec3& a) const {
+    return {-cosine * a.x - sine * a.z, a.y, sine * a.x - cosine * a.z};
+  }
+  Vec3 to_cylindrical(const Vec3& a) const {
+    return {-cosine * a.x + sine * a.z, a.y, -sine * a.x - cosine * a.z};
+  }
+};
+
+/// A vector of each lane of a tile.
+struct LaneVectors {
+  double value[3][kLanes] = {};
+
+  Vec3 at(int lane) const { return {value[0][lane], value[1][lane], value[2][lane]}; }
+  void set(int lane, const Vec3& v) {
+    for (int c = 0; c < 3; ++c) value[c][lane] = v[c];
+  }
+  /// Adds the vectors of a node's lanes, times their weights.
+  void add(const double* weight, const NodeLanes& vectors) {
+    for (int c = 0; c < 3; ++c)
+      for (int lane = 0; lane < kLanes; ++lane) value[c][lane] += weight[lane] * vectors[c][lane];
+  }
+};
+
+/// A tile of the body and where its stations stand in space.
+struct TileView {
+  const SweptBlock& block;
+  const Tile& tile;
+  std::int64_t first_slot;
+
+  TileView(const SweptBlock& of, std::size_t t)
+      : block(of),
+        tile(of.tiles[t]),
+        first_slot(of.base + static_cast<std::int64_t>(t) * of.section.nodes() * kLanes) {}
+
+  double angle(int lane) const { return block.stations[static_cast<std::size_t>(tile.first_station + lane)]; }
+  double radius(int node) const { return block.section.q[static_cast<std::size_t>(node)]; }
+  std::int64_t slot(int node) const { return first_slot + std::int64_t{node} * kLanes; }
+};
+
+/// visit(tile) for all tiles, in parallel.
+template <class Visit>
+void for_each_tile(const Mesh& mesh, const std::vector<int>& blocks, const Visit& visit) {
+  for (const int b : blocks) {
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
+    parallel_ranges(static_cast<std::int64_t>(block.tiles.size()),
+                    [&](std::int64_t first, std::int64_t last) {
+                      for (auto t = static_cast<std::size_t>(first); t < static_cast<std::size_t>(last); ++t)
+                        visit(TileView(block, t), t);
+                    });
+  }
+}
+
+/// Sums what `of_tile` returns in a fixed order whatever the number of threads.
+template <class Sum, class OfTile>
+Sum sum_over_tiles(const Mesh& mesh, const std::vector<int>& blocks, const OfTile& of_tile) {
+  Sum total{};
+  for (const int b : blocks) {
+    std::vector<Sum> partial(mesh.blocks[static_cast<std::size_t>(b)].tiles.size());
+    for_each_tile(mesh, {b}, [&](const TileView& view, std::size_t t) { partial[t] = of_tile(view); });
+    for (const Sum& part : partial) total += part;
+  }
+  return total;
+}
+
+struct Moments {
+  double mass = 0, first_y = 0, second_y = 0, polar = 0;
+  Moments& operator+=(const Moments& o) {
+    mass += o.mass;
+    first_y += o.first_y;
+    second_y += o.second_y;
+    polar += o.polar;
+    return *this;
+  }
+};
+
+struct MotionSums {
+  Vec3 displacement, velocity;
+  double rotation = 0, spin = 0;
+  MotionSums& operator+=(const MotionSums& o) {
+    displacement += o.displacement;
+    velocity += o.velocity;
+    rotation += o.rotation;
+    spin += o.spin;
+    return *this;
+  }
+};
+
+}  // namespace
+
+SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass)
+    : mesh_(&mesh), blocks_(std::move(blocks)), nodal_mass_(mass) {
+  const auto sums = sum_over_tiles<Moments>(mesh, blocks_, [mass](const TileView& view) {
+    Moments m;
+    for (int node = 0; node < view.block.section.nodes(); ++node)
+      for (int lane = 0; lane < view.tile.stations; ++lane) {
+        const double at = mass[view.slot(node) + lane];
+        const double y = view.block.section.p[static_cast<std::size_t>(node)];
+        m += Moments{at, at * y, at * y * y, at * view.radius(node) * view.radius(node)};
+      }
+    return m;
+  });
+  mass_ = sums.mass;
+  inertia_ = sums.polar;
+  centre_y_ = sums.first_y / sums.mass;
+  transverse_ = 0.5 * sums.polar + sums.second_y - sums.mass * centre_y_ * centre_y_;
+}
+
+MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
+  const auto sums = sum_over_tiles<MotionSums>(*mesh_, blocks_, [&](const TileView& view) {
+    LaneVectors displacement, velocity;
+    double rotation[kLanes] = {};
+    double spin[kLanes] = {};
+    for (int node = 0; node < view.block.section.nodes(); ++node) {
+      const double* m = nodal_mass_ + view.slot(node);
+      const NodeLanes u_node = u.lanes(view.slot(node));
+      const NodeLanes w_node = w.lanes(view.slot(node));
+      displacement.add(m, u_node);
+      velocity.add(m, w_node);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        rotation[lane] += m[lane] * view.radius(node) * u_node[0][lane];
+        spin[lane] += m[lane] * view.radius(node) * w_node[0][lane];
+      }
+    }
+    MotionSums sum;
+    for (int lane = 0; lane < view.tile.stations; ++lane) {
+      const Turn turn(view.angle(lane) + frame.angle);
+      const Vec3 moved = displacement.at(lane);
+      sum += {turn.to_cartesian(moved), turn.to_cartesian(velocity.at(lane) + spin_cross(frame.spin, moved)),
+              rotation[lane], spin[lane]};
+    }
+    return sum;
+  });
+  return {(1 / mass_) * sums.displacement, (1 / mass_) * sums.velocity, sums.rotation / inertia_,
+          sums.spin / inertia_};
+}
+
+double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
+  return sum_over_tiles<double>(*mesh_, blocks_, [&](const TileView& view) {
+    LaneVectors carried;  // velocity of the frame in the lanes' bases
+    for (int lane = 0; lane < view.tile.stations; ++lane)
+      carried.set(lane, Turn(view.angle(lane) + frame.angle).to_cylindrical(frame.velocity));
+    double twice[kLanes] = {};
+    for (int node = 0; node < view.block.section.nodes(); ++node) {
+      const double* m = nodal_mass_ + view.slot(node);
+      const NodeLanes at = u.lanes(view.slot(node));
+      const NodeLanes relative = w.lanes(view.slot(node));
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const double r = view.radius(node) + at[2][lane];
+        const double v_t = carried.value[0][lane] + relative[0][lane] + frame.spin * r;
+        const double v_y = carried.value[1][lane] + relative[1][lane];
+        const double v_r = carried.value[2][lane] + relative[2][lane] - frame.spin * at[0][lane];
+        twice[lane] += m[lane] * (v_t * v_t + v_y * v_y + v_r * v_r);
+      }
+    }
+    double sum = 0;
+    for (const double lane : twice) sum += 0.5 * lane;
+    return sum;
+  });
+}
+
+Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
+  return sum_over_tiles<Vec3>(*mesh_, blocks_, [&](const TileView& view) {
+    LaneVectors place, velocity;
+    double mass[kLanes] = {};
+    for (int node = 0; node < view.block.section.nodes(); ++node) {
+      const double* m = nodal_mass_ + view.slot(node);
+      place.add(m, u.lanes(view.slot(node)));
+      velocity.add(m, w.lanes(view.slot(node)));
+      for (int lane = 0; lane < kLanes; ++lane) {
+        place.value[2][lane] += m[lane] * view.radius(node);
+        mass[lane] += m[lane];
+      }
+    }
+    Vec3 sum;
+    for (int lane = 0; lane < view.tile.stations; ++lane)
+      sum += mass[lane] * frame.velocity +
+             Turn(view.angle(lane) + frame.angle)
+                 .to_cartesian(velocity.at(lane) + spin_cross(frame.spin, place.at(lane)));
+    return sum;
+  });
+}
+
+void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const {
+  // Along the axis the body is restrained, not free: the frame stays there.
+  mean.displacement.y = mean.velocity.y = 0;
+  BodyFrame moved = frame;
+  moved.origin += mean.displacement;
+  moved.velocity += mean.velocity;
+  moved.angle += mean.rotation;
+  moved.spin += mean.spin;
+
+  BodyFrame before_half = frame;
+  before_half.advance(-0.5 * dt);
+  BodyFrame after_half = moved;
+  after_half.advance(-0.5 * dt);
+  const Vec3 step_half = after_half.origin - before_half.origin;
+  const Vec3 speed_change = moved.velocity - frame.velocity;
+  const Turn back(-mean.rotation);
+  const Turn back_half(before_half.angle - after_half.angle);
+
+  for_each_tile(*mesh_, blocks_, [&](const TileView& view, std::size_t /*tile*/) {
+    std::array<Vec3, kLanes> shift, shift_half, faster;
+    for (int lane = 0; lane < view.tile.stations; ++lane) {
+      const auto l = static_cast<std::size_t>(lane);
+      const Turn half(view.angle(lane) + before_half.angle);
+      shift[l] = Turn(view.angle(lane) + frame.angle).to_cylindrical(mean.displacement);
+      shift_half[l] = half.to_cylindrical(step_half);
+      faster[l] = half.to_cylindrical(speed_change);
+    }
+    for (int node = 0; node < view.block.section.nodes(); ++node) {
+      const Vec3 reference{0, view.block.section.p[static_cast<std::size_t>(node)], view.radius(node)};
+      for (int lane = 0; lane < view.tile.stations; ++lane) {
+        const auto l = static_cast<std::size_t>(lane);
+        const std::int64_t slot = view.slot(node) + lane;
+        const Vec3 displacement = u.at(slot);
+        const Vec3 velocity = w.at(slot);
+        // Absolute position now, seen from the moved frame.
+        u.set(slot, back.of(reference + displacement - shift[l]) - reference);
+        // Absolute velocity at the half step, seen from the moved frame.
+        const Vec3 arm_half = reference + displacement - (0.5 * dt) * velocity;
+        const Vec3 absolute = velocity + spin_cross(frame.spin, arm_half);
+        w.set(slot, back_half.of(absolute - faster[l]) -
+                        spin_cross(moved.spin, back_half.of(arm_half - shift_half[l])));
+      }
+    }
+  });
+  frame = moved;
+}
+
+}  // namespace tread

@@ -1,0 +1,81 @@
+#pragma once
+// The motion of nodes over a step, once: where an element's loop has their force complete, and for the rest
+// after it. V is a floating-point type or a vector of lanes, U one of as many that is as precise or more so.
+// Nothing here is contracted to fused multiply-adds, so that all instruction sets move a node by the same
+// bits. [theory.md, Time step]
+
+#include <type_traits>
+
+#include "kernels/element/element_body.hpp"
+
+namespace tread {
+
+/// What acts on the nodes of a tile besides forces, and the step; as TileMotion has it for all lanes.
+template <class Real>
+struct StepConstants {
+  Real dt = 0;                  ///< [s]
+  Real gravity = 0;             ///< downwards, for extruded blocks [m/s2]
+  Real turn_c = 1, turn_s = 0;  ///< of the turn of the relative velocity by the Coriolis term
+  Real spin2 = 0;               ///< square of the frame's spin [1/s2]
+};
+
+/// a b, rounded before anything is added to it. Compilers that contract across expressions need the barrier.
+template <class A, class B>
+TREAD_INLINE auto product(const A& a, const B& b) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<decltype(a * b), double>)
+    return __dmul_rn(a, b);
+  else
+    return __fmul_rn(a, b);
+#elif __has_builtin(__builtin_assoc_barrier) && !defined(__CUDACC__)
+  return __builtin_assoc_barrier(a * b);
+#else
+  return a * b;
+#endif
+}
+
+/// In another precision.
+template <class To, class From>
+TREAD_INLINE To converted(const From& value) {
+  if constexpr (std::is_same_v<To, From>)
+    return value;
+  else if constexpr (std::is_arithmetic_v<To>)
+    return static_cast<To>(value);
+  else
+    return __builtin_convertvector(value, To);
+}
+
+/// v -= dt (f / m + g e_z), u += dt v of the components from `first` on.
+template <int first, class V, class U, class Real>
+TREAD_INLINE void move_fixed(const StepConstants<Real>& step, const V& inverse_mass, const V (&f)[3],
+                             U (&u)[3], V (&v)[3]) {
+  for (int c = first; c < 3; ++c) {
+    const V weight = V{} + (c == 2 ? step.gravity : Real{0});
+    v[c] -= product(step.dt, product(inverse_mass, f[c]) + (inverse_mass > 0 ? weight : V{}));
+    u[c] += converted<U>(product(step.dt, v[c]));
+  }
+}
+
+/// The same in a spinning frame: forces, gravity and centrifugal term half before and half after the turn of
+/// the relative velocity by the Coriolis term, which does no work. `weight`: gravity along t and r [m/s2].
+template <class V, class U, class Real>
+TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weight)[2], Real radius,
+                                const V& inverse_mass, const V (&f)[3], U (&u)[3], V (&w)[3]) {
+  const V one = V{} + Real{1};
+  const V moves = inverse_mass > 0 ? one : V{};
+  const Real half = Real(0.5) * step.dt;
+  const V u_t = converted<V>(u[0]);
+  const V u_r = converted<V>(u[2]);
+  const V a_t = product(moves, weight[0] + product(step.spin2, u_t)) - product(inverse_mass, f[0]);
+  const V a_r = product(moves, weight[1] + product(step.spin2, radius + u_r)) - product(inverse_mass, f[2]);
+  const V kick_t = product(half, a_t);
+  const V kick_r = product(half, a_r);
+  const V w_t = w[0] + kick_t;
+  const V w_r = w[2] + kick_r;
+  w[0] = product(step.turn_c, w_t) - product(step.turn_s, w_r) + kick_t;
+  w[2] = product(step.turn_s, w_t) + product(step.turn_c, w_r) + kick_r;
+  w[1] -= product(product(step.dt, inverse_mass), f[1]);
+  for (int c = 0; c < 3; ++c) u[c] += converted<U>(product(step.dt, w[c]));
+}
+
+}  // namespace tread
