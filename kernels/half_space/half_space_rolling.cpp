@@ -404,36 +404,4 @@ FrictionState RollingContact::steady_at_creepage(double creepage) const {
   return solve(steady_problem(), {false, creepage * influence_.grid.dx}, free_state());
 }
 
-double centre_element_work(const Grid& grid, const FrictionState& state, double element) {
-  double sum = 0;
-  for (int j = 0; j < grid.ny; ++j) {
-    const double from = std::max(grid.y(j) - 0.5 * grid.dy, -0.5 * element);
-    const double to = std::min(grid.y(j) + 0.5 * grid.dy, 0.5 * element);
-    if (to > from) sum += state.strips[j] * (to - from);
-  }
-  return sum * element;
-}
-
-SteadySummary steady_summary(const SteadyCase& steady, double cell) {
-  const Material& m = steady.material;
-  const double modulus = contact_modulus(m.youngs_modulus, m.poissons_ratio);
-  const HertzPatch patch = hertz(steady.radius_x, steady.radius_y, modulus, steady.load);
-  const double margin = 2 * cell;
-  const Influence influence(centred_grid(patch.semi_axis_x + margin, patch.semi_axis_y + margin, cell), m);
-  const NormalContact contact =
-      press(influence, quadratic_gap(steady.radius_x, steady.radius_y), steady.load);
-  const RollingContact rolling(influence, contact, steady.friction_coefficient);
-  const FrictionState state = rolling.steady(steady.force);
-  return {state.creepage, state.slip_fraction, state.max_shear, state.work,
-          centre_element_work(influence.grid, state, steady.element)};
-}
-
-SteadySummary extrapolated_summary(const SteadyCase& steady, double cell) {
-  const SteadySummary coarse = steady_summary(steady, cell);
-  const SteadySummary fine = steady_summary(steady, 0.5 * cell);
-  const auto limit = [&](double SteadySummary::*value) { return 2 * fine.*value - coarse.*value; };
-  return {limit(&SteadySummary::creepage), limit(&SteadySummary::slip_fraction),
-          limit(&SteadySummary::max_shear), limit(&SteadySummary::work), limit(&SteadySummary::element_work)};
-}
-
 }  // namespace tread::half_space

@@ -76,31 +76,4 @@ class RollingContact {
   OffsetTable rate_xx_, rate_xy_, rate_yy_;  ///< displacement at a cell minus that one cell ahead [m/Pa]
 };
 
-/// Work per passage [J] of a square surface element of side `element` [m] centred on y = 0.
-double centre_element_work(const Grid& grid, const FrictionState& state, double element);
-
-/// Elliptic contact that rolls steadily.
-struct SteadyCase {
-  Material material;
-  double radius_x = 0, radius_y = 0;  ///< of the gap, positive [m]
-  double load = 0;                    ///< F_N [N]
-  double friction_coefficient = 0;
-  double force = 0;    ///< F_L [N]
-  double element = 0;  ///< side of the surface element of `element_work` [m]
-};
-
-struct SteadySummary {
-  double creepage = 0;
-  double slip_fraction = 0;
-  double max_shear = 0;     ///< [Pa]
-  double work = 0;          ///< [J] per metre rolled
-  double element_work = 0;  ///< [J] per passage
-};
-
-/// On square cells of side `cell` [m].
-SteadySummary steady_summary(const SteadyCase& steady, double cell);
-/// From cells of `cell` and `cell` / 2 to the limit of fine grids, by first order. Slip fraction and largest
-/// shear are those of single cells and scatter: by 12 % and 3 % from cells of a sixth of the patch.
-SteadySummary extrapolated_summary(const SteadyCase& steady, double cell);
-
 }  // namespace tread::half_space

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/math/hertz.hpp"
 #include "core/math/vec.hpp"
-#include "kernels/half_space/half_space_rolling.hpp"
+#include "kernels/half_space/half_space_steady.hpp"
 #include "kernels/half_space/half_space_stress.hpp"
 #include "tests/measured.hpp"
 
