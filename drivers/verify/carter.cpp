@@ -26,6 +26,25 @@ struct Carter {
   }
 };
 
+/// Shear stress at the nodes beside theory; `side`: sign of the traction.
+Figure tractions_figure(const Rolled& rolled, const Carter& theory, double side) {
+  Series ours{"nodes", {}, {}, Stroke::solid};
+  Series line{"Carter", {}, {}, Stroke::dashed};
+  for (const PatchPoint& point : rolled.nodes) {
+    ours.x.push_back(1e3 * point.x);
+    ours.y.push_back(1e-6 * point.shear);
+  }
+  for (int i = -100; i <= 100; ++i) {
+    line.x.push_back(1e3 * theory.a * i / 100);
+    line.y.push_back(1e-6 * side * theory.at(theory.a * i / 100));
+  }
+  Figure figure;
+  figure.title = "Surface shear stress in the patch";
+  figure.x_label = "x, rolling to the right [mm]";
+  figure.panels = {{"Shear stress on the wheel [MPa]", {ours, line}, {}, 260, std::nullopt}};
+  return figure;
+}
+
 CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = slice_of(inputs, {0.05, 0.5});
   bodies.grid_offset = inputs["grid_offset"];
@@ -82,21 +101,7 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
        {}},
       {"energy residual / frictional work", "-", rolled.energy_residual, 0, 0.01, true}};
 
-  Series ours{"nodes", {}, {}, Stroke::solid};
-  Series line{"Carter", {}, {}, Stroke::dashed};
-  for (const PatchPoint& point : rolled.nodes) {
-    ours.x.push_back(1e3 * point.x);
-    ours.y.push_back(1e-6 * point.shear);
-  }
-  for (int i = -100; i <= 100; ++i) {
-    line.x.push_back(1e3 * a * i / 100);
-    line.y.push_back(1e-6 * side * theory.at(a * i / 100));
-  }
-  Figure figure;
-  figure.title = "Surface shear stress in the patch";
-  figure.x_label = "x, rolling to the right [mm]";
-  figure.panels = {{"Shear stress on the wheel [MPa]", {ours, line}, {}, 260, std::nullopt}};
-  result.figures = {figure,
+  result.figures = {tractions_figure(rolled, theory, side),
                     creepage_figure(rolled, side * bodies.friction * (a - theory.stick) / bodies.radius)};
   return result;
 }

@@ -24,6 +24,31 @@ double drift(const RunResults& run, const Value& value) {
   return line.rise(length);
 }
 
+/// Contact force beside the `load` [N], energies and speed over time.
+Figure endurance_figure(const RunResults& run, double load) {
+  Figure figure;
+  figure.title = fmt::format("{:g} steps", static_cast<double>(run.steps));
+  figure.x_label = "Time [ms]";
+  figure.panels = {
+      {"F_N [kN]",
+       {history("contact force", run, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
+       {{1e-3 * load, "load"}},
+       200,
+       std::nullopt},
+      {"Energy [mJ]",
+       {history("residual", run, [](const Sample& s) { return 1e3 * s.energy.residual; }),
+        history("frictional work", run, [](const Sample& s) { return 1e3 * s.energy.frictional_work; })},
+       {},
+       200,
+       std::nullopt},
+      {"Speed [m/s]",
+       {history("wheel", run, [](const Sample& s) { return s.wheel_speed; })},
+       {},
+       160,
+       std::nullopt}};
+  return figure;
+}
+
 CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = slice_of(inputs, {0.12, 0.7});
   bodies.thickness = 0.4 * bodies.radius;
@@ -76,27 +101,7 @@ CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& pr
        true},
       {"momentum error", "-", run.momentum_error, 0, 1e-6, true},
       {"samples that are not finite", "-", static_cast<double>(count_not_finite(model, run)), 0, 0, true}};
-  Figure figure;
-  figure.title = fmt::format("{:g} steps", static_cast<double>(run.steps));
-  figure.x_label = "Time [ms]";
-  figure.panels = {
-      {"F_N [kN]",
-       {history("contact force", run, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
-       {{1e-3 * load, "load"}},
-       200,
-       std::nullopt},
-      {"Energy [mJ]",
-       {history("residual", run, [](const Sample& s) { return 1e3 * s.energy.residual; }),
-        history("frictional work", run, [](const Sample& s) { return 1e3 * s.energy.frictional_work; })},
-       {},
-       200,
-       std::nullopt},
-      {"Speed [m/s]",
-       {history("wheel", run, [](const Sample& s) { return s.wheel_speed; })},
-       {},
-       160,
-       std::nullopt}};
-  result.figures.push_back(figure);
+  result.figures.push_back(endurance_figure(run, load));
   return result;
 }
 

@@ -192,6 +192,31 @@ duration = "1 ms"
       {"the same against Winkler and Euler", "mm", 1e3 * preload.rail_deflection, 1e3 * line, {}});
 }
 
+/// A struck place of the rail.
+struct StruckPlace {
+  const char* name;
+  const Strike* strike;
+  double x;  ///< [m]
+};
+
+/// Receptances at 100 Hz and levels over frequency beside those of the beam.
+void add_receptances(std::initializer_list<StruckPlace> places, const TrackBeam& beam, CaseResult& result) {
+  const double low = std::sqrt(2.0) * kFirstFrequency;
+  for (const auto& [name, strike, x] : places) {
+    result.findings.push_back({fmt::format("receptance at 100 Hz, {}", name), "nm/N",
+                               1e9 * std::abs(strike->section.receptance(100)),
+                               1e9 * std::abs(beam.receptance(x, x, 100)), 0.05});
+    result.findings.push_back({fmt::format("level of the receptance to 1.5 kHz, rms difference, {}", name),
+                               "dB", level_difference(strike->section, beam, x, low, 1500), 0, 1.0, true});
+    result.findings.push_back({fmt::format("the same, 1.5 to 3 kHz, {}", name),
+                               "dB",
+                               level_difference(strike->section, beam, x, 1500, kLastFrequency),
+                               0,
+                               {},
+                               true});
+  }
+}
+
 CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& progress) {
   const double h = inputs["element_size"];
   const double spacing = inputs["spacing"];
@@ -226,21 +251,8 @@ CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& pr
                              1e9 * std::abs(between.section.receptance(frequency)),
                              1e9 * std::abs(beam.receptance(span, span, of_beam)),
                              {}});
-  const double low = std::sqrt(2.0) * kFirstFrequency;
-  for (const auto& [name, s, x] :
-       {std::tuple{"between fastenings", &between, span}, std::tuple{"over a fastening", &over, support}}) {
-    result.findings.push_back({fmt::format("receptance at 100 Hz, {}", name), "nm/N",
-                               1e9 * std::abs(s->section.receptance(100)),
-                               1e9 * std::abs(beam.receptance(x, x, 100)), 0.05});
-    result.findings.push_back({fmt::format("level of the receptance to 1.5 kHz, rms difference, {}", name),
-                               "dB", level_difference(s->section, beam, x, low, 1500), 0, 1.0, true});
-    result.findings.push_back({fmt::format("the same, 1.5 to 3 kHz, {}", name),
-                               "dB",
-                               level_difference(s->section, beam, x, 1500, kLastFrequency),
-                               0,
-                               {},
-                               true});
-  }
+  add_receptances({{"between fastenings", &between, span}, {"over a fastening", &over, support}}, beam,
+                  result);
   result.findings.push_back(
       {"energy residual / work of the hammer", "-", between.energy_error, 0, 1e-3, true});
 

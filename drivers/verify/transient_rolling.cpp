@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/math/statistics.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/ride.hpp"
 #include "drivers/verify/tyre_on_block.hpp"
@@ -131,6 +132,32 @@ double turning_period(const TyreOnBlock& bodies) {
   return 2 * std::numbers::pi * std::sqrt(mass * compliance);
 }
 
+/// The largest creepage of a curve and its place.
+struct Peak {
+  double size = 0;  ///< [-]
+  double way = 0;   ///< [m]
+};
+
+/// Largest creepage times `sign` from the way `from` [m] on.
+Peak peak_of(const Curve& curve, double from, double sign) {
+  Peak peak;
+  for (std::size_t i = 0; i < curve.way.size(); ++i)
+    if (curve.way[i] >= from && sign * curve.creepage[i] > peak.size)
+      peak = {sign * curve.creepage[i], curve.way[i]};
+  return peak;
+}
+
+/// Creepage in per cent over the way in millimetres, from the way `from` [m] on.
+Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
+  Series series{name, {}, {}, stroke};
+  for (std::size_t i = 0; i < curve.way.size(); ++i) {
+    if (curve.way[i] < from) continue;
+    series.x.push_back(1e3 * curve.way[i]);
+    series.y.push_back(100 * curve.creepage[i]);
+  }
+  return series;
+}
+
 CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = tyre_of(inputs, false);
   bodies.friction = inputs["friction"];
@@ -156,51 +183,41 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const Curve ours = creepage_curve(transient, window);
   Reference reference = reference_of(bodies, mu * bodies.load, way);
   for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift, in the middle of the growth
-  Series fe{"finite elements", {}, {}, Stroke::solid};
-  Series theory{"half-space", {}, {}, Stroke::dashed};
   Series force{"F_L / F_N", {}, {}, Stroke::solid};
   double difference = 0;
-  double high = 0, high_at = 0;
-  double low_force = 1e30, high_force = -1e30;
+  const Statistics full = statistics(
+      transient.places, [&](const Place& place) { return place.way >= grown; },
+      [](const Place& place) { return place.force; });
   const double from = grown + window;
   const double sign = mu > 0 ? 1 : -1;
   for (std::size_t i = 0; i < ours.way.size(); ++i) {
     if (ours.way[i] < from) continue;
-    fe.x.push_back(1e3 * ours.way[i]);
-    fe.y.push_back(100 * ours.creepage[i]);
     difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference.curve, ours.way[i])));
-    if (sign * ours.creepage[i] <= high) continue;
-    high = sign * ours.creepage[i];
-    high_at = ours.way[i];
   }
   for (const Place& place : transient.places) {
     force.x.push_back(1e3 * place.way);
     force.y.push_back(place.force);
-    if (place.way < grown) continue;
-    low_force = std::min(low_force, place.force);
-    high_force = std::max(high_force, place.force);
   }
-  double top = 0, top_at = 0;
-  for (std::size_t i = 0; i < reference.curve.way.size(); ++i) {
-    theory.x.push_back(1e3 * reference.curve.way[i]);
-    theory.y.push_back(100 * reference.curve.creepage[i]);
-    if (sign * reference.curve.creepage[i] <= top) continue;
-    top = sign * reference.curve.creepage[i];
-    top_at = reference.curve.way[i];
-  }
+  const Peak highest = peak_of(ours, from, sign);
+  const Peak top = peak_of(reference.curve, 0, sign);
   CaseResult result;
   result.findings = {{"largest difference of the creepages / steady value", "-",
                       difference / std::abs(reference.steady), 0, 0.1, true},
-                     {"largest creepage", "%", 100 * sign * high, 100 * sign * top, 0.1},
-                     {"where", "mm", 1e3 * high_at, 1e3 * top_at, {}},
+                     {"largest creepage", "%", 100 * sign * highest.size, 100 * sign * top.size, 0.1},
+                     {"where", "mm", 1e3 * highest.way, 1e3 * top.way, {}},
                      {"creepage at the end", "%", 100 * ours.creepage.back(), 100 * reference.steady, 0.1},
-                     {"smallest F_L / F_N under the full torque", "-", low_force, mu, 0.05},
-                     {"largest F_L / F_N under the full torque", "-", high_force, mu, 0.05},
+                     {"smallest F_L / F_N under the full torque", "-", full.min, mu, 0.05},
+                     {"largest F_L / F_N under the full torque", "-", full.max, mu, 0.05},
                      {"energy residual / frictional work", "-", transient.residual, 0, 0.01, true}};
   Figure figure;
   figure.title = "From a shift to steady rolling";
   figure.x_label = "Position of the wheel [mm]";
-  figure.panels = {{"Creepage [%]", {fe, theory}, {{100 * reference.steady, "steady"}}, 260, std::nullopt},
+  figure.panels = {{"Creepage [%]",
+                    {shown("finite elements", ours, from, Stroke::solid),
+                     shown("half-space", reference.curve, 0, Stroke::dashed)},
+                    {{100 * reference.steady, "steady"}},
+                    260,
+                    std::nullopt},
                    {"Traction coefficient [-]", {force}, {}, 160, std::nullopt}};
   result.figures.push_back(std::move(figure));
   return result;

@@ -112,6 +112,22 @@ void apply(const OffsetTable& table, const Grid& grid, const std::vector<double>
     }
 }
 
+namespace {
+
+/// Sums over the pressures `p` [Pa] of cells of area `cell` [m2].
+NormalContact contact_under(std::vector<double> p, double cell, double approach) {
+  NormalContact contact;
+  contact.cells = static_cast<int>(std::count_if(p.begin(), p.end(), [](double v) { return v > 0; }));
+  contact.area = contact.cells * cell;
+  contact.load = total(p) * cell;
+  contact.max_pressure = *std::max_element(p.begin(), p.end());
+  contact.approach = approach;
+  contact.pressure = std::move(p);
+  return contact;
+}
+
+}  // namespace
+
 NormalContact press(const Influence& influence, const Gap& gap, double load) {
   constexpr double kTolerance = 1e-10;  ///< change of the pressures in one iteration / their sum
   constexpr int kIterations = 500;
@@ -167,15 +183,7 @@ NormalContact press(const Influence& influence, const Gap& gap, double load) {
     }
   }
   check_border(grid, p);
-
-  NormalContact contact;
-  contact.cells = static_cast<int>(std::count_if(p.begin(), p.end(), [](double v) { return v > 0; }));
-  contact.area = contact.cells * cell;
-  contact.load = total(p) * cell;
-  contact.max_pressure = *std::max_element(p.begin(), p.end());
-  contact.approach = level;
-  contact.pressure = std::move(p);
-  return contact;
+  return contact_under(std::move(p), cell, level);
 }
 
 Gap quadratic_gap(double radius_x, double radius_y) {

@@ -301,6 +301,19 @@ Three solve(std::array<Three, 3> a, Three b) {
   return b;
 }
 
+/// Solves approach + flexibility C approach^1.5 = gap by Newton's method. [m, m/N, N/m^1.5]
+double hertz_approach(double gap, double flexibility, double contact, double first_guess) {
+  double d = first_guess;
+  for (int i = 0; i < 50; ++i) {
+    const double root = std::sqrt(std::max(d, 0.0));
+    const double change =
+        (d + flexibility * contact * root * root * root - gap) / (1 + 1.5 * flexibility * contact * root);
+    d -= change;
+    if (std::abs(change) < 1e-15) break;
+  }
+  return d;
+}
+
 }  // namespace
 
 void BeamPassage::step(double x, double roughness) {
@@ -336,16 +349,8 @@ void BeamPassage::step(double x, double roughness) {
   // approach = wheel - rail - roughness, both linear in the force.
   const double gap = free[0] - dot(head, next) - roughness;
   const double flexibility = dot(head, response) - pushed[0];
-  double d = std::max(approach_, 1e-9);
-  for (int i = 0; i < 50; ++i) {
-    const double root = std::sqrt(std::max(d, 0.0));
-    const double change = (d + flexibility * vehicle_.contact * root * root * root - gap) /
-                          (1 + 1.5 * flexibility * vehicle_.contact * root);
-    d -= change;
-    if (std::abs(change) < 1e-15) break;
-  }
-  approach_ = d;
-  force_ = vehicle_.contact * std::pow(std::max(d, 0.0), 1.5);
+  approach_ = hertz_approach(gap, flexibility, vehicle_.contact, std::max(approach_, 1e-9));
+  force_ = vehicle_.contact * std::pow(std::max(approach_, 0.0), 1.5);
 
   for (std::size_t i = 0; i < n; ++i) {
     next[i] += force_ * response[i];
