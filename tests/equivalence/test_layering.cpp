@@ -116,9 +116,9 @@ std::vector<std::string> cycle_in(const std::map<std::string, std::set<std::stri
   std::set<std::string> done;
   std::vector<std::string> way;
   const std::function<bool(const std::string&)> visit = [&](const std::string& node) {
-    const auto met = std::find(way.begin(), way.end(), node);
+    const bool met = std::find(way.begin(), way.end(), node) != way.end();
     way.push_back(node);
-    if (met != way.end()) return true;
+    if (met) return true;
     if (done.insert(node).second && graph.count(node) > 0)
       for (const std::string& next : graph.at(node))
         if (visit(next)) return true;
