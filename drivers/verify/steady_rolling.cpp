@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/roll_tyre.hpp"
+#include "kernels/half_space/half_space_steady.hpp"
 #include "kernels/half_space/half_space_stress.hpp"
 
 namespace tread {
