@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/contract.hpp"
 #include "core/parallel/parallel.hpp"
 
 namespace tread {
@@ -32,7 +33,10 @@ BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_
 
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
-  for (const std::int64_t slot : slots) deferred_[index(slot / kLanes)] = 1;
+  for (const std::int64_t slot : slots) {
+    TREAD_EXPECT(slot >= 0 && slot < mesh_.slots);
+    deferred_[index(slot / kLanes)] = 1;
+  }
   deferred_nodes_.clear();
   first_deferred_.assign(1, 0);
   for (const auto [block, tile] : items_) {
@@ -79,6 +83,8 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
                                     const unsigned char* whole) const {
+  TREAD_EXPECT(loads.dt > 0 && std::isfinite(loads.dt) && std::isfinite(loads.frame.spin));
+  TREAD_EXPECT(fields.displacement && fields.velocity && fields.force);
   const auto select = tile_forces().front()->loops<Real, U>().move;
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t i = from; i < to; ++i) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/contract.hpp"
 #include "core/error.hpp"
 #include "core/parallel/chunks.hpp"
 
@@ -49,6 +50,7 @@ void turn(double beta, const AlignedVector<double>& z, AlignedVector<double>& p)
 
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
                              AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options) {
+  TREAD_EXPECT(r.size() == x.size() && r.size() % kLanes == 0);
   const auto n = static_cast<std::int64_t>(r.size());
   AlignedVector<double> p(r.size(), 0.0);
   AlignedVector<double> w(r.size());  // preconditioned residual, then A p
