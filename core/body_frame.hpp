@@ -1,5 +1,5 @@
 #pragma once
-// The rigid motion of a spinning body, carried apart from its nodes. [theory.md, Body frames]
+// Rigid motion of a spinning body, stored apart from the motion of its nodes. [theory.md, Body frames]
 
 #include <cmath>
 
@@ -11,10 +11,10 @@ namespace tread {
 /// the body store their displacement u in it and their velocity w relative to it, in local (t, y, r)
 /// components.
 struct BodyFrame {
-  Vec3 origin;       ///< point on the spin axis [m]
-  Vec3 velocity;     ///< of the origin [m/s]
-  double angle = 0;  ///< about +y [rad]
-  double spin = 0;   ///< about +y [rad/s]
+  Vec3 origin;       ///< a point on the spin axis [m]
+  Vec3 velocity;     ///< velocity of the origin [m/s]
+  double angle = 0;  ///< rotation about +y [rad]
+  double spin = 0;   ///< angular velocity about +y [rad/s]
 
   void advance(double dt) {
     origin += dt * velocity;
@@ -34,7 +34,8 @@ inline Vec3 spin_cross(double spin, const Vec3& a) {
   return {spin * a.z, 0, -spin * a.x};
 }
 
-/// Components (t, y, r) at space angle `phi` to Cartesian axes, and back.
+/// Turns components (t, y, r) at space angle `phi` [rad] to Cartesian axes. `cartesian_to_cylindrical` turns
+/// them back.
 inline Vec3 cylindrical_to_cartesian(double phi, const Vec3& a) {
   const double c = std::cos(phi);
   const double s = std::sin(phi);

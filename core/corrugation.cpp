@@ -18,14 +18,15 @@ double range_with_zero(const std::vector<double>& depth) {
   return std::max(*high, 0.0) - std::min(*low, 0.0);
 }
 
-/// The same numbers on every machine, unlike the library's distributions.
+/// Random phase [rad], uniform in [0, 2 pi). Every machine gives the same number, unlike the library's
+/// distributions.
 double random_phase(std::mt19937_64& source) {
   return 2 * std::numbers::pi * std::ldexp(static_cast<double>(source() >> 11U), -53);
 }
 
-/// Places along the rail for depths whose shortest wave is given [m].
+/// Places along the rail [m] at which random depths are sampled; `shortest` is the shortest wavelength [m].
 std::vector<double> places(double length, double shortest) {
-  constexpr double kSamples = 20;  // of a wave: joined by cubics
+  constexpr double kSamples = 20;  // samples per wave; cubics join them
   const auto pieces = static_cast<std::size_t>(std::ceil(kSamples * length / shortest));
   std::vector<double> x;
   for (std::size_t i = 0; i <= pieces; ++i)
@@ -84,7 +85,7 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
     const double right = (depth_[i + 1] - depth_[i]) / (x_[i + 1] - x_[i]);
     if (left * right > 0) slope_[i] = 2 * left * right / (left + right);
   }
-  // Harmonic means are at most twice the flatter neighbour; between its ends a piece is flatter than 1.5
+  // A harmonic mean is at most twice the smaller secant; between its ends a piece is flatter than 1.5
   // secants.
   for (std::size_t i = 1; i < n; ++i)
     steepest_ = std::max(steepest_, 2 * std::abs(depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]));
@@ -116,7 +117,7 @@ double Corrugation::depth(double x, double y) const {
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
                                        double tolerance) {
   constexpr double kStep = 5e-5;  // [m]
-  // Where both depths along the rail agree, other widths or centres show halfway out.
+  // If both depths agree along the centre lines, different widths or centres still show halfway out.
   const std::array<double, 4> across = {a.centre(), b.centre(), a.centre() + 0.5 * a.width(),
                                         b.centre() + 0.5 * b.width()};
   const auto start = [](const Corrugation& c) {

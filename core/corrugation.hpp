@@ -7,43 +7,43 @@
 
 namespace tread {
 
-/// Depth d(x, y) below the smooth surface [m], negative above it; zero outside of [start, start + length] and
-/// of |y - centre| < width.
+/// Depth d(x, y) below the smooth surface [m], negative above it. The depth is zero outside [start, start +
+/// length] and outside |y - centre| < width.
 class Corrugation {
  public:
   struct Sine {
-    double wavelength;  ///< L [m]
-    double depth;       ///< d_m [m]
+    double wavelength;  ///< wavelength L [m]
+    double depth;       ///< depth d_m [m]
   };
 
-  /// Roughness: waves of one amplitude at even distances of wavenumber, their phases drawn by `seed`.
+  /// Roughness: waves of equal amplitude at equal steps of wavenumber; `seed` draws their phases.
   struct Random {
-    double rms;          ///< of the depth between the ends that fade [m]
-    double shortest;     ///< wavelength [m]
-    double longest;      ///< wavelength [m]
-    std::uint64_t seed;  ///< the same depths everywhere
+    double rms;          ///< root mean square of the depth between the fading ends [m]
+    double shortest;     ///< shortest wavelength [m]
+    double longest;      ///< longest wavelength [m]
+    std::uint64_t seed;  ///< seed of the phases: a seed gives one profile on every machine
   };
 
-  /// The smooth rail.
+  /// A smooth rail.
   Corrugation() = default;
 
-  /// Eqs. (6) and (7); `length` is cut to whole waves.
+  /// Sine waves of eqs. (6) and (7); `length` is cut to whole waves.
   Corrugation(Sine sine, double start, double length, double centre, double width);
 
-  /// Depths measured along the rail, joined by monotone cubics; x counts from `start`.
+  /// Depths measured along the rail [m], joined by monotone cubics; x counts from `start` [m].
   Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre, double width);
 
-  /// Random depths, which fade over half the longest wave at either end. [theory.md, eq. (W1)]
+  /// Random depths that fade over half the longest wave at either end. [theory.md, eq. (W1)]
   static Corrugation rough(const Random& random, double start, double length, double centre, double width);
 
-  /// Positive downwards [m].
+  /// Depth at a place, positive downwards [m].
   double depth(double x, double y) const;
 
   bool smooth() const { return !(last_ > first_); }
   double first() const { return first_; }        ///< [m]
   double last() const { return last_; }          ///< [m]
-  double deepest() const { return deepest_; }    ///< below the highest place, smooth rail included [m]
-  double steepest() const { return steepest_; }  ///< no slope along the rail exceeds it [-]
+  double deepest() const { return deepest_; }    ///< depth below the highest place, smooth rail included [m]
+  double steepest() const { return steepest_; }  ///< upper bound of the slope along the rail [-]
   double centre() const { return centre_; }
   double width() const { return width_; }  ///< [m]
 
@@ -55,11 +55,11 @@ class Corrugation {
   std::vector<double> x_, depth_, slope_;
 };
 
-/// 1 but for `fade` [m] at either end of [0, length] [m], where it falls to 0 as half a cosine.
+/// Factor 1 that falls to 0 as half a cosine over `fade` [m] at either end of [0, length] [m].
 double end_taper(double x, double length, double fade);
 
-/// The first place [m] up to `end` where the depths differ by more than `tolerance` [m] anywhere across the
-/// rail; looked for every 0.05 mm.
+/// First place [m] up to `end` [m] where the depths differ by more than `tolerance` [m] anywhere across the
+/// rail; the search step is 0.05 mm. Returns nullopt if there is none.
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
                                        double tolerance);
 

@@ -6,7 +6,7 @@
 
 namespace tread {
 
-/// What the process exits with when the error is not handled. [docs/architecture.md, Exit codes]
+/// Exit code of the process for an error that nothing handles. [docs/architecture.md, Exit codes]
 enum class ExitCode { done = 0, input = 2, numerical = 3, resources = 4, resumable = 75 };
 
 class Error : public std::runtime_error {
@@ -18,22 +18,22 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// The scene or a file it names is wrong; the message says what to change.
+/// A wrong scene or a wrong file that the scene names. The message says what to change.
 struct InputError : Error {
   explicit InputError(const std::string& message) : Error(ExitCode::input, message) {}
 };
 
-/// The computation cannot go on (divergence, lost contact of a preload, ...).
+/// A computation that cannot go on (divergence, lost contact of a preload, ...).
 struct NumericalError : Error {
   explicit NumericalError(const std::string& message) : Error(ExitCode::numerical, message) {}
 };
 
-/// The run was told to stop and can go on later.
+/// A run that was told to stop and can go on later.
 struct Interrupted : Error {
   explicit Interrupted(const std::string& message) : Error(ExitCode::resumable, message) {}
 };
 
-/// The machine refuses (disk full, no permission, no memory).
+/// A resource that the machine refuses (disk full, no permission, no memory).
 struct ResourceError : Error {
   explicit ResourceError(const std::string& message) : Error(ExitCode::resources, message) {}
 };

@@ -1,5 +1,5 @@
 #pragma once
-// A callable passed down without being copied or allocated.
+// A reference to a callable: passed down without a copy or an allocation.
 
 #include <memory>
 #include <type_traits>

@@ -1,6 +1,6 @@
 #pragma once
-// What a run carries from one step to the next, as named views. Each owner lists its fields once; saving,
-// restoring and comparing go by that list.
+// The state that a run carries from one step to the next, as named views. Each owner lists its fields once;
+// saving, restoring and comparing use that list.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace tread {
 
-/// Views of the fields themselves: they live as long as their owners do not move or resize them.
+/// Views of the fields themselves, valid while their owners do not move or resize them.
 class StateList {
  public:
   using Values = std::variant<std::span<double>, std::span<std::int64_t>, std::span<float>>;
   struct Field {
-    std::string name;  ///< "contact/frictional_work"
+    std::string name;  ///< name such as "contact/frictional_work"
     Values values;
   };
 
@@ -31,7 +31,7 @@ class StateList {
   void add(const std::string& name, BodyFrame& value) { add_records(name, std::span(&value, 1)); }
   void add(const std::string& name, Values values) { fields_.push_back({group_ + name, values}); }
 
-  /// Plain structs of doubles.
+  /// Adds plain structs of doubles.
   template <class Record>
   void add_records(const std::string& name, std::span<Record> records) {
     static_assert(std::is_trivially_copyable_v<Record> && std::is_standard_layout_v<Record> &&
@@ -40,7 +40,7 @@ class StateList {
                         records.size() * (sizeof(Record) / sizeof(double))));
   }
 
-  /// The fields of a part that has list_state(StateList&), under "name/".
+  /// Adds the fields of a part that has list_state(StateList&), under "name/".
   template <class Part>
   void add_part(const std::string& name, Part& part) {
     const std::string outer = std::exchange(group_, group_ + name + "/");

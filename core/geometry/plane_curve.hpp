@@ -30,10 +30,10 @@ double norm(Point2 a);
 
 struct CurvePoint {
   Point2 position;  ///< [m]
-  Point2 tangent;   ///< unit, in the direction of increasing s
+  Point2 tangent;   ///< unit tangent in the direction of increasing s
 };
 
-/// Which piece speaks at a joint, where tangent or curvature may jump.
+/// The piece that gives tangent and curvature at a joint, where they may jump.
 enum class Side { before, after };
 
 /// A curve built piece by piece from its start. The parameter s [m] is the arc length on segments and arcs;
@@ -47,7 +47,7 @@ class PlaneCurve {
   PlaneCurve& arc_to(Point2 end, Point2 centre);
   /// y(x) cubic with the given slopes dy/dx at start and end; end.x > start.x.
   PlaneCurve& cubic_to(Point2 end, double slope_start, double slope_end);
-  /// Appends a curve that starts where this one ends (to 1e-8 m).
+  /// Appends a curve whose start lies within 1e-8 m of the end of this curve.
   PlaneCurve& append(const PlaneCurve& other);
 
   double length() const { return length_; }
@@ -59,11 +59,12 @@ class PlaneCurve {
   /// interpolated table do not count.
   std::vector<double> joints(double from, double to) const;
 
-  /// Going from `from` to `to` (either way), the first parameter at which f is positive; `to` if there is
-  /// none. Crossings closer together than 1/4000 of the way may be missed.
+  /// First parameter, going from `from` to `to` in either direction, at which f is positive; `to` if there is
+  /// none. Crossings closer together than 1/4000 of the distance may be missed.
   double first(double from, double to, const std::function<double(const CurvePoint&)>& f) const;
 
-  /// Parameter of the point with abscissa x on a curve of increasing x; the nearer end outside its range.
+  /// Parameter of the point with abscissa x on a curve of increasing x. Outside the curve's range: parameter
+  /// of the nearer end.
   double at_x(double x) const;
 
  private:
@@ -71,9 +72,9 @@ class PlaneCurve {
   struct Piece {
     Kind kind = Kind::line;
     Point2 start, end;
-    Point2 centre;                          // arc
+    Point2 centre;                          // arc: centre
     double angle = 0, turn = 0;             // arc: polar angle of the start, signed angle to the end [rad]
-    double slope_start = 0, slope_end = 0;  // cubic
+    double slope_start = 0, slope_end = 0;  // cubic: dy/dx at start and end
     double from = 0, length = 0;
   };
 
@@ -96,10 +97,10 @@ struct AreaMoments {
   double xx = 0, yy = 0;  ///< integrals of (x - xc)^2 and (y - yc)^2 [m4]
 };
 
-/// Of a polygon, counter-clockwise.
+/// Moments of a counter-clockwise polygon.
 AreaMoments polygon_moments(std::span<const Point2> corners);
 
-/// Of several parts together.
+/// Moments of several parts together.
 AreaMoments sum(std::span<const AreaMoments> parts);
 
 }  // namespace tread

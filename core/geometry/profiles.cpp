@@ -28,13 +28,13 @@ void round_corner(PlaneCurve& curve, Point2 corner, Point2 next, double radius) 
   curve.line_to(corner + (-cut) * in).arc_to(corner + cut * out, centre);
 }
 
-/// Tangent circle in the void between a straight face and the web's arc.
+/// Tangent circle between a straight face and the web's arc.
 struct Fillet {
   Point2 on_face, on_web, centre;
 };
 
-/// `face` lies on the face, `normal` points into the void; of the two circles the one nearer to the web is
-/// taken.
+/// Fillet outside the metal: `face` lies on the face, `normal` points away from the metal. Of the two tangent
+/// circles, the one nearer to the web is taken.
 Fillet web_fillet(Point2 face, Point2 normal, double radius, Point2 web_centre, double web_radius) {
   const Point2 origin = face + radius * normal;
   Point2 along = {-normal.y, normal.x};
@@ -49,7 +49,7 @@ Fillet web_fillet(Point2 face, Point2 normal, double radius, Point2 web_centre, 
 
 struct Cn60Head {
   Point2 crown_end, shoulder_end, corner_end;  // joints R300-R80, R80-R13, R13-side face
-  Point2 crown, shoulder, corner;              // centres
+  Point2 crown, shoulder, corner;              // centres of the arcs
 };
 
 Cn60Head cn60_head() {

@@ -10,11 +10,11 @@ namespace tread {
 
 /// Rail axes: y across (field side of a left rail positive), z up, origin at the crown top.
 struct RailProfile {
-  /// Across the head with increasing y: up the left side face, over the running surface, down the right side
-  /// face. Both ends lie at z = -kRailSideDepth, on the side faces where `lower` passes.
+  /// Outline across the head with increasing y: up the left side face, over the running surface, down the
+  /// right side face. Both ends lie at z = -kRailSideDepth, on the side faces where `lower` passes.
   PlaneCurve running;
-  /// Right half below: from the upper end of the side face by head underside, web and foot to the middle of
-  /// the foot's bottom. The left half mirrors it.
+  /// Outline of the right half below: from the upper end of the side face by head underside, web and foot to
+  /// the middle of the foot's bottom. The left half mirrors it.
   PlaneCurve lower;
   /// Parameters on `lower` of the middles of its roundings: head corner, web top, web bottom, foot edge top
   /// and bottom.
@@ -25,8 +25,8 @@ struct RailProfile {
 /// Depth of the ends of RailProfile::running below the crown [m].
 inline constexpr double kRailSideDepth = 30e-3;
 
-/// CN60 (60 kg/m, GB 2585), from its arcs; fillets chosen so that area and moments of inertia agree with the
-/// standard.
+/// CN60 (60 kg/m, GB 2585), from its arcs. The fillets are chosen so that area and moments of inertia agree
+/// with the standard.
 RailProfile cn60();
 
 /// CN60 with the head's surface from a measured table (y increasing, z up) [m]; z is shifted so that the
@@ -37,17 +37,18 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z)
 /// Wheel axes: y across (field side positive, flange negative), z towards the flange tip, origin on the
 /// nominal rolling circle; the radius is D / 2 + z.
 struct WheelProfile {
-  PlaneCurve surface;  ///< with increasing y, from the flange back to the rim's field side
+  PlaneCurve surface;  ///< surface with increasing y, from the flange back to the rim's field side
 };
 
-/// LMA tread for a rim 135 mm wide, -70 ... 65 mm; the chamfer beyond 65 mm is cut off.
+/// LMA tread for a rim 135 mm wide, -70 ... 65 mm. The chamfer beyond 65 mm is cut off.
 WheelProfile lma();
 
 /// A measured or designed wheel profile (y increasing, z towards the flange tip) [m]; z is shifted so that
 /// the surface passes through the origin. Throws InputError when the table does not contain y = 0.
 WheelProfile wheel_from_table(std::span<const double> y, std::span<const double> z);
 
-/// |y| <= width / 2 with a crown of radius `crown_radius` [m] bulging outward; 0 means a cylinder.
+/// Wheel profile of |y| <= width / 2 [m] with a crown of radius `crown_radius` [m] that bulges outward; 0
+/// means a cylinder.
 WheelProfile crowned(double width, double crown_radius);
 
 }  // namespace tread

@@ -21,7 +21,7 @@ class Hash {
     std::memcpy(&bits, &value, sizeof bits);
     add(bits);
   }
-  /// Whole words, then what is left, filled up with zeros.
+  /// Adds whole words, then the remaining bytes, filled up with zeros.
   void add(std::span<const std::byte> bytes) {
     for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
       std::uint64_t word = 0;

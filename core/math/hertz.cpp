@@ -9,8 +9,8 @@ namespace tread {
 namespace {
 
 struct Elliptic {
-  double k;     ///< K(e)
-  double e;     ///< E(e)
+  double k;     ///< complete elliptic integral K(e)
+  double e;     ///< complete elliptic integral E(e)
   double diff;  ///< (K - E) / e^2, finite for e -> 0
 };
 
@@ -23,7 +23,7 @@ Elliptic integrals(double ratio) {
   return {k, second, diff};
 }
 
-/// (larger / smaller curvature) of the gap whose patch has the axis ratio b / a.
+/// Ratio (larger / smaller curvature) of the gap whose patch has the axis ratio b / a.
 double curvature_ratio(double ratio) {
   const Elliptic i = integrals(ratio);
   const double e2 = 1 - ratio * ratio;

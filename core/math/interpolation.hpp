@@ -1,5 +1,5 @@
 #pragma once
-// Values of curves between their points, and the points about a value.
+// Interpolation of curves and search for the nearest value.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace tread {
 
-/// The curve of `y` over `x`, which increases, at `place`: linear between its points, NaN beyond its ends.
+/// Value at `place` of the curve of `y` over the increasing `x`: linear between the points, NaN beyond the
+/// ends.
 inline double value_at(const std::vector<double>& x, const std::vector<double>& y, double place) {
   if (x.empty() || place < x.front() || place > x.back()) return std::numeric_limits<double>::quiet_NaN();
   const auto above = std::upper_bound(x.begin(), x.end(), place);
@@ -19,8 +20,8 @@ inline double value_at(const std::vector<double>& x, const std::vector<double>& 
   return (1 - share) * y[i] + share * y[i + 1];
 }
 
-/// Place of the value nearest to `wanted`, the first of those that are equally near; the size where there is
-/// none.
+/// Index of the value nearest to `wanted`, the first of equally near ones; values.size() if there are no
+/// values.
 inline std::size_t nearest(const std::vector<double>& values, double wanted) {
   const auto found = std::min_element(values.begin(), values.end(), [wanted](double a, double b) {
     return std::abs(a - wanted) < std::abs(b - wanted);

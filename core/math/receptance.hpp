@@ -6,14 +6,14 @@
 
 namespace tread {
 
-/// A blow's force and the response to it at evenly spaced times.
+/// Force of a blow and the response to it at evenly spaced times.
 struct BlowRecord {
   std::vector<double> time;      ///< [s]
   std::vector<double> force;     ///< [N]
   std::vector<double> response;  ///< displacement in the direction of the force [m]
 
-  /// Fourier integral of the response over that of the force. Right where the response is over at the end.
-  /// [theory.md, Beam on fastenings] [m/N]
+  /// Fourier integral of the response over that of the force [m/N]. Exact only if the response has decayed at
+  /// the end of the record. [theory.md, Beam on fastenings]
   std::complex<double> receptance(double frequency) const;
 };
 

@@ -10,12 +10,12 @@ namespace tread {
 
 struct Statistics {
   double mean = 0, min = 0, max = 0;
-  double deviation = 0;  ///< standard, about the mean
+  double deviation = 0;  ///< standard deviation about the mean
 
   double range() const { return max - min; }
 };
 
-/// Of value(item) over the items that `counts` accepts; zeros if there is none.
+/// Statistics of value(item) over the items that `counts` accepts; zeros if there is none.
 template <class Items, class Counts, class Value>
 Statistics statistics(const Items& items, const Counts& counts, const Value& value) {
   Statistics s;
@@ -41,7 +41,7 @@ inline Statistics statistics(const std::vector<double>& values) {
       values, [](double) { return true; }, [](double value) { return value; });
 }
 
-/// Of two curves at the same places; nothing where one of them is constant or empty.
+/// Correlation coefficient of two curves at equal places; nullopt if one of them is constant or empty.
 inline std::optional<double> correlation(const std::vector<double>& a, const std::vector<double>& b) {
   const Statistics of_a = statistics(a);
   const Statistics of_b = statistics(b);
@@ -61,8 +61,8 @@ class LineFit {
     xx_ += x * x;
     xy_ += x * y;
   }
-  /// Of the line over a stretch `run` of the abscissa, in the ordinate's unit; NaN with fewer than two
-  /// places.
+  /// Rise of the line over a stretch `run` of the abscissa, in the ordinate's unit; NaN with fewer than two
+  /// abscissae.
   double rise(double run) const { return run * (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
   double slope() const { return rise(1); }
 

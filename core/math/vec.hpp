@@ -6,7 +6,7 @@
 
 namespace tread {
 
-/// Three components; in a body's local basis (sweep, p, q), or Cartesian (x, y, z), as the owner says.
+/// Three components in a body's local basis (sweep, p, q) or in Cartesian axes (x, y, z), as the owner says.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 

@@ -12,7 +12,7 @@ namespace tread {
 namespace {
 
 constexpr double kColumnGrowth = 0.22;  // d(size)/d(distance): neighbours grow by about exp(0.22)
-constexpr double kRowGrowth = 1.45;     // most, from row to row
+constexpr double kRowGrowth = 1.45;     // largest growth from row to row
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -48,11 +48,12 @@ std::vector<double> graded(std::span<const double> breaks, const std::function<d
   std::vector<double> result = {breaks.front()};
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const double a = breaks[k - 1], step = (breaks[k] - a) / samples;
-    std::vector<double> elements(samples + 1, 0.0);  // wanted number of elements from a on
+    std::vector<double> elements(samples + 1, 0.0);  // wanted number of elements from a onwards
     for (int i = 1; i <= samples; ++i)
       elements[index(i)] = elements[index(i - 1)] + step / size(a + (i - 0.5) * step);
     const double wanted = elements.back();
-    // Rounds down more readily than up: a smaller element costs time step, a larger one costs little.
+    // The count is rounded down more readily than up: a smaller element costs time step, a larger one costs
+    // little.
     const int count = std::max(1, static_cast<int>(std::min(wanted + 0.35, 1.09 * wanted + 0.1)));
     for (int i = 1; i < count; ++i) {
       const double target = wanted * i / count;

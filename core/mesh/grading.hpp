@@ -10,22 +10,22 @@ namespace tread {
 
 /// Element sizes of a section with a running surface.
 struct SectionSize {
-  double surface = 2.2e-3;     ///< contact elements: columns in the running band, rows of the top layers [m]
-  double coarse = 9e-3;        ///< elements away from the contact [m]
-  double band_centre = -3e-3;  ///< middle of the running band, coordinate p [m]
+  double surface = 2.2e-3;         ///< size of contact elements: columns in the running band, rows of the top
+                                   ///< layers [m]
+  double coarse = 9e-3;            ///< size of elements away from the contact [m]
+  double band_centre = -3e-3;      ///< middle of the running band, coordinate p [m]
   double band_half_width = 20e-3;  ///< [m]
   int fine_layers = 2;             ///< rows of thickness `surface`
 
   /// Wanted column width at p: `surface` in the running band, growing outside to `largest` [m].
   double column(double p, double largest) const;
 
-  /// How far the rows at p keep the fine layers' thickness: 1 in the running band, falling to 0 at the ends
-  /// of the surface, `left` and `right`, over at least 10 mm. [-]
+  /// Fraction of the fine layers' thickness that the rows at p keep [-]: 1 in the running band, falling to 0
+  /// at the ends of the surface, `left` and `right`, over at least 10 mm.
   double layer_weight(double p, double left, double right) const;
 };
 
-/// Throws InputError when a size is not positive or the layers do not fit into `depth` [m]; `name` is the
-/// body.
+/// Throws InputError if a size is not positive or the layers do not fit into `depth` [m]; `name` is the body.
 void check(const SectionSize& size, double depth, const std::string& name);
 
 /// Increasing parameters that contain every break and whose spacing follows size(parameter).
@@ -38,12 +38,12 @@ std::vector<double> evenly(double first, double last, int count);
 /// size.coarse.
 std::vector<double> layer_depths(const SectionSize& size, double depth);
 
-/// `depths` as fractions of the height above the deepest, from 0 to 1.
+/// Converts depths to fractions of the height above the deepest, from 0 to 1.
 std::vector<double> from_below(std::span<const double> depths);
 
-/// Fine interface nodes that nest in coarse ones: fine.size() abscissae close to the wanted `fine` among
-/// which every value of `coarse` occurs exactly and which divide each coarse edge evenly. Both increase and
-/// share their ends. Throws InputError when there are fewer fine than coarse edges.
+/// Fine interface nodes that nest in coarse ones: fine.size() abscissae close to the wanted `fine`. Every
+/// value of `coarse` occurs exactly, and the fine nodes divide each coarse edge evenly. Both lists increase
+/// and share their ends. Throws InputError if there are fewer fine than coarse edges.
 std::vector<double> nested(std::span<const double> fine, std::span<const double> coarse,
                            const std::string& name);
 

@@ -1,6 +1,6 @@
 #pragma once
-// A vector field over the nodes of a mesh, stored in double or in single precision, for those that read or
-// change few of its values: they compute in double whatever the field is stored in.
+// A vector field over the nodes of a mesh, stored in double or in single precision. These views serve code
+// that reads or changes few values; it computes in double for either storage.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace tread {
 /// The components of kLanes nodes, [component][lane].
 using NodeLanes = std::array<std::array<double, kLanes>, 3>;
 
-/// A view to read; values in the order of dof(). False: there is no field.
+/// Read-only view; values in the order of dof(). False if there is no field.
 class ConstNodeField {
  public:
   ConstNodeField(std::nullptr_t = nullptr) {}
@@ -32,7 +32,7 @@ class ConstNodeField {
     return {double_[first], double_[first + kLanes], double_[first + 2 * kLanes]};
   }
 
-  /// At the nodes of the slots [slot, slot + kLanes), slot a multiple of kLanes.
+  /// Components at the nodes of the slots [slot, slot + kLanes); slot is a multiple of kLanes.
   NodeLanes lanes(std::int64_t slot) const {
     NodeLanes out;
     const auto read = [&](const auto* from) {
@@ -51,15 +51,16 @@ class ConstNodeField {
   const float* single_ = nullptr;
 };
 
-/// A view to read and write; what is written is rounded to the field's precision.
+/// View to read and write. Written values are rounded to the field's precision.
 class NodeField {
  public:
-  /// Stands for a value of the field.
+  /// Proxy of one value of the field.
   class Value {
    public:
     Value(const NodeField& field, std::int64_t i) : double_(field.double_), single_(field.single_), i_(i) {}
     Value(const Value&) = default;
-    /// Writes the other's value to this one's place. NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
+    /// Writes the other's value to the place of this one.
+    /// NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
     Value& operator=(const Value& other) { return *this = static_cast<double>(other); }
     operator double() const { return single_ != nullptr ? single_[i_] : double_[i_]; }
     Value& operator=(double value) {
@@ -85,7 +86,7 @@ class NodeField {
     return single_ != nullptr ? ConstNodeField(single_) : ConstNodeField(double_);
   }
 
-  /// Calls act with a pointer to the values in the type that they have.
+  /// Calls `act` with a pointer to the values in their stored type.
   template <class Act>
   void visit(const Act& act) const {
     if (single_ != nullptr)

@@ -13,7 +13,8 @@ namespace tread {
 namespace {
 
 constexpr double kTieDepth = 24e-3;      // [m]
-constexpr double kLargestColumn = 4e-3;  // on the cap's surface [m]: resolves the R13 corners
+constexpr double kLargestColumn = 4e-3;  // largest column on the cap's surface, which resolves the R13
+                                         // corners [m]
 constexpr double kCoarseRatio =
     1.6;  // least ratio of coarse to surface size: several fine edges on a coarse one
 
@@ -46,8 +47,9 @@ PatchSides strip(std::vector<Point2> bottom, std::vector<Point2> top, std::vecto
   return sides;
 }
 
-/// Node at the convex rounding with the middle `s`: on the bisector, between arc and sharp corner such that
-/// edges of a few radii keep the area. Fitted to the three corners of CN60: 0.59, 0.60 and 0.80 of the way.
+/// Node at the convex rounding with the middle `s`. The node lies on the bisector between arc and sharp
+/// corner, such that edges of a few radii keep the area. Fitted to the three corners of CN60: 0.59, 0.60 and
+/// 0.80 of the distance.
 Point2 corner_node(const PlaneCurve& lower, double s) {
   const auto before = lower.joints(0, s), after = lower.joints(s, lower.length());
   const CurvePoint a = lower.at(before.back()), b = lower.at(after.front());
@@ -58,9 +60,9 @@ Point2 corner_node(const PlaneCurve& lower, double s) {
 
 /// Half the tie: x of the coarse nodes and the number of elements in the middle strip and in each wing.
 struct CoarseTie {
-  std::vector<double> x;  // all of them, left to right
-  double end = 0;         // on the side face
-  double strip = 0;       // half width of the middle strip
+  std::vector<double> x;  // all nodes, left to right [m]
+  double end = 0;         // end on the side face [m]
+  double strip = 0;       // half width of the middle strip [m]
   double s_end = 0;       // parameter of the end on `lower`
   int middle = 0, wing = 0;
 };
@@ -140,8 +142,9 @@ Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSi
 }
 
 struct CapEdges {
-  double left, right;          // logical corners, where the surface is inclined by 45 degrees
-  double left_tie, right_tie;  // where the side faces meet the tie
+  double left, right;          // parameters of the logical corners, where the surface is inclined by 45
+                               // degrees
+  double left_tie, right_tie;  // parameters where the side faces meet the tie
 };
 
 CapEdges cap_edges(const PlaneCurve& running) {
@@ -153,7 +156,7 @@ CapEdges cap_edges(const PlaneCurve& running) {
           running.first(middle, 0, below), running.first(middle, running.length(), below)};
 }
 
-/// Values along a line with one more among the first `count` intervals, which keep their ends.
+/// Values along a line, with one more among the first `count` intervals. The ends of these intervals stay.
 std::vector<double> with_one_more(std::span<const double> values, int count) {
   std::vector<double> result;
   for (int i = 0; i <= count; ++i) {
@@ -182,7 +185,7 @@ std::vector<double> below(std::span<const Point2> top, double tie_end) {
   return x;
 }
 
-/// Its upper corners are collapsed: the outline is smooth there.
+/// Head cap. Its upper corners are collapsed, because the outline is smooth there.
 Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSize& size) {
   const PlaneCurve& running = rail.running;
   const CapEdges edges = cap_edges(running);

@@ -82,7 +82,7 @@ Patch fill(const PatchSides& s) {
   const auto ub = fractions(s.bottom), ut = fractions(s.top), vl = fractions(s.left), vr = fractions(s.right);
   for (std::size_t j = 0; j < s.left.size(); ++j)
     for (std::size_t i = 0; i < s.bottom.size(); ++i) {
-      // Where the straight lines between opposite sides' fractions cross.
+      // Crossing of the straight lines between opposite sides' fractions.
       const double u = (ub[i] + vl[j] * (ut[i] - ub[i])) / (1 - (ut[i] - ub[i]) * (vr[j] - vl[j]));
       const double v = vl[j] + u * (vr[j] - vl[j]);
       const Point2 ruled = (1 - v) * s.bottom[i] + v * s.top[i] + (1 - u) * s.left[j] + u * s.right[j];
@@ -90,7 +90,7 @@ Patch fill(const PatchSides& s) {
                              u * ((1 - v) * s.bottom.back() + v * s.top.back());
       patch.at(static_cast<int>(i), static_cast<int>(j)) = ruled - corners;
     }
-  // The sides themselves without rounding.
+  // Copies the sides, so that they carry no rounding.
   for (int i = 0; i <= patch.columns; ++i) {
     patch.at(i, 0) = s.bottom[index(i)];
     patch.at(i, patch.rows) = s.top[index(i)];
@@ -104,7 +104,7 @@ Patch fill(const PatchSides& s) {
 
 namespace {
 
-/// Of the four neighbours; beside a collapsed corner two of them are one node and count once.
+/// Middle of the four neighbours. Beside a collapsed corner two of them are one node and count once.
 Point2 middle_of_neighbours(const Patch& patch, int i, int j) {
   const std::array<Point2, 4> neighbours = {patch.at(i - 1, j), patch.at(i + 1, j), patch.at(i, j - 1),
                                             patch.at(i, j + 1)};
@@ -119,8 +119,8 @@ Point2 middle_of_neighbours(const Patch& patch, int i, int j) {
   return (1.0 / count) * sum;
 }
 
-/// Moves inner nodes towards the middle of their neighbours where `held` is below 1: corners of a patch that
-/// lie on a smooth outline get cells of a useful shape.
+/// Moves inner nodes towards the middle of their neighbours where `held` is below 1. Corners of a patch that
+/// lie on a smooth outline thus get cells of a useful shape.
 void relax(Patch& patch, std::span<const double> held) {
   constexpr int kPasses = 16;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -133,8 +133,8 @@ void relax(Patch& patch, std::span<const double> held) {
   }
 }
 
-/// How much of a side's bulge its rows keep at a distance, a fraction of the width: columns that lean cost
-/// time step, so it fades before the fine columns begin.
+/// Fraction of a side's bulge that its rows keep at `distance`, which is a fraction of the width. Leaning
+/// columns cost time step, so the bulge fades before the fine columns begin.
 double bulge_at(double distance) {
   constexpr double kReach = 0.15;
   return std::exp(-(distance / kReach) * (distance / kReach));
@@ -147,7 +147,7 @@ Patch fill_layered(const PatchSides& s, std::span<const double> layers, std::spa
   Patch patch(static_cast<int>(s.bottom.size()) - 1, static_cast<int>(s.left.size()) - 1);
   const auto u = fractions(s.top), vl = fractions(s.left), vr = fractions(s.right);
   for (int j = 0; j <= patch.rows; ++j) {
-    // How far the curved sides stand off the straight line between their ends.
+    // Distance of the curved sides from the straight line between their ends.
     const Point2 bulge_left =
         s.left[index(j)] - (s.left.front() + vl[index(j)] * (s.left.back() - s.left.front()));
     const Point2 bulge_right =

@@ -11,7 +11,7 @@
 
 namespace tread {
 
-/// Parameters from, every joint between, to: the breaks of graded() on a curve.
+/// Breaks for graded() on a curve: the parameters `from`, every joint between, `to`.
 std::vector<double> breaks_on(const PlaneCurve& curve, double from, double to);
 std::vector<Point2> positions(const PlaneCurve& curve, std::span<const double> parameters);
 std::vector<Point2> straight(Point2 first, Point2 last, int count);
@@ -35,22 +35,24 @@ struct PatchSides {
   std::vector<Point2> bottom, top, left, right;
 };
 
-/// The upper corners end both of their sides twice: see fill_layered().
+/// Repeats the upper corners at the end of both of their sides, as fill_layered() expects for collapsed
+/// corners.
 void collapse_upper_corners(PatchSides& sides);
 
 /// Transfinite interpolation between the sides.
 Patch fill(const PatchSides& sides);
 
-/// Columns are straight between bottom and top except near curved left and right sides. Their nodes stand at
-/// `layers` (fractions from the bottom, rows + 1 of them) where weight[i] = 1, and spaced as on the left and
-/// right sides where it is 0. Two sides that meet may end with their common corner twice: that corner is
-/// collapsed, the cell in it has no area, and a smooth outline passes through without a flat cell.
+/// Columns are straight between bottom and top except near curved left and right sides. Where weight[i] = 1,
+/// their nodes stand at `layers` (fractions from the bottom, rows + 1 of them). Where weight[i] = 0, they are
+/// spaced as on the left and right sides. Two sides that meet may end with their common corner twice: the
+/// corner is then collapsed and its cell has no area. A smooth outline passes through such a corner without a
+/// flat cell.
 Patch fill_layered(const PatchSides& sides, std::span<const double> layers, std::span<const double> weight);
 
-/// Collects patches into a section; nodes closer than 1e-7 m are one.
+/// Collects patches into a section. Nodes closer than 1e-7 m are merged.
 class SectionBuilder {
  public:
-  /// Cells of collapsed corners are left out.
+  /// Adds a patch without the cells of collapsed corners.
   void add(const Patch& patch);
   /// Nodes at the given points, which must exist.
   std::vector<int> nodes_at(std::span<const Point2> points) const;
@@ -65,7 +67,7 @@ class SectionBuilder {
   Section section_;
 };
 
-/// Rotates the section about the origin, counter-clockwise, tangents included. [rad]
+/// Rotates the section and its tangents about the origin by `angle` [rad], counter-clockwise.
 void rotate(Section& section, double angle);
 void translate(Section& section, Point2 shift);
 
@@ -73,15 +75,15 @@ void translate(Section& section, Point2 shift);
 Section rectangle(std::span<const double> p, std::span<const double> q);
 Section rectangle(double p0, double p1, int columns, double q0, double q1, int rows);
 
-/// One structured block between a surface and the straight line q = bottom, with the surface's whole length
-/// as running surface and the line as path `bottom_name`.
+/// One structured block between a surface and the straight line q = bottom. Its running surface is the whole
+/// `surface`; path `bottom_name` is the line.
 Section block_under(const PlaneCurve& surface, double bottom, const SectionSize& size,
                     const std::string& bottom_name);
 
-/// Sum over the quads.
+/// Sum of the moments of all quads.
 AreaMoments area_moments(const Section& section);
 
-/// Of the body that the section sweeps in a full turn about q = 0.
+/// Moments of the body that the section sweeps in a full turn about q = 0.
 struct RevolvedMoments {
   double volume = 0;  ///< [m3]
   double polar = 0;   ///< integral of r^2 over the volume: moment of inertia about the axis / density [m5]

@@ -2,7 +2,7 @@
 // A section swept along a line of stations, cut into tiles: the unit of storage and of parallel work.
 //
 // Local basis of a node, components 0, 1, 2 of every vector field:
-//   extruded: (x, y, z), the same for all nodes;
+//   extruded: (x, y, z) for all nodes;
 //   revolved: (t, y, r) at the node's own angle phi about the y axis. phi = 0 points down (-z), phi grows
 //   with
 //             positive rotation about +y: r = (-sin phi, 0, -cos phi), t = (-cos phi, 0, sin phi), t x y = r.
@@ -24,11 +24,12 @@ inline constexpr int kLanes = 8;
 
 enum class Sweep { extruded, revolved };
 
-/// A run of elements of one pitch along the sweep.
+/// Successive elements of one pitch along the sweep.
 struct Segment {
   int elements = 0;
   double pitch = 0;         ///< length [m] (extruded) or angle [rad] (revolved) of one element
-  int material_offset = 0;  ///< added to Section::quad_material here (slab gaps of another material)
+  int material_offset = 0;  ///< offset to Section::quad_material in this segment (slab gaps of another
+                            ///< material)
 };
 
 /// Up to kLanes consecutive stations and the elements that start at them. Lane l holds station
@@ -37,12 +38,13 @@ struct Segment {
 struct Tile {
   int first_station = 0;
   int stations = 0;  ///< used lanes, 1 ... kLanes
-  int elements = 0;  ///< `stations`, or 0 in the tile that only holds the last station of an open block
+  int elements = 0;  ///< number of elements: `stations`, or 0 in the tile that only holds the last station of
+                     ///< an open block
   int pitch_class = 0;
   int next = -1;  ///< tile that holds the station after this one's last element; -1 if none
 };
 
-/// (pitch, material) of the elements of a tile; coefficients are shared by all elements of (quad, class).
+/// Pitch and material of the elements of a tile. All elements of (quad, class) share their coefficients.
 struct PitchClass {
   double pitch = 0;
   int material_offset = 0;
@@ -51,8 +53,8 @@ struct PitchClass {
 struct SweptBlock {
   std::string name;
   Sweep sweep = Sweep::extruded;
-  bool closed = false;  ///< a full turn: the last element ends at station 0
-  /// Nodes move along component 2 only, the others stay zero. For extruded blocks of a linear law.
+  bool closed = false;  ///< true for a full turn: the last element ends at station 0
+  /// True if nodes move along component 2 only and the others stay zero. For extruded blocks of a linear law.
   bool vertical_only = false;
   Section section;
   std::vector<Material> materials;
@@ -62,9 +64,9 @@ struct SweptBlock {
   std::vector<PitchClass> classes;
   std::int64_t base = 0;  ///< slot of (tile 0, section node 0, lane 0) in the mesh's node fields
 
-  /// Displacement of nodes from their swept position, in their local basis [m], by slot relative to `base`
-  /// (corrugation by moved nodes; interface nodes that lie on the chords of a coarser block). Elements that
-  /// touch a shifted node have a shape of their own.
+  /// Displacement of nodes from their swept position, in their local basis [m], by slot relative to `base`.
+  /// Corrugation moves nodes; so do chords of a coarser block with its interface nodes. Elements that touch a
+  /// shifted node have a shape of their own.
   std::map<std::int64_t, Vec3> node_shift;
 
   std::int64_t slots() const { return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes; }
@@ -94,30 +96,31 @@ struct SweptBlock {
   }
 };
 
-/// Lays out stations and tiles. Extruded: stations start at `start` [m]. Revolved: at angle `start` [rad];
-/// closed when the segments add up to 2 pi (to 1e-9), then the last station is station 0 again.
+/// Lays out stations and tiles. Extruded: stations start at `start` [m]. Revolved: stations start at angle
+/// `start` [rad]; if the segments add up to 2 pi (to 1e-9), the block is closed and the last station is
+/// station 0.
 SweptBlock make_swept_block(std::string name, Sweep sweep, Section section, std::vector<Material> materials,
                             double start, const std::vector<Segment>& segments);
 
-/// Position of a node (its shift included) in the body frame: extruded (x, y, z); revolved: relative to the
-/// axis, at frame angle 0.
+/// Position of a node (its shift included) in the body frame [m]. Extruded: (x, y, z). Revolved: relative to
+/// the axis, at frame angle 0.
 Vec3 position(const SweptBlock& block, int section_node, int station);
 
-/// Rotates a vector from the node's local basis to Cartesian axes, at frame angle `angle` [rad] (revolved;
-/// the identity for extruded blocks).
+/// Rotates a vector from the node's local basis to Cartesian axes, at frame angle `angle` [rad]. Returns it
+/// unchanged for extruded blocks.
 Vec3 to_cartesian(const SweptBlock& block, int station, double angle, const Vec3& local);
 Vec3 to_local(const SweptBlock& block, int station, double angle, const Vec3& cartesian);
 
-/// The blocks of a model; node fields are contiguous over all of them, unused lanes hold zero.
+/// The blocks of a model. Node fields are contiguous over all of them; unused lanes hold zero.
 struct Mesh {
   std::vector<SweptBlock> blocks;
   std::int64_t slots = 0;  ///< node slots over all blocks, a multiple of kLanes
 
-  /// Appends a block and gives it its base; returns its index.
+  /// Appends a block, gives it its base and returns its index.
   int add(SweptBlock block);
 };
 
-/// Index of a component of a node in a vector field of 3 * mesh.slots values: within a group of kLanes slots
+/// Index of a component of a node in a vector field of 3 * mesh.slots values. Within a group of kLanes slots
 /// the components follow one another, lanes contiguous.
 inline std::int64_t dof(std::int64_t slot, int component) {
   return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;

@@ -12,22 +12,25 @@ namespace tread {
 
 namespace {
 
-constexpr double kTieDepth = 23e-3;  // tread tie below the nominal rolling circle [m]
-constexpr double kRimDepth = 65e-3;  // inner rim radius below the nominal rolling circle [m]
-constexpr double kRimSlant = 5e-3;   // the rim is thinner by this at its faces [m]
+constexpr double kTieDepth = 23e-3;  // depth of the tread tie below the nominal rolling circle [m]
+constexpr double kRimDepth = 65e-3;  // depth of the inner rim radius below the nominal rolling circle [m]
+constexpr double kRimSlant = 5e-3;   // reduction of the rim's thickness at its faces [m]
 constexpr double kFlare = 8e-3;      // widening of the web at rim and hub, each side [m]
 constexpr double kFlareLength = 25e-3;
-constexpr double kBrakeOuterDepth = 110e-3;  // brake ring below the nominal rolling circle [m]
+constexpr double kBrakeOuterDepth = 110e-3;  // depth of the brake ring below the nominal rolling circle [m]
 constexpr double kBrakeInnerRadius = 175e-3;
-constexpr double kBrakeGap = 10e-3;  // between web and brake ring, bridged at the bolt circle [m]
+constexpr double kBrakeGap = 10e-3;  // gap between web and brake ring, bridged at the bolt circle [m]
 constexpr double kHubOuterRadius = 145e-3, kHubTieRadius = 127e-3, kSeatRadius = 95e-3, kHubLength = 178e-3;
 constexpr double kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
-constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // y_wheel [m]
+constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // places along
+                                                                                            // y_wheel [m]
 
-constexpr double kFlangeSize = 4.2e-3;  // on the flange and its root [m]: two elements on half of the R14
-constexpr double kFlangeRatio = 1.8;    // least ratio of that to surface size: the flange costs no time step
+constexpr double kFlangeSize = 4.2e-3;  // size on the flange and its root [m]: two elements on half of the
+                                        // R14
+constexpr double kFlangeRatio = 1.8;    // least ratio of the flange's size to the surface size: the flange
+                                        // costs no time step
 constexpr double kCoarseRatio = 1.6;    // least ratio of coarse to surface size
-constexpr double kAxleRatio = 2.3;      // axle to disc size
+constexpr double kAxleRatio = 2.3;      // ratio of axle to disc size
 
 int count_of(double length, double size, int least) {
   return std::max(least, static_cast<int>(std::lround(length / size)));
@@ -70,14 +73,14 @@ Flange find_flange(const PlaneCurve& profile) {
   return flange;
 }
 
-/// Bottom position wanted below a point of the tread: columns lean outward under the flange's root.
+/// Wanted bottom position below a point of the tread. Columns lean outward under the flange's root.
 double below(const Point2& top, const Point2& root) {
   constexpr double reach = 20e-3;
   const double lean = 0.35 * (root.y + kTieDepth);
   return top.x - lean * std::clamp(1 - (top.x - root.x) / reach, 0.0, 1.0);
 }
 
-/// Tread ring in (y_wheel, z); `coarse` are the tie nodes of the disc.
+/// Tread ring in (y_wheel, z). `coarse` holds the tie nodes of the disc.
 Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, const SectionSize& size) {
   const Flange flange = find_flange(profile);
   const double largest = std::max(kFlangeSize, 0.55 * size.coarse);
@@ -92,7 +95,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
   const Point2 low_left = {profile.start().x, -kTieDepth}, low_right = {profile.end().x, -kTieDepth};
   PlaneCurve outline(low_left);
   outline.line_to(profile.start()).append(profile);
-  const double start = norm(profile.start() - low_left);  // of the profile on the outline
+  const double start = norm(profile.start() - low_left);  // start of the profile on the outline
   const double join = outline.first(0, start + flange.tip_back + 1e-9, [&](const CurvePoint& point) {
     return point.position.y - root.y + 1e-12;
   });
@@ -143,7 +146,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
 struct DiscLines {
   std::vector<double> rim, hub;  // tie nodes, left to right
   std::vector<double> axle_hub;  // tie nodes of the axle
-  int web = 0;                   // columns through the web
+  int web = 0;                   // number of columns through the web
 };
 
 /// Left wing, flared web and right wing over |x| <= half.

@@ -8,20 +8,21 @@
 
 namespace tread {
 
-/// A half wheelset of standard gauge: the track's centre plane lies 746.5 mm from the nominal rolling circle,
+/// A half wheelset of standard gauge. The track's centre plane lies 746.5 mm from the nominal rolling circle,
 /// the journal's centre 1000 mm.
 struct WheelShape {
-  double diameter = 0.86;           ///< of the nominal rolling circle [m]
+  double diameter = 0.86;           ///< diameter of the nominal rolling circle [m]
   double lateral_offset = 6.5e-3;   ///< rail centre line in wheel coordinates, positive to the field side [m]
-  double axle_bore = 0.060;         ///< diameter [m]
+  double axle_bore = 0.060;         ///< diameter of the bore [m]
   double web_thickness = 0.030;     ///< [m]
-  double brake_ring_thickness = 0;  ///< of each of the two ring plates bolted to the web; 0: none [m]
+  double brake_ring_thickness = 0;  ///< thickness of each of the two ring plates bolted to the web; 0: none
+                                    ///< [m]
 };
 
-/// In (p, q) = (y_wheel - lateral_offset, r). Nodes of tread.paths["tie"] lie on the edges of
+/// Sections in (p, q) = (y_wheel - lateral_offset, r). Nodes of tread.paths["tie"] lie on the edges of
 /// disc.paths["tie_outer"], those of disc.paths["tie_inner"] on the edges of axle.paths["tie"], nested. All
-/// paths run along +p except axle.paths["symmetry_end"], which runs along +r; axle.paths["journal"] are the
-/// outer nodes near its centre.
+/// paths run along +p except axle.paths["symmetry_end"], which runs along +r. axle.paths["journal"] holds the
+/// outer nodes near the journal's centre.
 struct WheelSections {
   Section tread;
   Section disc;
@@ -30,12 +31,12 @@ struct WheelSections {
   double axle_tie_radius = 0;   ///< [m]
 };
 
-/// size.coarse: elements of the disc, 10 ... 15 mm; those of the axle are 2.3 times as large. Throws
-/// InputError for profiles, diameters, bores and sizes that do not fit.
+/// Sections of a half wheelset. size.coarse: elements of the disc, 10 ... 15 mm; those of the axle are 2.3
+/// times as large. Throws InputError for profiles, diameters, bores and sizes that do not fit.
 WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape& shape,
                                   const SectionSize& size);
 
-/// A ring of radial thickness `thickness` under the whole profile; path "bore" is its inner surface. [m]
+/// A ring of radial thickness `thickness` [m] under the whole profile; path "bore" is its inner surface.
 Section make_tyre_section(const WheelProfile& profile, double diameter, double lateral_offset,
                           double thickness, const SectionSize& size);
 

@@ -18,7 +18,7 @@ class BackgroundTask {
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
 
-  /// Begins `work` once what ran before is done; throws what that threw.
+  /// Waits for the task under way, then begins `work`. Throws the error of the finished task.
   void start(std::function<void()> work) {
     wait();
     done_ = false;
@@ -34,7 +34,7 @@ class BackgroundTask {
 
   bool running() const { return !done_; }
 
-  /// Until it is done; throws what it threw, once.
+  /// Waits until the task is done. Throws its error, once.
   void wait() {
     if (thread_.joinable()) thread_.join();
     if (const std::exception_ptr error = std::exchange(error_, nullptr)) std::rethrow_exception(error);

@@ -19,7 +19,7 @@ void for_chunks(std::int64_t n, const Body& body) {
   });
 }
 
-/// Adds what body(first, last) returns for every chunk of [0, n), in the order of the chunks.
+/// Sum of the results of body(first, last) over all chunks of [0, n), added in the order of the chunks.
 template <class Body>
 double sum_chunks(std::int64_t n, const Body& body) {
   std::vector<double> part(static_cast<std::size_t>((n + kChunk - 1) / kChunk));

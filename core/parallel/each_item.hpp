@@ -9,8 +9,8 @@
 
 namespace tread {
 
-/// Calls body(0) ... body(count - 1) in parallel. Where some throw, all others are done first and the error
-/// of the first in order leaves.
+/// Calls body(0) ... body(count - 1) in parallel. If calls throw, all others are finished first; then the
+/// error of the first in order is thrown.
 template <class Body>
 void each_item(std::size_t count, const Body& body) {
   std::vector<std::exception_ptr> errors(count);

@@ -21,7 +21,8 @@ constexpr std::array<const ParallelBackend*, 2> kBackends = {&openmp_backend, &t
 int g_threads = 1;
 ParallelTimes* g_times = nullptr;
 
-/// `where` says in messages who named it.
+/// Backend with the given name. Throws InputError for an unknown name; its message cites `where`, the place
+/// of the name.
 const ParallelBackend* backend_named(std::string_view name, std::string_view where) {
   std::string known;
   for (const ParallelBackend* candidate : kBackends) {
@@ -43,8 +44,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Several ranges per thread, taken as threads become free: a core that something else uses slows the rest
-/// little.
+/// Runs several ranges per thread, taken as threads become free. A core that another process uses then slows
+/// the rest little.
 void run_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
   if (g_threads == 1) {
     body(0, n, 0);

@@ -1,6 +1,6 @@
 #pragma once
 // The one interface behind which threads live. Work is cut into items that do not depend on the number of
-// threads; every item writes only its own data, so results are the same bits for any number of threads and
+// threads. Every item writes only its own data, so results are bit-identical for any number of threads and
 // for either backend.
 
 #include <cstdint>
@@ -15,31 +15,31 @@ namespace tread {
 void set_threads(int threads);
 int threads();
 
-/// The libraries that can run the threads, the default first.
+/// Names of the libraries that can run the threads, the default first.
 std::vector<std::string_view> backends();
 
-/// Chooses one; InputError for a name that is not among them. Until then it is the one that the environment's
-/// TREAD_BACKEND names, or the default.
+/// Chooses a backend. Throws InputError for a name that is not among backends(). Without a call, the
+/// environment's TREAD_BACKEND or the default holds.
 void set_backend(std::string_view name);
 std::string_view backend();
 
 /// Calls body(first, last) on disjoint ranges that cover [0, n), in parallel. Ranges are contiguous and
-/// depend on the number of threads: body must treat items independently of one another. Not to be called from
-/// a body.
+/// depend on the number of threads: body must treat items independently of one another. A body must not call
+/// this function.
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
 
-/// How the time inside parallel_ranges is spent.
+/// Times spent inside parallel_ranges.
 struct ParallelTimes {
   struct alignas(64) Thread {
-    double busy = 0;  ///< in bodies [s]
+    double busy = 0;  ///< time in bodies [s]
   };
   std::vector<Thread> by_thread;
   std::int64_t calls = 0;
-  double wall = 0;  ///< [s]
+  double wall = 0;  ///< time of all calls [s]
 };
 
-/// From now on every call adds its times to `times`, which needs no set-up; null ends that. When off it costs
-/// a comparison a call.
+/// Makes every following call add its times to `times`, which needs no set-up; null ends the measurement.
+/// Without a measurement the cost is one comparison per call.
 void measure_parallel(ParallelTimes* times);
 
 }  // namespace tread

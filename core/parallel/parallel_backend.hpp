@@ -1,5 +1,5 @@
 #pragma once
-// What a thread library has to offer. Private to core/parallel/.
+// Interface of a thread library. Private to core/parallel/.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@ namespace tread {
 struct ParallelBackend {
   const char* name;
   /// Calls task(i, thread) once for every i in [0, count) on at most `threads` threads, numbered from 0, as
-  /// they become free; returns when all calls have.
+  /// they become free. Returns when all calls are done.
   void (*run)(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> task);
 };
 

@@ -18,8 +18,8 @@ namespace tread {
 
 namespace {
 
-// ThreadSanitizer does not see into the library. It is told what happens before what: a call's begin before
-// its tasks, their ends before its return. Tasks of one call stay unordered among themselves.
+// ThreadSanitizer does not see into the library. These marks order a call's begin before its tasks and their
+// ends before its return. Tasks of one call stay unordered among themselves.
 #ifdef TREAD_THREAD_SANITIZER
 void release(char& event) {
   __tsan_release(&event);
@@ -32,7 +32,7 @@ void release(char& /*event*/) {}
 void acquire(char& /*event*/) {}
 #endif
 
-/// As many threads as asked for, even beyond the machine's cores.
+/// A team of the requested number of threads, even beyond the machine's cores.
 struct Team {
   explicit Team(int size)
       : threads(size),
