@@ -18,7 +18,8 @@ double x_asinh(double x, double y) {
   return x == 0 ? 0 : x * std::asinh(y / std::abs(x));
 }
 
-/// f, a double indefinite integral at the corners of the cells, differenced to integrals over the cells.
+/// Integrals of a function over the cells: differences of its double indefinite integral f at the cells'
+/// corners.
 template <class Corner>
 OffsetTable integrated(int reach_x, int reach_y, double dx, double dy, double factor, Corner f) {
   OffsetTable table(reach_x, reach_y);

@@ -16,7 +16,7 @@ namespace tread::half_space {
 
 namespace {
 
-/// Values one cell ahead; nothing comes from beyond the grid.
+/// Values one cell ahead; zeros come from beyond the grid.
 std::vector<double> ahead(const Grid& grid, const std::vector<double>& v) {
   std::vector<double> shifted(v.size(), 0.0);
   for (int j = 0; j < grid.ny; ++j)
@@ -34,8 +34,9 @@ void add(double factor, const std::vector<double>& from, std::vector<double>& to
   for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * from[k];
 }
 
-/// Generalised minimal residual without restart: x with |rhs - A x| <= tolerance |rhs|, from x = 0, as near
-/// as `steps` products come. [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856]
+/// Generalised minimal residual without restart: x with |rhs - A x| <= tolerance |rhs|, from x = 0. After
+/// `steps` products the best x so far is returned. [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
+/// 856]
 template <class Product>
 std::vector<double> gmres(const Product& product, const std::vector<double>& rhs, double tolerance,
                           int steps) {
@@ -83,18 +84,15 @@ std::vector<double> gmres(const Product& product, const std::vector<double>& rhs
 
 }  // namespace
 
-/// What is prescribed: the force, and then the shift is unknown, or the shift.
+/// Prescribed quantity: the force (the shift is then unknown) or the shift.
 struct RollingContact::Drive {
   bool by_force;
-  double value;  ///< [N] or [m]
+  double value;  ///< force [N] or shift [m]
 };
 
-/// One step, or the steady state. Slip = shift + before - displacement by the tractions. Vectors of the
-/// solver hold the tractions of the n cells in contact, x of all, then y of all, over f p_max, and the shift
-/// over `length` = f p_max times the table's diagonal.
 namespace {
 
-/// Displacement differences of the surfaces along x and y under tractions. [m]
+/// Displacement differences of the surfaces along x and y under tractions [m].
 std::array<std::vector<double>, 2> displacements(const OffsetTable& xx, const OffsetTable& xy,
                                                  const OffsetTable& yy, const Grid& grid,
                                                  const Tractions& p) {
@@ -109,6 +107,9 @@ std::array<std::vector<double>, 2> displacements(const OffsetTable& xx, const Of
 
 }  // namespace
 
+/// Equations of one step or of the steady state. Slip = shift + before - displacement by the tractions.
+/// Vectors of the solver hold the tractions of the n cells in contact, x of all, then y of all, over f p_max,
+/// and the shift over `length` = f p_max times the table's diagonal.
 struct RollingContact::Problem {
   const Grid& grid;
   const std::vector<int>& cells;
@@ -211,15 +212,15 @@ RollingContact::Problem RollingContact::step_problem(const FrictionState& before
   return {grid, cells_, runs_, influence_.xx, influence_.xy, influence_.yy, rolling, false, ux, uy, p};
 }
 
-/// Semi-smooth Newton on P(p + slip / D) - p = 0, P the projection on the disk of radius f pressure, D the
-/// table's diagonal; the last equation is the force or the shift. Nothing where it does not converge. [Alart
+/// Semi-smooth Newton on P(p + slip / D) - p = 0. P is the projection on the disk of radius f pressure, D the
+/// table's diagonal; the last equation is the force or the shift. Returns nullopt without convergence. [Alart
 /// and Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353]
 std::optional<FrictionState> RollingContact::newton(const Problem& problem, const Drive& drive,
                                                     const FrictionState& start) const {
   constexpr double kTolerance = 1e-9;  ///< norm of the scaled residuals
-  constexpr double kLinear = 1e-3;     ///< of a Newton step
-  constexpr int kProducts = 400;       ///< of a Newton step
-  constexpr double kSmallest = 0.01;   ///< fraction of a Newton step
+  constexpr double kLinear = 1e-3;     ///< relative residual of the linear solution in a Newton step
+  constexpr int kProducts = 400;       ///< most products in a Newton step
+  constexpr double kSmallest = 0.01;   ///< smallest fraction of a Newton step
   const int iterations = drive.by_force ? 15 : 60;
   const int n = problem.count();
   const double scale = friction_ * contact_.max_pressure;
@@ -314,12 +315,12 @@ std::optional<FrictionState> RollingContact::newton(const Problem& problem, cons
   return state;
 }
 
-/// Newton with the shift unknown. Where it fails, as it does when on the way no cell sticks and the force
-/// depends on no shift: bisection of the shift, until Newton succeeds.
+/// Newton's method with the shift unknown. Newton fails if at some iterate no cell sticks: the force then
+/// depends on no shift. In that case the shift is bisected until Newton succeeds.
 FrictionState RollingContact::solve(const Problem& problem, const Drive& drive,
                                     const FrictionState& start) const {
   constexpr int kTrials = 80;
-  constexpr double kForce = 1e-9;  ///< of the largest possible force
+  constexpr double kForce = 1e-9;  ///< tolerance as a fraction of the largest possible force
   const double largest = friction_ * contact_.load;
   if (drive.by_force && !(std::abs(drive.value) < largest))
     throw NumericalError(fmt::format(
@@ -390,8 +391,8 @@ FrictionState RollingContact::steady(double force) const {
   return solve(steady_problem(), {true, force}, start);
 }
 
-/// Of a circular patch, where the solver starts; Kalker's C11 = 4.3. [Vermeulen and Johnson, J. Appl. Mech.
-/// 31 (1964) 338]
+/// Creepage of a circular patch, with which the solver starts; Kalker's C11 = 4.3. [Vermeulen and Johnson, J.
+/// Appl. Mech. 31 (1964) 338]
 double RollingContact::expected_creepage(double force) const {
   const double largest = friction_ * contact_.load;
   const double ab = contact_.area / std::numbers::pi;

@@ -1,6 +1,6 @@
 #pragma once
 // Coulomb friction between two half-spaces pressed together: tangential shift, steady and transient rolling.
-// No spin; the lateral shift or creepage is zero, so the lateral force is zero where the contact is symmetric
+// No spin; the lateral shift or creepage is zero, so the lateral force is zero if the contact is symmetric
 // about y = const. [Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, ch. 4]
 //
 // Signs: tractions act on the wheel, positive forward: positive under traction; the rail feels the opposite.
@@ -14,42 +14,43 @@
 
 namespace tread::half_space {
 
-/// On the wheel; nx * ny values each [Pa].
+/// Tractions on the wheel; nx * ny values each [Pa].
 struct Tractions {
   std::vector<double> x, y;
 };
 
-/// Tractions at the end of a step, or in the steady state, and what happened in the step.
+/// Tractions at the end of a step, or in the steady state, with slip, creepage and work of the step.
 struct FrictionState {
   Tractions tractions;
   std::vector<int> slipping;   ///< nx * ny: 1 for cells in contact that slip
   double force = 0;            ///< F_L on the wheel [N]
-  double lateral_force = 0;    ///< on the wheel [N]
-  double shift = 0;            ///< of the bodies in the step [m]
+  double lateral_force = 0;    ///< lateral force on the wheel [N]
+  double shift = 0;            ///< shift of the bodies in the step [m]
   double creepage = 0;         ///< shift / cell rolled; 0 for a shift without rolling
   double slip_fraction = 0;    ///< slipping cells / cells in contact
   double max_shear = 0;        ///< [Pa]
-  double work = 0;             ///< of friction; rolling: [J] per metre rolled; shift: [J]
-  std::vector<double> strips;  ///< ny: work per passage of a surface point of row j [J/m2]; rolling only
+  double work = 0;             ///< work of friction; rolling: [J] per metre rolled; shift: [J]
+  std::vector<double> strips;  ///< ny works per passage of a surface point of row j [J/m2]; rolling only
 };
 
-/// A step rolls by one cell. Work is the mean of the tractions before and after the step times its slip, that
-/// of the step in which a particle leaves the contact included: in the steady state work = creepage * force.
+/// Rolling contact; a step rolls by one cell. Work is the mean of the tractions before and after the step
+/// times its slip. The step in which a particle leaves the contact counts too: in the steady state work =
+/// creepage * force.
 class RollingContact {
  public:
-  /// `influence` and `contact` belong together and outlive this; there is a free column of cells before and
-  /// behind the contact.
+  /// `influence` and `contact` belong together and must outlive this object. The contact must leave a free
+  /// column of cells before and behind it.
   RollingContact(const Influence& influence, const NormalContact& contact, double friction_coefficient);
 
-  /// No tractions: the start of a history.
+  /// State without tractions: the start of a history.
   FrictionState free_state() const;
 
-  /// The state after a shift that brings the longitudinal force to `force` [N]. This and the others throw
-  /// unless |force| < f F_N.
+  /// State after a shift that brings the longitudinal force to `force` [N]. shift(), roll() and steady()
+  /// throw unless |force| < f F_N.
   FrictionState shift(const FrictionState& before, double force) const;
-  /// The state after the patch has rolled on by one cell under `force` [N].
+  /// State after the patch has rolled on by one cell under `force` [N].
   FrictionState roll(const FrictionState& before, double force) const;
-  /// Steady rolling under `force` [N].
+  /// State of steady rolling under `force` [N].
   FrictionState steady(double force) const;
   FrictionState steady_at_creepage(double creepage) const;
 
@@ -71,8 +72,8 @@ class RollingContact {
   const Influence& influence_;
   const NormalContact& contact_;
   double friction_;
-  std::vector<int> cells_;                   ///< in contact
-  std::vector<Run> runs_;                    ///< that hold them
+  std::vector<int> cells_;                   ///< cells in contact
+  std::vector<Run> runs_;                    ///< runs that hold the cells in contact
   OffsetTable rate_xx_, rate_xy_, rate_yy_;  ///< displacement at a cell minus that one cell ahead [m/Pa]
 };
 

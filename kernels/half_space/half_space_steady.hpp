@@ -1,5 +1,5 @@
 #pragma once
-// Steady rolling of an elliptic contact on half-spaces, in numbers. [Kalker, ch. 4]
+// Steady rolling of an elliptic contact on half-spaces, as summary values. [Kalker, ch. 4]
 
 #include "kernels/half_space/half_space_rolling.hpp"
 
@@ -11,7 +11,7 @@ double centre_element_work(const Grid& grid, const FrictionState& state, double 
 /// Elliptic contact that rolls steadily.
 struct SteadyCase {
   Material material;
-  double radius_x = 0, radius_y = 0;  ///< of the gap, positive [m]
+  double radius_x = 0, radius_y = 0;  ///< radii of the gap, positive [m]
   double load = 0;                    ///< F_N [N]
   double friction_coefficient = 0;
   double force = 0;    ///< F_L [N]
@@ -26,10 +26,11 @@ struct SteadySummary {
   double element_work = 0;  ///< [J] per passage
 };
 
-/// On square cells of side `cell` [m].
+/// Summary of steady rolling on square cells of side `cell` [m].
 SteadySummary steady_summary(const SteadyCase& steady, double cell);
-/// From cells of `cell` and `cell` / 2 to the limit of fine grids, by first order. Slip fraction and largest
-/// shear are those of single cells and scatter: by 12 % and 3 % from cells of a sixth of the patch.
+/// Limit of fine grids, extrapolated by first order from cells of `cell` and `cell` / 2 [m]. Slip fraction
+/// and largest shear are those of single cells and scatter: by 12 % and 3 % from cells of a sixth of the
+/// patch.
 SteadySummary extrapolated_summary(const SteadyCase& steady, double cell);
 
 }  // namespace tread::half_space

@@ -19,7 +19,7 @@ void add(double factor, const Stress& from, Stress& to) {
 }
 
 /// Double integrals over X and Y of derivatives of V = 1/R and phi = ln(R + z), R the distance of the points
-/// (X, Y, z) and 0; names give the derivatives. Terms of X or of Y alone, which cancel over a rectangle, are
+/// (X, Y, z) and 0. Names give the derivatives. Terms of X or of Y alone, which cancel over a rectangle, are
 /// left out.
 struct Corner {
   double x, y, z, r;
@@ -44,7 +44,7 @@ struct Corner {
     phi_xxy = x / (r * (r + z));
   }
 
-  /// 2 pi times the stress under unit pressure.
+  /// Stress under unit pressure, times 2 pi.
   Stress pressure(double nu) const {
     const double k = 1 - 2 * nu;
     return {2 * nu * v_z - k * phi_xx - z * v_xx,
@@ -55,7 +55,7 @@ struct Corner {
             -z * v_xz};
   }
 
-  /// 2 pi times the stress under unit traction along x.
+  /// Stress under unit traction along x, times 2 pi.
   Stress along_x(double nu) const {
     return {2 * v_x + 2 * nu * y / (r + z) + z * (v_xz + phi_xyy),
             2 * nu * (v_x - y / (r + z)) - z * phi_xyy,
@@ -65,7 +65,7 @@ struct Corner {
             v_z - z * v_xx};
   }
 
-  /// 2 pi times the stress under unit traction along y.
+  /// Stress under unit traction along y, times 2 pi.
   Stress along_y(double nu) const {
     return {2 * nu * (v_y - x / (r + z)) - z * phi_xxy,
             2 * v_y + 2 * nu * x / (r + z) + z * (v_yz + phi_xxy),
@@ -81,7 +81,7 @@ double value(const Grid& grid, const std::vector<double>& field, int i, int j) {
   return i < 0 || j < 0 || i >= grid.nx || j >= grid.ny ? 0 : field[grid.index(i, j)];
 }
 
-/// Second difference of a cell field at the corner before cell (i, j): what the corner contributes with.
+/// Second difference of a cell field at the corner before cell (i, j): the weight of that corner.
 double jump(const Grid& grid, const std::vector<double>& field, int i, int j) {
   return value(grid, field, i, j) - value(grid, field, i - 1, j) - value(grid, field, i, j - 1) +
          value(grid, field, i - 1, j - 1);
@@ -91,7 +91,7 @@ struct Sample {
   double at, weight;
 };
 
-/// Gauss points, 4 for each piece of about the size `piece`; weights add up to 1.
+/// Gauss points, 4 for each piece of about the size `piece` [m]; the weights add up to 1.
 std::vector<Sample> samples(double from, double length, double piece) {
   constexpr std::array<double, 2> point = {0.3399810435848563, 0.8611363115940526};
   constexpr std::array<double, 2> weight = {0.6521451548625461, 0.3478548451374538};

@@ -6,15 +6,15 @@
 
 namespace tread::half_space {
 
-/// [Pa]; x along the rail, y across, z down; tension positive.
+/// Stress [Pa]; x along the rail, y across, z down; tension positive.
 struct Stress {
   double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, xz = 0;
 };
 
 double von_mises(const Stress& stress);
 
-/// What the rail's surface carries: pressure and the opposite of the tractions on the wheel; fields on
-/// `grid`.
+/// Load on the rail's surface: pressure and the opposite of the tractions on the wheel; fields on `grid`
+/// [Pa].
 struct SurfaceLoad {
   const Grid& grid;
   const std::vector<double>& pressure;
@@ -22,18 +22,18 @@ struct SurfaceLoad {
   double poissons_ratio;
 };
 
-/// At x, y, depth z > 0 [m]; closed form.
+/// Stress at x, y and depth z > 0 [m], in closed form.
 Stress rail_stress(const SurfaceLoad& load, double x, double y, double z);
 
 struct Box {
   double x = 0, y = 0, top = 0;              ///< middle of the upper face; its depth >= 0 [m]
-  double length = 0, width = 0, height = 0;  ///< along x, y, z [m]
+  double length = 0, width = 0, height = 0;  ///< sizes along x, y, z [m]
 };
 
-/// Mean over a box, by Gauss points: what a one-point element of that size can show.
+/// Mean stress over a box, by Gauss points: the stress that a one-point element of that size can show.
 Stress mean_rail_stress(const SurfaceLoad& load, const Box& box);
 
-/// Largest Von Mises stress of those means over boxes within `reach` [m] of the given one along x. [Pa]
+/// Largest Von Mises stress [Pa] of the mean stresses over boxes within `reach` [m] of `box` along x.
 double largest_box_stress(const SurfaceLoad& load, const Box& box, double reach);
 
 }  // namespace tread::half_space

@@ -1,5 +1,5 @@
 #pragma once
-// Registers of the instruction set that the including source is compiled for; internal linkage keeps the
+// Registers of the instruction set that the including source is compiled for. Internal linkage keeps the
 // versions apart.
 
 #include "core/mesh/swept_block.hpp"
@@ -19,8 +19,8 @@ constexpr int kRegisterBytes = 16;
 template <class Real, int width>
 struct Vector {
   typedef Real type __attribute__((vector_size(width * sizeof(Real))));
-  /// The same at any multiple of a value's size. Not copied byte by byte: to the compiler bytes could be
-  /// pointers and indices too, which it then reads anew after every store.
+  /// Vector at any multiple of a value's size. No byte copy replaces it: bytes could alias pointers and
+  /// indices, and the compiler would reload these after every store.
   typedef Real unaligned __attribute__((vector_size(width * sizeof(Real)), aligned(alignof(Real))));
 };
 
@@ -37,7 +37,7 @@ TREAD_INLINE void store(Real* at, const V& value) {
   *reinterpret_cast<Unaligned<V, Real>*>(at) = value;
 }
 
-/// Fetches a node's components from `first` on of a tile's lanes.
+/// Fetches the components from `first` on of a node of a tile into the cache.
 template <int to_write, int first = 0, class Value>
 TREAD_INLINE void prefetch_vector(const Value* at) {
   constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
@@ -45,11 +45,11 @@ TREAD_INLINE void prefetch_vector(const Value* at) {
     __builtin_prefetch(at + value, to_write);
 }
 
-/// Values in a register.
+/// Number of values in a register.
 template <class Real>
 constexpr int kFitting = kRegisterBytes / static_cast<int>(sizeof(Real));
 
-/// The lanes of a tile in as many registers as they need.
+/// Split of the lanes of a tile into registers.
 template <class Real>
 struct Lanes {
   static constexpr int kWidth = kFitting<Real> < kLanes ? kFitting<Real> : kLanes;

@@ -1,5 +1,6 @@
 #pragma once
-// Values of nodes as weighted sums over nodes of another block, tile by tile: both directions of a tie.
+// Values of nodes as weighted sums over nodes of another block, tile by tile. Both directions of a tie use
+// it.
 
 #include <cstdint>
 
@@ -7,17 +8,17 @@
 
 namespace tread {
 
-/// For every lane of a tile a station of the other block.
+/// A station of the other block for every lane of a tile.
 struct StationLink {
-  std::int64_t at[kLanes] = {};  ///< its section node 0, component 0, in a vector field
-  double share[kLanes] = {};     ///< 0: none
-  double cosine[kLanes] = {};    ///< of the turn from the other's basis to the lane's, times the share
-  double sine[kLanes] = {};      ///< times the share
+  std::int64_t at[kLanes] = {};  ///< place of the station's section node 0, component 0, in a vector field
+  double share[kLanes] = {};     ///< weight of the station; 0: none
+  double cosine[kLanes] = {};    ///< cosine of the turn from the other's basis to the lane's, times the share
+  double sine[kLanes] = {};      ///< sine of the turn, times the share
 };
 
 /// A section node of the other block.
 struct NodeLink {
-  int other = 0;  ///< which of TieTile::others
+  int other = 0;  ///< index in TieTile::others
   double share = 0;
 };
 
@@ -28,10 +29,10 @@ struct LinkedNode {
   int last = 0;
 };
 
-inline constexpr int kMostTiedNodes = 512;  ///< of a section's line
+inline constexpr int kMostTiedNodes = 512;  ///< most tied nodes of a section's line
 
 struct TieTile {
-  std::int64_t own = 0;  ///< of the tile's section node 0, component 0, in a vector field
+  std::int64_t own = 0;  ///< place of the tile's section node 0, component 0, in a vector field
   const StationLink* stations = nullptr;
   int station_count = 0;
   const int* others = nullptr;  ///< section nodes of the other block, at most kMostTiedNodes
@@ -41,9 +42,9 @@ struct TieTile {
   const NodeLink* links = nullptr;
 };
 
-/// The sum replaces a node's values, or is added to them. In double whatever the field is stored in, for each
-/// of the others in the order of the stations' links, then in that of the nodes': not contracted, the same
-/// bits for all instruction sets.
+/// Sums up the links of a tile: the sum replaces a node's values or is added to them. It is formed in double
+/// for either storage, for each of the others in the order of the stations' links, then in the order of the
+/// nodes' links. Nothing is contracted, so all instruction sets give the same bits.
 template <class Real>
 using TieSum = void (*)(const TieTile& tile, bool add, Real* field);
 

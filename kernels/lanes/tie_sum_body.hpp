@@ -17,7 +17,7 @@ TREAD_INLINE TieRegister pick(const Real* field, const std::int64_t* at) {
   return value;
 }
 
-/// Adds what a station has of a section node's values.
+/// Adds the share of a station in a section node's values.
 template <class Real>
 TREAD_INLINE void add_station(const StationLink& station, int lane, const Real* values,
                               TieRegister (&sum)[3]) {
@@ -32,13 +32,14 @@ TREAD_INLINE void add_station(const StationLink& station, int lane, const Real* 
   sum[2] += product(s, t) + product(c, r);
 }
 
-/// What the tile's lanes take from the other block's section nodes.
+/// Values that the tile's lanes take from the other block's section nodes.
 using TakenValues = double[kMostTiedNodes][3][kLanes];
 
 constexpr std::ptrdiff_t kNodeValues = 3 * kLanes;
-constexpr int kTieAhead = 4;  // nodes come from memory, in an order that the processor does not foresee
+constexpr int kTieAhead = 4;  // nodes fetched ahead: they come from memory in an order that the processor
+                              // does not foresee
 
-/// Where the tiles of the other block begin that a tile takes from, but for their section nodes.
+/// Places, section nodes left out, of the other block's tiles from which a tile takes values.
 struct OtherTiles {
   std::int64_t at[kLanes + 1];
   int count = 0;

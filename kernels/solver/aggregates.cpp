@@ -157,7 +157,7 @@ void Aggregates::add_part(const SweptBlock& block, std::vector<int> nodes, const
   }
 }
 
-/// visit(place of the station, section node, free components)
+/// Calls visit(place of the station, section node, free components).
 template <class Visit>
 void Aggregates::for_each_node(const Patch& patch, const Visit& visit) const {
   const Part& part = parts_[static_cast<std::size_t>(patch.part)];
@@ -226,13 +226,13 @@ void Aggregates::orthonormalise(Patch& patch) const {
       gram += row * row.transpose();
     }
   });
-  // Rotations in units of the aggregate's extent, so that one threshold judges all motions.
+  // Rotations are in units of the aggregate's extent, so that one threshold judges all motions.
   const double unit = extent > 0 ? 1 / extent : 1;
   Eigen::Matrix<double, 6, 1> scale;
   scale << 1, 1, 1, unit, unit, unit;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scale.asDiagonal() * gram *
                                                                          scale.asDiagonal());
-  constexpr double kSmallest = 1e-7;  // a motion below it is one of the others up to rounding
+  constexpr double kSmallest = 1e-7;  // a smaller motion is a combination of the others up to rounding
   for (int k = 5; k >= 0; --k) {
     const double value = eigen.eigenvalues()[k];
     if (value <= kSmallest * eigen.eigenvalues()[5]) break;

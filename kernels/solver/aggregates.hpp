@@ -12,25 +12,25 @@
 namespace tread {
 
 struct AggregateOptions {
-  double size = 0.05;     ///< largest extent of an aggregate, roughly [m]
-  int nodes_across = 16;  ///< most nodes along one direction, roughly
-  int least_across = 3;   ///< nodes along one direction that `size` does not part
+  double size = 0.05;     ///< approximate largest extent of an aggregate [m]
+  int nodes_across = 16;  ///< approximate largest number of nodes along one direction
+  int least_across = 3;   ///< number of nodes along one direction that `size` does not split
 };
 
-/// Every free node belongs to one aggregate: a connected part of a block's section times a run of stations.
-/// An aggregate has up to six modes: its rigid motions on the free unknowns, orthonormal in the plain
-/// product; motions that these unknowns cannot tell apart (a line of nodes, vertical motion only) are left
-/// out. Together the modes are the columns of Z, numbered aggregate after aggregate. Shifts of single nodes
-/// are left out: they are small beside an aggregate. One object serves one caller at a time: restricting uses
-/// a buffer of its own.
+/// Division of the free nodes into aggregates: connected parts of a block's section times a run of stations.
+/// Every free node belongs to one aggregate. An aggregate has up to six modes: its rigid motions on the free
+/// unknowns, orthonormal in the plain product. Motions that these unknowns cannot tell apart (a line of
+/// nodes, vertical motion only) are left out. Together the modes are the columns of Z, numbered aggregate
+/// after aggregate. Shifts of single nodes are left out: they are small beside an aggregate. One object
+/// serves one caller at a time: restricting uses a buffer of its own.
 class Aggregates {
  public:
-  /// Keeps a reference to the mesh. `free` has 3 * mesh.slots values: not 0 where the unknown is free, 0
+  /// Keeps a reference to the mesh. `free` has 3 * mesh.slots values: nonzero where the unknown is free, 0
   /// elsewhere and in unused lanes.
   Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options);
 
   int count() const { return static_cast<int>(patches_.size()); }
-  int modes() const { return modes_; }  ///< columns of Z
+  int modes() const { return modes_; }  ///< number of columns of Z
   int first_mode(int aggregate) const { return patches_[static_cast<std::size_t>(aggregate)].first_mode; }
   int mode_count(int aggregate) const { return patches_[static_cast<std::size_t>(aggregate)].mode_count; }
 
@@ -40,10 +40,10 @@ class Aggregates {
   /// Row of Z at an unknown of a free node: its values on the modes of the node's aggregate.
   std::array<double, 6> mode_row(std::int64_t unknown) const;
 
-  /// coarse = Z^T fine; `coarse` has modes() values, `fine` 3 * mesh.slots, read where it is free.
+  /// Computes coarse = Z^T fine. `coarse` has modes() values, `fine` 3 * mesh.slots, read where it is free.
   void restrict_to_modes(const double* fine, double* coarse) const;
 
-  /// fine += Z coarse, where it is free
+  /// Adds Z coarse to `fine` where it is free.
   void prolongate_add(const double* coarse, double* fine) const;
 
  private:
@@ -65,7 +65,7 @@ class Aggregates {
     int first_mode = 0;
     int mode_count = 0;
     Vec3 centre;
-    std::array<RigidMotion, 6> basis = {};  ///< of the modes, about the centre
+    std::array<RigidMotion, 6> basis = {};  ///< modes about the centre
   };
   /// A part's nodes in a tile.
   struct Item {
@@ -82,20 +82,20 @@ class Aggregates {
     return slices_[part.first_slice + static_cast<std::size_t>(station)];
   }
   RigidMotion motion(const Patch& patch, const double* coarse) const;
-  /// 1 or 0 by component and lane of a group of slots.
+  /// Returns 1 for a free and 0 for a held unknown, by component and lane of a group of slots.
   auto where_free(std::int64_t first_slot) const {
     return [free = free_.data() + first_slot](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; };
   }
 
   const Mesh* mesh_;
-  std::vector<std::uint8_t> free_;  ///< by slot; bit c: component c is free
+  std::vector<std::uint8_t> free_;  ///< free components by slot; bit c: component c is free
   std::vector<Part> parts_;
-  std::vector<std::vector<int>> part_of_node_;  ///< by block and section node
+  std::vector<std::vector<int>> part_of_node_;  ///< part by block and section node
   std::vector<Slice> slices_;
   std::vector<Patch> patches_;
   std::vector<Item> items_;
   int modes_ = 0;
-  mutable std::vector<StationValues> sums_;  ///< by slice
+  mutable std::vector<StationValues> sums_;  ///< buffer by slice
 };
 
 }  // namespace tread

@@ -24,7 +24,7 @@ class Couplings {
     for (const TiedSlot& tie : ties) tied_[static_cast<std::size_t>(tie.secondary)] = true;
   }
 
-  /// All nodes of one element act on one another.
+  /// Couples the aggregates of all nodes of one element.
   void join(const std::array<std::int64_t, 8>& slots) {
     members_.clear();
     for (const std::int64_t slot : slots) {
@@ -62,7 +62,7 @@ class Couplings {
 
   const Aggregates& aggregates_;
   const std::vector<TiedSlot>& ties_;
-  std::vector<bool> tied_;  ///< by slot
+  std::vector<bool> tied_;  ///< true for secondary nodes, by slot
   std::unordered_set<std::uint64_t> pairs_;
   std::vector<int> members_;
 };
@@ -106,7 +106,7 @@ std::vector<int> distance_two_colours(const std::vector<std::vector<int>>& graph
 }
 
 struct CoarseSolver::Matrices {
-  SparseMatrix base;  ///< lower triangle, springs left out
+  SparseMatrix base;  ///< lower triangle without springs
   Factor factor;
   int probes = 0;
 };

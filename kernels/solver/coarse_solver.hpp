@@ -1,5 +1,5 @@
 #pragma once
-// The operator on the aggregates' rigid modes: found by probing, factorised by a sparse direct method.
+// The operator on the aggregates' rigid modes, found by probing and factorised by a sparse direct method.
 
 #include <cstdint>
 #include <memory>
@@ -10,9 +10,8 @@
 
 namespace tread {
 
-/// For each aggregate the aggregates that A may couple with it (itself included, ascending): those of nodes
-/// that share an element, a secondary node standing for its primaries. `ties` in ascending order of
-/// secondaries.
+/// Aggregates that A may couple with each aggregate (itself included, ascending): those of nodes that share
+/// an element, with the primaries in place of a secondary node. `ties` in ascending order of secondaries.
 std::vector<std::vector<int>> aggregate_graph(const Mesh& mesh, const Aggregates& aggregates,
                                               const std::vector<TiedSlot>& ties);
 
@@ -23,21 +22,22 @@ std::vector<int> distance_two_colours(const std::vector<std::vector<int>>& graph
 /// their diagonal.
 class CoarseSolver {
  public:
-  /// Probes `a`, which must hold nothing but elements and ties: six applications for each colour. Throws
+  /// Probes `a` with six applications for each colour. `a` must hold nothing but elements and ties. Throws
   /// NumericalError if `a` couples aggregates that the graph does not.
   CoarseSolver(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph, const Operator& a,
                std::int64_t values);
   ~CoarseSolver();
   CoarseSolver(CoarseSolver&&) noexcept;
 
-  /// Adds the springs to the probed matrix and factorises. Throws NumericalError if that fails.
+  /// Adds the springs to the probed matrix and factorises it. Throws NumericalError if the factorisation
+  /// fails.
   void factorise(const Aggregates& aggregates, const std::vector<Spring>& springs);
 
-  /// `r` and `y` have Aggregates::modes() values and may be the same.
+  /// Solves for `y`. `r` and `y` have Aggregates::modes() values and may be one array.
   void solve(const double* r, double* y) const;
 
-  int probes() const;                   ///< applications spent
-  std::int64_t factor_entries() const;  ///< entries of L
+  int probes() const;                   ///< number of applications of the operator
+  std::int64_t factor_entries() const;  ///< number of entries of L
 
  private:
   struct Matrices;

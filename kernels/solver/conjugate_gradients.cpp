@@ -23,7 +23,7 @@ void JacobiPreconditioner::apply(const double* r, double* z) const {
 
 namespace {
 
-/// x += alpha p, r -= alpha q; returns <r, r>.
+/// Computes x += alpha p and r -= alpha q; returns <r, r>.
 double advance(double alpha, const AlignedVector<double>& p, const AlignedVector<double>& q,
                AlignedVector<double>& x, AlignedVector<double>& r) {
   return sum_chunks(static_cast<std::int64_t>(p.size()), [&](std::int64_t first, std::int64_t last) {
@@ -38,7 +38,7 @@ double advance(double alpha, const AlignedVector<double>& p, const AlignedVector
   });
 }
 
-/// p = z + beta p
+/// Computes p = z + beta p.
 void turn(double beta, const AlignedVector<double>& z, AlignedVector<double>& p) {
   for_chunks(static_cast<std::int64_t>(z.size()), [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
@@ -73,7 +73,7 @@ CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditi
     a(p.data(), w.data());
     if (held) held->balance(w.data());
     const double curvature = dot(n, p.data(), w.data());
-    constexpr double kNoStiffness = 1e-14;  // rounding, seen from a preconditioner that scales A to order one
+    constexpr double kNoStiffness = 1e-14;  // relative rounding: the preconditioner scales A to order one
     if (!(rz > 0) || !(curvature > kNoStiffness * rz))
       throw NumericalError(
           fmt::format("static solver: iteration {} met a motion without stiffness (energy {:.1e} against "

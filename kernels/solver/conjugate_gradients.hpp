@@ -1,5 +1,5 @@
 #pragma once
-// Preconditioned conjugate gradients, with optional motions that are held in the mean.
+// Preconditioned conjugate gradients, with optional motions held in the mean.
 
 #include <cstdint>
 #include <vector>
@@ -14,11 +14,11 @@ namespace tread {
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
-  /// z = B r; r and z do not overlap.
+  /// Computes z = B r; r and z do not overlap.
   virtual void apply(const double* r, double* z) const = 0;
 };
 
-/// Division by the diagonal; zero where it is not positive (unknowns that are not free).
+/// Division by the diagonal; zero where the diagonal is not positive (unknowns that are not free).
 class JacobiPreconditioner : public Preconditioner {
  public:
   explicit JacobiPreconditioner(const AlignedVector<double>& diagonal);
@@ -29,21 +29,22 @@ class JacobiPreconditioner : public Preconditioner {
 };
 
 struct CgOptions {
-  double tolerance = 0;  ///< of the balanced residual's 2-norm [N]
+  double tolerance = 0;  ///< bound on the 2-norm of the balanced residual [N]
   int max_iterations = 2000;
 };
 
 struct CgResult {
-  bool converged = false;  ///< by the recurrence's residual, which rounding may leave below the true
+  bool converged = false;  ///< true if the recurrence's residual converged; rounding may leave it below the
+                           ///< true residual
   int iterations = 0;
   std::vector<double> residual_history;  ///< 2-norm of the balanced residual, entry k after k iterations [N]
 };
 
-/// Moves x towards the solution of A x = b. `r`: b - A x on entry, on return what the recurrence leaves of
-/// it, balanced. `a` must be positive definite on the free unknowns less the held motions; x keeps the means
-/// that it has. `preconditioner` and `held` may be null. Without convergence in max_iterations (an
-/// unrestrained body, for example) it returns what it has: the caller judges. Throws NumericalError where a
-/// search direction has no stiffness.
+/// Moves x towards the solution of A x = b. `r`: b - A x on entry; the balanced residual of the recurrence on
+/// return. `a` must be positive definite on the free unknowns less the held motions; the means of x stay.
+/// `preconditioner` and `held` may be null. Without convergence in max_iterations (an unrestrained body, for
+/// example) the last iterate is returned and the caller judges. Throws NumericalError if a search direction
+/// has no stiffness.
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
                              AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options);
 

@@ -12,7 +12,7 @@ namespace tread {
 
 namespace {
 
-/// visit(p, q, slot of its first lane) for a tile's section nodes
+/// Calls visit(p, q, slot of its first lane) for a tile's section nodes.
 template <class Visit>
 void for_each_node(const SweptBlock& block, int tile, const Visit& visit) {
   for (int node = 0; node < block.section.nodes(); ++node)
@@ -86,7 +86,7 @@ void HeldMotions::add(const RigidMotion& motion, bool weighted, double* field) c
   });
 }
 
-/// R (R^T M R)^-1 work, a rigid motion.
+/// Returns R (R^T M R)^-1 work, a rigid motion.
 RigidMotion HeldMotions::combined(const std::vector<double>& work) const {
   RigidMotion sum;
   for (std::size_t j = 0; j < count(); ++j)

@@ -10,29 +10,30 @@
 namespace tread {
 
 /// Motions R_i along which the mean <M R_j, x> of the solution is zero, and the forces M R_j lambda_j that
-/// hold them: A x = b - M R lambda with R^T M x = 0. R is the body's where it has mass and zero elsewhere.
+/// hold them: A x = b - M R lambda with R^T M x = 0. R is the body's motion where it has mass and zero
+/// elsewhere.
 class HeldMotions {
  public:
-  /// Of a mesh's `blocks` together, about the origin; references to both are kept. `mass`: lumped, scalar
-  /// node field, zero at nodes that are not free [kg]; the motions move no restrained unknown. Throws
-  /// NumericalError if some mean does not see its motion (R^T M R singular).
+  /// Held motions of a mesh's `blocks` together, about the origin; references to both are kept. `mass`:
+  /// lumped, scalar node field, zero at nodes that are not free [kg]. The motions move no restrained unknown.
+  /// Throws NumericalError if some mean does not see its motion (R^T M R singular).
   HeldMotions(const Mesh& mesh, const std::vector<int>& blocks, const double* mass,
               std::vector<RigidMotion> motions);
 
   std::size_t count() const { return motions_.size(); }
 
-  /// r -= M R (R^T M R)^-1 R^T r: what is left does no work on the motions.
+  /// Computes r -= M R (R^T M R)^-1 R^T r. The remainder does no work on the motions.
   void balance(double* r) const;
-  /// x -= R (R^T M R)^-1 R^T M x: what is left has zero means.
+  /// Computes x -= R (R^T M R)^-1 R^T M x. The remainder has zero means.
   void remove_mean(double* x) const;
-  /// Work of r on each unit motion R_i; for r = b - A x the holding forces [N or N m].
+  /// Work of r on each unit motion R_i. For r = b - A x these are the holding forces [N or N m].
   std::vector<double> work(const double* r) const;
 
  private:
   struct Item {
     const SweptBlock* block;
     int tile;
-    std::size_t first_station;  ///< into stations_
+    std::size_t first_station;  ///< index in stations_
   };
   RigidMotion resultant(const double* field, bool weighted) const;
   void add(const RigidMotion& motion, bool weighted, double* field) const;
@@ -40,10 +41,10 @@ class HeldMotions {
 
   const double* mass_;
   std::vector<RigidMotion> motions_;
-  std::vector<double> inverse_;  ///< of R^T M R: [i][j]
+  std::vector<double> inverse_;  ///< inverse of R^T M R: [i][j]
   std::vector<Item> items_;
   std::vector<StationPlace> stations_;
-  mutable std::vector<RigidMotion> partial_;  ///< by item
+  mutable std::vector<RigidMotion> partial_;  ///< buffer by item
 };
 
 }  // namespace tread

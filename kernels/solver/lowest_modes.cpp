@@ -16,7 +16,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Columns = Eigen::Map<Matrix>;
 
-constexpr Eigen::Index kRows = 1024;  ///< of all columns that a cache holds
+constexpr Eigen::Index kRows = 1024;  ///< rows of all columns that a cache holds
 
 /// Calls body(chunk, first row, rows) for every chunk of rows, in parallel.
 template <class Body>
@@ -26,7 +26,7 @@ void for_rows(Eigen::Index rows, const Body& body) {
   });
 }
 
-/// Columns c with c^T m c = 1 that span what `m` tells apart.
+/// Columns c with c^T m c = 1 that span the directions which `m` tells apart.
 Matrix well_conditioned(const Matrix& m) {
   constexpr double kSmallest = 1e-12;
   const Eigen::VectorXd scale = m.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -39,8 +39,8 @@ Matrix well_conditioned(const Matrix& m) {
          value.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Iterates, then corrections and last directions of those that have not converged, and what the stiffness
-/// makes of them.
+/// Iterates, then corrections and last directions of the unconverged iterates, and their products with the
+/// stiffness.
 class Subspace {
  public:
   Subspace(const Operator& stiffness, const AlignedVector<double>& mass, int width)
@@ -61,8 +61,8 @@ class Subspace {
     for (int k = first; k < first + count; ++k) (*stiffness_)(vector(k), forces_.data() + k * rows_);
   }
 
-  /// Rayleigh and Ritz over the first `used` columns: the lowest Ritz vectors become the iterates, their
-  /// parts outside of the old iterates directions. Returns the Ritz values.
+  /// Rayleigh and Ritz over the first `used` columns. The lowest Ritz vectors become the iterates; their
+  /// parts outside the old iterates become directions. Returns the Ritz values.
   Eigen::VectorXd reduce(int used) {
     const auto [m, k] = gram(used);
     const Matrix basis = well_conditioned(m);
@@ -87,7 +87,8 @@ class Subspace {
                     field->data() + (first + static_cast<int>(i)) * rows_);
   }
 
-  /// Takes out of the `count` corrections what the iterates hold, so that their Gram matrix tells them apart.
+  /// Removes the iterates' components from the `count` corrections, so that their Gram matrix tells them
+  /// apart.
   void project(int count) {
     const Matrix held = gram_of(count);
     for_rows(rows_, [&](Eigen::Index, Eigen::Index first, Eigen::Index n) {
@@ -118,7 +119,7 @@ class Subspace {
     return {sum.m.selfadjointView<Eigen::Lower>(), sum.k.selfadjointView<Eigen::Lower>()};
   }
 
-  /// X^T M W
+  /// Returns X^T M W.
   Matrix gram_of(int count) {
     std::vector<Matrix> part(static_cast<std::size_t>((rows_ + kRows - 1) / kRows));
     for_rows(rows_, [&](Eigen::Index chunk, Eigen::Index first, Eigen::Index n) {
@@ -138,7 +139,8 @@ class Subspace {
   AlignedVector<double> vectors_, forces_;
 };
 
-/// Vectors without structure; any that are not orthogonal to the wanted ones will do.
+/// Fills columns with vectors without structure. Any vectors will do that are not orthogonal to the wanted
+/// ones.
 void fill_without_structure(Columns columns, const Eigen::VectorXd& mass) {
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
     for (Eigen::Index i = 0; i < columns.rows(); ++i) {
@@ -172,7 +174,7 @@ LowestModes lowest_modes(const Operator& stiffness, const AlignedVector<double>&
       r = space.forces(k, 1) - value[k] * space.mass().cwiseProduct(space.vectors(k, 1).col(0));
       const double size = std::sqrt(r.cwiseAbs2().dot(inverse)) / (std::abs(value[k]) + options.shift);
       if (k < options.count) modes.residual = std::max(modes.residual, size);
-      // Far below the tolerance, so that others may still lean on it.
+      // Converged far below the tolerance, so that others may still lean on it.
       if (size < 0.3 * options.tolerance) continue;
       preconditioner.apply(residual.data(), space.vector(width + static_cast<int>(active.size())));
       active.push_back(k);

@@ -9,7 +9,7 @@
 namespace tread {
 
 /// Displacement translation + rotation x (position - centre), or the dual: a force and its moment about the
-/// centre. Cartesian, positions as those of position() at frame angle 0. [m, rad] or [N, N m]
+/// centre. Cartesian, with positions from position() at frame angle 0. [m, rad] or [N, N m]
 struct RigidMotion {
   Vec3 translation, rotation;
 
@@ -32,8 +32,8 @@ struct StationValues {
   Vec3 constant, along_p, along_q;
 };
 
-/// Where a station's nodes are, shifts of single nodes left out: x + p e_y + q e_z in extruded blocks, p e_y
-/// + q e_r in revolved ones.
+/// Place of a station's nodes, shifts of single nodes left out: x + p e_y + q e_z in extruded blocks, p e_y +
+/// q e_r in revolved ones.
 class StationPlace {
  public:
   StationPlace(const SweptBlock& block, int station)
@@ -47,7 +47,7 @@ class StationPlace {
     return {to_local(motion.translation + cross(motion.rotation, Vec3{x_, 0, 0} - centre)),
             to_local(cross(motion.rotation, {0, 1, 0})), to_local(cross(motion.rotation, q_axis()))};
   }
-  /// Of forces in the local basis.
+  /// Resultant of forces in the local basis.
   RigidMotion resultant(const StationValues& sums, const Vec3& centre) const {
     const Vec3 force = to_cartesian(sums.constant);
     return {force, cross(Vec3{x_, 0, 0} - centre, force) + cross({0, 1, 0}, to_cartesian(sums.along_p)) +

@@ -9,7 +9,8 @@ namespace tread {
 
 namespace {
 
-/// A vector without structure and of unit mass; any one that is not orthogonal to the wanted one will do.
+/// Fills p with a vector of unit mass without structure. Any vector will do that is not orthogonal to the
+/// wanted one.
 void fill_without_structure(const AlignedVector<double>& inverse_mass, AlignedVector<double>& p) {
   const auto n = static_cast<std::int64_t>(p.size());
   const double size = std::sqrt(sum_chunks(n, [&](std::int64_t first, std::int64_t last) {
@@ -31,7 +32,7 @@ void fill_without_structure(const AlignedVector<double>& inverse_mass, AlignedVe
 HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double>& inverse_mass,
                                    int max_iterations) {
   const auto n = static_cast<std::int64_t>(inverse_mass.size());
-  // Of Lanczos' vectors q on M^-1/2 A M^-1/2 the p = M^-1/2 q are kept, which A takes as they are.
+  // In place of Lanczos' vectors q on M^-1/2 A M^-1/2 the loop keeps p = M^-1/2 q, which A takes unchanged.
   AlignedVector<double> p(inverse_mass.size());
   AlignedVector<double> previous(inverse_mass.size(), 0.0);
   AlignedVector<double> y(inverse_mass.size());
@@ -47,7 +48,7 @@ HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double
     if (diagonal[k] == 0) return best;
     const double alpha = diagonal[k];
     const double before = beta;
-    // The next p, not yet of unit mass, takes the place of the one before.
+    // The next p, not yet of unit mass, replaces the previous p.
     beta = std::sqrt(sum_chunks(n, [&](std::int64_t first, std::int64_t last) {
       double sum = 0;
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {

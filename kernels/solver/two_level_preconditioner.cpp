@@ -20,7 +20,7 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
       coarse_values_(static_cast<std::size_t>(aggregates_.modes())) {
   for (double& value : diagonal) value = value > 0 ? 1 / value : 0;
   constexpr int kSteps = 20;
-  constexpr double kRounding = 1e-6;  // of what is kept of the diagonal
+  constexpr double kRounding = 1e-6;  // relative rounding of the diagonal stored in float
   lambda_max_ = (1 + kRounding) * std::pow(highest_frequency(elastic, diagonal, kSteps).omega, 2);
   inverse_.assign(diagonal.begin(), diagonal.end());
   AlignedVector<double>().swap(diagonal);
@@ -32,7 +32,7 @@ void TwoLevelPreconditioner::update(Operator a, const std::vector<Spring>& sprin
   for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
     inverse_[change->first] = change->second;
   changes_.clear();
-  // Row sums of |k g g^T| instead of its diagonal: D^-1 A then has no eigenvalue above that without springs.
+  // Row sums of |k g g^T| replace its diagonal: D^-1 A then has no larger eigenvalue than without springs.
   for (const Spring& spring : springs) {
     double sum = 0;
     for (const double weight : spring.weights) sum += std::abs(weight);
@@ -54,8 +54,8 @@ void TwoLevelPreconditioner::apply(const double* r, double* z) const {
   aggregates_.prolongate_add(coarse_values_.data(), z);
 }
 
-/// The polynomial of Chebyshev's iteration for A z = r from z = 0, one root after the other: no step has to
-/// be kept. [Saad, Iterative Methods for Sparse Linear Systems, 12.3]
+/// Applies the polynomial of Chebyshev's iteration for A z = r from z = 0, one root after the other: no step
+/// has to be stored. [Saad, Iterative Methods for Sparse Linear Systems, 12.3]
 void TwoLevelPreconditioner::smooth(const double* r, double* z) const {
   const double centre = 0.5 * lambda_max_ * (1 + 1 / options_.spread);
   const double half_width = 0.5 * lambda_max_ * (1 - 1 / options_.spread);

@@ -1,5 +1,6 @@
 #pragma once
-// The static solver's preconditioner: rigid motions of aggregates below, a Chebyshev polynomial above, added.
+// The static solver's preconditioner: the sum of a coarse solution on rigid motions of aggregates and a
+// Chebyshev polynomial.
 
 #include <utility>
 #include <vector>
@@ -15,7 +16,7 @@ namespace tread {
 
 struct TwoLevelOptions {
   AggregateOptions aggregates;
-  int degree = 3;      ///< of the Chebyshev polynomial: it applies the operator degree - 1 times
+  int degree = 3;      ///< degree of the Chebyshev polynomial, which applies the operator degree - 1 times
   double spread = 60;  ///< the polynomial approximates the inverse on [lambda_max / spread, lambda_max]
 };
 
@@ -24,14 +25,14 @@ struct TwoLevelOptions {
 /// object serves one caller at a time: applying it uses buffers of its own.
 class TwoLevelPreconditioner : public Preconditioner {
  public:
-  /// `elastic`: elements and eliminated ties without springs; applied some 200 times here and not kept. Keeps
-  /// a reference to the mesh. `diagonal`: its diagonal, 0 where an unknown is not free, unused lanes included
-  /// [N/m]. Not ready before the first update(). Throws NumericalError as CoarseSolver does.
+  /// `elastic`: elements and eliminated ties without springs, applied some 200 times here and not kept.
+  /// `diagonal`: diagonal of `elastic`, 0 where an unknown is not free, unused lanes included [N/m]. Keeps a
+  /// reference to the mesh. Not ready before the first update(). Throws NumericalError as CoarseSolver does.
   TwoLevelPreconditioner(const Mesh& mesh, const Operator& elastic, AlignedVector<double> diagonal,
                          const std::vector<TiedSlot>& ties, const TwoLevelOptions& options = {});
 
-  /// Takes over the operator with its springs, which may change from call to call (contact): refactorises the
-  /// coarse matrix.
+  /// Takes over the operator with its springs, which may change from call to call (contact), and refactorises
+  /// the coarse matrix.
   void update(Operator a, const std::vector<Spring>& springs);
 
   void apply(const double* r, double* z) const override;
@@ -46,9 +47,11 @@ class TwoLevelPreconditioner : public Preconditioner {
   Aggregates aggregates_;
   CoarseSolver coarse_;
   Operator a_;
-  AlignedVector<float> inverse_;  ///< of the diagonal with springs; 0 where an unknown is not free [m/N]
-  std::vector<std::pair<std::size_t, float>> changes_;  ///< of inverse_ by the springs: place, value before
-  double lambda_max_ = 0;                               ///< of D^-1 A
+  AlignedVector<float> inverse_;  ///< inverse of the diagonal with springs; 0 where an unknown is not free
+                                  ///< [m/N]
+  std::vector<std::pair<std::size_t, float>> changes_;  ///< changes of inverse_ by the springs: place, value
+                                                        ///< before
+  double lambda_max_ = 0;                               ///< largest eigenvalue of D^-1 A
   mutable AlignedVector<double> a_z_;
   mutable std::vector<double> coarse_values_;
 };

@@ -15,7 +15,7 @@ namespace tread {
 
 namespace {
 
-/// Where a secondary node sits on a primary face: two section nodes, two stations, fractions along both.
+/// Place of a secondary node on a primary face: two section nodes, two stations, fractions along both.
 struct FacePoint {
   std::array<int, 2> section_node;
   std::array<int, 2> station;
@@ -124,7 +124,7 @@ double face_weight(const FacePoint& face, int corner) {
 void place_on_chords(Mesh& mesh, const TieSpec& spec) {
   SweptBlock& fine = mesh.blocks[static_cast<std::size_t>(spec.secondary)];
   const SweptBlock& coarse = mesh.blocks[static_cast<std::size_t>(spec.primary)];
-  if (fine.sweep == Sweep::extruded) return;  // straight: the nodes lie there already
+  if (fine.sweep == Sweep::extruded) return;  // the nodes of a straight block lie there already
   for_each_secondary(mesh, spec, [&](int node, int station, const FacePoint& face) {
     Vec3 target;
     for (int corner = 0; corner < 4; ++corner)
@@ -142,14 +142,14 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A station of the other block that has a share in one of the own.
+/// A station of the other block that has a share in an own station.
 struct StationShare {
   int station;
   double share;
-  double turn;  ///< from the other's basis to the own [rad]
+  double turn;  ///< turn from the other's basis to the own [rad]
 };
 
-/// By station of either block.
+/// Shares by station of either block.
 struct SharesAlong {
   std::vector<std::vector<StationShare>> of_fine, of_coarse;
 };
@@ -174,7 +174,7 @@ SharesAlong shares_along(const SweptBlock& fine, const SweptBlock& coarse) {
   return shares;
 }
 
-/// Two sums into one node would depend on which comes first.
+/// Throws if a node takes two sums: its value would depend on their order.
 void require_one_sum_per_node(const TieSums& sums) {
   std::vector<std::int64_t> nodes;
   for (const TieSums::Item& item : sums.items)
@@ -185,9 +185,9 @@ void require_one_sum_per_node(const TieSums& sums) {
     throw InputError("a node belongs to two ties; tie their blocks on lines without common nodes");
 }
 
-/// Section nodes of a tie's side.
+/// Section nodes of one side of a tie.
 struct LinkedLine {
-  std::size_t first_other, first_node;  ///< into TieSums
+  std::size_t first_other, first_node;  ///< indices in TieSums
 };
 
 LinkedLine next_line(const TieSums& sums) {
@@ -210,7 +210,7 @@ void add_items(TieSums& sums, const LinkedLine& line, const SweptBlock& own, con
                           line.first_node, static_cast<int>(sums.nodes.size() - line.first_node)});
     for (std::size_t k = 0; k < most; ++k) {
       StationLink& link = sums.stations.emplace_back();
-      std::fill_n(link.at, kLanes, place(other, 0));  // without a share any will do
+      std::fill_n(link.at, kLanes, place(other, 0));  // lanes without a share: any place will do
       for (int lane = 0; lane < tile.stations; ++lane) {
         if (k >= begin[lane].size()) continue;
         const StationShare& share = begin[lane][k];
@@ -227,7 +227,7 @@ std::int64_t slot_of(std::int64_t unknown) {
   return unknown / (3 * kLanes) * kLanes + unknown % kLanes;
 }
 
-/// visit(own slot, other slot, weight) for every link with a weight.
+/// Calls visit(own slot, other slot, weight) for every link with a weight.
 template <class Visit>
 void for_each_link(const TieSums& sums, const Visit& visit) {
   for (const TieSums::Item& item : sums.items)
@@ -248,7 +248,7 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
         }
 }
 
-/// The sums replace the fields' values, or are added to them.
+/// Replaces the fields' values by the sums, or adds the sums to them.
 void sum_up(const TieSums& sums, bool add, std::initializer_list<NodeField> fields) {
   parallel_ranges(static_cast<std::int64_t>(sums.items.size()), [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// Tied surfaces between blocks of different pitch: the fine side's nodes lie on the chords of the coarse side
-// and follow its faces by Cartesian bilinear interpolation; their forces and masses go to the primary nodes.
+// Tied surfaces between blocks of different pitch. The fine side's nodes lie on the chords of the coarse side
+// and follow its faces by Cartesian bilinear interpolation. Their forces and masses go to the primary nodes.
 // [theory.md, Ties]
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace tread {
 
-/// Which lines of two blocks' sections are tied. Both blocks sweep the same way.
+/// The tied lines of two blocks' sections. Both blocks sweep in one way, extruded or revolved.
 struct TieSpec {
   int secondary = -1;          ///< fine block
   std::string secondary_path;  ///< nodes ordered by increasing p
@@ -23,21 +23,21 @@ struct TieSpec {
   std::string primary_path;    ///< nodes ordered by increasing p
 };
 
-/// Moves the secondary nodes onto the chords of the primary faces (node_shift). Call before coefficients are
-/// made. Throws InputError where a secondary node lies off the primary line in the section or has no primary
+/// Moves the secondary nodes onto the chords of the primary faces (node_shift). Call it before coefficients
+/// are made. Throws InputError if a secondary node lies off the primary line in the section or has no primary
 /// station.
 void place_on_chords(Mesh& mesh, const TieSpec& spec);
 
-/// One direction of all ties: what nodes take from those of the other block.
+/// One direction of all ties: links from nodes to the nodes of the other block whose values they take.
 struct TieSums {
   /// A tile with links.
   struct Item {
-    std::int64_t own = 0;           ///< as TieTile::own
-    std::size_t first_station = 0;  ///< into `stations`
+    std::int64_t own = 0;           ///< place as TieTile::own
+    std::size_t first_station = 0;  ///< index in `stations`
     int station_count = 0;
-    std::size_t first_other = 0;  ///< into `others`
+    std::size_t first_other = 0;  ///< index in `others`
     int other_count = 0;
-    std::size_t first_node = 0;  ///< into `nodes`
+    std::size_t first_node = 0;  ///< index in `nodes`
     int node_count = 0;
   };
   std::vector<Item> items;
@@ -60,29 +60,29 @@ class Ties {
   /// Bytes of the links.
   std::int64_t bytes() const;
 
-  /// Who follows whom, by secondary node, for the solver's coarse level.
+  /// Pairs of secondary and primary nodes by secondary node, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
-  /// Secondary values from the primary ones; vector fields of 3 * slots values.
+  /// Sets the secondary values from the primary ones; vector fields of 3 * slots values.
   void follow(std::initializer_list<NodeField> fields) const;
 
   /// Adds the secondary values to the primary ones: transpose of follow.
   void hand_over(NodeField force) const;
-  /// hand_over, and the secondary values become zero.
+  /// Calls hand_over and sets the secondary values to zero.
   void gather(double* force) const;
-  /// The secondary values become zero.
+  /// Sets the secondary values to zero.
   void clear(double* field) const;
 
   /// Diagonal of T^T D T for a diagonal D given as a vector field (its turn between the bases left out).
   void gather_diagonal(double* diagonal) const;
 
-  /// The same for lumped masses, a scalar field of `slots` values [kg].
+  /// Diagonal of T^T M T for lumped masses M, a scalar field of `slots` values [kg].
   void gather_mass(double* mass) const;
 
  private:
   void join(const Mesh& mesh, const TieSpec& spec);
 
-  std::vector<std::int64_t> secondary_, primary_;  ///< ascending
+  std::vector<std::int64_t> secondary_, primary_;  ///< slots, ascending
   TieSums to_secondary_, to_primary_;
 };
 

@@ -10,15 +10,15 @@ namespace tread {
 
 namespace {
 
-/// A turn by an angle about +y: between the bases (t, y, r) of two angles, or to Cartesian axes.
+/// Turn by an angle about +y: between the bases (t, y, r) of two angles, or to Cartesian axes.
 struct Turn {
   double cosine = 1, sine = 0;
 
   Turn() = default;
   explicit Turn(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
-  /// turn(a, angle)
+  /// Returns turn(a, angle).
   Vec3 of(const Vec3& a) const { return {cosine * a.x + sine * a.z, a.y, -sine * a.x + cosine * a.z}; }
-  /// cylindrical_to_cartesian(angle, a), and back
+  /// Returns cylindrical_to_cartesian(angle, a); to_cylindrical() is its inverse.
   Vec3 to_cartesian(const Vec3& a) const {
     return {-cosine * a.x - sine * a.z, a.y, sine * a.x - cosine * a.z};
   }
@@ -27,7 +27,7 @@ struct Turn {
   }
 };
 
-/// A vector of each lane of a tile.
+/// One vector for each lane of a tile.
 struct LaneVectors {
   double value[3][kLanes] = {};
 
@@ -42,7 +42,7 @@ struct LaneVectors {
   }
 };
 
-/// A tile of the body and where its stations stand in space.
+/// A tile of the body and the places of its stations in space.
 struct TileView {
   const SweptBlock& block;
   const Tile& tile;
@@ -58,7 +58,7 @@ struct TileView {
   std::int64_t slot(int node) const { return first_slot + std::int64_t{node} * kLanes; }
 };
 
-/// visit(tile) for all tiles, in parallel.
+/// Calls visit(tile) for all tiles, in parallel.
 template <class Visit>
 void for_each_tile(const Mesh& mesh, const std::vector<int>& blocks, const Visit& visit) {
   for (const int b : blocks) {
@@ -71,7 +71,7 @@ void for_each_tile(const Mesh& mesh, const std::vector<int>& blocks, const Visit
   }
 }
 
-/// Sums what `of_tile` returns in a fixed order whatever the number of threads.
+/// Sum of the results of `of_tile`, in a fixed order for any number of threads.
 template <class Sum, class OfTile>
 Sum sum_over_tiles(const Mesh& mesh, const std::vector<int>& blocks, const OfTile& of_tile) {
   Sum total{};
@@ -202,7 +202,7 @@ Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame&
 }
 
 void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const {
-  // Along the axis the body is restrained, not free: the frame stays there.
+  // The body is restrained along the axis: the frame stays there.
   mean.displacement.y = mean.velocity.y = 0;
   BodyFrame moved = frame;
   moved.origin += mean.displacement;
@@ -235,7 +235,7 @@ void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& 
         const std::int64_t slot = view.slot(node) + lane;
         const Vec3 displacement = u.at(slot);
         const Vec3 velocity = w.at(slot);
-        // Absolute position now, seen from the moved frame.
+        // Absolute displacement, seen from the moved frame.
         u.set(slot, back.of(reference + displacement - shift[l]) - reference);
         // Absolute velocity at the half step, seen from the moved frame.
         const Vec3 arm_half = reference + displacement - (0.5 * dt) * velocity;

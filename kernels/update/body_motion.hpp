@@ -11,10 +11,10 @@ namespace tread {
 
 /// Mass-weighted mean motion of a body relative to its frame, Cartesian.
 struct MeanMotion {
-  Vec3 displacement;    ///< of the mass centre [m]
-  Vec3 velocity;        ///< relative to the frame [m/s]
-  double rotation = 0;  ///< about +y [rad]
-  double spin = 0;      ///< about +y, relative to the frame's [rad/s]
+  Vec3 displacement;    ///< displacement of the mass centre [m]
+  Vec3 velocity;        ///< velocity relative to the frame [m/s]
+  double rotation = 0;  ///< rotation about +y [rad]
+  double spin = 0;      ///< spin about +y, relative to the frame's [rad/s]
 };
 
 class SpinningBody {
@@ -24,23 +24,24 @@ class SpinningBody {
   SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass);
 
   double mass() const { return mass_; }
-  double inertia() const { return inertia_; }  ///< about the axis [kg m2]
+  double inertia() const { return inertia_; }  ///< moment of inertia about the axis [kg m2]
   double transverse_inertia() const {
     return transverse_;
-  }                                              ///< about a diameter through the mass centre [kg m2]
-  double centre_y() const { return centre_y_; }  ///< of mass, on the axis [m]
+  }                                              ///< moment of inertia about a diameter through the mass
+                                                 ///< centre [kg m2]
+  double centre_y() const { return centre_y_; }  ///< centre of mass, on the axis [m]
   const std::vector<int>& blocks() const { return blocks_; }
 
-  /// u, w: displacement and relative velocity fields.
+  /// Mean motion for the displacement field u [m] and the relative velocity field w [m/s].
   MeanMotion mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
   /// Kinetic energy in inertial axes [J].
   double kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
   Vec3 momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
-  /// Moves the frame onto a motion relative to it, the body's mean_motion() say, in the plane of rolling
-  /// (along y it stays); absolute positions at the time of u and absolute velocities at the half step before
-  /// it (`dt` [s] long) stay what they are.
+  /// Moves the frame onto a motion relative to it, for example the body's mean_motion(), in the plane of
+  /// rolling; along y it stays. Absolute positions at the time of u do not change, nor do absolute velocities
+  /// at the half step (`dt` [s] long) before it.
   void anchor(NodeField u, NodeField w, BodyFrame& frame, double dt) const {
     anchor(mean_motion(u, w, frame), u, w, frame, dt);
   }

@@ -1,8 +1,8 @@
 #pragma once
-// The motion of nodes over a step, once: where an element's loop has their force complete, and for the rest
-// after it. V is a floating-point type or a vector of lanes, U one of as many that is as precise or more so.
-// Nothing here is contracted to fused multiply-adds, so that all instruction sets move a node by the same
-// bits. [theory.md, Time step]
+// The motion of nodes over a step, written once: in the element loop when a node's force is complete, and
+// afterwards for the remaining nodes. V is a floating-point type or a vector of lanes; U is one of as many
+// values, at least as precise. Nothing here is contracted to fused multiply-adds, so that all instruction
+// sets move a node by the same bits. [theory.md, Time step]
 
 #include <type_traits>
 
@@ -10,16 +10,17 @@
 
 namespace tread {
 
-/// What acts on the nodes of a tile besides forces, and the step; as TileMotion has it for all lanes.
+/// The step and the actions on the nodes of a tile besides forces; TileMotion has them for all lanes.
 template <class Real>
 struct StepConstants {
-  Real dt = 0;                  ///< [s]
-  Real gravity = 0;             ///< downwards, for extruded blocks [m/s2]
-  Real turn_c = 1, turn_s = 0;  ///< of the turn of the relative velocity by the Coriolis term
+  Real dt = 0;                  ///< time step [s]
+  Real gravity = 0;             ///< gravity downwards, for extruded blocks [m/s2]
+  Real turn_c = 1, turn_s = 0;  ///< cosine and sine of the turn of the relative velocity by the Coriolis term
   Real spin2 = 0;               ///< square of the frame's spin [1/s2]
 };
 
-/// a b, rounded before anything is added to it. Compilers that contract across expressions need the barrier.
+/// Product a b, rounded before anything is added to it. Compilers that contract across expressions need the
+/// barrier.
 template <class A, class B>
 TREAD_INLINE auto product(const A& a, const B& b) {
 #if defined(__CUDA_ARCH__)
@@ -34,7 +35,7 @@ TREAD_INLINE auto product(const A& a, const B& b) {
 #endif
 }
 
-/// In another precision.
+/// Value in another precision.
 template <class To, class From>
 TREAD_INLINE To converted(const From& value) {
   if constexpr (std::is_same_v<To, From>)
@@ -45,7 +46,7 @@ TREAD_INLINE To converted(const From& value) {
     return __builtin_convertvector(value, To);
 }
 
-/// v -= dt (f / m + g e_z), u += dt v of the components from `first` on.
+/// Computes v -= dt (f / m + g e_z) and u += dt v of the components from `first` on.
 template <int first, class V, class U, class Real>
 TREAD_INLINE void move_fixed(const StepConstants<Real>& step, const V& inverse_mass, const V (&f)[3],
                              U (&u)[3], V (&v)[3]) {
@@ -56,8 +57,9 @@ TREAD_INLINE void move_fixed(const StepConstants<Real>& step, const V& inverse_m
   }
 }
 
-/// The same in a spinning frame: forces, gravity and centrifugal term half before and half after the turn of
-/// the relative velocity by the Coriolis term, which does no work. `weight`: gravity along t and r [m/s2].
+/// Computes the motion in a spinning frame: forces, gravity and centrifugal term act half before and half
+/// after the turn of the relative velocity by the Coriolis term, which does no work. `weight`: gravity along
+/// t and r [m/s2].
 template <class V, class U, class Real>
 TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weight)[2], Real radius,
                                 const V& inverse_mass, const V (&f)[3], U (&u)[3], V (&w)[3]) {
