@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-/// To be raised whenever a name or meaning in a checkpoint changes.
+/// Version of the checkpoint's form. Raise it whenever a name or meaning in a checkpoint changes.
 constexpr int kVersion = 3;
 constexpr std::size_t kKept = 2;
 constexpr std::string_view kSuffix = ".h5";
 
-/// Of the states, the newest first.
+/// Steps of the states, the newest first.
 std::vector<std::int64_t> newest_first(const fs::path& folder) {
   std::vector<std::int64_t> found = steps_in(folder, kSuffix);
   std::reverse(found.begin(), found.end());
@@ -79,7 +79,7 @@ void CheckpointFolder::write(std::int64_t steps, SealedContent content,
   write_verified(step_file(folder_, steps, kSuffix), std::move(content), observer);
   std::vector<std::int64_t> old = newest_first(folder_);
   std::size_t kept = 0;
-  // States beyond this one were no good, or the run would have gone on from them.
+  // States beyond `steps` are unusable: the run would have resumed from a sound one.
   std::erase_if(old, [&](std::int64_t other) { return other <= steps && ++kept <= kKept; });
   remove_states(folder_, old);
   if (observer) observer(CheckpointStage::old_removed);
@@ -117,7 +117,8 @@ std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std:
 
 void CheckpointFolder::clear() const {
   std::error_code ignored;
-  fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would begin anew
+  fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would start the run from the
+                                              // beginning
   remove_states(folder_, newest_first(folder_));
   remove_parts(folder_);
   fs::remove(folder_, ignored);

@@ -1,5 +1,5 @@
 #pragma once
-// The checkpoints of a run: the last two, or those that are to be kept, each whole or not there at all.
+// The checkpoints of a run: the last two, or those to be kept. Each file is complete or absent.
 
 #include <cstdint>
 #include <filesystem>
@@ -13,27 +13,29 @@
 
 namespace tread {
 
-/// What has been done to a checkpoint that is being written.
+/// Stages in the writing of a checkpoint.
 enum class CheckpointStage { begun, sealed, verified, in_place, old_removed };
 inline constexpr int kCheckpointStages = 5;
 
-/// Told of each stage as it is reached.
+/// Called with each stage as it is reached.
 using CheckpointObserver = std::function<void(CheckpointStage)>;
 
-/// FOLDER/order.h5, what was asked for, and FOLDER/step-<number>.h5, states.
+/// FOLDER/order.h5, the run's order, and FOLDER/step-<number>.h5, its states.
 class CheckpointFolder {
  public:
   explicit CheckpointFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// What a run needs before it has a state. Throws ResourceError.
+  /// Writes the order: the data that a run needs before it has a state. Throws ResourceError.
   void write_order(SealedContent order) const;
   SealedContent read_order() const;
 
-  /// Writes the state after so many steps beside the others, forces it to the disk, reads it back, gives it
-  /// its name and removes all others but the newest. Throws ResourceError; the others then stay as they were.
+  /// Writes the state after `steps` steps beside the others, forces it to the disk, reads it back and gives
+  /// it its name. Then removes all other states but the newest. Throws ResourceError; the other states then
+  /// stay unchanged.
   void write(std::int64_t steps, SealedContent content, const CheckpointObserver& observer = {}) const;
 
-  /// The same, but creates the folder where it is missing and removes nothing.
+  /// Writes the state after `steps` steps as write() does, but creates the folder if it is missing and
+  /// removes nothing. Throws ResourceError.
   void keep(std::int64_t steps, const SealedContent& content) const;
 
   struct Found {
@@ -41,12 +43,12 @@ class CheckpointFolder {
     std::int64_t steps;
     SealedContent content;
   };
-  /// The newest that is sound, of those after at most `last` steps; why newer ones are not goes to `refused`,
-  /// a sentence each.
+  /// Newest sound state after at most `last` steps. Reasons why newer states are unsound go to `refused`, a
+  /// sentence each.
   std::optional<Found> newest(std::vector<std::string>& refused,
                               std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
 
-  /// Of states, the newest first.
+  /// Paths of the states, the newest first.
   std::vector<std::filesystem::path> states() const;
   bool has_order() const;
 

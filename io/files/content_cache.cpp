@@ -19,11 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "cached";
-/// To be raised whenever the form of the files changes; what they hold has its version in the key.
+/// Version of the files' form. Raise it whenever the form changes; the version of their content is part of
+/// the key.
 constexpr int kVersion = 1;
 constexpr const char* kKey = "key";
 constexpr const char* kSuffix = ".h5";
-constexpr const char* kClaims = "claims.lock";  ///< stays, empty
+constexpr const char* kClaims = "claims.lock";  ///< this file stays in the folder, empty
 constexpr std::size_t kDigits = 16;
 
 std::uint64_t hash_of(const std::string& key) {
@@ -42,14 +43,14 @@ void create(const fs::path& folder) {
   if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
 }
 
-/// Whether path_of() gives such names: nothing else in the folder is touched.
+/// Returns true if path_of() gives such names. No other file in the folder is touched.
 bool is_entry(const fs::path& path) {
   const std::string stem = path.stem().string();
   return path.extension() == kSuffix && stem.size() == kDigits &&
          stem.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-/// For those who change the folder; readers see whole files without it.
+/// Lock for processes that change the folder. Readers see whole files without it.
 FileLock take(const fs::path& folder) {
   constexpr int kTries = 100;
   for (int i = 0; i < kTries; ++i) {
@@ -59,7 +60,7 @@ FileLock take(const fs::path& folder) {
   throw ResourceError(fmt::format("another process has held {} for 10 s", folder.string()));
 }
 
-/// What a process that was killed while it wrote has left; under the lock.
+/// Removes unfinished files of processes that were killed while they wrote. Call it under the lock.
 void remove_parts(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
@@ -75,7 +76,7 @@ std::optional<SealedContent> ContentCache::find(const std::string& key, std::str
   if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   try {
     SealedContent content = read_sealed(path, kKind, kVersion);
-    if (sealed_entry<std::string>(content, kKey) != key) return std::nullopt;  // another one of the same hash
+    if (sealed_entry<std::string>(content, kKey) != key) return std::nullopt;  // another key, same hash
     content.erase(kKey);
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
     return content;
@@ -107,7 +108,7 @@ std::vector<ContentCache::Entry> ContentCache::entries() const {
     if (!is_entry(file.path()) || file.is_symlink(error) || !file.is_regular_file(error)) continue;
     const auto bytes = static_cast<std::int64_t>(file.file_size(error));
     const fs::file_time_type used = error ? fs::file_time_type{} : file.last_write_time(error);
-    if (!error) list.push_back({file.path(), bytes, used});  // else another process has removed it
+    if (!error) list.push_back({file.path(), bytes, used});  // error: another process removed it
   }
   std::sort(list.begin(), list.end(), [](const Entry& a, const Entry& b) { return a.used > b.used; });
   return list;

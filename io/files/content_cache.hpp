@@ -1,5 +1,5 @@
 #pragma once
-// Results that are dear to find and the same for the same question, kept for later processes.
+// Cache of results that are expensive to compute, by key, for later processes.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,34 +12,35 @@
 
 namespace tread {
 
-/// One file per question in a folder that several processes may use at once.
+/// Folder with one file per key. Several processes may use it at once.
 class ContentCache {
  public:
-  /// `limit`: what all files together may take [B].
+  /// `limit`: bound on the size of all files together [B].
   ContentCache(std::filesystem::path folder, std::int64_t limit)
       : folder_(std::move(folder)), limit_(limit) {}
 
-  /// What was stored under the key, which then counts as used; nothing where there is none. Why a file that
-  /// is there is of no use goes to `refused`.
+  /// Content stored under the key, which then counts as used; nullopt if there is none. If the file of the
+  /// key is unusable, the reason goes to `refused`.
   std::optional<SealedContent> find(const std::string& key, std::string& refused) const;
 
-  /// Keeps the content, then removes what has not been used for longest until the limit is kept. Throws
-  /// ResourceError; what was there then stays.
+  /// Stores the content, then removes the least recently used files until the limit is kept. Throws
+  /// ResourceError; the older files then stay.
   void store(const std::string& key, SealedContent content) const;
 
-  /// Of who is finding out what belongs under the key; nothing where another process is. Needs no entry, and
-  /// hinders nobody to find or store. ResourceError where the folder cannot be written.
+  /// Lock of the process that computes the content of the key; nullopt while another process holds it. It
+  /// needs no entry and hinders neither find() nor store(). Throws ResourceError if the folder cannot be
+  /// written.
   std::optional<FileLock> claim(const std::string& key) const;
 
   struct Entry {
     std::filesystem::path path;
-    std::int64_t bytes;  ///< [B]
+    std::int64_t bytes;  ///< size [B]
     std::filesystem::file_time_type used;
   };
-  /// The last used first; none where there is no folder.
+  /// All files, the last used first; empty if there is no folder.
   std::vector<Entry> entries() const;
 
-  /// Removes all of them. Throws ResourceError.
+  /// Removes all entries. Throws ResourceError.
   void clear() const;
 
   const std::filesystem::path& folder() const { return folder_; }

@@ -27,7 +27,7 @@ int opened(const std::filesystem::path& path, int flags) {
   return descriptor;
 }
 
-/// Whether an attempt ended because somebody else has the lock; other ends are errors.
+/// Returns true if an attempt failed because another holder has the lock. Throws for any other error.
 bool is_taken(int error, const std::filesystem::path& path) {
   if (error == EAGAIN || error == EACCES) return true;
   throw refusal("lock", path, error, "; choose a folder on another file system");
@@ -48,7 +48,7 @@ std::optional<FileLock> FileLock::try_number(const std::filesystem::path& file, 
   range.l_whence = SEEK_SET;
   range.l_start = static_cast<off_t>(number % static_cast<std::uint64_t>(std::numeric_limits<off_t>::max()));
   range.l_len = 1;
-  // Of the open file, not of the process: two locks of one process exclude one another, too.
+  // The lock belongs to the open file, not to the process: two locks of one process exclude one another, too.
   if (::fcntl(lock.descriptor_, F_OFD_SETLK, &range) != 0 && is_taken(errno, file)) return std::nullopt;
   return lock;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The operating system's locks: they go with the process, however that ends.
+// The operating system's locks. They end with the process, however it ends.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,12 +9,12 @@ namespace tread {
 
 class FileLock {
  public:
-  /// On a folder. Nothing where somebody else holds the lock. ResourceError where the folder cannot be
-  /// opened, or its file system has no locks.
+  /// Locks a folder. Returns nullopt while another holder has the lock. Throws ResourceError if the folder
+  /// cannot be opened or its file system has no locks.
   static std::optional<FileLock> try_folder(const std::filesystem::path& folder);
 
-  /// On a number: one file, one lock for each. The file is created empty where it is missing and never grows.
-  /// Nothing and ResourceError as above.
+  /// Locks a number: `file` holds one lock for each number. The file is created empty if it is missing and
+  /// never grows. Returns nullopt and throws as try_folder().
   static std::optional<FileLock> try_number(const std::filesystem::path& file, std::uint64_t number);
 
   FileLock(FileLock&& other) noexcept;

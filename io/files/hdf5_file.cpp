@@ -32,7 +32,7 @@ class Id {
   Id& operator=(Id&& other) = delete;
   operator hid_t() const { return id_; }
 
-  /// Closes now: the library holds small data back until then, so this is where a full disk may show.
+  /// Closes the object. The library holds small data back until then, so a full disk may show here.
   herr_t close() { return close_(std::exchange(id_, -1)); }
 
  private:
@@ -40,7 +40,7 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
-/// The innermost entry of the library's error stack; the operating system's words if it holds any.
+/// Innermost entry of the library's error stack, or the operating system's words if it holds any.
 std::string reason() {
   std::string text;
   H5Ewalk2(
@@ -64,7 +64,7 @@ template <class E>
   throw E(fmt::format("cannot {}{} {}: {}", verb, place, file.string(), reason()));
 }
 
-/// Checks what the library returns while something is written or read.
+/// Checks the library's return values of writing and reading.
 struct Check {
   const std::filesystem::path& file;
   const std::string& object;
@@ -102,7 +102,7 @@ std::vector<hsize_t> sizes(const Shape& shape) {
   return {shape.begin(), shape.end()};
 }
 
-/// Link creation that makes the groups on the way.
+/// Link creation that makes missing groups of the path.
 Id make_groups() {
   Id list(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(list, 1);
@@ -110,8 +110,8 @@ Id make_groups() {
 }
 
 /// File access without locks: a run's file can be read while it grows, and network file systems need no lock
-/// service. Silences the library's own error printing, and its clean-up at exit, which crashes on a file that
-/// a full disk kept from being closed.
+/// service. Silences the library's own error printing. Disables its clean-up at exit, which crashes on a file
+/// that could not be closed on a full disk.
 Id access() {
   static const herr_t no_clean_up = H5dont_atexit();
   static_cast<void>(no_clean_up);
@@ -220,7 +220,7 @@ void Hdf5File::make_extendible(const std::string& name, std::uint64_t chunk, con
 template <class T>
 void Hdf5File::append(const std::string& name, std::span<const T> rows) {
   const Check check{path_, name};
-  // Without a chunk cache the rows go to the file at once, and so does what the system says about it.
+  // Without a chunk cache the rows go to the file at once, and the system reports errors at once.
   const Id direct(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(direct, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
   Id data = check.written(H5Dopen2(id_, name.c_str(), direct), H5Dclose);
@@ -275,7 +275,7 @@ void Hdf5File::link_external(const std::string& name, const std::filesystem::pat
 }
 
 bool Hdf5File::contains(const std::string& name) const {
-  // Every group on the way must be asked for: the library fails on a path through a missing one.
+  // Every group of the path must be asked for: the library fails on a path through a missing group.
   for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1))
     if (H5Lexists(id_, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
   return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0;
@@ -308,7 +308,7 @@ std::string_view Hdf5File::image() const {
   const Check check{path_, all};
   check.written(H5Fflush(id_, H5F_SCOPE_GLOBAL));
   const ssize_t size = H5Fget_file_image(id_, nullptr, 0);
-  void* place = nullptr;  // of the pointer to the bytes
+  void* place = nullptr;  // address of the pointer to the bytes
   check.written(size < 0 ? -1 : H5Fget_vfd_handle(id_, H5P_DEFAULT, &place));
   return {*static_cast<const char* const*>(place), static_cast<std::size_t>(size)};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 files behind one class: objects are named by path, groups on the way are made as needed.
+// HDF5 files behind one class. Objects are named by path; missing groups of a path are made.
 
 #include <cstdint>
 #include <filesystem>
@@ -11,16 +11,16 @@
 namespace tread {
 
 /// An open HDF5 file. The element type T of data is double, float, std::int64_t, std::int32_t or
-/// std::uint8_t. Errors name the file, the object and the system's reason: InputError where a file or object
-/// is read that is missing or of another shape, ResourceError where something cannot be written. Move-only.
+/// std::uint8_t. Errors name the file, the object and the system's reason: InputError if a file or object to
+/// read is missing or of another shape, ResourceError if something cannot be written. Move-only.
 class Hdf5File {
  public:
-  /// Compressed data are exact; rows should be appended in whole chunks.
+  /// Storage of a dataset. Compressed data are exact; rows should be appended in whole chunks.
   enum class Storage { plain, compressed };
 
-  /// Starts an empty file in place of whatever stood there.
+  /// Starts an empty file in place of any older one.
   static Hdf5File create(const std::filesystem::path& path);
-  /// Starts an empty file that lives in memory only and takes what it holds.
+  /// Starts an empty file that lives in memory only.
   static Hdf5File create_in_memory();
   static Hdf5File open_to_read(const std::filesystem::path& path);
   static Hdf5File open_to_extend(const std::filesystem::path& path);
@@ -41,43 +41,44 @@ class Hdf5File {
   void make_extendible(const std::string& name, std::uint64_t chunk,
                        const std::vector<std::uint64_t>& row_shape = {}, Storage storage = Storage::plain);
 
-  /// Adds whole rows at the end of a dataset made by make_extendible. Where that fails for want of room the
+  /// Adds whole rows at the end of a dataset made by make_extendible. If it fails for want of room, the
   /// dataset may have grown by rows that hold zeros.
   template <class T>
   void append(const std::string& name, std::span<const T> rows);
 
-  /// Attributes of a group or dataset: an array, or a null-padded ASCII string of fixed length.
+  /// Sets an attribute of a group or dataset: an array, or a null-padded ASCII string of fixed length.
   template <class T>
   void write_attribute(const std::string& object, const std::string& name, std::span<const T> values);
   void write_attribute(const std::string& object, const std::string& name, const std::string& text);
 
-  /// Makes `name` stand for an object of another file; a relative path is relative to this file's folder.
+  /// Makes `name` a link to an object of another file. A relative path is relative to this file's folder.
   void link_external(const std::string& name, const std::filesystem::path& file, const std::string& object);
 
   bool contains(const std::string& name) const;
   /// Names of all datasets, "group/name", in alphabetic order; links to other files are left out.
   std::vector<std::string> datasets() const;
-  /// Where the values of a dataset that write() made start in image() [B].
+  /// Offset in image() of the values of a dataset that write() made [B].
   std::uint64_t place(const std::string& name) const;
   std::vector<std::uint64_t> shape(const std::string& name) const;
   template <class T>
   std::vector<T> read(const std::string& name) const;
-  /// The row at a place along the first dimension.
+  /// Row at a place along the first dimension.
   template <class T>
   std::vector<T> read_row(const std::string& name, std::uint64_t row) const;
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
 
-  /// Whether several threads may use files at the same time, each its own.
+  /// Returns true if several threads may use files at the same time, each its own.
   static bool thread_safe();
 
-  /// What a file of create_in_memory() would be on the disk: its own bytes, until it is written to or closed.
+  /// Bytes that a file of create_in_memory() would have on the disk. They are valid until the file is written
+  /// to or closed.
   std::string_view image() const;
 
-  /// Hands everything written so far to the operating system; the file can be read from here on.
+  /// Hands everything written so far to the operating system; other processes can then read the file.
   void flush();
-  /// Closes the file and reports what could not be written; the destructor closes without a report.
+  /// Closes the file and reports data that could not be written. The destructor closes without a report.
   void close();
 
  private:

@@ -50,7 +50,7 @@ HistoryFile::HistoryFile(const std::filesystem::path& directory, std::vector<Cha
 HistoryFile::~HistoryFile() {
   try {
     close();
-  } catch (...) {  // nobody is left to tell
+  } catch (...) {  // a destructor cannot report errors
   }
 }
 

@@ -15,20 +15,20 @@ namespace tread {
 /// A column of the histories.
 struct Channel {
   std::string name;         ///< snake_case, unique
-  std::string unit;         ///< SI, "-" if it has none
+  std::string unit;         ///< SI unit, "-" without one
   std::string description;  ///< one line for the reader of run.h5
 };
 
 /// Writes rows of channel values to DIR/histories.csv (header `time [s],vertical_force [N],...`) and to the
 /// datasets /histories/<channel> of DIR/run.h5 with attributes `unit` and `description`. Rows gather in
-/// memory and go out in blocks of `kBlock`; the CSV file holds whole rows at any time, so a run that is
+/// memory and go out in blocks of `kBlock`. The CSV file holds whole rows at any time, so a run that is
 /// killed loses at most the last block. A ResourceError says how many rows are kept; nothing more is written
 /// after it.
 class HistoryFile {
  public:
-  static constexpr std::size_t kBlock = 64;  ///< rows
+  static constexpr std::size_t kBlock = 64;  ///< rows per block
 
-  /// Starts both files afresh. The first channel is the abscissa, as a rule the time.
+  /// Starts both files afresh. The first channel is the abscissa, usually the time.
   HistoryFile(const std::filesystem::path& directory, std::vector<Channel> channels);
   /// Closes without reporting errors.
   ~HistoryFile();
@@ -43,7 +43,7 @@ class HistoryFile {
   void close();
 
   const std::vector<Channel>& channels() const { return channels_; }
-  /// Rows in the files.
+  /// Number of rows in the files.
   std::int64_t rows_written() const { return rows_written_; }
 
  private:
@@ -54,9 +54,9 @@ class HistoryFile {
   std::vector<Channel> channels_;
   Hdf5File hdf5_;
   GrowingFile csv_;
-  std::vector<double> block_;  ///< rows that wait, row-major
+  std::vector<double> block_;  ///< waiting rows, row-major
   std::int64_t rows_written_ = 0;
-  double last_abscissa_ = 0;  ///< of the last row written
+  double last_abscissa_ = 0;  ///< abscissa of the last row written
   bool open_ = true;
 };
 

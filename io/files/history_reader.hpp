@@ -8,12 +8,12 @@
 namespace tread {
 
 struct HistoryColumn {
-  std::string name;  ///< "wheel_x"
-  std::string unit;  ///< "m", as the header states it
+  std::string name;  ///< name such as "wheel_x"
+  std::string unit;  ///< unit as the header states it, such as "m"
 };
 
-/// The values of the columns, each as many as the file has whole rows. Throws InputError with file and line
-/// where a column or unit is missing or a row does not read.
+/// Values of the columns, each as many as the file has whole rows. Throws InputError with file and line if a
+/// column or unit is missing or a row cannot be read.
 std::vector<std::vector<double>> read_history(const std::filesystem::path& csv,
                                               const std::vector<HistoryColumn>& columns);
 

@@ -35,7 +35,7 @@ int write_all(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-/// What fsync says of the file or folder: 0 or an errno.
+/// Result of fsync for a file or folder: 0 or an errno.
 int sync(const std::filesystem::path& path) {
   const int descriptor = open_or_fail(path, O_RDONLY);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
@@ -43,7 +43,8 @@ int sync(const std::filesystem::path& path) {
   return error;
 }
 
-/// Calls `write` with the path of a neighbour and gives that the name `path`; removes it where that fails.
+/// Calls `write` with the path of a neighbour and renames that file to `path`. Removes the neighbour if
+/// either fails.
 void rename_finished(const std::filesystem::path& path,
                      const std::function<void(const std::filesystem::path& part)>& write) {
   std::filesystem::path part = path;

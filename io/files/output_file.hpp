@@ -1,5 +1,5 @@
 #pragma once
-// Files on disk that hold whole pieces only, whatever happens while they are written.
+// Files on disk that hold whole pieces only, even if writing fails.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,20 +8,21 @@
 
 namespace tread {
 
-/// Calls `write` with the path of a fresh neighbour (`path` + ".part"), forces what it wrote to the disk and
-/// renames it to `path`, on the disk too. If anything fails the neighbour is removed, `path` stays as it was,
-/// and the error leaves: that of `write`, or ResourceError.
+/// Calls `write` with the path of a fresh neighbour (`path` + ".part"), forces the written data to the disk
+/// and renames the neighbour to `path`, on the disk too. If anything fails, the neighbour is removed, `path`
+/// stays unchanged, and the error of `write` or a ResourceError is thrown.
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& part)>& write);
 
 /// Replaces the file by `text`. Throws ResourceError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// The same without waiting for the disk: a status that the next one soon replaces.
+/// Replaces the file by `text` as write_text_file() does, but without waiting for the disk. For a status that
+/// the next one soon replaces.
 void show_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// A text file that grows by whole pieces: one that does not fit is taken back before the ResourceError
-/// leaves.
+/// A text file that grows by whole pieces. A piece that does not fit is taken back before the ResourceError
+/// is thrown.
 class GrowingFile {
  public:
   /// Starts an empty file.
@@ -32,7 +33,7 @@ class GrowingFile {
 
   /// Hands the piece to the operating system.
   void append(std::string_view piece);
-  /// Closes the file and reports what the system could not keep.
+  /// Closes the file. Throws ResourceError for data that the system could not keep.
   void close();
   const std::filesystem::path& path() const { return path_; }
 

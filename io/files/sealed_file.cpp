@@ -23,8 +23,8 @@ namespace tread {
 
 namespace {
 
-constexpr std::uint64_t kHeader = 512;   ///< where HDF5 looks next for its part [B]
-constexpr std::size_t kBlock = 1 << 20;  ///< read at once, whole words [B]
+constexpr std::uint64_t kHeader = 512;   ///< size of the header, after which HDF5 looks for its part [B]
+constexpr std::size_t kBlock = 1 << 20;  ///< bytes read at once, whole words [B]
 
 /// A file descriptor that closes itself.
 class Descriptor {
@@ -45,7 +45,7 @@ class Descriptor {
   throw InputError(fmt::format("cannot use {}: {}", path.string(), reason));
 }
 
-/// Bytes read, less than `size` at the end of the file; -1: error.
+/// Reads bytes and returns their number: less than `size` at the end of the file, -1 for an error.
 ssize_t read_at(int file, char* out, std::size_t size, std::uint64_t place) {
   std::size_t done = 0;
   while (done < size) {
@@ -58,7 +58,7 @@ ssize_t read_at(int file, char* out, std::size_t size, std::uint64_t place) {
   return static_cast<ssize_t>(done);
 }
 
-/// Of all that follows the header, up to `size`; false: error.
+/// Checksum of all bytes after the header, up to `size`. Returns false for an error.
 bool checksum(int file, std::uint64_t size, Hash& hash) {
   std::vector<char> block(kBlock);
   for (std::uint64_t place = kHeader; place < size; place += kBlock) {
@@ -69,11 +69,11 @@ bool checksum(int file, std::uint64_t size, Hash& hash) {
   return true;
 }
 
-/// What the first bytes state beside kind and version.
+/// Statements of the header besides kind and version.
 struct Seal {
-  std::uint64_t bytes = 0;  ///< of the file
-  std::uint64_t index = 0;  ///< where the list of its entries starts [B]
-  std::uint64_t sum = 0;    ///< of all that follows the header
+  std::uint64_t bytes = 0;  ///< length of the file
+  std::uint64_t index = 0;  ///< start of the list of entries [B]
+  std::uint64_t sum = 0;    ///< checksum of all bytes after the header
 };
 
 std::string header(const std::string& kind, int version, const Seal& seal) {
@@ -83,7 +83,7 @@ std::string header(const std::string& kind, int version, const Seal& seal) {
   return text;
 }
 
-/// Forces the file to the disk; what is read of it next comes from there.
+/// Forces the file to the disk and drops it from memory, so that the next read comes from the disk.
 void drop_from_memory(const std::filesystem::path& path) {
   const Descriptor file(path, O_RDONLY);
   if (file < 0 || ::fsync(file) != 0)
@@ -105,7 +105,7 @@ void check_header(const std::filesystem::path& path, const std::string& text, co
                        kind, found_version, version));
 }
 
-/// The number behind the word; 0: there is none.
+/// Number behind the word; 0 if there is none.
 std::uint64_t number_after(const std::string& word, const std::string& text) {
   const std::size_t at = text.find(word);
   std::uint64_t number = 0;
@@ -114,7 +114,7 @@ std::uint64_t number_after(const std::string& word, const std::string& text) {
   return number;
 }
 
-/// Everything that can be wrong with the bytes.
+/// Checks the bytes of the file and returns the seal. Throws InputError for any damage.
 Seal check_bytes(const std::filesystem::path& path, int file, const std::string& kind, int version) {
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "it is not a regular file");
@@ -136,9 +136,9 @@ constexpr std::array<std::string_view, 4> kTypes = {"f64", "f32", "i64", "byte"}
 
 /// A line of the index.
 struct IndexLine {
-  std::size_t type = 0;     ///< in kTypes
-  std::uint64_t count = 0;  ///< values
-  std::uint64_t place = 0;  ///< of the first in the file [B]
+  std::size_t type = 0;     ///< index in kTypes
+  std::uint64_t count = 0;  ///< number of values
+  std::uint64_t place = 0;  ///< place of the first value in the file [B]
   std::string name;
 };
 
@@ -146,7 +146,7 @@ std::string text_of(const IndexLine& line) {
   return fmt::format("{} {} {} {}\n", kTypes[line.type], line.count, line.place, line.name);
 }
 
-/// Lines that are not what text_of() makes are nothing.
+/// Parses a line of the index. Returns nullopt unless text_of() would write the same line.
 std::optional<IndexLine> parse_line(const std::string& text) {
   std::istringstream words(text);
   std::string type;
@@ -158,8 +158,8 @@ std::optional<IndexLine> parse_line(const std::string& text) {
   return text_of(line) == text + "\n" ? std::optional(line) : std::nullopt;
 }
 
-/// Takes the values of the entries out of a file whose bytes are sound. Nothing that the index states is
-/// believed: all entries together take no more memory than the file has bytes.
+/// Takes the values of the entries out of a file whose bytes are sound. The index is not trusted: all entries
+/// together take no more memory than the file has bytes.
 class SealedReader {
  public:
   SealedReader(const std::filesystem::path& path, int file, const Seal& seal)
@@ -224,8 +224,8 @@ struct WriteEntry {
   }
 };
 
-/// The HDF5 part of the file, and in `index` where everything stands in a file in which it follows the
-/// header. HDF5 never sees the disk: of what that refuses it recovers badly.
+/// HDF5 part of the file. `index` receives the places of the entries in a file in which this part follows the
+/// header. HDF5 never writes to the disk, because it recovers badly from a disk's errors.
 Hdf5File hdf5_part(SealedContent content, std::string& index) {
   Hdf5File file = Hdf5File::create_in_memory();
   for (auto entry = content.begin(); entry != content.end(); entry = content.erase(entry)) {
@@ -260,7 +260,7 @@ void write_sealed(const std::filesystem::path& path, const std::string& kind, in
   std::string index;
   const Hdf5File file = hdf5_part(std::move(content), index);
   const std::string_view image = file.image();
-  constexpr std::size_t kWord = 8;  // sums go over whole words [B]
+  constexpr std::size_t kWord = 8;  // checksums go over whole words [B]
   const std::string filler((kWord - image.size() % kWord) % kWord, '\0');
   Seal seal;
   seal.index = kHeader + image.size() + filler.size();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "step-";
 
-/// Nothing for any other name.
+/// Steps in the file's name; nullopt for any other name.
 std::optional<std::int64_t> steps_of(const fs::path& path, std::string_view suffix) {
   const std::string name = path.filename().string();
   if (!name.starts_with(kPrefix) || !name.ends_with(suffix)) return std::nullopt;
@@ -39,7 +39,7 @@ std::vector<std::int64_t> steps_in(const fs::path& folder, std::string_view suff
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::optional<std::int64_t> steps = steps_of(entry.path(), suffix);
-    // Another spelling of the same number is not a file of ours.
+    // Another spelling of the number is a foreign file.
     if (steps && entry.path() == step_file(folder, *steps, suffix)) found.push_back(*steps);
   }
   std::sort(found.begin(), found.end());

@@ -4,8 +4,8 @@
 
 namespace tread {
 
-extern const char* const kReportStyle;  ///< of all but the figures
-extern const char* const kFigureStyle;  ///< in reports and in SVG files, without variables
+extern const char* const kReportStyle;  ///< style of everything but the figures
+extern const char* const kFigureStyle;  ///< style of figures in reports and in SVG files, without variables
 extern const char* const kReportScript;
 
 }  // namespace tread

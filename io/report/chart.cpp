@@ -18,9 +18,9 @@ namespace {
 // Page geometry [px].
 constexpr double kLeft = 72;
 constexpr double kRight = 14;
-constexpr double kTop = 18;     // holds the labels of bands and positions
-constexpr double kGap = 16;     // between panels
-constexpr double kBottom = 46;  // tick labels and the label of the abscissa
+constexpr double kTop = 18;     // space for the labels of bands and positions
+constexpr double kGap = 16;     // space between panels
+constexpr double kBottom = 46;  // space for tick labels and the label of the abscissa
 constexpr std::size_t kGroups = 1000;
 constexpr int kColours = 6;
 
@@ -41,7 +41,7 @@ struct Extent {
     low = std::min(low, v);
     high = std::max(high, v);
   }
-  /// As a range of positive length, whatever was added.
+  /// Range of positive length, for any added values.
   Range range() const {
     if (low > high) return {0, 1};
     if (low == high)
@@ -99,7 +99,7 @@ class TickFormat {
     const double scaled = v * std::pow(10.0, -exponent_);
     return (v < 0 ? "−" : "") + fmt::format("{:.{}f}", std::abs(scaled), decimals_);
   }
-  /// For the axis label: " × 10⁶", or nothing.
+  /// Factor for the axis label: " × 10⁶", or an empty text.
   std::string factor_text() const { return exponent_ == 0 ? "" : " × " + power_of_ten(exponent_); }
   double factor() const { return std::pow(10.0, exponent_); }
 
@@ -119,7 +119,7 @@ const char* stroke_class(Stroke stroke) {
   }
 }
 
-/// The part of a curve inside the range and one point beyond on either side, thinned.
+/// Path of the curve inside the range and of one point beyond on either side, thinned.
 std::string path_data(const Series& series, const Scale& x, const Scale& y) {
   const auto inside = [&](std::size_t i) {
     return i < series.x.size() && series.x[i] >= x.value[0] && series.x[i] <= x.value[1];
@@ -143,17 +143,17 @@ std::string path_data(const Series& series, const Scale& x, const Scale& y) {
 
 struct Layout {
   Scale x;
-  double top = 0;     ///< of the panel [px]
-  double bottom = 0;  ///< of the panel [px]
+  double top = 0;     ///< top of the panel [px]
+  double bottom = 0;  ///< bottom of the panel [px]
   int first_series = 0;
 };
 
-/// Of the figure's curve with that number.
+/// Style of the figure's curve with that number.
 std::string curve_style(const Series& series, int number) {
   return fmt::format("curve c{} {}", series.colour.value_or(number) % kColours, stroke_class(series.stroke));
 }
 
-/// A window that clips what is drawn in it and leaves the coordinates as they are.
+/// Clips the content to a window and leaves its coordinates unchanged.
 std::string clipped(double top, double bottom, const std::string& content) {
   return fmt::format(
       "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
@@ -225,8 +225,8 @@ std::string bands_svg(const Figure& figure, const Scale& x, double bottom) {
   return clipped(kTop, bottom, shapes) + labels;
 }
 
-/// The first key shows the abscissa while a reader points at the chart; curves have an output for their
-/// value.
+/// Legend. Its first key shows the abscissa while a reader points at the chart; curves have an output for
+/// their value.
 std::string legend_html(const Figure& figure) {
   const auto key = [](const std::string& style, const std::string& text, const char* output) {
     return fmt::format(
@@ -289,7 +289,7 @@ std::vector<double> ticks(double low, double high, int count) {
 
 namespace {
 
-/// The panels one below another from y = kTop on, and where the last one ends.
+/// Panels one below another from y = kTop on, and the bottom of the last one.
 struct Plot {
   Scale x;
   double bottom;
@@ -334,10 +334,11 @@ struct Legend {
   double bottom;  ///< [px]
 };
 
-/// Below y: as many columns as the longest label leaves, one for each panel where that is enough.
+/// Legend below y. It has as many columns as the longest label allows, and one column per panel if these
+/// suffice.
 Legend legend_svg(const Figure& figure, double y) {
   constexpr double kLine = 20;
-  constexpr double kLetter = 7;  ///< no letter is wider on the average [px]
+  constexpr double kLetter = 7;  ///< average width of the widest letters [px]
   constexpr double kLead = 46;
   std::size_t longest = 1;
   for (const Panel& panel : figure.panels)

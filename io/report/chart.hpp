@@ -12,13 +12,14 @@ namespace tread {
 
 enum class Stroke { solid, dashed, dotted };
 
-/// One curve. Values that are not finite leave a gap.
+/// A curve. Values that are not finite leave a gap.
 struct Series {
   std::string label;
-  std::vector<double> x;  ///< in the unit of the figure's x label
-  std::vector<double> y;  ///< as many, in the unit of the panel's label
+  std::vector<double> x;  ///< abscissae in the unit of the figure's x label
+  std::vector<double> y;  ///< as many ordinates, in the unit of the panel's label
   Stroke stroke = Stroke::solid;
-  std::optional<int> colour = {};  ///< for what is the same in several panels; absent: one of its own
+  std::optional<int> colour = {};  ///< colour shared by one quantity in several panels; absent: a colour of
+                                   ///< its own
 };
 
 /// A line across a panel at a value, or across all panels at an abscissa.
@@ -37,35 +38,35 @@ struct Band {
 using Range = std::array<double, 2>;
 
 struct Panel {
-  std::string y_label;  ///< with unit: "Force [kN]"
+  std::string y_label;  ///< label with unit: "Force [kN]"
   std::vector<Series> series;
   std::vector<Marker> levels;
-  double height = 260;           ///< of the plot [px of a page 920 px wide]
-  std::optional<Range> y_range;  ///< absent: what the curves and levels need
+  double height = 260;           ///< height of the plot [px of a page 920 px wide]
+  std::optional<Range> y_range;  ///< range of the ordinate; absent: the range of curves and levels
 };
 
 /// Panels above one another over one abscissa.
 struct Figure {
   std::string title;
-  std::string x_label;  ///< with unit
+  std::string x_label;  ///< label with unit
   std::vector<Panel> panels;
   std::vector<Marker> positions;
   std::vector<Band> bands;
-  std::optional<Range> x_range;  ///< absent: what the curves need
+  std::optional<Range> x_range;  ///< range of the abscissa; absent: the range of the curves
   std::string caption;
 };
 
 /// A `figure` element: title, legend, SVG, caption. chart.js adds reading and zooming.
 std::string figure_html(const Figure& figure);
 
-/// The figure as an SVG file that stands alone, title, legend and caption included.
+/// The figure as a self-contained SVG file, with title, legend and caption.
 std::string figure_svg(const Figure& figure);
 
-/// Indices of at most about 2 * groups points that keep the smallest and largest value of each of `groups`
-/// runs of equal length, both ends, and one of each run's values that are not finite.
+/// Indices of at most about 2 * groups points: the smallest and largest value of each of `groups` runs of
+/// equal length, both ends, and one non-finite value of each run that has any.
 std::vector<std::size_t> thinned(std::span<const double> values, std::size_t groups);
 
-/// Values 1, 2 or 5 times a power of ten apart, about `count` of them, within [low, high].
+/// About `count` values within [low, high], 1, 2 or 5 times a power of ten apart.
 std::vector<double> ticks(double low, double high, int count);
 
 }  // namespace tread

@@ -42,7 +42,7 @@ Window bounds(const std::vector<Layer>& layers) {
   return window;
 }
 
-/// Metres to pixels, y upwards.
+/// Map from metres to pixels, y upwards.
 struct View {
   Window window;
   double scale;

@@ -14,14 +14,14 @@ namespace tread {
 
 using Polygon = std::vector<std::array<double, 2>>;  ///< horizontal and vertical coordinate [m]
 
-/// What is drawn in one colour.
+/// Shapes drawn in one colour.
 struct Layer {
   std::string label;
-  std::vector<Polygon> cells;  ///< closed and tinted
-  std::vector<Polygon> lines;  ///< open
+  std::vector<Polygon> cells;  ///< closed and tinted polygons
+  std::vector<Polygon> lines;  ///< open polygons
 };
 
-/// Lower left and upper right corner. [m]
+/// Lower left and upper right corner [m].
 struct Window {
   std::array<double, 2> low;
   std::array<double, 2> high;
@@ -30,17 +30,17 @@ struct Window {
 struct Drawing {
   std::string title;
   std::vector<Layer> layers;
-  std::optional<Window> window;  ///< absent: everything
-  double width = 440;            ///< [px of a page 920 px wide]
+  std::optional<Window> window;  ///< shown window; absent: everything
+  double width = 440;            ///< width [px of a page 920 px wide]
 };
 
-/// The quads of a section seen along x, y to the right and z up: an extruded section at `origin` (y, z), a
+/// Quads of a section seen along x, y to the right and z up: an extruded section at `origin` (y, z), a
 /// revolved one below its axis at `origin`.
 Layer section_layer(std::string label, const Section& section, Sweep sweep,
                     std::array<double, 2> origin = {0, 0});
 
-/// The stations of a block seen from the side, x to the right and z up: lines across the section's outline
-/// and along its ends, at the frame angle 0 and moved to `origin`.
+/// Stations of a block seen from the side, x to the right and z up: lines across the section's outline and
+/// along its ends, at the frame angle 0 and moved to `origin`.
 Layer side_layer(std::string label, const SweptBlock& block, const Vec3& origin = {});
 
 /// A `figure` element: title, SVG with a scale bar, legend.

@@ -20,9 +20,9 @@ constexpr double kTop = 18;
 constexpr double kPlotWidth = 700;
 constexpr double kPlotHeight = 420;
 constexpr double kBottom = 46;
-constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // of the colour scale
+constexpr double kScaleLeft = kLeft + kPlotWidth + 52;  // left border of the colour scale
 constexpr double kScaleWidth = 18;
-constexpr int kShades = 48;  // of the colour scale
+constexpr int kShades = 48;  // number of shades of the colour scale
 
 /// Borders of the cells about evenly spaced values.
 struct Cells {
@@ -81,7 +81,7 @@ class Plot {
     return out;
   }
 
-  /// Between cells that are marked and cells that are not.
+  /// Outline between marked and unmarked cells.
   std::string outline() const {
     if (map_.marked.empty()) return {};
     const std::size_t nx = map_.x.size();
@@ -115,7 +115,7 @@ class Plot {
         end_y = py;
       }
       if (path.empty()) continue;
-      // Beside the plot where the line leaves at its right border, else above.
+      // The label stands beside the plot if the line leaves near the right border, else above the plot.
       const bool right = end_x > kLeft + kPlotWidth - 20;
       out += "<path class=\"position\" fill=\"none\" d=\"" + path + "\"/>\n";
       out += fmt::format("<text class=\"note{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n",

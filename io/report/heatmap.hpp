@@ -7,27 +7,27 @@
 
 namespace tread {
 
-/// A value known from elsewhere, drawn over the cells in their colours.
+/// A value from another source, drawn over the cells in their colours.
 struct HeatDot {
-  double x = 0, y = 0;  ///< in the units of the labels
+  double x = 0, y = 0;  ///< place in the units of the labels
   double value = 0;
   std::string label;
 };
 
 /// A line over the cells.
 struct HeatLine {
-  std::vector<double> x, y;  ///< in the units of the labels
-  std::string label;         ///< written at its end
+  std::vector<double> x, y;  ///< points in the units of the labels
+  std::string label;         ///< label written at the line's end
 };
 
 /// Cells about evenly spaced x and y.
 struct Heatmap {
   std::string title;
-  std::string x_label, y_label, value_label;  ///< with units
+  std::string x_label, y_label, value_label;  ///< labels with units
   std::vector<double> x, y;
-  std::vector<double> values;  ///< row by row: x runs fastest
-  std::vector<bool> marked;    ///< as many, or none: the cells that the outline encloses
-  std::string marked_label;    ///< what the outline means
+  std::vector<double> values;  ///< values row by row: x runs fastest
+  std::vector<bool> marked;    ///< as many flags, or none: true for the cells that the outline encloses
+  std::string marked_label;    ///< meaning of the outline
   std::vector<HeatLine> lines;
   std::vector<HeatDot> dots;
   std::string caption;
@@ -38,7 +38,7 @@ struct Heatmap {
 /// A `figure` element: title, SVG with a colour scale, caption.
 std::string heatmap_html(const Heatmap& map);
 
-/// The map as an SVG file that stands alone, title included.
+/// The map as a self-contained SVG file, with its title.
 std::string heatmap_svg(const Heatmap& map);
 
 }  // namespace tread

@@ -54,7 +54,7 @@ std::string marked_up(std::string_view text, std::string_view open, std::string_
   return out;
 }
 
-/// "3.020" as "3.02", "12.00" as "12".
+/// Decimal without zeros at the end: "3.020" becomes "3.02", "12.00" becomes "12".
 std::string without_end_zeros(std::string decimal) {
   if (decimal.find('.') == std::string::npos) return decimal;
   decimal.erase(decimal.find_last_not_of('0') + 1);
@@ -69,7 +69,7 @@ std::string html_text(std::string_view text) {
 }
 
 std::string svg_text(std::string_view text) {
-  // The zero-width space carries the baseline back: SVG has no other way that all browsers know.
+  // The zero-width space carries the baseline back: SVG has no other method that all browsers know.
   return marked_up(text, "<tspan dy=\".25em\" font-size=\"75%\">",
                    "</tspan><tspan dy=\"-.19em\">&#8203;</tspan>");
 }
@@ -105,7 +105,7 @@ std::string caption_html(std::string_view text) {
 std::string readable(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   const std::string sign = value < 0 ? "−" : "";
-  // Rounded first, so that 999.96 counts as 1000.
+  // The value is rounded first, so that 999.96 counts as 1000.
   const std::string scientific = fmt::format("{:.{}e}", std::abs(value), digits - 1);
   const std::size_t e = scientific.find('e');
   const int exponent = std::stoi(scientific.substr(e + 1));

@@ -6,11 +6,11 @@
 
 namespace tread {
 
-/// Text for HTML: special characters escaped; a single letter with a subscript of one or two characters
-/// ("F_N", "d_m") is set as such, other underscores ("vertical_force") stay.
+/// Text for HTML with special characters escaped. A single letter with a subscript of one or two characters
+/// ("F_N", "d_m") is set as such; other underscores ("vertical_force") stay.
 std::string html_text(std::string_view text);
 
-/// The same for the content of an SVG text element.
+/// Text for the content of an SVG text element, set as html_text() does.
 std::string svg_text(std::string_view text);
 
 /// An SVG line from (x1, y1) to (x2, y2) [px].
@@ -19,14 +19,14 @@ std::string svg_line(const char* style, double x1, double y1, double x2, double 
 /// An SVG text element at (x, y) [px].
 std::string svg_label(const char* style, double x, double y, std::string_view text);
 
-/// An SVG file that stands alone, `width` by `height` [px], from its shapes.
+/// A self-contained SVG file, `width` by `height` [px], from its shapes.
 std::string svg_file(double width, double height, std::string_view shapes);
 
-/// The paragraph under a figure; nothing where the text is empty.
+/// Paragraph under a figure; empty if the text is empty.
 std::string caption_html(std::string_view text);
 
 /// A number for reading, to the given significant digits and without zeros at the end: "193.2", "0.276", and
-/// "8.9×10⁻⁸" outside 10⁻³ ... 10⁷; an en dash where it is not finite.
+/// "8.9×10⁻⁸" outside 10⁻³ ... 10⁷. An en dash if the value is not finite.
 std::string readable(double value, int digits = 4);
 
 /// Powers of ten in superscript digits: "10⁻⁸".

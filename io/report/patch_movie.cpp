@@ -29,9 +29,9 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
-/// The rows in which anything touches, and a row beside them.
+/// Rows with contact, and one row beside them.
 struct Rows {
-  std::size_t first = 0, last = 0;  ///< [first, last)
+  std::size_t first = 0, last = 0;  ///< range [first, last)
 };
 
 Rows rows_in_contact(const PatchMovie& movie) {
@@ -66,7 +66,8 @@ std::vector<double> largest_values(const PatchMovie& movie) {
   return largest;
 }
 
-/// Frame by frame the fields in parts of their largest value, then the states; [station][row].
+/// Bytes of the fields as fractions of their largest value, then of the states, frame by frame;
+/// [station][row].
 std::vector<std::uint8_t> packed(const PatchMovie& movie, const Rows& rows,
                                  const std::vector<double>& largest) {
   std::vector<std::uint8_t> bytes;
@@ -87,12 +88,12 @@ std::vector<std::uint8_t> packed(const PatchMovie& movie, const Rows& rows,
   return bytes;
 }
 
-/// To a tenth of a micrometre, short in text.
+/// Value [mm] rounded to a tenth of a micrometre, so that its text is short.
 double rounded(double millimetres) {
   return std::round(1e4 * millimetres) * 1e-4;
 }
 
-/// For a script element, which a "<" might end.
+/// JSON for a script element, which a "<" might end.
 std::string data(const PatchMovie& movie) {
   const Rows rows = rows_in_contact(movie);
   const std::vector<double> largest = largest_values(movie);

@@ -9,23 +9,23 @@ namespace tread {
 
 /// The window at one instant; arrays [station][row].
 struct MovieFrame {
-  double centre = 0;                       ///< abscissa that the picture is centred on [mm]
-  std::string note;                        ///< "t = 3.2 ms, ..."
-  std::vector<double> x;                   ///< of the window's stations [mm]
+  double centre = 0;                       ///< abscissa of the picture's centre [mm]
+  std::string note;                        ///< note such as "t = 3.2 ms, ..."
+  std::vector<double> x;                   ///< abscissae of the window's stations [mm]
   std::vector<std::vector<float>> fields;  ///< one array per label, 0 or more
-  std::vector<std::uint8_t> state;         ///< 0 out of contact, 1 sticks, 2 slips
+  std::vector<std::uint8_t> state;         ///< state: 0 out of contact, 1 sticks, 2 slips
 };
 
 struct PatchMovie {
   std::string title;
-  std::string x_label, y_label;     ///< with units; x is shown from the frame's centre on
-  std::vector<std::string> labels;  ///< of the fields, with units
-  std::vector<double> y;            ///< of the rows [mm]
+  std::string x_label, y_label;     ///< labels with units; x is shown relative to the frame's centre
+  std::vector<std::string> labels;  ///< labels of the fields, with units
+  std::vector<double> y;            ///< ordinates of the rows [mm]
   std::vector<MovieFrame> frames;
   std::string caption;
 };
 
-/// A `figure` element; patch_movie.js draws it and lets the reader choose instant and field, and turn the
+/// A `figure` element. patch_movie.js draws it and lets the reader choose instant and field, and turn the
 /// relief. Values are kept to 1/255 of a field's largest.
 std::string movie_html(const PatchMovie& movie);
 

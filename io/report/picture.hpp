@@ -1,12 +1,12 @@
 #pragma once
-// What pictures of reports and of SVG files have in common.
+// Common parts of pictures in reports and in SVG files.
 
 #include <string>
 #include <string_view>
 
 namespace tread {
 
-inline constexpr double kPageWidth = 920;  ///< of a report [px]
+inline constexpr double kPageWidth = 920;  ///< width of a report's page [px]
 
 /// SVG shapes as wide as the page.
 struct Picture {
@@ -18,8 +18,8 @@ struct Picture {
 std::string picture_html(const Picture& picture, std::string_view title, std::string_view caption,
                          std::string_view legend = {});
 
-/// An SVG file that stands alone: the picture under its title, which begins at `left` [px], and further
-/// shapes in the title's line.
+/// A self-contained SVG file: the picture under its title, which begins at `left` [px], and further shapes in
+/// the title's line.
 std::string picture_svg(const Picture& picture, std::string_view title, double left,
                         std::string_view beside_title = {});
 

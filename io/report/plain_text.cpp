@@ -9,7 +9,7 @@ namespace tread {
 
 namespace {
 
-/// Characters of UTF-8 text.
+/// Number of characters of a UTF-8 text.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

@@ -8,16 +8,16 @@
 
 namespace tread {
 
-/// A report's table in columns of equal width, the title above.
+/// Text of a report's table in columns of equal width, with the title above.
 std::string plain_text(const Table& table);
 
-/// The same as a table of Markdown, without its title.
+/// The table in Markdown, without its title.
 std::string markdown(const Table& table);
 
-/// "461 656".
+/// Number with grouped digits: "461 656".
 std::string grouped(std::int64_t number);
 
-/// "3.1 GB", "120 kB", decimal.
+/// Size in decimal units: "3.1 GB", "120 kB".
 std::string bytes_text(std::int64_t bytes);
 
 }  // namespace tread

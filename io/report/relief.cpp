@@ -17,7 +17,7 @@ namespace tread {
 namespace {
 
 // Page geometry [px].
-constexpr double kHeight = 330;  // of a row of reliefs
+constexpr double kHeight = 330;  // height of a row of reliefs
 constexpr double kLeft = 62, kRight = 62, kTop = 34, kBottom = 48;
 constexpr int kShades = 24;
 
@@ -25,7 +25,7 @@ struct Pixel {
   double x, y;
 };
 
-/// One relief within `width`, its left upper corner at (left, top).
+/// One relief within `width`, its upper left corner at (left, top).
 class Plot {
  public:
   Plot(const Relief& relief, double left, double top, double width)
@@ -46,7 +46,7 @@ class Plot {
   std::string shapes() const {
     std::string out = svg_label("name", left_ - 44, base_ + up_ + into_.y - 14, relief_.title);
     out += floor();
-    // From the back to the front: what stands before hides what stands behind.
+    // Rows are drawn from the back to the front: the front ones hide those behind.
     for (std::size_t row = relief_.y.size() - 1; row > 0; --row) out += strip(row - 1);
     return out + axes();
   }
@@ -77,7 +77,7 @@ class Plot {
     return "<path class=\"grid\" fill=\"none\" d=\"" + path + "z\"/>\n";
   }
 
-  /// The quads between a row of crossings and the next, those of a shade in one path.
+  /// Quads between a row of crossings and the next; quads of one shade share a path.
   std::string strip(std::size_t row) const {
     std::array<std::string, kShades> paths;
     for (std::size_t i = 0; i + 1 < relief_.x.size(); ++i) {
@@ -128,10 +128,10 @@ class Plot {
   }
 
   const Relief& relief_;
-  double left_, base_;  ///< of the front left corner at the lowest value [px]
-  double along_ = 0;    ///< from the first x to the last [px]
-  Pixel into_ = {};     ///< from the first y to the last [px]
-  double up_ = 0;       ///< from the lowest value to the highest [px]
+  double left_, base_;  ///< front left corner at the lowest value [px]
+  double along_ = 0;    ///< length from the first x to the last [px]
+  Pixel into_ = {};     ///< offset from the first y to the last [px]
+  double up_ = 0;       ///< height from the lowest value to the highest [px]
   double low_ = 0, high_ = 1;
 };
 

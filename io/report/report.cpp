@@ -32,7 +32,7 @@ std::string html(const KeyFigures& figures) {
 }
 
 std::string html(const Table& table) {
-  constexpr std::size_t kMany = 9;  // columns; more do not fit on a page as they are
+  constexpr std::size_t kMany = 9;  // columns; a table with more does not fit on a page
   std::string out =
       fmt::format("<div class=\"table{}\"><table>\n", table.columns.size() > kMany ? " many" : "");
   if (!table.title.empty()) out += "<caption>" + html_text(table.title) + "</caption>\n";

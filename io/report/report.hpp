@@ -16,7 +16,7 @@
 
 namespace tread {
 
-/// One paragraph.
+/// A paragraph.
 struct Text {
   std::string text;
 };
@@ -31,7 +31,7 @@ struct Column {
 struct Table {
   std::string title;
   std::vector<Column> columns;
-  std::vector<std::vector<std::string>> rows;  ///< one cell per column
+  std::vector<std::vector<std::string>> rows;  ///< rows with one cell per column
 };
 
 /// A number that the reader should see first.
@@ -42,7 +42,7 @@ struct KeyFigure {
 };
 
 using KeyFigures = std::vector<KeyFigure>;
-using Drawings = std::vector<Drawing>;  ///< side by side where the page is wide enough
+using Drawings = std::vector<Drawing>;  ///< drawings side by side if the page is wide enough
 
 using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap, Reliefs, PatchMovie, Scatter>;
 
@@ -58,7 +58,7 @@ struct Report {
   std::string footer;
 };
 
-/// A quantity of ours beside that of a reference.
+/// A computed quantity beside its reference value.
 struct Comparison {
   std::string quantity;
   std::string unit;
@@ -67,7 +67,7 @@ struct Comparison {
   std::string remark;
 };
 
-/// Columns: quantity, unit, reference, ours, difference in per cent of the reference, remark.
+/// Table with the columns quantity, unit, reference, ours, difference in per cent of the reference, remark.
 Table comparison_table(std::string title, const std::string& reference, const std::vector<Comparison>& rows);
 
 /// The report as HTML. All text is plain; "F_N" and the like are set with subscripts.

@@ -15,13 +15,14 @@ namespace tread {
 namespace {
 
 // Page geometry [px].
-constexpr double kLeft = 58;  // of a panel: tick labels
+constexpr double kLeft = 58;  // space left of a panel for tick labels
 constexpr double kRight = 30;
-constexpr double kLabel = 60;    // of the plot's right end: labels stand left of their dots
-constexpr double kTop = 24;      // a panel's title
-constexpr double kBottom = 26;   // tick labels
-constexpr double kHeight = 190;  // of a plot
-constexpr double kFoot = 24;     // label of the abscissa
+constexpr double kLabel = 60;    // space at the plot's right end, beyond which labels stand left of their
+                                 // dots
+constexpr double kTop = 24;      // space for a panel's title
+constexpr double kBottom = 26;   // space for tick labels
+constexpr double kHeight = 190;  // height of a plot
+constexpr double kFoot = 24;     // space for the label of the abscissa
 constexpr double kPlotWidth = kPageWidth / 2 - kLeft - kRight;
 
 bool drawn(const ScatterDot& dot) {
@@ -37,7 +38,7 @@ struct LogAxis {
     low = std::min(low, value);
     high = std::max(high, value);
   }
-  /// A little room about what was added, or a decade about 1.
+  /// Widens the range by a little room, or to a decade about 1 if nothing was added.
   void widen() {
     if (low > high) low = high = 1;
     constexpr double kRoom = 1.25;
@@ -48,7 +49,7 @@ struct LogAxis {
   double operator()(double value) const {
     return first + (last - first) * std::log(value / low) / std::log(high / low);
   }
-  /// 1, 2 and 5 times powers of ten, powers alone over many decades.
+  /// Ticks at 1, 2 and 5 times powers of ten, or at powers alone over many decades.
   std::vector<double> ticks() const {
     std::vector<double> values;
     constexpr double kMany = 1e3;
@@ -102,7 +103,7 @@ std::string dots_svg(const ScatterPanel& panel, const Axes& at) {
         "</circle>\n",
         dot.marked ? "full" : "hollow", x, y, html_text(dot.label));
     if (!dot.marked) continue;
-    above = !above;  // labels of neighbours on either side of the line
+    above = !above;  // labels of neighbours stand on either side of the line
     dots += x > at.x.last - kLabel ? svg_label("note right", x - 6, y + 15, dot.label)
                                    : svg_label("note", x + 6, y + (above ? -5 : 15), dot.label);
   }

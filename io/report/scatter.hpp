@@ -6,11 +6,11 @@
 
 namespace tread {
 
-/// A place in both axes' units, above zero.
+/// A point in the units of both axes, above zero.
 struct ScatterDot {
   double x = 0, y = 0;
-  std::string label;    ///< shown where the reader points; written beside a marked dot
-  bool marked = false;  ///< full and joined with the other marked ones, in their order
+  std::string label;    ///< label shown where the reader points; written beside a marked dot
+  bool marked = false;  ///< true for a full dot, joined with the other marked ones in their order
 };
 
 struct ScatterPanel {
@@ -18,10 +18,10 @@ struct ScatterPanel {
   std::vector<ScatterDot> dots;
 };
 
-/// Panels side by side in two columns over the same axes.
+/// Panels side by side in two columns over common axes.
 struct Scatter {
   std::string title;
-  std::string x_label, y_label;  ///< with units
+  std::string x_label, y_label;  ///< labels with units
   std::vector<ScatterPanel> panels;
   std::string caption;
 };
@@ -29,7 +29,7 @@ struct Scatter {
 /// A `figure` element: title, SVG, caption. Dots that are not above zero are left out.
 std::string scatter_html(const Scatter& scatter);
 
-/// The scatter as an SVG file that stands alone, title included.
+/// The scatter as a self-contained SVG file, with its title.
 std::string scatter_svg(const Scatter& scatter);
 
 }  // namespace tread

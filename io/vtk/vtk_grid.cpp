@@ -20,7 +20,8 @@ class BlockCells {
         nodes_(static_cast<std::size_t>(block.section.nodes())),
         place_(static_cast<std::size_t>(block.nodes()), -1) {}
 
-  /// The quad runs counter-clockwise seen along the sweep, as VTK wants the first face of a hexahedron to be.
+  /// Adds the elements. A quad runs counter-clockwise seen along the sweep, as VTK requires for the first
+  /// face of a hexahedron.
   void add_elements() {
     for_stations([&](int near, int far) {
       for (int quad = 0; quad < quads(); ++quad) {
@@ -48,7 +49,7 @@ class BlockCells {
   }
 
  private:
-  /// Of a quad, in its sense of rotation.
+  /// Edge of a quad, in its sense of rotation.
   struct Edge {
     int from, to, quad;
   };
@@ -66,9 +67,9 @@ class BlockCells {
         visit(tile.first_station + element, (tile.first_station + element + 1) % block_.station_count());
   }
 
-  /// Edges of one quad only.
+  /// Edges that belong to one quad only.
   std::vector<Edge> outer_edges() const {
-    std::map<std::pair<int, int>, std::pair<Edge, int>> all;  // an edge and how many quads have it
+    std::map<std::pair<int, int>, std::pair<Edge, int>> all;  // edges and the number of their quads
     for (int quad = 0; quad < quads(); ++quad)
       for (std::size_t i = 0; i < 4; ++i) {
         const Edge edge{corners(quad)[i], corners(quad)[(i + 1) % 4], quad};
@@ -80,7 +81,7 @@ class BlockCells {
     return outer;
   }
 
-  /// The section at a station as the body's end; the elements behind it start at `element`.
+  /// Adds the section at a station as an end of the body; the elements behind it start at `element`.
   void add_end(int station, int element, bool backwards) {
     for (int quad = 0; quad < quads(); ++quad) {
       std::array<int, 4> nodes = corners(quad);
@@ -103,7 +104,7 @@ class BlockCells {
   const SweptBlock& block_;
   int index_;
   std::size_t nodes_;
-  std::vector<std::int64_t> place_;  ///< [station][node]: in grid_.points, -1: not used so far
+  std::vector<std::int64_t> place_;  ///< [station][node]: index in grid_.points, -1: not used so far
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The points and cells of a mesh as VTK counts them.
+// The points and cells of a mesh in VTK's numbering.
 
 #include <cstdint>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace tread {
 
-/// Where a block's body stands: its frame turned by `angle` about y, then moved to `origin`.
+/// Place of a block's body: its frame is turned by `angle` about y, then moved to `origin`.
 struct Placement {
   Vec3 origin;       ///< [m]
   double angle = 0;  ///< [rad]
 };
 
-/// What is shown of a mesh: its elements as hexahedra, or the outer faces of its blocks as quadrilaterals
-/// whose normals point outwards.
+/// Cells shown of a mesh: its elements as hexahedra, or the outer faces of its blocks as quadrilaterals whose
+/// normals point outwards.
 enum class VtkCells { elements, faces };
 
 struct VtkGrid {
@@ -29,17 +29,18 @@ struct VtkGrid {
   };
 
   VtkCells kind = VtkCells::elements;
-  std::vector<Point> points;               ///< that cells use; blocks share none
-  std::vector<Cell> cells;                 ///< block by block
-  std::vector<std::int64_t> connectivity;  ///< [cell][corner]: places in `points`
+  std::vector<Point> points;               ///< points that cells use; blocks share none
+  std::vector<Cell> cells;                 ///< cells block by block
+  std::vector<std::int64_t> connectivity;  ///< [cell][corner]: index in `points`
 
   int corners() const { return kind == VtkCells::elements ? 8 : 4; }
 };
 
-/// `kind` of every block of the mesh. Faces by which blocks are tied to one another count as outer ones.
+/// Grid of the given kind of cells, for every block of the mesh. Faces by which blocks are tied to one
+/// another count as outer ones.
 VtkGrid make_vtk_grid(const Mesh& mesh, VtkCells kind);
 
-/// Where a point of an undeformed body stands. [m]
+/// Position of a point of an undeformed body [m].
 Vec3 placed(const Placement& placement, const Vec3& at);
 
 }  // namespace tread

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint8_t kQuadrilateral = 9;  ///< VTK_QUAD
 constexpr std::uint8_t kHexahedron = 12;    ///< VTK_HEXAHEDRON
 
-/// What every frame takes from its mesh.
+/// Datasets that every frame takes from its mesh.
 constexpr std::array<const char*, 9> kShared = {
     "NumberOfPoints", "NumberOfCells",  "NumberOfConnectivityIds", "Connectivity",      "Offsets",
     "Types",          "CellData/block", "CellData/material",       "CellData/pitch [m]"};
@@ -31,7 +31,7 @@ std::int32_t index_of(std::vector<std::string>& names, const std::string& name) 
   return index;
 }
 
-/// Distance of a quad's centre from the axis. [m]
+/// Distance of a quad's centre from the axis [m].
 double mean_radius(const Section& section, int quad) {
   double sum = 0;
   for (const int node : section.quads[static_cast<std::size_t>(quad)])
@@ -39,7 +39,7 @@ double mean_radius(const Section& section, int quad) {
   return sum / 4;
 }
 
-/// Starts the file in memory: of a disk that is full HDF5 recovers badly.
+/// Starts the file in memory: HDF5 recovers badly from a full disk.
 Hdf5File begin() {
   Hdf5File file = Hdf5File::create_in_memory();
   for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/FieldData"})
@@ -105,7 +105,8 @@ void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
   file.write_attribute("/VTKHDF/CellData/pitch [m]", "unit", "m");
 }
 
-/// In one chunk: coordinates repeat along the sweep, and most of a surface is out of contact.
+/// Writes the values in one chunk: coordinates repeat along the sweep, and most of a surface is out of
+/// contact.
 void write_compressed(Hdf5File& file, const std::string& name, std::span<const float> values,
                       int components) {
   const auto width = static_cast<std::uint64_t>(components);

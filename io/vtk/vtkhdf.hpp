@@ -12,31 +12,32 @@ namespace tread {
 
 /// Writes a grid of the mesh with cell arrays `block` and `material` (indices; the arrays' attribute `names`
 /// lists the names, comma-separated) and `pitch [m]`, the length of the element along the sweep. `placements`
-/// holds one per block or is empty (all at the origin). Throws ResourceError; an older file stays until the
-/// new one is complete.
+/// holds one placement per block or is empty (all at the origin). Throws ResourceError; an older file stays
+/// until the new one is complete.
 void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
                     const std::vector<Placement>& placements = {});
 
 /// Values at the points of a grid, or at its cells.
 struct VtkArray {
-  std::string name;  ///< as ParaView shows it, with its unit; '/' would part it: "velocity [m s-1]"
+  std::string name;  ///< name shown in ParaView, with its unit, such as "velocity [m s-1]"; without '/',
+                     ///< which would split it
   std::string unit;
   std::string description;
   int components = 1;
   bool of_cells = false;
-  std::vector<float> values;  ///< [point or cell][component]
+  std::vector<float> values;  ///< values [point or cell][component]
 };
 
-/// What a grid looks like at one instant.
+/// State of a grid at one instant.
 struct VtkFrame {
-  std::filesystem::path mesh;  ///< the file of write_vtk_mesh(), relative to the frame's folder
+  std::filesystem::path mesh;  ///< path of the file of write_vtk_mesh(), relative to the frame's folder
   double time = 0;             ///< [s]
-  std::vector<float> points;   ///< [point][3] [m]
+  std::vector<float> points;   ///< coordinates [point][3] [m]
   std::vector<VtkArray> arrays;
 };
 
-/// Writes a frame: a file that shows its mesh's cells and materials by links, and points and arrays of its
-/// own; array `time [s]` beside the fields. Throws as write_vtk_mesh().
+/// Writes a frame: a file that shows its mesh's cells and materials by links, with points and arrays of its
+/// own and array `time [s]` beside the fields. Throws as write_vtk_mesh().
 void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame);
 
 }  // namespace tread
