@@ -19,7 +19,8 @@ namespace {
 
 constexpr int kNotStarted = 127;
 
-/// Between fork and exec: only what is safe there. Signals are blocked.
+/// Replaces the child by the program. Only calls that are safe between fork and exec are used. Signals are
+/// blocked.
 [[noreturn]] void become(char* const* arguments, const char* log, pid_t parent, const sigset_t& mask) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_DFL);
   ::setpgid(0, 0);
@@ -47,7 +48,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   pointers.push_back(nullptr);
   const std::string log_name = log.string();
   const pid_t parent = ::getpid();
-  // A signal for the child that comes before exec must not be taken by the parent's handlers.
+  // The parent's handlers must not take a signal for the child that comes before exec.
   sigset_t all;
   sigset_t before;
   ::sigfillset(&all);

@@ -9,23 +9,23 @@
 
 namespace tread {
 
-/// How a process ended.
+/// The end of a process.
 struct ProcessEnd {
-  int code = 0;    ///< of exit; meaningless after a signal
-  int signal = 0;  ///< that ended it; 0: none
+  int code = 0;    ///< exit code; meaningless after a signal
+  int signal = 0;  ///< signal that ended the process; 0: none
 };
 
-/// Runs this program's own file with other arguments, in a process group of its own, so that signals from the
-/// terminal reach it through its parent alone. It is sent SIGTERM when its parent dies.
+/// Runs this program's own file with other arguments. The process has a group of its own, so that signals
+/// from the terminal reach it through its parent alone. It receives SIGTERM when its parent dies.
 class ChildProcess {
  public:
-  /// Starts it; what it prints is added to the file `log`. ResourceError where the system refuses.
+  /// Starts the process and appends its output to the file `log`. Throws ResourceError if the system refuses.
   ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log);
 
-  /// Whether it has ended; fills `end` then, once.
+  /// Returns true if the process has ended; fills `end` then, once.
   bool ended(ProcessEnd& end) const;
 
-  /// Has no effect on one that has ended.
+  /// Sends a signal. It has no effect on a process that has ended.
   void send(int signal) const;
 
  private:

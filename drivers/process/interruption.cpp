@@ -14,12 +14,12 @@ namespace tread {
 
 namespace {
 
-// What a signal handler may touch.
+// A signal handler may touch only lock-free objects.
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
               std::atomic<std::int64_t>::is_always_lock_free);
 std::atomic<bool> g_deferred = false;
-std::atomic<int> g_stop = 0;             ///< the signal that asked
-std::atomic<std::int64_t> g_asked_at{};  ///< when, on the steady clock; 0: never [ns]
+std::atomic<int> g_stop = 0;             ///< signal that asked to stop
+std::atomic<std::int64_t> g_asked_at{};  ///< time of the request on the steady clock; 0: never [ns]
 std::atomic<bool> g_checkpoint = false;
 constexpr std::size_t kLongest = 1000;
 char g_early[kLongest + 1];
@@ -29,8 +29,8 @@ void set_sentence(char* place, const std::string& text) {
   std::strncpy(place, (text + "\n").c_str(), kLongest);
 }
 
-/// `timeout`, batch systems and shells signal a process and then its group: what comes within this time is
-/// the same request.
+/// `timeout`, batch systems and shells signal a process and then its group: signals within this time are one
+/// request.
 constexpr std::int64_t kSameRequest = 500'000'000;  // [ns]
 
 std::int64_t steady_now() {
@@ -39,7 +39,7 @@ std::int64_t steady_now() {
   return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
 }
 
-/// Notes the first request to stop; whether this is a second one.
+/// Notes the first request to stop. Returns true if this is a second one.
 bool asks_again(int signal) {
   const std::int64_t now = steady_now();
   std::int64_t asked_at = 0;
@@ -76,7 +76,7 @@ Interruption::Interruption(const std::string& early, const std::string& late) {
     sigemptyset(&action.sa_mask);
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    // Who starts a run with nohup means it.
+    // A user who starts a run with nohup wants SIGHUP ignored.
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
     before_.emplace_back(signal, before);

@@ -8,10 +8,11 @@
 
 namespace tread {
 
-/// Watches SIGINT, SIGTERM, SIGHUP and SIGUSR1 while it lives; one at a time. Until defer() the first three
-/// end the process at once, with ExitCode::resumable and a sentence; after it the first of them only asks,
-/// and one that comes half a second later or more ends the process. SIGPIPE is ignored: a run outlives
-/// whoever reads its progress; so is SIGXFSZ, for then the write that went too far says so.
+/// Watches SIGINT, SIGTERM, SIGHUP and SIGUSR1 while it lives; one object at a time. Until defer() the first
+/// three end the process at once, with ExitCode::resumable and a sentence. After defer() the first of them
+/// only asks, and another one half a second later or more ends the process. SIGPIPE is ignored: a run
+/// outlives the reader of its progress. SIGXFSZ is ignored too: the write that went too far reports the
+/// error.
 class Interruption {
  public:
   /// `early` and `late`: the sentences, before defer() and after it.
@@ -24,7 +25,7 @@ class Interruption {
 
   /// Name of the signal that asked to stop, or null.
   static const char* stop_wanted();
-  /// True once for each SIGUSR1.
+  /// Returns true once for each SIGUSR1.
   static bool take_checkpoint_wanted();
 
  private:

@@ -23,7 +23,7 @@ void use_threads(const ThreadOptions& options) {
 
 void give_back_large_arrays() {
 #ifdef __GLIBC__
-  // The GNU library raises this threshold to the largest array that was ever let go, up to 32 MiB.
+  // The GNU library raises this threshold to the size of the largest freed array, up to 32 MiB.
   constexpr int kLarge = 1 << 20;  // [B]
   ::mallopt(M_MMAP_THRESHOLD, kLarge);
 #endif

@@ -12,7 +12,7 @@ Progress::Progress(bool quiet)
 
 void Progress::say(const std::string& text) const {
   if (quiet_) return;
-  // Nobody may be listening any more: that is no reason to stop.
+  // A missing listener is no reason to stop.
   std::fputs((text + "\n").c_str(), stderr);
   std::fflush(stderr);
 }

@@ -10,12 +10,12 @@ class Progress {
  public:
   explicit Progress(bool quiet);
 
-  /// Whole line at once.
+  /// Writes the whole line at once.
   void say(const std::string& text) const;
 
-  /// True when `interval` [s] of wall clock has passed since it was last true.
+  /// Returns true if `interval` [s] of wall clock has passed since it last did.
   bool due(double interval);
-  double seconds() const;  ///< since construction
+  double seconds() const;  ///< time since construction [s]
 
  private:
   bool quiet_;
@@ -24,7 +24,7 @@ class Progress {
   double last_ = -1e9;
 };
 
-/// "52 min", "3.2 s", "1.4 h".
+/// Duration for reading: "52 min", "3.2 s", "1.4 h".
 std::string duration_text(double seconds);
 
 }  // namespace tread
