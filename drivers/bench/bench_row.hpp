@@ -13,12 +13,12 @@
 
 namespace tread {
 
-/// What is measured: rows of two files with the same key are compared.
+/// Identity of a measurement: rows of two files with equal keys are compared.
 struct BenchKey {
   std::string kernel;
   std::string path;  ///< version of the kernel
   std::string precision;
-  std::string backend;  ///< that runs the threads
+  std::string backend;  ///< library that runs the threads
   std::string lanes;    ///< instruction set
   int threads = 1;
   std::int64_t elements = 0;
@@ -31,24 +31,24 @@ struct BenchKey {
   }
 };
 
-/// Of a table's first columns, and a row's cells in them.
+/// First columns of a table, and a row's cells in them.
 std::vector<Column> key_columns();
 std::vector<std::string> key_cells(const BenchKey& key);
 
 struct BenchRow {
   BenchKey key;
-  std::string unit;  ///< what `elements` counts: "element", "node", ...
+  std::string unit;  ///< unit that `elements` counts: "element", "node", ...
   Measurement measured;
-  Work work;                ///< by unit
-  Limit limit;              ///< of a step over all units
-  double instructions = 0;  ///< a unit, by the hardware's counter; 0: not counted
+  Work work;                ///< work per unit
+  Limit limit;              ///< limit of a step over all units
+  double instructions = 0;  ///< instructions per unit, by the hardware's counter; 0: not counted
 
   double rate() const { return static_cast<double>(key.elements) / measured.seconds; }  ///< units a second
-  /// Of the rate that the binding limit allows; 0 where nothing is counted.
+  /// Fraction of the rate that the binding limit allows [-]; 0 if nothing is counted.
   double fraction_of_limit() const { return limit.seconds / measured.seconds; }
 };
 
-/// One JSON object in a line.
+/// The row as one JSON object in a line.
 std::string json_line(const BenchRow& row);
 
 Table bench_table(const std::vector<BenchRow>& rows);

@@ -13,14 +13,14 @@ namespace tread {
 
 namespace {
 
-/// What a comparison needs of a row.
+/// Data of a row that a comparison needs.
 struct Recorded {
-  double value;   ///< in the measure's unit
+  double value;   ///< value in the measure's unit
   double spread;  ///< [-]
 };
 
 constexpr const char* kInstructions = "instructions_per_element_step";
-constexpr double kInstructionSpread = 0.03;  ///< calls of contact_search are not alike
+constexpr double kInstructionSpread = 0.03;  ///< calls of contact_search differ
 
 const char* unit_of(BenchMeasure measure) {
   if (measure == BenchMeasure::rate) return "1e6/s";

@@ -11,20 +11,20 @@ namespace tread {
 
 namespace {
 
-constexpr double kRadius = 0.43;       ///< of the wheel's rolling circle [m]
-constexpr double kCrownRadius = 0.3;   ///< of its profile [m]
-constexpr double kHalfWidth = 0.03;    ///< of both surfaces [m]
-constexpr double kHalfLength = 0.06;   ///< of rail and tread [m]
-constexpr double kApproach = 42e-6;    ///< by which the wheel is lowered: semi-axes of 6 and 5 mm [m]
+constexpr double kRadius = 0.43;       ///< radius of the wheel's rolling circle [m]
+constexpr double kCrownRadius = 0.3;   ///< radius of the wheel's profile [m]
+constexpr double kHalfWidth = 0.03;    ///< half width of both surfaces [m]
+constexpr double kHalfLength = 0.06;   ///< half length of rail and tread [m]
+constexpr double kApproach = 42e-6;    ///< lowering of the wheel: semi-axes of 6 and 5 mm [m]
 constexpr double kPenetration = 0.03;  ///< share of the overlap that the rail's surface does not follow [-]
 constexpr double kPenalty = 5e14;      ///< [Pa/m]
 constexpr double kFriction = 0.5;
 constexpr double kSpeed = 300 / 3.6;      ///< [m/s]
 constexpr double kCreepage = 1e-3;        ///< [-]
-constexpr double kFinest = 1.1e-3;        ///< element size of the largest mesh [m] ...
-constexpr double kMostElements = 1.46e6;  ///< ... which has so many elements
+constexpr double kFinest = 1.1e-3;        ///< element size of the largest mesh [m]
+constexpr double kMostElements = 1.46e6;  ///< number of elements of that mesh
 
-/// What a mesh of so many elements resolves the patch with.
+/// Element size [m] with which a mesh of so many elements resolves the patch.
 double element_size(std::int64_t elements) {
   return kFinest * std::cbrt(kMostElements / static_cast<double>(elements));
 }
@@ -69,7 +69,7 @@ Mesh surfaces(double size) {
   return mesh;
 }
 
-/// A wheel that rolls with creepage over a rail whose surface follows all but a little of their overlap.
+/// A wheel that rolls with creepage over a rail. The rail's surface follows nearly all of their overlap.
 struct Patch {
   explicit Patch(double size)
       : mesh(surfaces(size)),
@@ -110,7 +110,7 @@ struct Patch {
       }
   }
 
-  /// Time goes on, so that faces which are out of reach are looked at as often as in a run.
+  /// Searches and advances the time, so that faces out of reach are examined as often as in a run.
   void search() {
     contact.search({u.data(), v.data(), &wheel}, time, dt);
     time += dt;
@@ -131,7 +131,7 @@ struct Patch {
   double time = 0;  ///< [s]
 };
 
-/// Completes a kernel on a patch of so many points, or nodes, of `bytes` each.
+/// Completes a kernel on a patch of so many points or nodes, of `bytes` each.
 PreparedKernel prepared(TimedCall timed, std::size_t units, double bytes) {
   PreparedKernel kernel;
   kernel.timed = std::move(timed);
@@ -141,7 +141,7 @@ PreparedKernel prepared(TimedCall timed, std::size_t units, double bytes) {
   return kernel;
 }
 
-constexpr double kHistoryBytes = 3 * sizeof(double);  ///< of a point: pressure and shear
+constexpr double kHistoryBytes = 3 * sizeof(double);  ///< bytes of a point: pressure and shear
 
 PreparedKernel prepare_search(std::int64_t elements) {
   const auto patch = std::make_shared<Patch>(element_size(elements));

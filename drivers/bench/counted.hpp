@@ -1,6 +1,5 @@
 #pragma once
-// A number that counts the operations done with it: what a templated kernel body computes, to the last
-// addition.
+// A number that counts the operations done with it: all operations of a templated kernel body.
 
 #include <cstdint>
 

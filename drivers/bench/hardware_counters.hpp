@@ -1,5 +1,5 @@
 #pragma once
-// Cycles, instructions and cache misses of all threads, where the system lets a program count them.
+// Cycles, instructions and cache misses of all threads, if the system lets a program count them.
 
 #include <array>
 #include <string>
@@ -10,14 +10,14 @@ namespace tread {
 
 class HardwareCounters {
  public:
-  /// Counts in this thread and those that it starts from now on: to be made before the first parallel call.
+  /// Counts in this thread and in threads that it starts later. Construct it before the first parallel call.
   HardwareCounters();
   ~HardwareCounters();
   HardwareCounters(const HardwareCounters&) = delete;
   HardwareCounters& operator=(const HardwareCounters&) = delete;
 
   bool available() const { return reason_.empty(); }
-  const std::string& reason() const { return reason_; }  ///< why they are not
+  const std::string& reason() const { return reason_; }  ///< reason why counters are not available
   CounterValues read() const;
 
  private:

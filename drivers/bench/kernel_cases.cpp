@@ -13,11 +13,11 @@ namespace tread {
 
 namespace {
 
-constexpr double kDisplacement = 1e-5;  ///< of made-up fields [m]
+constexpr double kDisplacement = 1e-5;  ///< size of made-up displacements [m]
 constexpr double kVelocity = 0.1;       ///< [m/s]
 constexpr double kForce = 1;            ///< [N]
-constexpr double kBeta = 1e-10;         ///< of damped paths [s]
-constexpr double kStep = 1e-10;         ///< so short that repeated steps leave the data what they are [s]
+constexpr double kBeta = 1e-10;         ///< beta of damped paths [s]
+constexpr double kStep = 1e-10;         ///< step so short that repeated steps hardly change the data [s]
 
 PreparedKernel prepare_empty(std::int64_t elements) {
   PreparedKernel kernel;
@@ -26,7 +26,7 @@ PreparedKernel prepare_empty(std::int64_t elements) {
   return kernel;
 }
 
-/// A block with all that a step of it needs.
+/// A block with all data that a step needs.
 template <class Real, class U>
 struct BlockData {
   BlockData(const ElementVariant& variant, std::int64_t elements)
@@ -102,7 +102,7 @@ void add_element(std::vector<KernelCase>& cases, const ElementVariant& variant) 
                    [variant](std::int64_t elements) { return prepare_element<Real, U>(variant, elements); }});
 }
 
-/// What runs with the widest instruction set alone.
+/// Instruction set of code that runs with the widest one alone.
 std::vector<const char*> widest() {
   return {InternalForce::instruction_sets().front()};
 }

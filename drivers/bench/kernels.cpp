@@ -20,7 +20,7 @@ bool chosen(const std::vector<std::string>& names, std::string_view name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// InputError unless every name is known.
+/// Throws InputError unless every name is known.
 void check_names(const char* option, const std::vector<std::string>& names,
                  const std::vector<std::string>& known) {
   for (const std::string& name : names) {
@@ -87,10 +87,11 @@ void add_limits(const BenchKernelsOptions& options, Limits& limits, Rows& rows) 
     }
 }
 
-/// Of a call; 0 where they are not counted, or threads that wait would count theirs.
+/// Instructions of a call. Returns 0 if they are not counted, and for several threads, whose waiting would
+/// count.
 double instructions(const TimedCall& timed, const HardwareCounters& counters) {
   if (!counters.available() || threads() > 1) return 0;
-  constexpr std::int64_t kEnough = 100'000'000;  // calls of a kernel need not be alike
+  constexpr std::int64_t kEnough = 100'000'000;  // instructions for a mean: calls of a kernel may differ
   std::int64_t sum = 0;
   int calls = 0;
   while (calls < 2 || (sum < kEnough && sum > 0)) {
@@ -124,7 +125,7 @@ void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, 
   }
 }
 
-/// The backends that differ: one thread needs none.
+/// Backends to compare: one thread needs one only.
 std::vector<std::string_view> backends_to_measure(const BenchOptions& options) {
   if (threads() == 1 || !options.threads.backend.empty()) return {backend()};
   return backends();

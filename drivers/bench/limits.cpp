@@ -14,14 +14,14 @@ namespace tread {
 
 namespace {
 
-/// Each array four times the last cache, as STREAM asks. [B]
+/// Bytes of three arrays, each four times the last cache, as STREAM asks [B].
 std::int64_t beyond_caches() {
-  constexpr std::int64_t kAssumed = 32 << 20;  ///< where the system does not say
+  constexpr std::int64_t kAssumed = 32 << 20;  ///< cache size if the system does not state it
   const std::int64_t cache = std::max<std::int64_t>(::sysconf(_SC_LEVEL3_CACHE_SIZE), kAssumed);
   return 3 * 4 * cache;
 }
 
-/// The fastest run, by unit.
+/// Measurement per unit; `seconds` becomes that of the fastest run.
 Measurement per_unit(Measurement of_call, double units) {
   of_call.fastest /= units;
   of_call.seconds = of_call.fastest;
@@ -42,7 +42,7 @@ Measurement measure_triad(std::int64_t bytes, const LimitLoops& loops, const Mea
 }
 
 Measurement measure_operation(bool in_double, const LimitLoops& loops, const MeasurementPlan& plan) {
-  constexpr std::int64_t kRounds = 4000;  ///< a millisecond of all
+  constexpr std::int64_t kRounds = 4000;  ///< about a millisecond of all items
   const std::int64_t items = 64 * std::int64_t{threads()};
   const auto loop = in_double ? loops.multiply_add_double : loops.multiply_add_float;
   const auto work = [&] {

@@ -1,5 +1,5 @@
 #pragma once
-// What the machine can do, measured by the program itself: bandwidth by the size of the data, and the peak of
+// Limits of the machine, measured by the program itself: bandwidth by the size of the data, and the peak of
 // multiply-adds.
 
 #include <algorithm>
@@ -15,47 +15,48 @@ namespace tread {
 
 /// Shortest time that a machine allows for a piece of work.
 struct Limit {
-  double seconds = 0;     ///< 0: nothing is counted [s]
-  bool by_memory = true;  ///< or by arithmetic
+  double seconds = 0;     ///< shortest time; 0: nothing is counted [s]
+  bool by_memory = true;  ///< true: memory binds; false: arithmetic
   const char* name() const { return by_memory ? "memory" : "arithmetic"; }
 };
 
-/// All of a step.
+/// Work of a whole step.
 struct Load {
   double flops = 0;
-  double bytes = 0;              ///< moved
-  std::int64_t working_set = 0;  ///< bytes that are held
+  double bytes = 0;              ///< bytes moved
+  std::int64_t working_set = 0;  ///< bytes held
 };
 
-/// For the threads and the backend that are set when it is asked; each value is measured once. What the
-/// machine can do is what it does in the fastest run: `seconds` is that of it.
+/// Limits of the machine for the threads and the backend set at the call. Each value is measured once. The
+/// limit is the fastest run: `seconds` is the time of that run.
 class Limits {
  public:
-  /// At least fifteen runs: everything else is judged by these.
+  /// Takes at least fifteen runs, because all other rows are judged by these.
   explicit Limits(const MeasurementPlan& plan) : plan_{std::max(15, plan.repetitions), plan.run_seconds} {}
 
-  /// STREAM triads on three arrays beyond every cache, by the widest instruction set: the time of one triad,
-  /// which moves kTriadBytes. [s]
+  /// Time of one STREAM triad, which moves kTriadBytes [s]: on three arrays beyond every cache, by the widest
+  /// instruction set.
   Measurement stream();
-  /// The same on arrays of so many bytes in all, rounded up to a power of two, at most those of stream(). [s]
+  /// Time of one triad on arrays of `working_set` bytes in all, rounded up to a power of two, at most those
+  /// of stream() [s].
   Measurement triad(std::int64_t working_set);
 
-  /// Time of one addition or multiplication when all threads do multiply-adds in registers. [s]
+  /// Time of one addition or multiplication when all threads do multiply-adds in registers [s].
   Measurement operation(bool in_double, std::string_view instruction_set);
 
-  /// The slower of memory and arithmetic.
+  /// The longer of the times that memory and arithmetic need.
   Limit of(const Load& load, bool in_double, std::string_view instruction_set);
 
  private:
   using Key = std::tuple<std::int64_t, std::string, int, std::string>;
 
   MeasurementPlan plan_;
-  std::map<Key, Measurement> known_;  ///< by bytes of a triad, or by precision if negative
+  std::map<Key, Measurement> known_;  ///< measurements by bytes of a triad, or by precision if negative
 };
 
-/// By the convention of STREAM: two values read, one written. [B]
+/// Bytes of a triad by the convention of STREAM: two values read, one written [B].
 inline constexpr double kTriadBytes = 3 * sizeof(double);
-/// What moves: caches fetch a line before it is written, as Work counts it. [B]
+/// Bytes that a triad moves: caches fetch a line before it is written, as Work counts it [B].
 inline constexpr double kTriadTraffic = 4 * sizeof(double);
 
 }  // namespace tread

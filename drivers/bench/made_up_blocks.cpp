@@ -8,10 +8,10 @@ namespace tread {
 
 namespace {
 
-constexpr double kSize = 1.1e-3;  ///< of elements [m]
-constexpr double kRadius = 0.4;   ///< of revolved blocks' inner side [m]
-constexpr double kShift = 0.02;   ///< of shifted nodes, by element size [-]
-constexpr int kColumns = 21;      ///< of quads: 21 x 19 make the 400 of a rail's section
+constexpr double kSize = 1.1e-3;  ///< size of elements [m]
+constexpr double kRadius = 0.4;   ///< radius of revolved blocks' inner side [m]
+constexpr double kShift = 0.02;   ///< displacement of shifted nodes, by element size [-]
+constexpr int kColumns = 21;      ///< columns of quads: 21 x 19 make the 400 of a rail's section
 constexpr int kRows = 19;
 constexpr int kTieRatio = 3;
 
@@ -19,7 +19,7 @@ Material steel() {
   return {"steel", 205.9e9, 0.3, 7790, 0};
 }
 
-/// A grid of square quads; its lowest line is the path "bottom", its highest "top".
+/// A grid of square quads. Its lowest line is the path "bottom", its highest "top".
 Section grid_section(int columns, int rows, double size, double q) {
   Section section;
   for (int row = 0; row <= rows; ++row)

@@ -1,5 +1,5 @@
 #pragma once
-// Blocks of a wanted number of elements, of the sizes and proportions of the paper's rail and tread, for
+// Blocks of a wanted number of elements, with the sizes and proportions of the paper's rail and tread, for
 // kernels on made-up data.
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace tread {
 
-/// One block of about `elements` elements. A revolved one is a full turn. `shifted`: every node is moved a
+/// One block of about `elements` elements. A revolved block is a full turn. `shifted`: every node is moved a
 /// little, so that all elements carry coefficients of their own.
 Mesh made_up_mesh(Sweep sweep, bool shifted, std::int64_t elements);
 
@@ -21,7 +21,7 @@ struct TiedBlocks {
 };
 TiedBlocks made_up_tied_blocks(std::int64_t elements);
 
-/// A smooth vector field of about `size`, 3 * mesh.slots values, zero in unused lanes.
+/// A smooth vector field of about the given size: 3 * mesh.slots values, zero in unused lanes.
 template <class Real>
 AlignedVector<Real> made_up_field(const Mesh& mesh, double size);
 

@@ -8,7 +8,7 @@ namespace tread {
 
 namespace {
 
-/// Seconds of `calls` calls; without a reset between them the clock is read twice in all.
+/// Time of `calls` calls [s]. Without a reset between the calls the clock is read only twice.
 double run(const TimedCall& timed, int calls) {
   using Clock = std::chrono::steady_clock;
   Clock::duration spent{};
@@ -30,7 +30,7 @@ double run(const TimedCall& timed, int calls) {
 }  // namespace
 
 Measurement measure(const TimedCall& timed, const MeasurementPlan& plan) {
-  // Warms up and finds how many calls a run needs.
+  // Warms up and finds the number of calls that a run needs.
   int calls = 1;
   for (double seconds = run(timed, 1); seconds < plan.run_seconds;) {
     const double wanted = 1.2 * plan.run_seconds / std::max(seconds / calls, 1e-9);

@@ -1,5 +1,5 @@
 #pragma once
-// How long a call takes: warm-up, then the median and the spread of several runs.
+// Duration of a call: warm-up, then the median and the spread of several runs.
 
 #include <functional>
 #include <vector>
@@ -7,18 +7,18 @@
 namespace tread {
 
 struct Measurement {
-  double seconds = 0;   ///< of a call, median of the runs [s]
-  double fastest = 0;   ///< of a call in the fastest run [s]
+  double seconds = 0;   ///< time of a call, median of the runs [s]
+  double fastest = 0;   ///< time of a call in the fastest run [s]
   double spread = 0;    ///< slowest less fastest run, over the median [-]
-  int repetitions = 0;  ///< runs
+  int repetitions = 0;  ///< number of runs
 };
 
 struct MeasurementPlan {
-  int repetitions = 7;        ///< runs, at least 5 for a spread worth recording
-  double run_seconds = 0.05;  ///< a run lasts at least so long, of as many calls as that needs [s]
+  int repetitions = 7;        ///< number of runs, at least 5 for a spread worth recording
+  double run_seconds = 0.05;  ///< shortest duration of a run, which makes as many calls as that needs [s]
 };
 
-/// What is timed, and what brings back the state before it, which is not.
+/// The timed call and an untimed reset that restores the state before it.
 struct TimedCall {
   std::function<void()> call;
   std::function<void()> reset{};  ///< may be empty

@@ -1,5 +1,5 @@
 #pragma once
-// A scene that has been brought to the first step of its motion.
+// A scene brought to the first step of its motion.
 
 #include <memory>
 
@@ -12,12 +12,12 @@ namespace tread {
 
 class RollingScene {
  public:
-  /// Mesh, preload, step. InputError for a scene without a motion.
+  /// Makes mesh, preload and step. Throws InputError for a scene without a motion.
   RollingScene(const Scene& scene, const Progress& progress);
 
   const Model& model() const { return *model_; }
   double dt() const { return dt_; }
-  /// At the start; one at a time, as they share the model's contact.
+  /// Simulation at the start. Only one may exist at a time, as all share the model's contact.
   Simulation start() const;
 
  private:

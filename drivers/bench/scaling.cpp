@@ -20,15 +20,15 @@ namespace tread {
 
 namespace {
 
-/// Held by an element, about: three vectors and the inverse mass of a node. [B]
+/// Approximate bytes of an element: three vectors and the inverse mass of a node [B].
 constexpr double kBytes = 10 * sizeof(double);
 
-/// Where the core-time of a step goes, in the mean of all steps. [s]
+/// Parts of a step's time, means of all steps [s].
 struct StepTimes {
   Measurement measured;
   double wall = 0;      ///< wall clock
   double parallel = 0;  ///< wall clock within parallel calls
-  double busy = 0;      ///< of all threads within bodies
+  double busy = 0;      ///< core-time of all threads within bodies
 };
 
 StepTimes time_steps(const std::function<void()>& step, const MeasurementPlan& plan) {
@@ -57,24 +57,24 @@ struct ScalingRow {
   int threads;
   std::int64_t elements;
   StepTimes step;
-  StepTimes one;  ///< of the first row
+  StepTimes one;  ///< times of the first row
   double triad;   ///< bandwidth on as many bytes, over that of one thread [-]
 
-  /// Work over that of the first row.
+  /// Work relative to the first row [-].
   double growth() const { return kind[0] == 'w' ? threads : 1; }
   double core_time() const { return threads * step.wall; }
   double efficiency() const { return growth() * one.wall / core_time(); }
-  /// Of the core-time, what one thread alone would not have needed: outside of parallel calls ...
+  /// Fraction of the core-time lost outside parallel calls [-].
   double lost_serial() const {
     return (threads * (step.wall - step.parallel) - growth() * (one.wall - one.parallel)) / core_time();
   }
-  /// ... waiting within them for work or for the slowest thread ...
+  /// Fraction of the core-time lost in parallel calls by waiting for work or for the slowest thread [-].
   double lost_waiting() const { return (threads * step.parallel - step.busy) / core_time(); }
-  /// ... and because the same work takes longer beside the other threads.
+  /// Fraction of the core-time lost because the work takes longer beside the other threads [-].
   double lost_slower() const { return (step.busy - growth() * one.parallel) / core_time(); }
 };
 
-/// What `threads()` threads do at a time; made anew for every mesh.
+/// Makes, for a mesh of so many elements, a function that does one step with all threads.
 using StepMaker = std::function<std::function<void()>(std::int64_t elements)>;
 
 std::function<void()> made_up_step(std::int64_t elements) {
@@ -102,7 +102,7 @@ std::function<void()> made_up_step(std::int64_t elements) {
   };
 }
 
-/// Rows for one to `most` threads of every backend. The first is the same for all: one thread needs no
+/// Rows for one to `most` threads of every backend. All backends share the first row: one thread needs no
 /// backend.
 class Scaling {
  public:
@@ -115,7 +115,7 @@ class Scaling {
   void measure_kind(const char* kind, std::int64_t elements, const StepMaker& make) {
     const bool grows = kind[0] == 'w';
     StepTimes one;
-    double alone = 0;  ///< a triad on one thread [s]
+    double alone = 0;  ///< time of a triad on one thread [s]
     auto step = make(elements);
     for (int count = 1; count <= most_; ++count) {
       set_threads(count);

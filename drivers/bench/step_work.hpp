@@ -1,5 +1,5 @@
 #pragma once
-// What the phases of a model's step compute and move, as far as it is counted.
+// Operations and bytes of the phases of a model's step, as far as they are counted.
 
 #include "drivers/bench/limits.hpp"
 #include "drivers/engine/model.hpp"
@@ -7,7 +7,8 @@
 
 namespace tread {
 
-/// Zeros where nothing is counted: contact, connectors, loads, the few nodes that move apart, samples.
+/// Load of a phase. Zeros for uncounted phases: contact, connectors, loads, the few nodes that move apart,
+/// samples.
 Load phase_load(const Model& model, StepPhase phase);
 
 }  // namespace tread

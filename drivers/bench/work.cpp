@@ -57,8 +57,8 @@ double element_flops(const ElementVariant& variant) {
   return static_cast<double>(Counted::operations() - before);
 }
 
-/// Of a node of the section and one element along the sweep: sum and difference of its ends, their forces,
-/// the sum with the neighbour's; sum and difference of its shifts.
+/// Operations of a section node and one element along the sweep: sum and difference of its ends, their
+/// forces, the sum with the neighbour's force; sum and difference of its shifts.
 double node_flops(const ElementVariant& variant) {
   const double components = moving_components(variant.vertical_only);
   double flops = components * (2 + 2 + 1);
@@ -87,7 +87,7 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
                                           : element_flops<false>(variant)) +
                node_flops(variant) * block.section.nodes() / quads;
   if (variant.moves) {
-    // Displacement and velocity in and out, inverse mass; the force does not leave the caches.
+    // Displacement and velocity in and out, inverse mass; the force stays in the caches.
     work.flops += update_work(variant.sweep, variant.vertical_only, bytes).flops * slots;
     work.bytes = (2 * components * (bytes.displacement + bytes.other) + bytes.other) * slots;
   } else {
@@ -95,7 +95,7 @@ Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueB
     const double others = 2 * kComponents + (variant.damped ? components : 0);
     work.bytes = (components * bytes.displacement + others * bytes.other) * slots;
   }
-  // The shift of every node, and which one it is; of every quad, that it has some.
+  // Every node has a shift and its index; every quad has a flag.
   if (variant.perturbed)
     work.bytes += (kComponents * bytes.other + sizeof(int) / double{kLanes}) * slots + 1 / double{kLanes};
   return work;
@@ -113,9 +113,9 @@ Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
 
 namespace {
 
-// Of one to three: a secondary node is one of nine to a primary one and takes from a third of a primary
-// section node, for what its lane takes is shared across; along from two stations, across from five thirds. A
-// primary node takes from three secondary section nodes, along from five stations, across from five.
+// Tie of one to three: nine secondary nodes for a primary node. A secondary node takes from a third of a
+// primary section node, because lanes across share their values; from two stations along and five thirds
+// across. A primary node takes from three secondary section nodes, from five stations along and five across.
 constexpr double kPrimaries = 1.0 / 9;
 constexpr double kStationFlops = 10;  ///< four products and four sums of t and r with the turn, two of y
 constexpr double kAcrossFlops = 6;

@@ -1,5 +1,5 @@
 #pragma once
-// What kernels compute and move: the numerators of the roofline. [docs/performance.md, How it is counted]
+// Operations and bytes of kernels: the numerators of the roofline. [docs/performance.md, How it is counted]
 
 #include <cstdint>
 
@@ -8,31 +8,32 @@
 
 namespace tread {
 
-/// Of one step over one unit (an element, a node, ...).
+/// Work of one step over one unit (an element, a node, ...).
 struct Work {
   double flops = 0;  ///< additions, multiplications and divisions
-  /// Fields read once and written once; what is written without being read is fetched all the same.
+  /// Bytes of fields read once and written once. A value that is written without being read is fetched all
+  /// the same.
   double bytes = 0;
 };
 
-/// Which version of the element a block runs.
+/// Version of the element that a block runs.
 struct ElementVariant {
   Sweep sweep = Sweep::extruded;
   bool damped = false;
   bool finite_rotation = false;
-  bool perturbed = false;  ///< touches moved nodes
-  bool moves = false;      ///< its nodes move in the same pass
+  bool perturbed = false;  ///< true if elements touch moved nodes
+  bool moves = false;      ///< true if the nodes move in the same pass
   bool vertical_only = false;
 };
 
-/// Internal force of a block of one such variant, by element.
+/// Work of the internal force of a block of one variant, per element.
 Work element_work(const ElementVariant& variant, const SweptBlock& block, ValueBytes bytes);
 
-/// Velocities and displacements of an extruded or a revolved block, by node slot.
+/// Work of velocities and displacements of an extruded or a revolved block, per node slot.
 Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes);
 
-/// Forces of secondary nodes handed to the primary ones; displacements and velocities that follow back; by
-/// secondary node, in a tie of one to three.
+/// Work of a tie of one to three, per secondary node. tie_hand_over_work: forces of secondary nodes go to the
+/// primary ones. tie_follow_work: displacements and velocities follow back.
 Work tie_hand_over_work(ValueBytes bytes);
 Work tie_follow_work(ValueBytes bytes);
 

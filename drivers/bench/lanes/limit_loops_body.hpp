@@ -1,5 +1,5 @@
 #pragma once
-// Included by one source per instruction set; internal linkage keeps the versions apart.
+// Included by one source per instruction set. Internal linkage keeps the versions apart.
 
 #include "drivers/bench/lanes/limit_loops.hpp"
 #include "kernels/lanes/registers.hpp"
@@ -7,8 +7,8 @@
 namespace tread {
 namespace {
 
-/// Chains that do not wait for one another: latency times operations per cycle of the processors at hand,
-/// within their registers.
+/// Number of independent chains: latency times operations per cycle of usual processors, within their
+/// registers.
 constexpr int kChains = kRegisterBytes == 64 ? 24 : 12;
 
 template <class Real>
@@ -27,7 +27,7 @@ double multiply_add(std::int64_t rounds) {
   using Register = FullRegister<Real>;
   Register x[kChains];
   for (int k = 0; k < kChains; ++k) x[k] = Register{} + static_cast<Real>(k);
-  // Not known to the compiler; the sequence tends to 1.
+  // The compiler does not know the value; the sequence tends to 1.
   volatile Real half = static_cast<Real>(0.5);
   const Register a = Register{} + half;
   const Register b = a;
