@@ -14,11 +14,11 @@ namespace tread {
 
 namespace {
 
-constexpr int kPlaces = 200;    ///< on either side of the wheel
+constexpr int kPlaces = 200;    ///< places on either side of the wheel
 constexpr double kReach = 0.5;  ///< [m]
-constexpr double kNear = 0.1;   ///< where asymmetry is judged [m]
+constexpr double kNear = 0.1;   ///< distance within which asymmetry is judged [m]
 
-/// Beyond the rail the value at its end.
+/// Value on the rail at x; beyond the rail, the value at its end.
 double on_rail(const RailLine& line, const std::vector<double>& values, double x) {
   return value_at(line.x(), values, std::clamp(x, line.x().front(), line.x().back()));
 }

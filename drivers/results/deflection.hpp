@@ -11,19 +11,19 @@ namespace tread {
 
 /// Vertical displacement of the running surface on the patch's longitudinal axis, by distance from the wheel.
 struct Deflection {
-  std::vector<double> x;        ///< from the wheel, -0.5 to 0.5 [m]
-  std::vector<double> at_rest;  ///< static [m]
-  std::vector<double> rolling;  ///< [m]
-  double wheel_x = 0;           ///< when rolling() was noted [m]
+  std::vector<double> x;        ///< distance from the wheel, -0.5 to 0.5 [m]
+  std::vector<double> at_rest;  ///< static displacement [m]
+  std::vector<double> rolling;  ///< displacement while rolling [m]
+  double wheel_x = 0;           ///< place of the wheel when rolling() was noted [m]
 
-  /// Within 0.1 m of the wheel: root mean square of the odd part over that of the even part, which counts
-  /// from its value at 0.1 m. Of a displacement by x.
+  /// Asymmetry of a displacement within 0.1 m of the wheel [-]: root mean square of the odd part over that of
+  /// the even part. The even part counts from its value at 0.1 m.
   static double asymmetry(const std::vector<double>& displacement);
 };
 
 Deflection deflection(const RailLine& line);
 
-/// Columns: x_from_wheel, static, rolling [m].
+/// Writes a table with the columns x_from_wheel, static, rolling [m].
 void write_deflection(const std::filesystem::path& path, const Deflection& deflection);
 
 Figure deflection_figure(const Deflection& deflection);

@@ -9,10 +9,10 @@ namespace tread {
 namespace {
 
 // Measured on runs of the scenes in scenes/.
-constexpr double kCsvBytes = 13.5;              ///< of a value in histories.csv
-constexpr double kPatchShare = 0.15;            ///< of a sample in patch.h5 that compression leaves
-constexpr double kFrameShare = 0.62;            ///< of a frame that compression leaves
-constexpr std::int64_t kReportBytes = 1500000;  ///< of report.html and the small files
+constexpr double kCsvBytes = 13.5;              ///< bytes of a value in histories.csv
+constexpr double kPatchShare = 0.15;            ///< share of a sample in patch.h5 that compression leaves
+constexpr double kFrameShare = 0.62;            ///< share of a frame that compression leaves
+constexpr std::int64_t kReportBytes = 1500000;  ///< bytes of report.html and the small files
 
 }  // namespace
 

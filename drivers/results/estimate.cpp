@@ -16,7 +16,7 @@ namespace {
 // Measured on runs of the scenes in scenes/: 1.3 ... 1.45.
 constexpr double kStepOverhead = 1.4;  ///< time of a step over that of its internal force
 
-/// The fastest: what interrupts one of them is not to be multiplied by the number of steps.
+/// Time of the fastest call [s]: an interruption of one call must not be multiplied by the number of steps.
 double seconds_of(const std::function<void()>& force) {
   using Clock = std::chrono::steady_clock;
   constexpr int kTimes = 5;
@@ -30,18 +30,18 @@ double seconds_of(const std::function<void()>& force) {
   return fastest;
 }
 
-/// In double, as the preload applies it.
+/// Time of one application in double, as the preload applies it [s].
 double seconds_of_one_force(const Model& model) {
   const AlignedVector<double> u(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   AlignedVector<double> f(u.size(), 0.0);
   return seconds_of([&] { model.internal->internal_force(u.data(), u.data(), f.data()); });
 }
 
-/// A preload of a draft takes 378 iterations of conjugate gradients, each three applications of the
-/// stiffness, vectors and a coarse solution; that of a tyre on a block 120. [docs/performance.md, Mesh,
-/// preload, memory]
+/// Time of the preload [s]. A preload of a draft takes 378 iterations of conjugate gradients, each three
+/// applications of the stiffness, vectors and a coarse solution. The preload of a tyre on a block takes 120.
+/// [docs/performance.md, Mesh, preload, memory]
 double seconds_of_preload(const Model& model) {
-  constexpr double kOnFastenings = 4300;  ///< over one application of the stiffness
+  constexpr double kOnFastenings = 4300;  ///< time over that of one application of the stiffness
   constexpr double kOnRigidGround = 1200;
   constexpr double kRunIn = 4.5;  ///< [s]
   const double applications = model.scene.fastenings ? kOnFastenings : kOnRigidGround;
@@ -51,8 +51,8 @@ double seconds_of_preload(const Model& model) {
 }  // namespace
 
 Estimate estimate(Model& model) {
-  // A run puts the corrugation where the preload finds the largest pressure; its place matters to no figure
-  // here.
+  // A run puts the corrugation at the place of the largest pressure in the preload. That place affects no
+  // value here.
   if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
   Estimate e;
   e.elements = model.elements();

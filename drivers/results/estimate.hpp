@@ -1,5 +1,5 @@
 #pragma once
-// What a run is going to take, before it starts.
+// Estimated cost of a run, before it starts.
 
 #include <cstdint>
 
@@ -22,8 +22,8 @@ struct Estimate {
   double seconds() const { return preload_seconds + rolling_seconds; }
 };
 
-/// With the threads in use, from a few measured applications of the model's stiffness. Applies the scene's
-/// corrugation.
+/// Estimate with the threads in use, from a few measured applications of the model's stiffness. Applies the
+/// scene's corrugation.
 Estimate estimate(Model& model);
 
 }  // namespace tread

@@ -22,8 +22,7 @@ constexpr const char* kFolder = "frames";
 constexpr const char* kSeries = "frames.hdf.series";
 constexpr std::string_view kSuffix = ".hdf";
 
-/// Beside the frames that it belongs to. A run may go on with other cells: the frames that it has keep
-/// theirs.
+/// Name of the mesh file beside its frames. A run may go on with other cells: older frames keep their mesh.
 const char* mesh_name(VtkCells kind) {
   return kind == VtkCells::faces ? "mesh-faces.hdf" : "mesh-elements.hdf";
 }
@@ -138,7 +137,7 @@ void FrameFiles::begin() {
 
 void FrameFiles::write() {
   write_copy();
-  at_ = {};  // a field or two as large as the run's own
+  at_ = {};  // frees a field or two as large as the run's own
 }
 
 void FrameFiles::write_copy() {
@@ -174,7 +173,7 @@ std::vector<float> FrameFiles::points() const {
   return values;
 }
 
-/// In Cartesian axes; velocities with the rigid motion of the wheel's frame.
+/// Arrays in Cartesian axes; velocities include the rigid motion of the wheel's frame.
 std::vector<VtkArray> FrameFiles::arrays() const {
   VtkArray displacement{
       "displacement [m]", "m", "from the points, which move rigidly with their body", 3, false, {}};

@@ -1,5 +1,5 @@
 #pragma once
-// The files that grow while a run lasts: histories.csv, run.h5, patch.h5.
+// The files that grow during a run: histories.csv, run.h5, patch.h5.
 
 #include <filesystem>
 #include <optional>
@@ -16,18 +16,18 @@ inline constexpr const char* kPatchFile = "patch.h5";
 
 class GrowingFiles {
  public:
-  /// Starts all afresh.
+  /// Starts all files afresh.
   GrowingFiles(const Model& model, const std::filesystem::path& directory);
 
-  /// Makes them what they were when patch_bytes() gave `patch`: cut back to the samples, whatever happened to
-  /// them since.
+  /// Restores the files to the state in which patch_bytes() returned `patch`: cut back to the samples,
+  /// whatever happened to them since.
   GrowingFiles(const Model& model, const std::filesystem::path& directory, const std::vector<Sample>& samples,
                const std::string& patch);
 
-  /// NumericalError where a value is not finite: it does not reach a file.
+  /// Appends a sample. Throws NumericalError if a value is not finite; such a value does not reach a file.
   void append(const Sample& sample);
 
-  /// What patch.h5 holds with all samples so far; empty without contact.
+  /// Bytes of patch.h5 with all samples so far; empty without contact.
   std::string patch_bytes();
 
   void close();

@@ -75,7 +75,7 @@ PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes,
 PatchFile::~PatchFile() {
   try {
     close();
-  } catch (...) {  // nobody is left to tell
+  } catch (...) {  // a destructor cannot report errors
   }
 }
 
@@ -153,7 +153,7 @@ std::vector<PatchSample> read_patch(const std::filesystem::path& path, const std
   std::size_t before = wheel_x.size();
   for (const double place : places) {
     const std::size_t at = nearest(wheel_x, place);
-    if (std::exchange(before, at) == at) continue;  // there is none, too
+    if (std::exchange(before, at) == at) continue;  // also if there are no samples
     PatchSample sample{time[at], wheel_x[at], station[at], {}, {}};
     for (const PatchField& field : patch_fields()) {
       const std::vector<float> values = file.read_row<float>(dataset(field), at);

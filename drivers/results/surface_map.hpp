@@ -10,29 +10,30 @@
 
 namespace tread {
 
-/// What is shown of a surface.h5, and how.
+/// Field of a surface.h5 with title, label and scale of its picture.
 struct SurfaceView {
-  std::string field;        ///< "max_pressure"
-  std::string title;        ///< "Largest pressure"
-  std::string value_label;  ///< with unit: "p [MPa]"
-  double scale = 1;         ///< from the field's unit to that of the label
+  std::string field;        ///< name such as "max_pressure"
+  std::string title;        ///< title such as "Largest pressure"
+  std::string value_label;  ///< label with unit: "p [MPa]"
+  double scale = 1;         ///< factor from the field's unit to that of the label
 };
 
-/// Only rows that have been in contact, and one more on either side.
+/// Values of a surface field on the rows that have been in contact, and one more row on either side.
 struct SurfaceMap {
-  std::string column;          ///< name and unit, "max_pressure [Pa]"
-  std::vector<double> x, y;    ///< nodes along and across the rail, middles of elements for their fields [m]
-  std::vector<double> values;  ///< [station][row], in the field's unit
+  std::string column;          ///< name and unit, such as "max_pressure [Pa]"
+  std::vector<double> x, y;    ///< nodes along and across the rail, middles of elements for element fields
+                               ///< [m]
+  std::vector<double> values;  ///< values [station][row], in the field's unit
 };
 
-/// A field within the stretch. InputError where the file does not hold it over two stations or nothing lies
-/// there.
+/// Reads a field within the stretch. Throws InputError if the file does not hold the field over two stations
+/// or nothing lies in the stretch.
 SurfaceMap read_surface_map(const std::filesystem::path& path, const std::string& field, const Span& stretch);
 
-/// With titles, labels and units of the view.
+/// Relief with titles, labels and units of the view.
 Relief relief(const SurfaceMap& map, const SurfaceView& view);
 
-/// A row per value.
+/// Table with a row per value.
 std::string surface_maps_csv(const std::vector<SurfaceMap>& maps);
 
 }  // namespace tread

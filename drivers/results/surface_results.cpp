@@ -34,7 +34,8 @@ int strongest(const std::vector<double>& values, std::size_t columns) {
   return static_cast<int>(std::max_element(sum.begin(), sum.end()) - sum.begin());
 }
 
-/// Mean of the surface elements before and behind a station that have been under pressure.
+/// Mean Von Mises stress of those surface elements before and behind a station that have been under pressure
+/// [Pa].
 double beside(const SurfaceFields& fields, int station, int cell_row) {
   double sum = 0;
   int count = 0;
@@ -47,7 +48,7 @@ double beside(const SurfaceFields& fields, int station, int cell_row) {
   return count > 0 ? sum / count : 0;
 }
 
-/// Of values [station][columns] over the stations of the stretch.
+/// Largest of the values [station][columns] over the stations of the stretch.
 double largest(const SurfaceFields& fields, const SurfaceResults& surface, const std::vector<double>& values,
                std::size_t columns) {
   double most = 0;
@@ -63,9 +64,9 @@ struct Field {
   const char* name;
   const char* unit;
   const char* description;
-  const std::vector<double>& values;  ///< [station] or [station][column]
-  std::size_t columns;                ///< 1: by station alone
-  int less = 0;                       ///< stations at the end that have no value
+  const std::vector<double>& values;  ///< values [station] or [station][column]
+  std::size_t columns;                ///< number of columns; 1: by station alone
+  int less = 0;                       ///< number of stations at the end without a value
 };
 
 void write_field(Hdf5File& file, const Field& field, int first, int last) {
