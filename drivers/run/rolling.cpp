@@ -13,8 +13,8 @@ namespace tread {
 
 namespace {
 
-constexpr int kLookInterval = 16;         ///< steps between looks at the clock
-constexpr double kRequestInterval = 0.5;  ///< between looks into the folder [s]
+constexpr int kLookInterval = 16;         ///< steps between two looks at the clock
+constexpr double kRequestInterval = 0.5;  ///< time between two looks into the folder [s]
 
 std::string instant(double time, std::int64_t steps) {
   return fmt::format("t = {:.6e} s (step {})", time, steps);
@@ -26,12 +26,12 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
     : session_(&session), model_(&model), results_(&results) {
   end_ = step_count(model.scene, results.dt);
   fork_step_ = fork_step(model, results.dt);
-  if (results.origin && results.origin->steps == fork_step_) fork_step_.reset();  // the other run has it
+  if (results.origin && results.origin->steps == fork_step_) fork_step_.reset();  // the other run keeps it
 }
 
 void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
-  AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has its own
+  AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
   files_.emplace(*model_, session_->folder.path());
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
 }
@@ -57,7 +57,7 @@ void Rolling::to_the_end() {
   started_steps_ = simulation_->steps();
   session_->interruption.defer();
   try {
-    if (!written_) write_checkpoint();  // the preload is dear
+    if (!written_) write_checkpoint();  // the preload is expensive
     step_to_the_end();
     wait_for_writer();
     files_->close();
@@ -83,7 +83,7 @@ void Rolling::step_to_the_end() {
   }
 }
 
-/// Between two steps.
+/// Handles writing, signals, requests and limits between two steps.
 void Rolling::look() {
   if (frames_->due(simulation_->steps())) write_frame();
   if (const char* signal = Interruption::stop_wanted()) leave(signal);
@@ -129,7 +129,7 @@ void Rolling::check_penetration() {
                     1e6 * penetration, 1e6 * *stop.penetration));
 }
 
-/// A motion that is not finite is not kept; the energies' watch soon ends it.
+/// Writes a checkpoint, except of a motion that is not finite; the energies' watch soon ends such a motion.
 void Rolling::write_checkpoint() {
   wait_for_writer();
   if (!simulation_->finite()) return;
@@ -156,7 +156,7 @@ void Rolling::keep_for_forks() {
                   instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
 }
 
-/// Of a motion that is finite.
+/// Writes a frame of a finite motion.
 void Rolling::write_frame() {
   wait_for_writer();
   if (!simulation_->finite()) return;
@@ -173,7 +173,8 @@ void Rolling::wait_for_writer() {
   session_->progress.say(fmt::format("[checkpoint] {}", instant(mark->time, mark->steps)));
 }
 
-/// Leaves a checkpoint and the process, but for a motion that is not finite: that has its own end.
+/// Writes a checkpoint and throws Interrupted, except for a motion that is not finite: that motion ends by
+/// its own error.
 void Rolling::leave(const std::string& why) {
   if (!simulation_->finite()) return;
   write_checkpoint();
@@ -186,14 +187,14 @@ void Rolling::leave(const std::string& why) {
   throw Interrupted(text);
 }
 
-/// Of a run in a sound state.
+/// Writes a checkpoint of a run in a sound state and throws E.
 template <class E>
 void Rolling::end(const std::string& why) {
   write_checkpoint();
   throw E(fmt::format("stopped at {}: {}", instant(simulation_->time(), simulation_->steps()), why));
 }
 
-/// How the run can go on after an error of type E.
+/// Sentence on how the run can go on after an error of type E.
 template <class E>
 std::string Rolling::way_on() const {
   if (!written_) return fmt::format("there is no checkpoint yet: {} starts again", session_->way_on());
@@ -220,7 +221,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   throw E(text);
 }
 
-/// The error that is on its way matters more.
+/// Closes the files without errors: the error already thrown matters more.
 void Rolling::close_quietly() {
   try {
     files_->close();

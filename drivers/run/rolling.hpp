@@ -1,6 +1,6 @@
 #pragma once
-// Step 2 as a process carries it out: stepping, samples, checkpoints, frames, what others ask for, what ends
-// it.
+// The rolling stage of a run's process: stepping, samples, checkpoints, frames, requests of other processes,
+// limits.
 
 #include <cstdint>
 #include <optional>
@@ -19,17 +19,17 @@ class Rolling {
  public:
   Rolling(RunSession& session, Model& model, RunResults& results);
 
-  /// From the preload in the results.
+  /// Begins from the preload in the results.
   void begin();
-  /// From a checkpoint whose results have been unpacked.
+  /// Goes on from a checkpoint whose results have been unpacked.
   void go_on(const SealedContent& checkpoint);
 
-  /// Steps to the end and fills the results. NumericalError and ResourceError say what is left; Interrupted
-  /// after a signal, a request or stop.wall_time.
+  /// Steps to the end and fills the results. Throws NumericalError and ResourceError that say what is left.
+  /// Throws Interrupted after a signal, a request or stop.wall_time.
   void to_the_end();
 
  private:
-  /// Of a checkpoint.
+  /// Instant of a checkpoint.
   struct Mark {
     std::int64_t steps;
     double time;  ///< [s]
@@ -52,7 +52,7 @@ class Rolling {
   void close_quietly();
   std::string progress_line() const;
   std::string status() const;
-  double seconds() const;  ///< of rolling, earlier processes included
+  double seconds() const;  ///< time of rolling, earlier processes included [s]
   void fill_results();
 
   RunSession* session_;
@@ -62,15 +62,16 @@ class Rolling {
   std::optional<GrowingFiles> files_;
   std::optional<FrameFiles> frames_;
   std::int64_t end_ = 0;                   ///< steps of the whole run
-  std::optional<std::int64_t> fork_step_;  ///< whose state is kept for other runs
-  double started_ = 0;                     ///< on the session's clock [s]
+  std::optional<std::int64_t> fork_step_;  ///< step whose state is kept for other runs
+  double started_ = 0;                     ///< start on the session's clock [s]
   std::int64_t started_steps_ = 0;
-  double seconds_before_ = 0;    ///< rolled by earlier processes [s]
-  double looked_at_ = 0;         ///< on the session's clock [s]
-  double checkpoint_at_ = 0;     ///< the last one, on the session's clock [s]
-  std::optional<Mark> written_;  ///< the last checkpoint that is safe
+  double seconds_before_ = 0;    ///< time that earlier processes rolled [s]
+  double looked_at_ = 0;         ///< last look into the folder on the session's clock [s]
+  double checkpoint_at_ = 0;     ///< last checkpoint on the session's clock [s]
+  std::optional<Mark> written_;  ///< last checkpoint that is safe
   std::optional<Mark> being_written_;
-  BackgroundTask writer_;  ///< of checkpoints and frames, one after another: a checkpoint's frames are safe
+  BackgroundTask writer_;  ///< writer of checkpoints and frames, one after another: a checkpoint's frames are
+                           ///< safe
 };
 
 }  // namespace tread

@@ -25,7 +25,7 @@ std::vector<std::string> unpack_texts(const SealedContent& content, const std::s
   return texts;
 }
 
-/// Two meshes agree in these where they agree in every node, but for the last digits of another machine.
+/// Numbers that agree for two meshes if all nodes agree, except for the last digits on another machine.
 std::vector<double> fingerprint(const Model& model) {
   double sum = 0;
   double moment = 0;

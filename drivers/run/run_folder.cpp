@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kRequest = "request";
 constexpr const char* kStatus = "status.json";
 
-/// ResourceError where another process owns the folder.
+/// Locks the folder. Throws ResourceError if another process owns it.
 FileLock take(const fs::path& folder) {
   std::optional<FileLock> lock = FileLock::try_folder(folder);
   if (lock) return std::move(*lock);
@@ -40,7 +40,7 @@ const char* name_of(RunRequest request) {
   return "stop";
 }
 
-/// Nothing where it is not what leave_request() left.
+/// Request in the file; nullopt for anything that leave_request() did not write.
 std::optional<RunRequest> read_request(const fs::path& path) {
   std::string text;
   try {
@@ -107,7 +107,7 @@ bool RunFolder::take_stop() const {
 void RunFolder::show_status(const std::string& json) const {
   try {
     show_text_file(path_ / kStatus, json);
-  } catch (const ResourceError&) {  // what matters will say so itself
+  } catch (const ResourceError&) {  // a full disk shows at the files that matter
   }
 }
 

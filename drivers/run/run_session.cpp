@@ -11,7 +11,7 @@ namespace tread {
 
 namespace {
 
-/// The folder of the run that begins or goes on.
+/// Makes the folder of the run that begins or goes on.
 std::filesystem::path made(const std::filesystem::path& directory) {
   make_directory(directory);
   return directory;

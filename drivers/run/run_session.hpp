@@ -1,5 +1,5 @@
 #pragma once
-// What a process that works on a run has besides model and results.
+// Surroundings of a process that works on a run, besides model and results.
 
 #include <string>
 
@@ -14,7 +14,7 @@
 namespace tread {
 
 struct RunSession {
-  /// Takes the folder. ResourceError where another process has it.
+  /// Takes the folder. Throws ResourceError if another process has it.
   explicit RunSession(const RunOptions& given);
 
   RunOptions options;
@@ -25,13 +25,13 @@ struct RunSession {
   RunOrder order;
   ResolvedScene resolved;
 
-  /// "`tread resume out`"
+  /// Command that goes on with the run: "`tread resume out`".
   std::string way_on() const;
 
-  /// Of status.json: an object with stage, process and machine, still open.
+  /// Start of status.json: an object with stage, process and machine, still open.
   JsonWriter status(const std::string& stage) const;
 
-  /// Says `text`, and shows it in status.json.
+  /// Says `text` and shows it in status.json.
   void enter(const std::string& stage, const std::string& text) const;
 };
 
