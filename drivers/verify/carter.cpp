@@ -26,7 +26,7 @@ struct Carter {
   }
 };
 
-/// Shear stress at the nodes beside theory; `side`: sign of the traction.
+/// Shear stress at the nodes beside theory. `side`: sign of the traction.
 Figure tractions_figure(const Rolled& rolled, const Carter& theory, double side) {
   Series ours{"nodes", {}, {}, Stroke::solid};
   Series line{"Carter", {}, {}, Stroke::dashed};
@@ -66,7 +66,7 @@ CaseResult carter(const VerifyInputs& inputs, const ProgressText& progress) {
   const double reached = rolled.force / (bodies.friction * rolled.normal_force);
   const Carter theory{a, a * std::sqrt(1 - std::abs(reached)),
                       bodies.friction * bodies.hertz_patch().max_pressure};
-  // Away from the ends of patch and stick zone by one element and a half.
+  // Only nodes farther than an element and a half from the ends of patch and stick zone count.
   double worst = 0;
   int compared = 0;
   const double side = std::copysign(1.0, reached);

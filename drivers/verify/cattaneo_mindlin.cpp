@@ -1,6 +1,6 @@
-// A sphere pressed on a block and pushed tangentially, forwards and back, by a torque so slow that inertia
-// does not count. [Mindlin and Deresiewicz, J. Appl. Mech. 20 (1953) 327; Johnson, Contact Mechanics,
-// sect. 7.2 and 7.4]
+// A sphere pressed on a block and pushed tangentially, forwards and back, by a torque so slow that inertia is
+// negligible. [Mindlin and Deresiewicz, J. Appl. Mech. 20 (1953) 327; Johnson, Contact Mechanics, sect. 7.2
+// and 7.4]
 
 #include <fmt/core.h>
 
@@ -19,8 +19,8 @@ namespace {
 
 /// Mindlin's sphere; q: tangential force over f F_N.
 struct Mindlin {
-  double radius = 0;  ///< of the patch [m]
-  double limit = 0;   ///< shift at which all slips [m]
+  double radius = 0;  ///< radius of the patch [m]
+  double limit = 0;   ///< shift at which the whole patch slides [m]
   double force = 0;   ///< f F_N [N]
 
   Mindlin(const TyreOnBlock& bodies) {
@@ -31,7 +31,7 @@ struct Mindlin {
   }
   double stick_radius(double q) const { return radius * std::cbrt(1 - q); }
   double first_shift(double q) const { return limit * (1 - std::pow(1 - q, 2.0 / 3)); }
-  /// On the way back from `turn`.
+  /// Shift on the way back from `turn`.
   double shift_back(double turn, double q) const {
     return limit * (2 * std::pow(1 - 0.5 * (turn - q), 2.0 / 3) - std::pow(1 - turn, 2.0 / 3) - 1);
   }
@@ -42,8 +42,8 @@ struct Mindlin {
   }
 };
 
-/// Forward displacement on the axis at depth z of the wheel, a half-space, under the patch's tractions; that
-/// of the rail is the opposite. [Cerruti; Johnson, sect. 3.6] [m]
+/// Forward displacement on the axis of the wheel, a half-space, at depth z under the patch's tractions [m].
+/// The rail's displacement is the opposite. [Cerruti; Johnson, sect. 3.6]
 double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoint>& points, double z) {
   const double nu = bodies.poissons_ratio;
   double sum = 0;
@@ -59,14 +59,15 @@ double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoi
 
 struct Moment {
   double push = 0;          ///< tangential force on the wheel over f F_N
-  double shift = 0;         ///< of distant points of the wheel against those of the block, backwards [m]
+  double shift = 0;         ///< shift of distant points of the wheel against those of the block, backwards
+                            ///< [m]
   double stick_radius = 0;  ///< [m]
-  double work = 0;          ///< rubbed away since the start [J]
-  double residual = 0;      ///< of the energy [J]
+  double work = 0;          ///< frictional work since the start [J]
+  double residual = 0;      ///< residual of the energy [J]
 };
 
-/// Shift of the bodies as two points on the axis see it, one in each, at the same depth: theirs and what a
-/// half-space still moves there.
+/// Shift of the bodies as seen by two points on the axis, one in each body, at equal depth: their relative
+/// displacement and the remaining displacement of a half-space from there on [m].
 double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation, double depth) {
   const ConstNodeField u = simulation.displacement();
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).x;
@@ -77,8 +78,8 @@ double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulatio
   return carrier + wheel + rail + 2 * deep_displacement(bodies, model.contact->points(), depth);
 }
 
-/// Finite bodies under tangential forces turn a little as a whole where half-spaces do not: the shift seen
-/// from two and four semi-axes deep, continued to the surface.
+/// Shift of distant points [m]. Finite bodies under tangential forces turn a little as a whole, half-spaces
+/// do not. The shifts seen from two and four semi-axes deep are therefore continued to the surface.
 double distant_shift(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation) {
   const double a = bodies.hertz_patch().semi_axis_x;
   return 2 * shift_seen(bodies, model, simulation, 2 * a) - shift_seen(bodies, model, simulation, 4 * a);
@@ -145,7 +146,7 @@ CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& prog
   const std::vector<Moment> moments = push_and_pull(bodies, progress);
   const Mindlin theory(bodies);
 
-  // The turning points: the largest forces of the first push, the pull and the second push.
+  // The turning points are the largest forces of the first push, the pull and the second push.
   const auto at = [&](double time) {
     return moments.begin() + static_cast<std::ptrdiff_t>(time / 5.3 * static_cast<double>(moments.size()));
   };
@@ -161,7 +162,7 @@ CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& prog
   };
   const auto half = rises_to(0.5 * wanted);
   const auto back = std::find_if(first, pull, [](const Moment& m) { return m.push <= 0; });
-  // What sticks at the largest force has never slipped; what slipped may stick there already.
+  // A point that sticks at the largest force has never slipped; a point that slipped may stick there already.
   const auto least = std::min_element(moments.begin(), first + 1, [](const Moment& a, const Moment& b) {
     return a.stick_radius < b.stick_radius;
   });

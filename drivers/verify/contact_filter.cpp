@@ -1,4 +1,4 @@
-// A wheel that lies on a corrugated rail: how much of the corrugation's depth its height shows.
+// A wheel that lies on a corrugated rail: the fraction of the corrugation's depth that its height shows.
 // [reference: half-space contact on the same surfaces]
 
 #include <fmt/core.h>
@@ -17,17 +17,17 @@ namespace {
 
 struct Waves {
   double wavelength, depth, width;  ///< L, d_m, W of the paper's eqs. (6), (7) [m]
-  bool by_gap;                      ///< added to the contact gap, not by moved nodes
+  bool by_gap;                      ///< true: depth added to the contact gap; false: moved nodes
 };
 
 struct Rest {
-  double height = 0;        ///< of the wheel above the smooth rail, deformation included [m]
+  double height = 0;        ///< height of the wheel above the smooth rail, deformation included [m]
   double max_pressure = 0;  ///< [Pa]
 };
 
 /// The wheel at rest on a crest or in a trough.
 Rest rest(TyreOnBlock bodies, const Waves& waves, bool trough, const ProgressText& progress) {
-  // Whole waves that begin at a crest, so that x = 0 is the middle of the only one or between two.
+  // Whole waves begin at a crest, so that x = 0 is the middle of a single wave or the crest between two.
   const int count = trough ? 1 : 2;
   const double half = 0.5 * count * waves.wavelength;
   bodies.fine = {-half - 2 * bodies.element_size, half + 2 * bodies.element_size};
@@ -46,7 +46,7 @@ Rest rest(TyreOnBlock bodies, const Waves& waves, bool trough, const ProgressTex
   return {journal, model.contact->nodes().max_pressure()};
 }
 
-/// The same by the half-space.
+/// The wheel at rest by the half-space.
 Rest half_space_rest(const TyreOnBlock& bodies, const Waves& waves, bool trough) {
   using namespace half_space;
   const HertzPatch patch = bodies.hertz_patch();

@@ -1,5 +1,5 @@
-// Material damping over its whole range: the step that it leaves, the decay that it gives a bar's first mode,
-// and where it is refused.
+// Material damping over its whole range: the resulting step, the decay of a bar's first mode, and the refusal
+// of larger damping.
 
 #include <fmt/core.h>
 
@@ -18,7 +18,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kLeastShare = 0.5;  ///< of the undamped step, below which a scene is refused
+constexpr double kLeastShare = 0.5;  ///< smallest share of the undamped step; below it a scene is refused
 
 /// The first longitudinal mode of a free bar of linear elements with lumped masses.
 class FirstMode {
@@ -27,7 +27,7 @@ class FirstMode {
       : model_(&model), block_(&model.mesh.blocks[0]), element_size_(element_size) {
     length_ = block_->stations.back() - block_->stations.front();
   }
-  double frequency() const {  // [rad/s]
+  double frequency() const {  // angular frequency [rad/s]
     const Material& steel = model_->scene.steel;
     const double sound = std::sqrt(steel.youngs_modulus / steel.density);
     return 2 * sound / element_size_ * std::sin(0.5 * std::numbers::pi * element_size_ / length_);
@@ -52,8 +52,8 @@ class FirstMode {
   double element_size_, length_ = 0;
 };
 
-/// Rate of the mode's amplitude [1/s], the slope of half the logarithm of v- v+ + (w u)^2, which central
-/// difference conserves without damping.
+/// Decay rate of the mode's amplitude [1/s]: the slope of half the logarithm of v- v+ + (w u)^2, which
+/// central difference conserves without damping.
 double measured_decay(Model& model, double element_size, double dt, std::int64_t steps, Series& curve) {
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
   Simulation simulation(model, preload, dt);
@@ -71,7 +71,7 @@ double measured_decay(Model& model, double element_size, double dt, std::int64_t
     const double energy =
         velocity * mode.amplitude(simulation.velocity()) + std::pow(omega * displacement, 2);
     if (first == 0) first = energy;
-    if (energy <= 1e-12 * first) break;  // nothing is left to measure
+    if (energy <= 1e-12 * first) break;  // the amplitude has decayed
     const double logarithm = 0.5 * std::log(energy / first);
     logarithms.add(time, logarithm);
     curve.x.push_back(1e3 * time);
@@ -82,8 +82,8 @@ double measured_decay(Model& model, double element_size, double dt, std::int64_t
 
 struct Damping {
   std::string label;
-  std::string value;  ///< TOML
-  double beta = -1;   ///< [s], or
+  std::string value;  ///< TOML value
+  double beta = -1;   ///< beta [s]; -1 where a fraction is stated
   double fraction = -1;
 };
 
@@ -137,7 +137,7 @@ CaseResult extremes_damping(const VerifyInputs& inputs, const ProgressText& prog
     const double decay =
         measured_decay(model, h, 0.95 * dt, static_cast<std::int64_t>(inputs["steps"]), curve);
     progress(fmt::format("{}: dt {:.3e} s, decay {:.5g} 1/s", damping.label, dt, decay));
-    // Without damping: nothing decays by more than rounding in a period.
+    // Undamped: nothing decays by more than rounding in a period.
     if (beta == 0)
       find("decay of the first mode in a period", "-", decay * 2 * std::numbers::pi / omega, 0, 1e-9, true);
     else

@@ -1,5 +1,5 @@
-// Elements far from cubes: patch test and stable step for long, skewed and nearly incompressible ones; what
-// cannot be an element is refused with a list.
+// Elements far from cubes: patch test and stable step for long, skewed and nearly incompressible ones. Shapes
+// that cannot be elements are refused with a list.
 
 #include <fmt/core.h>
 
@@ -21,14 +21,14 @@ namespace tread {
 
 namespace {
 
-constexpr int kQuads = 3;     ///< along both sides of the section
-constexpr int kElements = 9;  ///< along the sweep: more than one tile
+constexpr int kQuads = 3;     ///< quads along both sides of the section
+constexpr int kElements = 9;  ///< elements along the sweep: more than one tile
 constexpr double kDensity = 7790;
 constexpr double kModulus = 205.9e9;
 
 /// A block of elements of one shape.
 struct Shape {
-  std::array<double, 3> size{};  ///< along the sweep, across, up [m]
+  std::array<double, 3> size{};  ///< sizes along the sweep, across, up [m]
   double skew_section = 0;       ///< angle by which the quads lean [rad]
   double skew_sweep = 0;         ///< angle by which the elements lean along the sweep [rad]
   double poissons_ratio = 0.3;
@@ -76,10 +76,10 @@ void for_each_node(const SweptBlock& block, const Visit& visit) {
 }
 
 struct Judged {
-  double inner_force = 0;   ///< largest inside the block / largest on it, of a linear field [-]
-  double stress_error = 0;  ///< largest / Von Mises equivalent [-]
+  double inner_force = 0;   ///< largest force inside the block / largest force on it, of a linear field [-]
+  double stress_error = 0;  ///< largest stress error / Von Mises equivalent [-]
   double step = 0;          ///< computed stable step [s]
-  bool holds = false;       ///< it is stable, and 1.01 of it is not
+  bool holds = false;       ///< true if the step is stable and 1.01 of it is not
 };
 
 void patch_test(const Mesh& mesh, const InternalForce& force, const Material& steel, Judged& judged) {
@@ -125,7 +125,7 @@ void patch_test(const Mesh& mesh, const InternalForce& force, const Material& st
     }
 }
 
-/// Whether a disturbance stays bounded over many steps dt of the free block.
+/// Returns true if a disturbance stays bounded over many steps dt of the free block.
 bool stays_bounded(const Mesh& mesh, const InternalForce& force, const AlignedVector<double>& inverse_mass,
                    double dt) {
   constexpr int kSteps = 1000;
@@ -144,7 +144,7 @@ bool stays_bounded(const Mesh& mesh, const InternalForce& force, const AlignedVe
     square = 0;
     for (const double value : v) square += value * value;
   }
-  return square < 1e7 * start;  // at the limit itself amplitudes grow like steps
+  return square < 1e7 * start;  // amplitudes at the limit itself grow like steps
 }
 
 void step_test(const Mesh& mesh, const InternalForce& force, Judged& judged) {
@@ -172,10 +172,10 @@ Judged judge(const Shape& shape) {
   return judged;
 }
 
-/// Shapes of one kind by what makes them extreme.
+/// Shapes of one kind, by the property that makes them extreme.
 struct Family {
   std::string name;
-  std::string label;  ///< of the abscissa
+  std::string label;  ///< label of the abscissa
   std::vector<double> at;
   std::function<Shape(double)> shape;
 };
@@ -220,7 +220,7 @@ std::vector<Family> families(const VerifyInputs& inputs) {
            }}};
 }
 
-/// Of the wave that runs fastest, over the shortest edge.
+/// Courant number of the fastest wave over the shortest edge.
 double courant(const Shape& shape, double step) {
   const Material steel = material_of(shape);
   const double speed = std::sqrt((steel.lame_lambda() + 2 * steel.shear_modulus()) / steel.density);

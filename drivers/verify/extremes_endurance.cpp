@@ -1,6 +1,6 @@
 // Millions of steps: force, momentum and energy of a wheel that rolls freely do not drift. Its speed may
 // change: the ring's compliance varies with the size of its elements, and a slow wheel under a heavy load
-// rocks on that.
+// rocks on that variation.
 
 #include <fmt/core.h>
 
@@ -14,7 +14,7 @@ namespace tread {
 
 namespace {
 
-/// By the least-squares line through the samples after the first tenth, over the whole run.
+/// Change over the whole run by the least-squares line through the samples after the first tenth.
 template <class Value>
 double drift(const RunResults& run, const Value& value) {
   LineFit line;
@@ -54,7 +54,7 @@ CaseResult extremes_endurance(const VerifyInputs& inputs, const ProgressText& pr
   bodies.thickness = 0.4 * bodies.radius;
   const double way = inputs["way"];
   const double steps = std::round(inputs["steps"]);
-  // The speed at which so many steps take the way.
+  // Speed at which so many steps cover the distance.
   bodies.roll_on(1, way, way, "");
   double speed = 0;
   {

@@ -13,7 +13,7 @@ namespace tread {
 
 namespace {
 
-constexpr std::array kFactors = {0.1, 0.3, 1.0, 3.0, 10.0};  ///< penalty over its default
+constexpr std::array kFactors = {0.1, 0.3, 1.0, 3.0, 10.0};  ///< factors of the penalty's default
 constexpr double kRefused = 100;
 
 /// The key that makes the penalty `factor` times its default.
@@ -48,7 +48,7 @@ CaseResult extremes_penalty(const VerifyInputs& inputs, const ProgressText& prog
     const Statistics normal = since(run, ramp, [](const Sample& s) { return s.vertical_force; });
     const double pushed = since(run, ramp, [](const Sample& s) { return s.max_penetration; }).mean;
     const double fineness = bodies.fineness();
-    // Between these the area is that of Hertz within what the mesh allows; softer widens it.
+    // Between these factors the area is that of Hertz within the mesh's accuracy; softer penalties widen it.
     const bool sharp = factor >= 0.9 && factor <= 1.1;
     result.findings.insert(
         result.findings.end(),

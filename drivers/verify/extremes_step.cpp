@@ -1,4 +1,4 @@
-// The time step: how close the computed stable step comes to the true one, and what happens on either side.
+// The time step: distance of the computed stable step from the true one, and the behaviour on either side.
 
 #include <fmt/core.h>
 
@@ -15,7 +15,7 @@ namespace tread {
 
 namespace {
 
-constexpr std::int64_t kNoticed = 1000;  ///< steps within which a step beyond the limit shows
+constexpr std::int64_t kNoticed = 1000;  ///< number of steps within which a step beyond the limit shows
 
 struct Candidate {
   std::string name;
@@ -55,10 +55,10 @@ std::vector<Candidate> candidates(const VerifyInputs& inputs) {
 
 struct Limit {
   double computed = 0;          ///< [s]
-  bool holds = false;           ///< the computed step itself is stable
-  double longest = 0;           ///< longest step that was seen to be stable [s]
-  std::vector<double> beyond;   ///< steps that were not, over `longest` [-]
-  std::vector<double> endured;  ///< steps done with them
+  bool holds = false;           ///< true if the computed step itself is stable
+  double longest = 0;           ///< longest step found stable [s]
+  std::vector<double> beyond;   ///< unstable steps over `longest` [-]
+  std::vector<double> endured;  ///< number of steps done with each of them
 };
 
 /// Bisects from the computed step towards 0.9 or 1.1 of it.
@@ -90,7 +90,8 @@ Limit true_limit(const Candidate& candidate, const Preload& preload, double comp
   return limit;
 }
 
-/// Steps in which rounding grows to the size of the motion: the larger root of z^2 + (4 r^2 - 2) z + 1.
+/// Number of steps in which rounding grows to the size of the motion: the larger root of z^2 + (4 r^2 - 2) z
+/// + 1.
 Series growth_theory() {
   Series series{"rounding grows to 1", {}, {}, Stroke::dashed};
   for (double r = 1.0005; r < 1.1; r += r < 1.005 ? 0.0005 : 0.0025) {

@@ -14,11 +14,11 @@ namespace tread {
 
 namespace {
 
-/// A run and what all of them are judged by.
+/// A run and the values by which all runs are judged.
 struct Run {
   Model model;
   RunResults results;
-  double first;  ///< of the time that is judged [s]
+  double first;  ///< start of the judged time [s]
 
   Run(const Scene& scene, double first_part, const ProgressText& progress)
       : model(scene), results(ride(model, 1000, progress)), first(first_part * results.samples.back().time) {}
@@ -42,7 +42,7 @@ struct Run {
   }
 };
 
-/// Rolling under as much of the friction coefficient as `exploitation` says.
+/// Rolling under the fraction `exploitation` of the friction coefficient.
 void below_the_limit(TyreOnBlock bodies, double speed, double exploitation, CaseResult& result,
                      const ProgressText& progress) {
   const double a = bodies.hertz_patch().semi_axis_x;
@@ -64,7 +64,7 @@ void below_the_limit(TyreOnBlock bodies, double speed, double exploitation, Case
   run.judge(at, result.findings);
 }
 
-/// A torque of `times` what adhesion carries; negative brakes.
+/// Rolling or sliding under a torque of `times` the limit of adhesion; negative brakes.
 void beyond_the_limit(TyreOnBlock bodies, double speed, double times, CaseResult& result,
                       const ProgressText& progress) {
   double adhesion = 0;
@@ -77,7 +77,7 @@ void beyond_the_limit(TyreOnBlock bodies, double speed, double times, CaseResult
     inertia = model.wheelset->inertia();
   }
   const double torque = times * adhesion;
-  // Until the rim would run backwards as fast as a tenth of the speed, if braked.
+  // Under braking, the run lasts until the rim would run backwards at a tenth of the speed.
   const double slowing = (std::abs(times) - 1) * adhesion / inertia;
   const double time = 1.1 * speed / radius / slowing;
   const double ramp = 0.1 * time;

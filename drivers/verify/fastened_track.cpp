@@ -9,7 +9,7 @@ namespace tread {
 namespace {
 
 constexpr double kRail = 15.2;    ///< length of the library's rail [m]
-constexpr double kFirst = 0.125;  ///< its first fastening [m]
+constexpr double kFirst = 0.125;  ///< place of the first fastening [m]
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's rail on its fastenings alone, as the verification cases of the track share it.
+// The paper's rail on its fastenings alone, shared by the verification cases of the track.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace tread {
 
-/// element_size, spacing, stiffness and damping of the fastenings.
+/// Inputs element_size, spacing, stiffness and damping of the fastenings.
 std::vector<VerifyInput> track_inputs();
 
 /// Scene text: wheelset, vehicle and rail of the paper, as many fastenings as the rail takes, no slab. Tables

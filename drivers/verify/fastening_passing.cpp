@@ -1,5 +1,6 @@
-// The half wheelset rolls over the smooth rail: the part of F_N that repeats with the fastenings, against a
-// wheelset that bends in its static shape, on a Hertz spring over the beam on the same fastenings.
+// The half wheelset rolls over the smooth rail. The part of F_N that repeats with the fastenings is compared
+// with a model: a wheelset that bends in its static shape, on a Hertz spring over the beam on equal
+// fastenings.
 
 #include <fmt/core.h>
 
@@ -21,7 +22,7 @@ namespace tread {
 namespace {
 
 constexpr double kEndOfRail = 0.5;  ///< least distance of the wheel from the rail's ends [m]
-constexpr double kBeamStep = 2e-5;  ///< of the beam's time integration [s]
+constexpr double kBeamStep = 2e-5;  ///< step of the beam's time integration [s]
 
 Scene passage_scene(const VerifyInputs& inputs) {
   const double way = inputs["spans"] * inputs["spacing"];
@@ -40,7 +41,7 @@ duration = "{} s"
 ForceCurve rolled(Model& model, const Preload& preload, const ProgressText& progress) {
   const MotionSpec& motion = *model.scene.motion;
   const double stable = motion.step_safety * step_limit(model).stable_step;
-  // A little more than the way, so that it is covered.
+  // The run is a little longer than the distance, so that it covers the distance.
   const auto steps = static_cast<std::int64_t>(std::ceil(1.002 * motion.duration / stable));
   Simulation simulation(model, preload, stable);
   constexpr double kInterval = 1e-5;
@@ -59,7 +60,7 @@ ForceCurve rolled(Model& model, const Preload& preload, const ProgressText& prog
   return curve;
 }
 
-/// The same way on the beam, from far enough behind to have settled.
+/// The passage on the beam, started far enough behind to have settled.
 ForceCurve rolled_on_beam(const MotionSpec& motion, const BeamVehicle& vehicle, const TrackBeam& beam) {
   const double start = beam.left() + kEndOfRail;
   BeamPassage passage(beam, vehicle, start, kBeamStep);

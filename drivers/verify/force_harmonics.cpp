@@ -19,7 +19,7 @@ Harmonics harmonics(const ForceCurve& curve, double period, int periods, double 
     const double share = (x - curve.x[i]) / (curve.x[i + 1] - curve.x[i]);
     return (1 - share) * curve.force[i] + share * curve.force[i + 1];
   };
-  constexpr int kParts = 400;  // of a period
+  constexpr int kParts = 400;  // parts of a period
   const int points = kParts * periods;
   std::vector<std::complex<double>> sums(static_cast<std::size_t>(count) + 1);
   for (int i = 0; i < points; ++i) {

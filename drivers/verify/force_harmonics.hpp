@@ -1,5 +1,5 @@
 #pragma once
-// Curves of F_N over the fastenings and what repeats in them.
+// Curves of F_N over the fastenings and their periodic parts.
 
 #include <vector>
 
@@ -8,19 +8,20 @@ namespace tread {
 /// F_N at times and places of a passage. [N]
 struct ForceCurve {
   std::vector<double> time;   ///< [s]
-  std::vector<double> x;      ///< of the wheel [m]
+  std::vector<double> x;      ///< place of the wheel [m]
   std::vector<double> force;  ///< [N]
 };
 
 /// Mean, and amplitude and phase of the first harmonics of a period in x over whole periods.
 struct Harmonics {
   double mean = 0;
-  std::vector<double> amplitude;  ///< of harmonic 1, 2, ...
+  std::vector<double> amplitude;  ///< amplitudes of harmonics 1, 2, ...
   std::vector<double> phase;      ///< x of the first crest over the period, 0 ... 1
-  double low = 0, high = 0;       ///< extremes of mean and harmonics together
+  double low = 0, high = 0;       ///< extremes of the sum of mean and harmonics
 };
 
-/// Over [last - periods * period, last], by trapezoids. NumericalError where the curve does not cover it.
+/// Harmonics over [last - periods * period, last], by trapezoids. Throws NumericalError if the curve does not
+/// cover that range.
 Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count);
 
 }  // namespace tread

@@ -16,13 +16,13 @@ namespace {
 struct StaticContact {
   double max_pressure = 0;  ///< largest nodal average [Pa]
   double area = 0;          ///< [m2]
-  double approach = 0;      ///< of distant points [m]
+  double approach = 0;      ///< approach of distant points [m]
   double load = 0;          ///< [N]
   std::vector<ContactPoint> points;
 };
 
-/// Displacement of the axis at depth z of a half-space under a Hertz pressure: Boussinesq's point force,
-/// integrated over the ellipse. [Johnson, eq. 3.19] [m]
+/// Displacement of the axis at depth z of a half-space under a Hertz pressure [m]: Boussinesq's point force,
+/// integrated over the ellipse. [Johnson, eq. 3.19]
 double axis_displacement(const TyreOnBlock& bodies, const HertzPatch& patch, double z) {
   constexpr int kRings = 60;
   constexpr int kSectors = 60;
@@ -52,7 +52,8 @@ StaticContact press(const TyreOnBlock& bodies, const ProgressText& progress) {
   contact.area = preload.contact.area;
   contact.load = -preload.contact.force_on_rail.z;
   contact.points = model.contact->points();
-  // Two points on the axis, each three semi-axes deep, and what a half-space still moves there.
+  // The approach is seen from two points on the axis, each three semi-axes deep, plus the remaining
+  // displacement of a half-space from there on.
   const double depth = 3 * std::max(patch.semi_axis_x, patch.semi_axis_y);
   const double* u = preload.displacement.data();
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).z;
@@ -67,7 +68,7 @@ Figure pressure_figure(const TyreOnBlock& bodies, const StaticContact& contact) 
   const HertzPatch patch = bodies.hertz_patch();
   Series ours{"integration points", {}, {}, Stroke::solid};
   Series theory{"Hertz", {}, {}, Stroke::dashed};
-  // The row of points that lies nearest to the middle.
+  // The figure shows the row of points nearest to the middle.
   double nearest = 1e30;
   for (const ContactPoint& point : contact.points) nearest = std::min(nearest, std::abs(point.position.y));
   std::vector<const ContactPoint*> row;
@@ -109,7 +110,7 @@ CaseResult hertz_case(const VerifyInputs& inputs, const ProgressText& progress, 
                      {"approach", "um", 1e6 * contact.approach, 1e6 * patch.approach, 0.03},
                      {"F_N", "kN", 1e-3 * contact.load, 1e-3 * bodies.load, 1e-5}};
 
-  // The same shifted by parts of an element: no favourite alignment.
+  // The contact is repeated with the meshes shifted by parts of an element: no alignment is favoured.
   double low = contact.max_pressure, high = low, small = contact.area, large = small;
   for (const double shift : {0.25, 0.5}) {
     TyreOnBlock shifted = bodies;

@@ -1,4 +1,4 @@
-// Long motions of a wheel in its moving frame: what nature keeps must not drift. [theory.md, Body frames]
+// Long motions of a wheel in its moving frame: conserved quantities must not drift. [theory.md, Body frames]
 
 #include <fmt/core.h>
 
@@ -24,22 +24,22 @@ constexpr double kDensity = 7790;           // [kg/m3]
 constexpr double kYoungsModulus = 205.9e9;  // [Pa]
 constexpr double kPoissonsRatio = 0.3;
 
-/// A plain ring of steel, and the whole turn of it in elements of one size.
+/// A plain ring of steel; elements have one size over the whole turn.
 struct Ring {
   double radius = 0;        ///< [m]
   double element_size = 0;  ///< [m]
   double speed = 0;         ///< [m/s]
-  bool slice = false;       ///< one element wide, in plane strain
+  bool slice = false;       ///< true for a ring one element wide, in plane strain
   double way = 0;           ///< [m]
   double damping = 0;       ///< fraction of critical at the highest frequency [-]
   std::string more;         ///< further tables of the scene
 
-  /// A slice carries its load in bending: it is thick.
+  /// Radial thickness [m]. A slice carries its load in bending and is therefore thick.
   double thickness() const {
     return std::max(3.0, std::round((slice ? 0.4 : 0.14) * radius / element_size)) * element_size;
   }
   double width() const { return slice ? element_size : thickness(); }
-  /// In which elements have one size: at least a turn, or the ring would be out of balance.
+  /// Length in which elements have one size [m]: at least a turn, otherwise the ring would be out of balance.
   double fine() const { return std::max(way, 1.01 * 2 * std::numbers::pi * radius); }
   Scene scene() const;
 };
@@ -84,20 +84,20 @@ struct Moment {
   Vec3 mass_centre;           ///< [m]
   double speed = 0;           ///< [m/s]
   double spin = 0;            ///< [rad/s]
-  double mean_stress = 0;     ///< Von Mises, over the ring's elements [Pa]
+  double mean_stress = 0;     ///< mean Von Mises stress over the ring's elements [Pa]
   double largest_stress = 0;  ///< [Pa]
   double force = 0;           ///< F_N [N]
-  double residual = 0;        ///< of the energy balance [J]
-  double loss = 0;            ///< by the lead of the contact forces [J]
+  double residual = 0;        ///< residual of the energy balance [J]
+  double loss = 0;            ///< loss by the lead of the contact forces [J]
 };
 
 struct Run {
   std::vector<Moment> moments;
-  double mass = 0;         ///< of the ring [kg]
-  double inertia = 0;      ///< about its axis [kg m2]
-  double kinetic = 0;      ///< at the start [J]
-  double hoop_stress = 0;  ///< mean over the section at the start [Pa]
-  double wanted_hoop = 0;  ///< what balances the centrifugal force of half the ring [Pa]
+  double mass = 0;         ///< mass of the ring [kg]
+  double inertia = 0;      ///< moment of inertia about its axis [kg m2]
+  double kinetic = 0;      ///< kinetic energy at the start [J]
+  double hoop_stress = 0;  ///< mean hoop stress over the section at the start [Pa]
+  double wanted_hoop = 0;  ///< hoop stress that balances the centrifugal force of half the ring [Pa]
 
   /// Change over the run by the least-squares line through the values after the first tenth.
   template <class Value>
@@ -110,8 +110,8 @@ struct Run {
   }
 };
 
-/// Mean hoop stress over the section, and rho spin^2 times the mean of r^2: half a ring is pulled apart by
-/// its centrifugal force and held by its two cuts, whatever the material's law.
+/// Mean hoop stress over the section, and rho spin^2 times the mean of r^2. The centrifugal force of half a
+/// ring is balanced by its two cuts, for any material law.
 void compare_hoop(const Model& model, ConstNodeField u, double spin, Run& run) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
   const AreaMoments section = area_moments(block.section);
@@ -227,8 +227,8 @@ Figure drift_figure(const std::string& title, const Run& run) {
   return figure;
 }
 
-/// Bounds of what may change over a run, relative to its size at the start; `way`: of the mass centre's place
-/// beside its straight way, relative to that.
+/// Bounds of the changes over a run, relative to the values at the start. `way`: bound of the mass centre's
+/// distance from its straight line, relative to its length.
 struct DriftBounds {
   double stress;
   std::optional<double> speed;
@@ -264,7 +264,7 @@ void spin_freely(const VerifyInputs& inputs, const ProgressText& progress, CaseR
   const Run run = run_ring(ring, steps, progress);
   result.findings.push_back({"free: mean hoop stress against half a ring's balance", "MPa",
                              1e-6 * run.hoop_stress, 1e-6 * run.wanted_hoop, 0.01});
-  // Nothing acts on it: what is left is rounding and the preload's residual.
+  // Nothing acts on the ring: only rounding and the preload's residual remain.
   add_drifts("free", run, {1e-7, 1e-9, 1e-9, 1e-10}, result);
   result.figures.push_back(drift_figure("A wheel that spins freely", run));
 }
@@ -286,7 +286,7 @@ void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progr
   ring.way = ring.speed * step_on_short_way(ring) * static_cast<double>(steps);
   ring.more = ground(ring, load);
   const Run run = run_ring(ring, steps, progress);
-  // Both meshes pass one another like gears: that shakes undamped bodies more and more and slowly exchanges
+  // Both meshes pass one another like gears. That shakes undamped bodies more and more and slowly exchanges
   // spin for speed, to and fro. The balance of energy does not book material damping.
   const auto energy = ring.damping > 0 ? std::nullopt : std::optional(1e-6);
   add_drifts("rolling", run, {0.01, {}, 1e-3, energy}, result);

@@ -26,7 +26,7 @@ Harmonics harmonics(const SweptBlock& block, int node, const double* shape) {
   Harmonics sum{};
   for (int station = 0; station < block.station_count(); ++station) {
     const double angle = block.stations[static_cast<std::size_t>(station)];
-    // The arc that the station stands for, in turns: pitches may differ around a tread.
+    // Arc of the station in turns: pitches may differ around a tread.
     const int before = station == 0 ? block.station_count() - 1 : station - 1;
     const double arc = 0.5 * (block.pitch(station) + block.pitch(before)) / (2 * std::numbers::pi);
     const std::int64_t slot = block.base + block.slot(node, station);
@@ -72,7 +72,7 @@ NaturalMode mode_of(const Model& model, double omega, const double* shape) {
   const std::size_t plane = waves == 0 && mode.direction == Direction::around ? 0 : 2;
   double peak = 0;
   for (const Harmonics& h : nodes) peak = std::max({peak, std::abs(h[waves][1]), std::abs(h[waves][plane])});
-  // Amplitudes in phase with the largest: a mode without damping is a standing wave.
+  // Amplitudes are taken in phase with the largest: an undamped mode is a standing wave.
   std::complex<double> phase = 1;
   for (const Harmonics& h : nodes)
     for (const std::size_t c : {std::size_t{1}, plane})
@@ -123,7 +123,7 @@ std::vector<NaturalMode> natural_modes(const Model& model, int count, const Prog
   for (std::size_t k = 0; k < lowest.omega.size(); ++k) {
     system.expand(lowest.shapes[k].data());
     NaturalMode mode = mode_of(model, lowest.omega[k], lowest.shapes[k].data());
-    // Both of a pair have one frequency up to the mesh's unequal pitches.
+    // Both modes of a pair have one frequency up to the mesh's unequal pitches.
     const bool second = !modes.empty() && mode.waves > 0 && modes.back().waves == mode.waves &&
                         modes.back().direction == mode.direction &&
                         std::abs(mode.frequency - modes.back().frequency) < 1e-3 * mode.frequency;

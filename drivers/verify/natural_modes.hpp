@@ -1,5 +1,5 @@
 #pragma once
-// Natural modes of a scene's wheel at rest, and what shape they have.
+// Natural modes of a scene's wheel at rest and their shapes.
 
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace tread {
 
-/// Which displacement, by mass, most of a mode's motion is.
+/// Direction of the displacement that, by mass, carries most of a mode's motion.
 enum class Direction { around, along_axis, radial };
 
 struct NaturalMode {
   double frequency = 0;  ///< [Hz]
-  int waves = 0;         ///< around the axle
+  int waves = 0;         ///< number of waves around the axle
   Direction direction = Direction::around;
-  double share = 0;  ///< of the motion that has these waves [-]
+  double share = 0;  ///< share of the motion with these waves [-]
   /// Amplitudes of the tread's, disc's and axle's section nodes along the axis and radially (for torsion:
   /// around), largest 1; node by node, block after block.
   std::vector<double> along_axis, in_plane;

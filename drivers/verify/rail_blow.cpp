@@ -38,7 +38,7 @@ double RailAxis::deflection_at(double x, ConstNodeField u) const {
 EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress) {
   const MotionSpec& motion = *model.scene.motion;
   const Preload preload = solve_preload(model, {}, progress);
-  // Whole steps between samples.
+  // The sampling interval is a whole number of steps.
   const double stable = motion.step_safety * step_limit(model).stable_step;
   const auto every = static_cast<std::int64_t>(std::ceil(interval / stable));
   const double dt = interval / static_cast<double>(every);
@@ -75,7 +75,7 @@ double explained(const std::vector<double>& values, double step_angle) {
 
 double harmonic_frequency(const std::vector<double>& values, double interval, double low, double high) {
   const double turn = 2 * std::numbers::pi * interval;
-  // A quarter of the resolution 1 / T, then ever finer about the best.
+  // The search starts with a quarter of the resolution 1 / T and refines about the best frequency.
   double pitch = 0.25 / (interval * static_cast<double>(values.size()));
   double best = low;
   double most = -1;

@@ -1,5 +1,5 @@
 #pragma once
-// A rail without a wheel, struck by the hammer: what its cross-sections do.
+// Motion of the cross-sections of a rail without a wheel, struck by the hammer.
 
 #include <functional>
 #include <vector>
@@ -17,9 +17,9 @@ class RailAxis {
   explicit RailAxis(const Model& model);
 
   const std::vector<double>& stations() const { return x_; }
-  /// Mean downward displacement of a cross-section, weighted by mass. [m]
+  /// Mean downward displacement of a cross-section, weighted by mass [m].
   double deflection(int station, ConstNodeField u) const;
-  /// The same at x, linear between stations.
+  /// Mean downward displacement at x, linear between stations [m].
   double deflection_at(double x, ConstNodeField u) const;
 
  private:
@@ -27,13 +27,14 @@ class RailAxis {
   std::vector<double> x_;  ///< [m]
 };
 
-/// Called with time and displacements at every sample, the start included.
+/// Function called with time and displacements at every sample, the start included.
 using BlowSample = std::function<void(double, ConstNodeField)>;
 
-/// Runs the scene's own step to its end, samples `interval` apart [s]; returns the last sample's energies.
+/// Runs the scene's own step to its end, with samples `interval` [s] apart. Returns the last sample's
+/// energies.
 EnergyLedger run_blow(Model& model, double interval, const BlowSample& sample, const ProgressText& progress);
 
-/// Frequency of the undamped harmonic that fits values at evenly spaced times best, between `low` and `high`
+/// Frequency [Hz] of the undamped harmonic that fits evenly spaced values best, between `low` and `high`
 /// [Hz].
 double harmonic_frequency(const std::vector<double>& values, double interval, double low, double high);
 

@@ -22,7 +22,8 @@ namespace {
 constexpr double kFirstFrequency = 50;   // [Hz]
 constexpr double kLastFrequency = 3000;  // [Hz]
 
-/// An even number of spans about x = 0 between two fastenings; the blow falls `aside` of it.
+/// Rail over an even number of spans about x = 0 between two fastenings. The blow falls at the distance
+/// `aside` from x = 0.
 Scene struck_rail(const VerifyInputs& inputs, double element_size, double aside) {
   const double spacing = inputs["spacing"];
   const double spans = inputs["spans"];
@@ -51,12 +52,12 @@ duration = "{} s"
 }
 
 struct Strike {
-  BlowRecord head;          ///< of the struck point
-  BlowRecord section;       ///< of the mean of the cross-section there
+  BlowRecord head;          ///< record of the struck point
+  BlowRecord section;       ///< record of the mean of the cross-section there
   double energy_error = 0;  ///< residual over the hammer's work [-]
 };
 
-/// The Fourier integral of a motion that goes on is not a receptance.
+/// Throws if the response has not decayed: the Fourier integral of a motion that goes on is not a receptance.
 void require_decay(const std::vector<double>& response) {
   constexpr double kLeft = 0.03;
   const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
@@ -72,7 +73,7 @@ void require_decay(const std::vector<double>& response) {
 }
 
 Strike strike(const Scene& scene, const ProgressText& progress) {
-  constexpr double kInterval = 2e-5;  // between samples [s]
+  constexpr double kInterval = 2e-5;  // time between samples [s]
   Model model(scene);
   const RailAxis axis(model);
   const double x = scene.hammer->position;
@@ -124,7 +125,7 @@ double peak(double low, double high, const Amplitude& amplitude) {
   return best;
 }
 
-/// Root mean square of the difference of both amplitudes' levels. [dB]
+/// Root mean square of the difference of both amplitudes' levels [dB].
 double level_difference(const BlowRecord& record, const TrackBeam& beam, double x, double low, double high) {
   double sum = 0;
   int count = 0;
@@ -150,7 +151,7 @@ Panel receptance_panel(const std::string& place, const Strike& strike, const Tra
   return {"log10 of [m/N]", {section, head, theory}, {}, 240, std::nullopt};
 }
 
-/// Deflection under a force and the beam's own weight. [m]
+/// Deflection under a force and the beam's own weight [m].
 double loaded_deflection(const TrackBeam& beam, const BeamProperties& rail, double force, double gravity) {
   // By reciprocity the weight's deflection at 0 is the weight times the area of the line under a unit force
   // there.

@@ -1,5 +1,6 @@
-// Bending waves of the free rail against Timoshenko's beam. Between ends that do not turn run pure cosines:
-// the n-th mode of a rail of length L has the wave number n pi / L exactly, for beam and solid alike.
+// Bending waves of the free rail against Timoshenko's beam. The ends do not turn, so the modes are pure
+// cosines: the n-th mode of a rail of length L has the wave number n pi / L exactly, for beam and solid
+// alike.
 
 #include <fmt/core.h>
 
@@ -57,7 +58,7 @@ duration = "{duration} s"
 
 /// The modes of the rail, each by the amplitude of its cosine after a blow on the left end.
 std::vector<Mode> rail_modes(const Scene& scene, int count, const ProgressText& progress) {
-  constexpr double kInterval = 2e-5;  // between samples [s]
+  constexpr double kInterval = 2e-5;  // time between samples [s]
   Model model(scene);
   const RailAxis axis(model);
   const std::vector<double>& x = axis.stations();

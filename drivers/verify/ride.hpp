@@ -1,5 +1,5 @@
 #pragma once
-// A scene run as a user would, kept in memory.
+// A scene run as by a user, kept in memory.
 
 #include <string>
 #include <utility>
@@ -11,8 +11,8 @@
 
 namespace tread {
 
-/// Preload and rolling of the model's scene to the end of its duration with about `samples` samples; figures
-/// as in summary.json. Stops with NumericalError as a run would.
+/// Preload and rolling of the model's scene to the end of its duration, with about `samples` samples and
+/// summary values as in summary.json. Throws NumericalError as a run would.
 RunResults ride(Model& model, int samples, const ProgressText& progress);
 
 /// Rolling whose last step ends at the scene's duration.
@@ -20,7 +20,7 @@ struct WholeRun {
   std::int64_t steps;
   Simulation simulation;
 
-  /// To the end; `see` looks at the simulation after every sampled step.
+  /// Steps to the end. `see` receives the simulation after every sampled step.
   template <class See>
   void roll(const See& see) {
     while (simulation.steps() < steps) {
@@ -30,24 +30,27 @@ struct WholeRun {
   }
 };
 
-/// The fewest steps of one size that the scene's step_safety allows, or `least`; about `samples` samples.
+/// Rolling with the fewest steps of one size that the scene's step_safety allows, or `least` steps if these
+/// are more. About `samples` samples.
 WholeRun whole_run(Model& model, const Preload& preload, int samples, std::int64_t least = 1);
 
-/// Mean over the samples from `first` on [s].
+/// Mean over the samples from `first` [s] on.
 template <class Value>
 Statistics since(const RunResults& results, double first, const Value& value) {
   return statistics(
       results.samples, [first](const Sample& s) { return s.time >= first; }, value);
 }
 
-/// Samples in which a value is not finite.
+/// Number of samples with a value that is not finite.
 int count_not_finite(const Model& model, const RunResults& results);
 
-/// I times the change of spin against the angular impulse of torque and F_L about the axle, over the impulse
-/// of F_N times the radius: from the samples, with the nominal radius as F_L's arm.
+/// Error of the balance of angular momentum [-], from the samples. I times the change of spin is compared
+/// with the angular impulse of torque and F_L about the axle, with the nominal radius as F_L's arm. The
+/// reference is the impulse of F_N times the radius.
 double angular_momentum_error(const Model& model, const RunResults& results);
 
-/// Adds what every ride is judged by: errors of energy and momentum, samples that are not finite.
+/// Adds the findings by which every ride is judged: errors of energy and momentum, samples that are not
+/// finite.
 void judge_ride(const std::string& at, const Model& model, const RunResults& results,
                 std::vector<Finding>& findings);
 

@@ -55,7 +55,7 @@ CaseResult ring_modes(const VerifyInputs& inputs, const ProgressText& progress) 
   const PlaneRing ring{radius - thickness, radius, inputs["youngs_modulus"], inputs["poissons_ratio"],
                        kDensity};
   const Model model(ring_scene(ring, size));
-  // Three rigid modes and the pairs; thick rings have others between them.
+  // Three rigid modes and the pairs are asked for; thick rings have others between them.
   const std::vector<NaturalMode> modes = natural_modes(model, 3 + 2 * kMostWaves + 4, progress);
   CaseResult result;
   Series ours{"finite elements", {}, {}, Stroke::solid};

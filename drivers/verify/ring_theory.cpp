@@ -29,7 +29,7 @@ Radial radial(bool second_kind, int n, double k, double r) {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;  // rows
 
-/// Of the matrix with its columns scaled to a largest value of 1, by elimination with row pivots.
+/// Determinant of the matrix with its columns scaled to a largest value of 1, by elimination with row pivots.
 double scaled_determinant(Matrix4 m) {
   for (std::size_t column = 0; column < 4; ++column) {
     double largest = 0;
@@ -55,8 +55,8 @@ double scaled_determinant(Matrix4 m) {
   return product;
 }
 
-/// Determinant of the four tractions that the four potentials leave on the cylinders. With the displacements
-/// u_r = f' + n g / r, u_t = -n f / r - g' of f cos(n t), g sin(n t).
+/// Determinant of the four tractions that the four potentials leave on the cylinders. The displacements of f
+/// cos(n t), g sin(n t) are u_r = f' + n g / r, u_t = -n f / r - g'.
 double determinant(const PlaneRing& ring, int n, double omega) {
   const double nu = ring.poissons_ratio;
   const double mu = ring.youngs_modulus / (2 * (1 + nu));
@@ -96,7 +96,8 @@ double thin_ring_frequency(const PlaneRing& ring, int waves) {
 }
 
 double exact_ring_frequency(const PlaneRing& ring, int waves) {
-  // Shear and rotary inertia lower the thin ring's frequency: the first change of sign from far below.
+  // Shear and rotary inertia lower the thin ring's frequency: the search takes the first change of sign from
+  // far below.
   constexpr int kSteps = 400;
   const double top = 1.5 * 2 * std::numbers::pi * thin_ring_frequency(ring, waves);
   double low = 0.02 * top;

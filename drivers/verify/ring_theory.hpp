@@ -10,13 +10,13 @@ struct PlaneRing {
   double density = 0;           ///< [kg/m3]
 };
 
-/// Of the inextensional mode with `waves` >= 2 around by thin-ring theory with the plane strain modulus.
-/// [Love, A Treatise on the Mathematical Theory of Elasticity, sect. 293] [Hz]
+/// Frequency [Hz] of the inextensional mode with `waves` >= 2 around, by thin-ring theory with the plane
+/// strain modulus. [Love, A Treatise on the Mathematical Theory of Elasticity, sect. 293]
 double thin_ring_frequency(const PlaneRing& ring, int waves);
 
-/// The lowest frequency with `waves` around by the equations of elasticity: potentials of Bessel functions,
+/// Lowest frequency [Hz] with `waves` around by the equations of elasticity: potentials of Bessel functions,
 /// both cylinders free of traction. [Gazis, Exact analysis of the plane-strain vibrations of thick-walled
-/// hollow cylinders, JASA 30 (1958)] [Hz]
+/// hollow cylinders, JASA 30 (1958)]
 double exact_ring_frequency(const PlaneRing& ring, int waves);
 
 }  // namespace tread

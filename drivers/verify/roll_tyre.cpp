@@ -85,7 +85,7 @@ Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText&
 
   rolled.nodes = axis_nodes(model.contact->nodes(), axle);
 
-  // Nodes that the whole patch has passed.
+  // Only nodes that the whole patch has passed count.
   const double half = 1.3 * bodies.hertz_patch().semi_axis_x;
   rolled.surface = surface_results(*simulation.surface(), first + half, s.back().wheel_x - half);
   const auto inside = [&](const AxisNode& node) { return rolled.surface.covers(node); };

@@ -1,5 +1,5 @@
 #pragma once
-// A tyre that rolls on a block, and what is seen of it.
+// A tyre that rolls on a block, and its observed values.
 
 #include <vector>
 
@@ -11,34 +11,34 @@ namespace tread {
 
 /// A point of the patch at the last step.
 struct PatchPoint {
-  double x = 0, y = 0;             ///< from the wheel's axis, along and across [m]
-  double pressure = 0, shear = 0;  ///< shear on the wheel, forwards [Pa]
+  double x = 0, y = 0;             ///< distance from the wheel's axis, along and across [m]
+  double pressure = 0, shear = 0;  ///< pressure, and shear on the wheel, forwards [Pa]
 };
 
-/// What the finite elements show over the observed stretch.
+/// Values of the finite elements over the observed stretch.
 struct Rolled {
   double force = 0;            ///< mean F_L [N]
   double normal_force = 0;     ///< mean F_N [N]
   double force_deviation = 0;  ///< standard deviation of F_L / mean [-]
-  double creepage = 0;         ///< mean of 28 nodes less that of free rolling [-]
+  double creepage = 0;         ///< mean creepage of 28 nodes less that of free rolling [-]
   double free_creepage = 0;    ///< [-]
   double work_creepage = 0;    ///< frictional work / (F_L x way) [-]
   double slip_fraction = 0;    ///< [-]
-  double lead_loss = 0;        ///< by the lead of the contact forces, over the frictional work [-]
-  double energy_residual = 0;  ///< over the frictional work [-]
+  double lead_loss = 0;        ///< loss by the lead of the contact forces, over the frictional work [-]
+  double energy_residual = 0;  ///< residual of the energy over the frictional work [-]
   SurfaceResults surface;
-  Statistics shear;  ///< of the nodes' largest shear on the axis [Pa]
-  double work = 0;   ///< on the axis [J/m2]
+  Statistics shear;  ///< nodes' largest shear on the axis [Pa]
+  double work = 0;   ///< frictional work on the axis [J/m2]
   std::vector<Sample> samples;
   std::vector<PatchPoint> patch;
-  std::vector<PatchPoint> nodes;  ///< that touch, averages of the row of the largest pressure
+  std::vector<PatchPoint> nodes;  ///< nodes in contact, averages of the row of the largest pressure
 };
 
-/// Runs the scene of the bodies; `observed`: the last part of the way [m].
+/// Runs the scene of the bodies. `observed`: length of the last, observed part [m].
 Rolled roll_tyre(const TyreOnBlock& bodies, double observed, const ProgressText& progress);
 
-/// Creepage (mean of 28 nodes, less free rolling) and traction over the way, the creepage's `reference` as a
-/// line.
+/// Creepage (mean of 28 nodes, less free rolling) and traction over the distance, with the creepage's
+/// `reference` as a line.
 Figure creepage_figure(const Rolled& rolled, double reference);
 
 }  // namespace tread

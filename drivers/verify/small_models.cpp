@@ -95,7 +95,7 @@ duration = "{duration} s"
 
 SmallRun run_small(const Scene& scene, const Preload& preload, double dt, std::int64_t steps,
                    const std::function<void(const Simulation&)>& see) {
-  Model model(scene);  // contact carries histories: each run its own
+  Model model(scene);  // contact carries histories: each run needs its own model
   Simulation simulation(model, preload, dt);
   simulation.set_sampling_interval(16);
   SmallRun run;

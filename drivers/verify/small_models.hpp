@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes that are run at the ends of the program's range, and what becomes of a run there.
+// Small scenes run at the ends of the program's range, and the outcome of a run.
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace tread {
 
-/// Small models run fastest on one thread; gives the threads back at its end.
+/// Sets one thread, on which small models run fastest. Restores the threads at its end.
 class OneThread {
  public:
   OneThread() : before_(threads()) { set_threads(1); }
@@ -23,7 +23,7 @@ class OneThread {
   int before_;
 };
 
-/// A free steel bar, a square of two elements by two across, one end of which starts to move.
+/// A free steel bar, two by two square elements across, one end of which starts to move.
 struct BarScene {
   double element_size = 5e-3;  ///< [m]
   double length = 0.2;         ///< [m]
@@ -37,8 +37,8 @@ struct BarScene {
 /// A tyre of 0.86 m diameter on a short rail.
 struct TyreScene {
   double element_size = 8e-3;     ///< [m]
-  std::string rail = "box";       ///< or CN60: two blocks, tied
-  std::string support = "rigid";  ///< or fastenings
+  std::string rail = "box";       ///< "box", or CN60: two blocks, tied
+  std::string support = "rigid";  ///< "rigid", or fastenings
   double speed = 10;              ///< [m/s]
   double duration = 5e-3;         ///< [s]
   std::string damping{};          ///< TOML value of material.steel.damping, or empty
@@ -49,16 +49,16 @@ struct TyreScene {
   Scene scene() const;
 };
 
-/// How a run went.
+/// Outcome of a run.
 struct SmallRun {
-  bool stopped = false;      ///< by the energies, or by the contact search
-  std::int64_t steps = 0;    ///< done
-  std::string reason;        ///< of the stop
-  double largest_share = 0;  ///< of the energy that ends a run, EnergyWatch::share() [-]
+  bool stopped = false;      ///< true if the energies or the contact search stopped the run
+  std::int64_t steps = 0;    ///< number of steps done
+  std::string reason;        ///< reason of the stop
+  double largest_share = 0;  ///< largest share of the energy that ends a run, EnergyWatch::share() [-]
 };
 
-/// `steps` steps of dt [s] from the scene's static state, which must belong to it; sees every sample, every
-/// 16 steps.
+/// Does `steps` steps of dt [s] from the scene's static state, which must belong to it. `see` receives every
+/// sample, every 16 steps.
 SmallRun run_small(const Scene& scene, const Preload& preload, double dt, std::int64_t steps,
                    const std::function<void(const Simulation&)>& see = {});
 

@@ -21,10 +21,10 @@ struct Shear {
   double size() const { return std::hypot(x, y); }
 };
 
-/// The steady half-space, with cells that fit into a surface element an odd number of times, so that boxes of
-/// the element's size stand on the axis.
+/// The steady half-space. An odd number of cells fits into a surface element, so that boxes of the element's
+/// size stand on the axis.
 struct HalfSpace {
-  int per_box;  ///< cells along an element
+  int per_box;  ///< number of cells along an element
   half_space::Influence influence;
   half_space::NormalContact contact;
   half_space::FrictionState state;
@@ -79,13 +79,13 @@ Peak largest_shear(const HalfSpace& half_space, double size, double y) {
   return peak;
 }
 
-/// What the half-space shows.
+/// Values of the half-space.
 struct Reference {
   double creepage = 0;
   double slip_fraction = 0;
-  double max_shear = 0;  ///< on the axis, mean over a box of the element's size [Pa]
-  double work = 0;       ///< strip of one element's width on the axis [J/m2]
-  double von_mises = 0;  ///< of a surface element's mean stress [Pa]
+  double max_shear = 0;  ///< shear on the axis, mean over a box of the element's size [Pa]
+  double work = 0;       ///< work in the strip of one element's width on the axis [J/m2]
+  double von_mises = 0;  ///< Von Mises stress of a surface element's mean stress [Pa]
 };
 
 /// Distance of the row of nodes on the axis from the middle of the patch [m].
@@ -106,14 +106,14 @@ Reference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, d
   reference.work = half_space::centre_element_work(half_space.grid(), half_space.state, h) / (h * h);
   const Peak box = largest_shear(half_space, h, row_aside(bodies));
   reference.max_shear = box.shear;
-  // Elements stand beside the axis when nodes stand on it; the largest stress is near the largest shear.
+  // Elements stand beside the axis if nodes stand on it; the largest stress is near the largest shear.
   reference.von_mises = half_space::largest_box_stress(
       {half_space.grid(), half_space.contact.pressure, half_space.state.tractions, bodies.poissons_ratio},
       {box.x, 0.5 * h, 0, h, h, h}, 0.5 * patch.semi_axis_x);
   return reference;
 }
 
-/// Along the axis at the last step.
+/// Shear stress along the axis at the last step.
 Figure shear_figure(const TyreOnBlock& bodies, const Rolled& rolled, const HalfSpace& half_space) {
   Series ours{"nodes", {}, {}, Stroke::solid};
   Series averaged{"half-space, mean over an element", {}, {}, Stroke::dashed};
@@ -146,7 +146,7 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
                                  mu, bodies.friction));
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
-  bodies.guided = true;  // light and rigid: what the torque excites dies out fast
+  bodies.guided = true;  // light and rigid: motions excited by the torque decay fast
   const double observed = 5 * bodies.hertz_patch().semi_axis_x;
   bodies.roll_on(speed, speed * 1.15 * ramp + observed, observed,
                  fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));

@@ -18,21 +18,21 @@ namespace tread {
 
 namespace {
 
-/// What the wheel has rolled and turned.
+/// Distance and turn of the wheel.
 struct Place {
-  double way = 0;     ///< of the wheel [m]
-  double turned = 0;  ///< angle times radius less the way [m]
+  double way = 0;     ///< distance of the wheel [m]
+  double turned = 0;  ///< angle times radius less the distance [m]
   double force = 0;   ///< F_L / F_N [-]
 };
 
-constexpr double kPeriods = 2.5;  ///< of the wheel's turning on its patch while the torque grows
+constexpr double kPeriods = 2.5;  ///< periods of the wheel's turning on its patch while the torque grows
 
 struct Curve {
   std::vector<double> way;       ///< [m]
   std::vector<double> creepage;  ///< [-]
 };
 
-/// The half-space: a shift, then rolling under a constant force; the way counts from the shift.
+/// The half-space: a shift, then rolling under a constant force. The distance counts from the shift.
 struct Reference {
   Curve curve;
   double steady = 0;  ///< creepage [-]
@@ -43,7 +43,7 @@ Reference reference_of(const TyreOnBlock& bodies, double force, double way) {
   const HertzPatch patch = bodies.hertz_patch();
   const double semi = std::min(patch.semi_axis_x, patch.semi_axis_y);
   const half_space::Material material{bodies.youngs_modulus, bodies.poissons_ratio};
-  constexpr double kCells = 11;  // in the smaller semi-axis
+  constexpr double kCells = 11;  // cells in the smaller semi-axis
   const double cell = semi / kCells;
   const Influence influence(centred_grid(patch.semi_axis_x + 3 * cell, patch.semi_axis_y + 3 * cell, cell),
                             material);
@@ -73,7 +73,7 @@ double interpolate(const Curve& curve, double way) {
 struct Transient {
   std::vector<Place> places;
   double free_creepage = 0;  ///< [-]
-  double residual = 0;       ///< of the energy, over the frictional work [-]
+  double residual = 0;       ///< residual of the energy, over the frictional work [-]
 };
 
 Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
@@ -100,8 +100,8 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
   return transient;
 }
 
-/// Creepage less free rolling: mean slope of the turned over the rolled way, weighted by a triangle of half
-/// the base `period` [m], which hides the wheel's oscillation of that period.
+/// Creepage less free rolling: mean slope of the turned over the rolled distance, weighted by a triangle of
+/// half the base `period` [m], which hides the wheel's oscillation of that period.
 Curve creepage_curve(const Transient& transient, double period) {
   const std::vector<Place>& places = transient.places;
   std::vector<double> sum{0};
@@ -120,8 +120,8 @@ Curve creepage_curve(const Transient& transient, double period) {
   return curve;
 }
 
-/// Period with which the wheel turns to and fro on the stick of its patch, the bodies' own compliance guessed
-/// [s].
+/// Period [s] with which the wheel turns to and fro on the sticking patch, with a guess of the bodies' own
+/// compliance.
 double turning_period(const TyreOnBlock& bodies) {
   const HertzPatch patch = bodies.hertz_patch();
   const double shear_modulus = bodies.youngs_modulus / (2 * (1 + bodies.poissons_ratio));
@@ -138,7 +138,7 @@ struct Peak {
   double way = 0;   ///< [m]
 };
 
-/// Largest creepage times `sign` from the way `from` [m] on.
+/// Largest creepage times `sign` from the distance `from` [m] on.
 Peak peak_of(const Curve& curve, double from, double sign) {
   Peak peak;
   for (std::size_t i = 0; i < curve.way.size(); ++i)
@@ -147,7 +147,7 @@ Peak peak_of(const Curve& curve, double from, double sign) {
   return peak;
 }
 
-/// Creepage in per cent over the way in millimetres, from the way `from` [m] on.
+/// Creepage in per cent over the distance in millimetres, from the distance `from` [m] on.
 Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
   Series series{name, {}, {}, stroke};
   for (std::size_t i = 0; i < curve.way.size(); ++i) {
@@ -169,7 +169,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const double a = bodies.hertz_patch().semi_axis_x;
   const double way = inputs["way"] * a;
   const double grown = inputs["growth"] * a;
-  // Half a cosine of 2.5 periods leaves the wheel nearly at rest on its patch.
+  // A torque that grows as half a cosine of 2.5 periods leaves the wheel nearly at rest on its patch.
   const auto set_speed = [&](double period) {
     const double ramp = kPeriods * period;
     bodies.roll_on(grown / ramp, way, way,
@@ -182,7 +182,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const double window = grown / kPeriods;
   const Curve ours = creepage_curve(transient, window);
   Reference reference = reference_of(bodies, mu * bodies.load, way);
-  for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift, in the middle of the growth
+  for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift lies in the middle of the growth
   Series force{"F_L / F_N", {}, {}, Stroke::solid};
   double difference = 0;
   const Statistics full = statistics(

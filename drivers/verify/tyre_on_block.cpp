@@ -38,7 +38,7 @@ Scene TyreOnBlock::scene() const {
   const double ring = thickness > 0 ? thickness : std::min(12 * a, 0.6 * radius);
   const Span zone = fine.empty() ? Span{-2 * patch.semi_axis_x, 2 * patch.semi_axis_x} : fine;
   const double shift = grid_offset * element_size;
-  const double end = 10 * a + 0.05 * radius;  // of the block beyond the patch
+  const double end = 10 * a + 0.05 * radius;  // length of the block beyond the patch
   const double left = end + std::max(0.0, -zone.first);
   const bool slice = crown_radius == 0;
   const double width = slice ? element_size : std::min(16 * a, 1.9 * crown_radius);
@@ -163,7 +163,7 @@ std::array<double, 4> bilinear(double xi, double eta) {
           0.25 * (1 - xi) * (1 + eta)};
 }
 
-/// Bilinear weights of (p, q) in a convex quad, or nothing where it lies outside.
+/// Bilinear weights of (p, q) in a convex quad; nullopt outside.
 std::optional<std::array<double, 4>> weights_inside(const Section& section, const std::array<int, 4>& quad,
                                                     double p, double q) {
   double xi = 0;

@@ -12,57 +12,58 @@
 namespace tread {
 
 struct TyreOnBlock {
-  double radius = 0.43;  ///< of the rolling circle [m]
+  double radius = 0.43;  ///< radius of the rolling circle [m]
   double crown_radius =
-      0.3;                 ///< across; 0: a slice, one element wide, of a wide cylinder in plane strain [m]
+      0.3;                 ///< radius across; 0: a slice, one element wide, of a cylinder in plane strain [m]
   double load = 87564.06;  ///< F_N [N]
   double youngs_modulus = 0;  ///< [Pa]
   double poissons_ratio = 0;  ///< [-]
-  double friction = 0;        ///< coefficient f [-]
-  double element_size = 0;    ///< in the contact [m]
-  double grid_offset = 0;     ///< by which the meshes are shifted, along and across, in elements [-]
-  double roll = 0;            ///< way that the wheel rolls [m]
+  double friction = 0;        ///< coefficient of friction f [-]
+  double element_size = 0;    ///< element size in the contact [m]
+  double grid_offset = 0;     ///< shift of the meshes, along and across, in elements [-]
+  double roll = 0;            ///< distance that the wheel rolls [m]
   Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
-  double thickness = 0;       ///< of the ring; 0: 12 semi-axes, as the block [m]
-  /// The bore is led forward, and only the part of the ring that rolls is there, with ten semi-axes of tread
-  /// before and behind it.
+  double thickness = 0;       ///< thickness of the ring; 0: 12 semi-axes, as the block [m]
+  /// True if the bore is led forward. The model then holds only the part of the ring that rolls, with ten
+  /// semi-axes of tread before and behind it.
   bool guided = false;
-  int points = 3;                      ///< of contact per face and direction
-  bool facets = false;                 ///< contact on facets instead of exact profiles
-  double penetration = 0;              ///< over Hertz's approach; 0: the program's own penalty [-]
+  int points = 3;                      ///< points of contact per face and direction
+  bool facets = false;                 ///< true for contact on facets in place of exact profiles
+  double penetration = 0;              ///< penetration over Hertz's approach; 0: the program's own penalty
+                                       ///< [-]
   std::string more;                    ///< further tables of the scene
-  std::vector<std::string> overrides;  ///< of keys, as on the command line
+  std::vector<std::string> overrides;  ///< overrides of keys, as on the command line
 
-  /// Of a slice: semi_axis_y is 0, the load that of one element's width.
+  /// Hertz patch. For a slice semi_axis_y is 0 and the load that of one element's width.
   HertzPatch hertz_patch() const;
-  /// Element over the patch's smaller semi-axis, 1 where 1.1 mm meet the paper's 5.25 mm: bounds grow with
-  /// it.
+  /// Element size over the patch's smaller semi-axis, 1 for 1.1 mm and the paper's 5.25 mm: bounds grow with
+  /// it [-].
   double fineness() const;
-  /// Makes the wheel roll a way of which the last part is `observed` on fine elements [m]; `keys` are further
-  /// ones of the table [motion].
+  /// Makes the wheel roll the distance `way` [m], whose last part `observed` [m] has fine elements. `keys`
+  /// are further ones of the table [motion].
   void roll_on(double speed, double way, double observed, const std::string& keys);
-  /// The scene, as a file would state it. The block is 16 semi-axes wide, the bodies 12 semi-axes thick: the
-  /// half-space that theory means.
+  /// The scene, as a file would state it. The block is 16 semi-axes wide, the bodies 12 semi-axes thick, in
+  /// place of the theory's half-space.
   Scene scene() const;
 };
 
-/// Inputs: radius, crown_radius (where `sphere` is false), load, youngs_modulus, poissons_ratio,
-/// element_size (its default is given, [m]), grid_offset, points, facets, penetration.
+/// Inputs: radius, crown_radius (unless `sphere`), load, youngs_modulus, poissons_ratio, element_size
+/// (default given in [m]), grid_offset, points, facets, penetration.
 std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size = 1.1e-3);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
 
 /// Largest sizes that a case of plane strain allows.
 struct SliceLimits {
-  double semi_axis;     ///< of the patch over the radius [-]
-  double element_size;  ///< over the patch's semi-axis [-]
+  double semi_axis;     ///< semi-axis of the patch over the radius [-]
+  double element_size;  ///< element size over the patch's semi-axis [-]
 };
 
 /// A slice under the load that gives the patch its semi-axis. Inputs: radius, semi_axis, youngs_modulus,
-/// poissons_ratio, element_size, friction. InputError beyond the limits.
+/// poissons_ratio, element_size, friction. Throws InputError beyond the limits.
 TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits);
 
-/// Displacement at the point (p, q) of an extruded or revolved block's section and the station coordinate s,
-/// Cartesian. [m]
+/// Cartesian displacement [m] at the point (p, q) of an extruded or revolved block's section and the station
+/// coordinate s.
 Vec3 displacement_at(const Model& model, int block, double p, double q, double s, ConstNodeField u);
 
 }  // namespace tread

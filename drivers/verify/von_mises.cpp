@@ -15,7 +15,7 @@ namespace tread {
 
 namespace {
 
-/// The half-space under the patch, with cells that fit into a surface element an odd number of times.
+/// The half-space under the patch; an odd number of cells fits into a surface element.
 struct HalfSpace {
   half_space::Influence influence;
   half_space::NormalContact contact;
@@ -35,9 +35,9 @@ struct HalfSpace {
 
 /// Stress of a row of surface elements against x.
 struct Row {
-  std::vector<double> x;          ///< of the elements' middle from the patch's [m]
+  std::vector<double> x;          ///< distance of the elements' middle from the patch's [m]
   std::vector<double> stress;     ///< Von Mises [Pa]
-  std::vector<double> reference;  ///< of the half-space's boxes [Pa]
+  std::vector<double> reference;  ///< Von Mises stress of the half-space's boxes [Pa]
 };
 
 /// The row of elements with the largest stress under the wheel at rest, and its element.
@@ -97,7 +97,7 @@ double rolling_reference(const TyreOnBlock& bodies, const Rolled& rolled) {
   };
   for (int i = 1; i < grid.nx; ++i)
     if (shear(i) > shear(strongest)) strongest = i;
-  // Elements stand beside the axis when nodes stand on it.
+  // Elements stand beside the axis if nodes stand on it.
   const double h = bodies.element_size;
   const double aside = (0.5 - std::abs(bodies.grid_offset)) * h;
   return half_space::largest_box_stress(
@@ -118,7 +118,7 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
   const double speed = inputs["speed"];
   const double ramp = inputs["ramp"];
   const double a = bodies.hertz_patch().semi_axis_x;
-  // Steady after two semi-axes; then the patch passes what is observed from end to end.
+  // Rolling is steady after two semi-axes; then the patch passes the observed stretch from end to end.
   const double observed = 2.6 * a + std::max(6 * bodies.element_size, a);
   bodies.roll_on(speed, speed * ramp + 2 * a + observed, observed + 2 * a,
                  fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));

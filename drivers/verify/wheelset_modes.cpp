@@ -56,7 +56,7 @@ struct SweptOutline {
   }
 };
 
-/// Of a section's border: edges of one quad.
+/// Adds a section's border: edges of one quad.
 void add_border(const Section& section, SweptOutline& outline) {
   std::map<std::pair<int, int>, int> uses;
   const auto key = [](int a, int b) { return std::pair(std::min(a, b), std::max(a, b)); };
@@ -70,7 +70,7 @@ void add_border(const Section& section, SweptOutline& outline) {
       if (uses[key(quad[e], quad[(e + 1) % 4])] == 1) outline.add(at(quad[e]), at(quad[(e + 1) % 4]));
 }
 
-/// The LMA profile down to the tie under it.
+/// Adds the LMA profile down to the tie under it.
 void add_tread(const Section& tread, const WheelSpec& wheel, SweptOutline& outline) {
   const PlaneCurve profile = lma().surface;
   const double tie = tread.q[static_cast<std::size_t>(tread.paths.at("tie").front())];
@@ -88,7 +88,7 @@ void add_tread(const Section& tread, const WheelSpec& wheel, SweptOutline& outli
   outline.add(first, {first.x, tie});
 }
 
-/// The wheelset swept smoothly, tread by its exact profile.
+/// Outline of the wheelset swept smoothly, with the tread's exact profile.
 SweptOutline outline_of(const Model& model) {
   SweptOutline outline;
   const auto section = [&](int block) -> const Section& {
@@ -102,7 +102,7 @@ SweptOutline outline_of(const Model& model) {
 
 /// A shaft in slices of equal length.
 struct Shaft {
-  double first = 0, slice = 0;  ///< y of its end, length of a slice [m]
+  double first = 0, slice = 0;  ///< y of the shaft's end, length of a slice [m]
   std::vector<double> polar;    ///< second polar moment of the cross-section in the middle of each slice [m4]
 };
 
@@ -128,9 +128,9 @@ Shaft shaft_of(const Section& axle) {
   return shaft;
 }
 
-/// Lowest torsion of the axle as a shaft that carries the disc as a rigid body in the hub's middle: the
-/// lowest frequency at which a twist that leaves one end without torque arrives at the other without.
-/// [Holzer's method] [Hz]
+/// Lowest torsion [Hz] of the axle as a shaft that carries the disc as a rigid body in the hub's middle. It
+/// is the lowest frequency at which a twist without torque at one end has no torque at the other end.
+/// [Holzer's method]
 double shaft_torsion(const Model& model) {
   const Section& axle = model.mesh.blocks[static_cast<std::size_t>(model.index.axle)].section;
   const Material& steel = model.scene.steel;
@@ -172,12 +172,13 @@ struct MeshedWheelset {
   double outline_mass = 0, outline_inertia = 0;
   double shaft_torsion = 0;  ///< [Hz]
   std::vector<NaturalMode> rigid;
-  std::map<std::string, NaturalMode> elastic;  ///< by name and ordinal
+  std::map<std::string, NaturalMode> elastic;  ///< modes by name and ordinal
   std::vector<std::string> order;
 };
 
 MeshedWheelset wheelset_of(double element_size, int count, const ProgressText& progress) {
-  constexpr double kRigid = 5;  // no elastic mode of a wheelset is as slow [Hz]
+  constexpr double kRigid = 5;  // largest frequency of a rigid mode: elastic modes of a wheelset are faster
+                                // [Hz]
   const Model model(free_wheelset(element_size));
   const SweptOutline outline = outline_of(model);
   MeshedWheelset out;
@@ -199,13 +200,13 @@ MeshedWheelset wheelset_of(double element_size, int count, const ProgressText& p
   return out;
 }
 
-/// Motion of one section node in a mode, and where it is shown.
+/// Motion of one section node in a mode, and its place in the figure.
 struct ShapePoint {
   double at = 0;         ///< [mm]
-  std::size_t node = 0;  ///< of all section nodes
+  std::size_t node = 0;  ///< index among all section nodes
 };
 
-/// A curve for each of the lowest modes.
+/// Panel with a curve for each of the lowest modes.
 Panel shape_panel(const MeshedWheelset& wheelset, const std::string& label,
                   const std::vector<ShapePoint>& points, std::vector<double> NaturalMode::*motion) {
   constexpr std::size_t kCurves = 6;

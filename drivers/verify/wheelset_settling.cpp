@@ -1,5 +1,5 @@
-// The standing half wheelset after a step of load, against a wheelset that bends in its static shape, on a
-// Hertz spring over the beam on the same fastenings: an overdamped motion without overshoot.
+// The standing half wheelset after a step of load: an overdamped motion without overshoot. The reference is a
+// wheelset that bends in its static shape, on a Hertz spring over the beam on equal fastenings.
 
 #include <fmt/core.h>
 
@@ -19,9 +19,9 @@ namespace tread {
 
 namespace {
 
-constexpr double kInterval = 2e-5;  ///< between samples, and the beam's step [s]
+constexpr double kInterval = 2e-5;  ///< time between samples, and the beam's step [s]
 
-/// What has moved since the step of load, at evenly spaced times, downwards. [m]
+/// Downward displacement since the step of load, at evenly spaced times [m].
 using Settling = std::vector<double>;
 
 Scene standing_scene(const VerifyInputs& inputs, double sprung_mass) {
@@ -39,7 +39,7 @@ duration = "{} s"
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 
-/// The static state of the lighter vehicle, gone on with the heavier one.
+/// Settling from the static state of the lighter vehicle under the heavier one.
 Settling settle(Model& model, const Preload& preload, const VerifyInputs& inputs,
                 const ProgressText& progress) {
   model.scene.vehicle->sprung_mass += inputs["added_mass"];
@@ -81,8 +81,8 @@ Settling settle_on_beam(const TrackBeam& beam, const BeamVehicle& vehicle, doubl
 
 /// The oscillator of one degree of freedom whose step response fits best.
 struct Oscillator {
-  double frequency = 0;  ///< undamped [Hz]
-  double damping = 0;    ///< zeta, of critical [-]
+  double frequency = 0;  ///< undamped frequency [Hz]
+  double damping = 0;    ///< damping ratio zeta, of critical [-]
 };
 
 /// Step response of the oscillator of static deflection 1.
@@ -99,7 +99,7 @@ double step_response(const Oscillator& o, double time) {
   return 1 - (fast * std::exp(-slow * time) - slow * std::exp(-fast * time)) / (fast - slow);
 }
 
-/// Squares that the oscillator leaves over, its size chosen best.
+/// Sum of squares that the oscillator leaves over, with the best size.
 double misfit(const Settling& settling, const Oscillator& o) {
   double rr = 0, rs = 0, ss = 0;
   for (std::size_t i = 0; i < settling.size(); ++i) {
@@ -133,7 +133,7 @@ Oscillator fitted(const Settling& settling) {
   return best;
 }
 
-/// First time at which the deflection reaches a share of its last value. [s]
+/// First time at which the deflection reaches a share of its last value [s].
 double rise(const Settling& settling, double share) {
   std::size_t i = 0;
   while (settling[i] < share * settling.back()) ++i;
