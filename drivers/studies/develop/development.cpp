@@ -15,10 +15,10 @@ namespace tread {
 
 namespace {
 
-constexpr double kSpacing = 1e-3;       ///< of the profile's depths, at the most [m]
-constexpr double kElementsPerWave = 4;  ///< least, of a wave that wears
-constexpr double kWayBeyond = 0.02;     ///< that the wheel rolls beyond the corrugation, at the least [m]
-constexpr double kTellingDepth = 0.25;  ///< of the deepest band's
+constexpr double kSpacing = 1e-3;       ///< largest spacing of the profile's depths [m]
+constexpr double kElementsPerWave = 4;  ///< least number of elements in a wave that wears
+constexpr double kWayBeyond = 0.02;     ///< least distance that the wheel rolls beyond the corrugation [m]
+constexpr double kTellingDepth = 0.25;  ///< least depth of a telling band, over that of the deepest band
 constexpr double kTellingCoherence = 0.5;
 
 void require(bool holds, const std::string& message) {

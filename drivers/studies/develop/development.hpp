@@ -1,5 +1,5 @@
 #pragma once
-// Passages that wear the rail they roll over, and what became of its profile.
+// Passages that wear the rail under them, and the development of the rail's profile.
 
 #include <optional>
 #include <vector>
@@ -10,23 +10,24 @@
 
 namespace tread {
 
-/// What wears, how much, and of which profile.
+/// Wear coefficient, wavelengths that wear, and profile of a development.
 struct WearPlan {
   double per_work = 0;  ///< volume worn off per frictional work [m3/J]
-  double change = 0;    ///< of the depth by one simulated passage, at the most [-]
+  double change = 0;    ///< largest change of the depth by one simulated passage [-]
   WearBand band;
-  WornProfile start;  ///< of the scene's corrugation
+  WornProfile start;  ///< profile of the scene's corrugation
 };
 
-/// InputError where the scene lacks what a development needs, with the way out.
+/// Wear plan of a scene. Throws InputError, with the way out, if the scene lacks data that a development
+/// needs.
 WearPlan wear_plan(const Scene& scene);
 
 /// A simulated passage.
 struct WornPassage {
-  WornProfile profile;         ///< that it rolled over
-  PassageWork work;            ///< beyond that of the smooth rail [J/m2]
-  std::vector<double> uneven;  ///< the part of it that wears the profile unevenly [J/m2]
-  double passages = 0;         ///< real ones that it stands for
+  WornProfile profile;         ///< profile under the passage
+  PassageWork work;            ///< work beyond that of the smooth rail [J/m2]
+  std::vector<double> uneven;  ///< part of the work that wears the profile unevenly [J/m2]
+  double passages = 0;         ///< number of real passages that it stands for
   std::vector<GrowthBand> bands;
 };
 
@@ -35,34 +36,34 @@ struct Development {
   WearPlan plan;
   PassageWork smooth;  ///< the passage over the smooth rail
   std::vector<WornPassage> passages;
-  WornProfile profile;  ///< after them
+  WornProfile profile;  ///< profile after the passages
 
-  /// Adds the passage over the profile and lets it wear.
+  /// Adds the work of a passage over `profile` and lets the profile wear.
   void add(const PassageWork& work);
 
-  double mean_work() const;      ///< over the smooth rail [J/m2]
-  double real_passages() const;  ///< that all stand for
-  /// Of the profile as it is now, without responses.
+  double mean_work() const;      ///< mean work over the smooth rail [J/m2]
+  double real_passages() const;  ///< number of real passages that all simulated ones stand for
+  /// Bands of the present profile, without responses.
   std::vector<GrowthBand> bands_now() const;
 };
 
-/// What became of a band over all passages.
+/// Outcome of a band over all passages.
 struct BandOutcome {
   double wavelength = 0;         ///< [m]
   double before = 0, after = 0;  ///< root mean square depth [m]
-  double growth = 0;             ///< logarithmic, of a real passage, from the profiles
-  double first_growth = 0;       ///< the same by the work of the first passage
-  double last_growth = 0;        ///< by that of the last
+  double growth = 0;             ///< logarithmic growth by a real passage, from the profiles
+  double first_growth = 0;       ///< logarithmic growth by the work of the first passage
+  double last_growth = 0;        ///< logarithmic growth by the work of the last passage
   double per_wear = 0;           ///< first_growth over the depth that a passage wears off evenly [1/m]
-  double lag = 0;                ///< of the first passage's work past the trough, in waves
-  double coherence = 0;          ///< of the first passage
-  bool telling = false;          ///< whether the profile has enough of it to tell a response
+  double lag = 0;                ///< lag of the first passage's work past the trough, in waves
+  double coherence = 0;          ///< coherence of the first passage
+  bool telling = false;          ///< true if the profile has enough of the band to tell a response
 };
 
-/// Longest waves first; empty before the first passage.
+/// Outcomes of all bands, longest waves first; empty before the first passage.
 std::vector<BandOutcome> outcome(const Development& development);
 
-/// Its place among the bands is that of the deepest at the end.
+/// Outcome of the band that is deepest at the end; nullopt without bands.
 std::optional<BandOutcome> deepest(const std::vector<BandOutcome>& bands);
 
 }  // namespace tread

@@ -24,15 +24,16 @@ namespace {
 
 constexpr const char* kSmoothScene = "smooth.toml";
 constexpr const char* kPassageScene = "passage.toml";
-constexpr const char* kStart = "from.txt";  ///< the run whose state all passages begin with
+constexpr const char* kStart = "from.txt";  ///< run with whose state all passages begin
 
-/// The directory's absolute path; passages are processes that are told of files in it.
+/// Makes the directory and returns its absolute path. Passages are processes that receive paths of files in
+/// it.
 fs::path made(const fs::path& directory) {
   make_directory(directory);
   return fs::absolute(directory).lexically_normal();
 }
 
-/// Values that each passage states for itself.
+/// Returns true for keys that each passage states for itself.
 bool is_of_passage(const std::string& path) {
   return path.starts_with("corrugation.") || path.starts_with("wear.") || path.starts_with("forks.") ||
          path == "contact.depth_room" || path == "output.frames";
@@ -60,7 +61,8 @@ void require_same(const fs::path& folder, const ResolvedScene& resolved) {
                     folder.string(), other));
 }
 
-/// What all passages begin with: as stated, or as kept when the development began, `begun`.
+/// Run with whose state all passages begin: as stated or, if the development has `begun`, as kept at its
+/// beginning.
 std::string start_of(const fs::path& folder, const std::string& stated, bool begun) {
   constexpr std::size_t kLongest = 1 << 16;  // [B]
   std::string wanted = stated.empty() ? "" : fs::absolute(stated).lexically_normal().string();
@@ -139,7 +141,8 @@ fs::path DevelopmentFolder::run_path(int number) const {
 std::vector<std::string> DevelopmentFolder::overrides(int number) const {
   std::vector<std::string> list = {"output.frames=0"};
   if (number == 0) {
-    // Waves that grow find room; the others, and all that begin with a run's state, take over its room.
+    // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
+    // run with whose state they begin.
     if (options_.from.empty())
       list.push_back(fmt::format("contact.depth_room={} m",
                                  std::max(forks_room(scene_), 2 * corrugation_depth(scene_))));
@@ -210,7 +213,7 @@ PassageWork work_of_run(const fs::path& surface, double first, double last) {
   std::vector<std::size_t> stations;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (x[i] >= first && x[i] <= last) stations.push_back(i);
-  std::vector<double> share(rows, 0.0);  // of a row in the stretch's work [J]
+  std::vector<double> share(rows, 0.0);  // share of a row in the stretch's work [J]
   double whole = 0;
   for (const std::size_t i : stations)
     for (std::size_t row = 0; row < rows; ++row) {

@@ -11,24 +11,25 @@
 
 namespace tread {
 
-/// Passage 0 rolls over the smooth rail and keeps the state that the others begin with. Of the runs' folders
-/// only that one and the last stay.
+/// Folder of a development. Passage 0 rolls over the smooth rail and keeps the state with which the others
+/// begin. Of the runs' folders only those of passage 0 and of the last passage stay.
 class DevelopmentFolder {
  public:
   struct Options {
-    std::string from;  ///< a run whose state all passages begin with, as in fork_from(); empty: passage 0
-    int threads = 0;   ///< of a passage; 0: all
+    std::string from;  ///< run with whose state all passages begin, as in fork_from(); empty: passage 0
+    int threads = 0;   ///< threads of a passage; 0: all
   };
 
-  /// Makes the folder and takes it; leaves the scenes that the passages roll through. InputError where it
-  /// holds a development of another scene.
+  /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds
+  /// a development of another scene.
   DevelopmentFolder(const std::filesystem::path& path, const ResolvedScene& resolved, Options options);
 
-  /// What passage `number` left on the rail, `profile` being what it rolls over (nothing for passage 0); runs
-  /// it where that is not known yet. InputError, NumericalError, ResourceError where it fails; Interrupted.
+  /// Work of passage `number` over `profile` (null for passage 0). Runs the passage unless its work is known.
+  /// Throws InputError, NumericalError or ResourceError if the passage fails, and Interrupted.
   PassageWork pass(int number, const WornProfile* profile, Progress& progress) const;
 
-  /// Writes the profile after a passage, as a table for corrugation.file; that of 0 is the scene's own.
+  /// Writes the profile after a passage, as a table for corrugation.file. The profile after passage 0 is the
+  /// scene's own.
   void keep_profile(int number, const WornProfile& profile) const;
 
   const RunFolder& folder() const { return folder_; }
@@ -45,8 +46,8 @@ class DevelopmentFolder {
   Options options_;
 };
 
-/// Work per area of a finished run over [first, last], averaged across the rail by the stretch's mean work.
-/// InputError where the run has not passed it.
+/// Work per area of a finished run over [first, last] [m], averaged across the rail by the stretch's mean
+/// work. Throws InputError if the run has not passed the stretch.
 PassageWork work_of_run(const std::filesystem::path& surface, double first, double last);
 
 }  // namespace tread

@@ -13,7 +13,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kMillion = 1e6;  ///< real passages that growth is stated for
+constexpr double kMillion = 1e6;  ///< number of real passages for which growth is stated
 
 std::vector<double> scaled(const std::vector<double>& values, double scale) {
   std::vector<double> result = values;
@@ -27,7 +27,7 @@ std::vector<double> places(const WornProfile& profile) {
   return x;
 }
 
-/// Of all passages by number; the last one is the profile as it is now.
+/// Profile after so many passages; the last one is the present profile.
 const WornProfile& profile_after(const Development& d, std::size_t passages) {
   return passages < d.passages.size() ? d.passages[passages].profile : d.profile;
 }
@@ -44,7 +44,7 @@ Series heights(const WornProfile& profile, std::string label, Stroke stroke) {
   return {std::move(label), places(profile), scaled(profile.depth, -1e6), stroke};
 }
 
-/// Work of a passage and its part that wears unevenly, over the profile.
+/// Work of a passage and its uneven part, over the profile.
 Figure work_figure(const Development& d, std::size_t number) {
   const WornPassage& passage = d.passages[number];
   return along_the_rail(

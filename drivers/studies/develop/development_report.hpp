@@ -1,5 +1,5 @@
 #pragma once
-// What a development leaves: tables, figures, a report.
+// Tables, figures and report of a development.
 
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace tread {
 
-/// Depth by place after each passage, and that of the start.
+/// Depth by place after each passage, and of the start.
 std::string profiles_csv(const Development& development);
 
-/// A row for each passage and band: depth, work over it, growth.
+/// Table with a row for each passage and band: depth, work over it, growth.
 std::string spectra_csv(const Development& development);
 
-/// A row a band: what became of it.
+/// Table with a row for each band's outcome.
 std::string growth_csv(const Development& development);
 
-/// The same and the passages as JSON.
+/// Outcomes of the bands and the passages as JSON.
 std::string development_json(const Development& development);
 
 Table growth_table(const Development& development);
@@ -27,10 +27,10 @@ Figure growth_figure(const Development& development);
 
 Figure profile_figure(const Development& development);
 
-/// `scene`: that begins it; `command`: as typed.
+/// Report of a development. `scene`: scene that begins it; `command`: as typed.
 Report development_report(const Development& development, const Scene& scene, const std::string& command);
 
-/// One sentence: whether the work feeds or alleviates the deepest waves.
+/// One sentence that says if the work feeds or alleviates the deepest waves.
 std::string verdict(const Development& development);
 
 }  // namespace tread

@@ -12,13 +12,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A Fourier coefficient of each, their means taken off.
+/// Fourier coefficients of depth and work, each without its mean.
 struct Line {
   Complex depth;  ///< [m]
   Complex work;   ///< [J/m2]
 };
 
-/// Depths as stations that each stand for as long a piece of the rail.
+/// Depths as stations, each of which stands for an equal length of the rail.
 PassageWork as_stations(const WornProfile& profile) {
   PassageWork stations;
   for (std::size_t i = 0; i < profile.depth.size(); ++i) stations.x.push_back(profile.x(i));
@@ -27,7 +27,7 @@ PassageWork as_stations(const WornProfile& profile) {
   return stations;
 }
 
-/// Mean square of the fading, by which it takes from a wave's power.
+/// Mean square of the fading, by which a wave's power decreases.
 double taper_power(const WornProfile& profile, const WearBand& band) {
   double sum = 0;
   for (std::size_t i = 0; i < profile.depth.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// How waves of a profile grow, from the work that they cause and from profiles before and after.
-// [theory.md, Wear]
+// Growth of a profile's waves, from the work that they cause and from profiles before and after. [theory.md,
+// Wear]
 
 #include <complex>
 #include <vector>
@@ -11,22 +11,22 @@ namespace tread {
 
 /// A one-third octave band of a profile and of the work over it.
 struct GrowthBand {
-  double wavelength = 0;  ///< nominal [m]
-  double depth = 0;       ///< root mean square [m]
-  /// Work per depth, H [J/m3]: with a positive real part the work is larger in troughs, and the wave grows.
+  double wavelength = 0;  ///< nominal wavelength [m]
+  double depth = 0;       ///< root mean square depth [m]
+  /// Work per depth, H [J/m3]. With a positive real part the work is larger in troughs, and the wave grows.
   std::complex<double> response;
-  double coherence = 0;  ///< share of the work in the band that H explains [-]; 1 where it holds one line
+  double coherence = 0;  ///< share of the work in the band that H explains [-]; 1 for a band with one line
 
-  /// By which the work's maximum lies past the trough as the wheel rolls, in waves, -0.5 to 0.5.
+  /// Distance of the work's maximum past the trough in the direction of rolling, in waves, -0.5 to 0.5.
   double lag() const;
 };
 
-/// The bands within `band` that hold a line of the stretch, longest waves first; `uneven`: work of the
-/// passage over the profile. The ends of both fade. [theory.md, eq. (W5)]
+/// Bands within `band` that hold a line of the stretch, longest waves first. `uneven`: work of the passage
+/// over the profile. The ends of both fade. [theory.md, eq. (W5)]
 std::vector<GrowthBand> growth_bands(const WornProfile& profile, const PassageWork& uneven,
                                      const WearBand& band);
 
-/// The band whose depth is largest; nullptr: there is none.
+/// Band with the largest depth; nullptr if there is none.
 const GrowthBand* deepest_band(const std::vector<GrowthBand>& bands);
 
 }  // namespace tread

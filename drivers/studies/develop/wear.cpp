@@ -11,7 +11,7 @@ namespace tread {
 
 namespace {
 
-/// From the lowest to the highest value.
+/// Difference of the highest and the lowest value.
 double range_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   return *high - *low;

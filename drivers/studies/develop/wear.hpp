@@ -1,5 +1,5 @@
 #pragma once
-// From the frictional work of a passage to the profile of the next. [theory.md, Wear]
+// Profile of the next passage from the frictional work of a passage. [theory.md, Wear]
 
 #include <complex>
 #include <vector>
@@ -14,13 +14,13 @@ struct WornProfile {
 
   double x(std::size_t i) const { return start + static_cast<double>(i) * spacing; }  ///< [m]
   double length() const { return spacing * static_cast<double>(depth.size() - 1); }   ///< [m]
-  double range() const;  ///< from the highest to the deepest place [m]
+  double range() const;  ///< height difference of the highest and the deepest place [m]
 };
 
 /// Frictional work of a passage at the stations of the rail's surface, averaged across the running band.
 struct PassageWork {
   std::vector<double> x;       ///< [m]
-  std::vector<double> length;  ///< of the rail that a station stands for [m]
+  std::vector<double> length;  ///< length of the rail that a station stands for [m]
   std::vector<double> work;    ///< [J/m2]
 };
 
@@ -28,39 +28,39 @@ struct PassageWork {
 struct WearBand {
   double shortest = 0, longest = 0;
 
-  /// Share of a wave that passes: 1 within, 0 a third of an octave outside. [theory.md, eq. (W4)]
+  /// Share of a wave that passes: 1 within the band, 0 a third of an octave outside. [theory.md, eq. (W4)]
   double gain(double wavelength) const;
-  /// Over this length the ends of the stretch fade [m].
+  /// Length over which the ends of the stretch fade [m].
   double fade() const { return 0.5 * longest; }
 };
 
 /// Mean of the work over the profile's stretch, its ends faded [J/m2].
 double mean_work(const PassageWork& work, const WornProfile& profile, const WearBand& band);
 
-/// Fourier coefficient of the work, its mean taken off and its ends faded, at `turn` = 2 pi / wavelength
-/// [1/m]: 1/length of the integral of the taper times (work - mean) exp(-i turn (x - start)). `mean`: of
-/// mean_work(). [J/m2]
+/// Fourier coefficient of the work [J/m2], its mean taken off and its ends faded, at `turn` = 2 pi /
+/// wavelength [1/m]: 1/length of the integral of the taper times (work - mean) exp(-i turn (x - start)).
+/// `mean`: of mean_work().
 std::complex<double> work_line(const PassageWork& work, double mean, double turn, const WornProfile& profile,
                                const WearBand& band);
 
 /// Share of a wave that the fading ends leave at x [m].
 double taper_at(double x, const WornProfile& profile, const WearBand& band);
 
-/// The uneven part of the work at the profile's places, without what is shorter or longer than the band and
-/// fading at the ends [J/m2]. [theory.md, eq. (W4)]
+/// Uneven part of the work at the profile's places [J/m2], without waves shorter or longer than the band and
+/// fading at the ends. [theory.md, eq. (W4)]
 std::vector<double> uneven_work(const PassageWork& work, const WornProfile& profile, const WearBand& band);
 
-/// `one` less `other`. InputError where their stations are not the same. [J/m2]
+/// Difference `one` less `other` [J/m2]. Throws InputError if their stations differ.
 PassageWork without(const PassageWork& one, const PassageWork& other);
 
 /// A change of the profile.
 struct WearStep {
-  double passages = 0;  ///< real ones that the simulated one stands for
-  WornProfile profile;  ///< after them
+  double passages = 0;  ///< number of real passages that the simulated one stands for
+  WornProfile profile;  ///< profile after them
 };
 
-/// As many passages as change the depth by `change` of its range at the most; each wears off
-/// `per_work` [m3/J] times `uneven` [J/m2]. InputError where nothing is uneven. [theory.md, eq. (W3)]
+/// Wear by as many passages as change the depth by at most `change` of its range. Each passage wears off
+/// `per_work` [m3/J] times `uneven` [J/m2]. Throws InputError if nothing is uneven. [theory.md, eq. (W3)]
 WearStep worn(const WornProfile& profile, const std::vector<double>& uneven, double per_work, double change);
 
 }  // namespace tread
