@@ -10,11 +10,11 @@
 namespace tread {
 
 struct NamedLevels {
-  std::string label;  ///< of the rail
+  std::string label;  ///< name of the rail
   RoughnessLevels levels;
 };
 
-/// Over the bands from short to long.
+/// Levels over the bands from short to long.
 Figure level_figure(const std::vector<NamedLevels>& rails);
 
 }  // namespace tread

@@ -32,7 +32,7 @@ std::vector<double> spectrum(const double* height, std::size_t count, std::size_
   }
   const double slope = 12 * moment / (n * (n * n - 1));
 
-  // All lines side by side, each with its own turning pointer.
+  // All lines run side by side, each with its own turning pointer.
   std::vector<double> real(lines), imaginary(lines), c(lines, 1.0), s(lines, 0.0), turn_c, turn_s;
   for (std::size_t k = 0; k < lines; ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) / n;
@@ -108,7 +108,7 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
 
   const std::size_t lines = std::min(count / 2 + 1, static_cast<std::size_t>(std::lround(finest / line)) + 2);
   const std::size_t hop = std::max<std::size_t>(1, count / 2);
-  // As many as lie half a segment apart at the most, evenly, the last at the record's end.
+  // As many segments as lie at most half a segment apart, evenly, the last at the record's end.
   const std::size_t way = profile.height.size() - count;
   const std::size_t gaps = (way + hop - 1) / hop;
   const std::size_t segments = gaps + 1;

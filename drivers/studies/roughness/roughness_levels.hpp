@@ -10,28 +10,28 @@ namespace tread {
 
 /// A one-third octave band of wavelength.
 struct RoughnessBand {
-  double nominal = 0;  ///< as the standard calls its middle [m]
-  double middle = 0;   ///< 10^(n/10) mm [m]
-  double limit = 0;    ///< ISO 3095:2013 [dB re 1 um]
+  double nominal = 0;  ///< middle as the standard names it [m]
+  double middle = 0;   ///< exact middle, 10^(n/10) mm [m]
+  double limit = 0;    ///< limit of ISO 3095:2013 [dB re 1 um]
 
   double shortest() const;  ///< [m]
   double longest() const;   ///< [m]
 };
 
-/// 400 mm to 3.15 mm, longest first.
+/// Bands of 400 mm to 3.15 mm, longest first.
 const std::vector<RoughnessBand>& roughness_bands();
 
 struct RoughnessLevels {
-  int segments = 0;           ///< averaged
+  int segments = 0;           ///< number of averaged segments
   double segment_length = 0;  ///< [m]
-  /// By band of roughness_bands() [dB re 1 um]; absent where the segments hold less than four waves or a
+  /// Levels by band of roughness_bands() [dB re 1 um]; absent if the segments hold less than four waves or a
   /// wave less than 2.5 samples.
   std::vector<std::optional<double>> level;
 };
 
 /// Root mean square in the bands: segments overlapping by half, mean and trend removed, Hann's window,
-/// squares averaged; a line between two bands counts in both by its parts. A record shorter than `segment`
-/// [m] is one segment. InputError where no band is resolved.
+/// squares averaged. A line between two bands counts in both by its parts. A record shorter than `segment`
+/// [m] is one segment. Throws InputError if no band is resolved.
 RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment);
 
 }  // namespace tread

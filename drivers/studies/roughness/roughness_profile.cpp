@@ -11,7 +11,8 @@ namespace tread {
 
 namespace {
 
-/// What no instrument gives: where the units are wrong, work and sums would grow without bounds.
+/// Throws InputError for values that no instrument gives. With wrong units, work and sums would grow without
+/// bounds.
 void require_plausible(double spacing, const std::vector<double>& height, const std::string& name) {
   constexpr double kLeast = 1e-5, kMost = 1;  // spacing [m]
   constexpr double kHighest = 1;              // [m]
@@ -28,8 +29,8 @@ void require_plausible(double spacing, const std::vector<double>& height, const 
 }  // namespace
 
 RoughnessProfile even_profile(const TwoColumns& rows, const std::string& name) {
-  constexpr double kEven = 0.01;  // of the spacing
-  constexpr double kGap = 3.5;    // spacings
+  constexpr double kEven = 0.01;  // tolerance as a share of the spacing
+  constexpr double kGap = 3.5;    // largest gap in spacings
   const std::vector<double>& x = rows.first;
   RoughnessProfile profile;
   profile.spacing = (x.back() - x.front()) / static_cast<double>(x.size() - 1);
@@ -63,7 +64,7 @@ int remove_spikes(RoughnessProfile& profile) {
   constexpr double kHeightLength = 3;  // height = width^2 / this [m]
   std::vector<double>& r = profile.height;
   const double dx = profile.spacing;
-  const auto slope = [&](std::size_t i) { return (r[i + 1] - r[i]) / dx; };  // between i and i + 1
+  const auto slope = [&](std::size_t i) { return (r[i + 1] - r[i]) / dx; };  // slope between i and i + 1
   int removed = 0;
   for (std::size_t i = 1; i + 1 < r.size(); ++i) {
     const double before = slope(i - 1);
