@@ -17,16 +17,16 @@ namespace tread {
 
 namespace {
 
-constexpr double kSoftest = 0.05;  ///< of the scene's C
+constexpr double kSoftest = 0.05;  ///< softest value tried, over the scene's C
 constexpr double kStiffest = 3;
-constexpr int kScan = 24;    ///< values tried at first
-constexpr int kRefine = 24;  ///< more, about the best
+constexpr int kScan = 24;    ///< number of values tried at first
+constexpr int kRefine = 24;  ///< number of further values about the best
 
 struct Curve {
   std::vector<double> x, force;
 };
 
-/// Model and run over the stretch that both cover.
+/// Comparison of model and run over the stretch that both cover.
 class Fit {
  public:
   Fit(const MultibodyModel& model, const TransientRun& run, const MultibodyStep& step)
@@ -48,7 +48,7 @@ class Fit {
   double speed() const { return model_.speed; }
 
   double first = 0, last = 0;  ///< [m]
-  std::vector<double> x;       ///< of the run between them [m]
+  std::vector<double> x;       ///< places of the run between them [m]
 
  private:
   Curve rolled(double contact) const {
@@ -82,7 +82,7 @@ class Fit {
   MultibodyModel model_;
   MultibodyStep step_;
   Curve run_;
-  std::vector<double> force_;  ///< of the run at x [N]
+  std::vector<double> force_;  ///< force of the run at x [N]
 };
 
 void require_same_passage(const MultibodyModel& model, const TransientRun& run) {
@@ -144,7 +144,7 @@ Calibration calibrate(const MultibodyModel& model, const TransientRun& run, cons
   c.run = fit.of_run();
   c.before = fit.of_model(model.vehicle.contact);
 
-  // A scan, then as many again between the neighbours of the best.
+  // After a scan, as many values again are tried between the neighbours of the best.
   const auto tried = [&](double low, double high, int count) {
     std::vector<std::pair<double, double>> found(static_cast<std::size_t>(count) + 1);
     each_item(found.size(), [&](std::size_t i) {

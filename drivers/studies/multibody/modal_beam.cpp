@@ -15,8 +15,8 @@ ModalBeam::ModalBeam(const BeamProperties& properties, double left, double lengt
   omega_.push_back(0);
   amplitude_.push_back(1 / std::sqrt(p.mass * length));
   head_amplitude_ = amplitude_;
-  // Half the peak of each harmonic: the mean over the beam. Those left out add less than a thousandth of a
-  // contact's flexibility.
+  // Each harmonic counts with half its peak, the mean over the beam. The omitted harmonics add less than a
+  // thousandth of a contact's flexibility.
   constexpr int kHarmonics = 10000;
   for (int n = 1; n < std::max(modes, kHarmonics); ++n) {
     const double k = n * std::numbers::pi / length;
@@ -26,7 +26,7 @@ ModalBeam::ModalBeam(const BeamProperties& properties, double left, double lengt
     residual_ += share * share * (bent + sheared) / length;
     if (n >= modes) continue;
     const double omega = 2 * std::numbers::pi * wave_frequency(p, k);
-    // Rotation over deflection of the wave.
+    // Ratio of the wave's rotation to its deflection.
     const double turn = shears ? k - p.mass * omega * omega / (p.shear_stiffness * k) : k;
     const double mass = 0.5 * length * (p.mass + p.rotary_inertia * turn * turn);
     omega_.push_back(omega);

@@ -8,12 +8,12 @@
 namespace tread {
 
 /// A free Euler or Timoshenko beam whose ends do not turn: all modes are cosines, known exactly. Deflection w
-/// positive downwards; mode 0 is the rigid motion. Modes are scaled to a modal mass of 1 kg.
-/// [theory.md, eqs. M1 and M2]
+/// is positive downwards; mode 0 is the rigid motion. Modes are scaled to a modal mass of 1 kg. [theory.md,
+/// eqs. M1 and M2]
 class ModalBeam {
  public:
-  /// From x = `left` on [m]; at least two modes. A force on the head reaches the beam spread along it as a
-  /// normal distribution of the standard deviation `spread` [m]; 0: at a point.
+  /// Beam from x = `left` [m] on, with at least two modes. A force on the head reaches the beam spread along
+  /// it as a normal distribution of the standard deviation `spread` [m]; 0: at a point.
   ModalBeam(const BeamProperties& properties, double left, double length, int modes, double spread = 0);
 
   int modes() const { return static_cast<int>(omega_.size()); }
@@ -23,14 +23,14 @@ class ModalBeam {
   /// Angular frequencies, by mode [rad/s].
   const std::vector<double>& omega() const { return omega_; }
 
-  /// Values of all modes at x, of the axis [1/sqrt(kg)]; `values` holds modes() of them.
+  /// Computes the values of all modes of the axis at x [1/sqrt(kg)]; `values` holds modes() of them.
   void shapes(double x, std::vector<double>& values) const { shapes(x, amplitude_, values); }
 
-  /// The same for a force on the head and the deflection that a wheel on the head sees.
+  /// Computes the mode values for a force on the head and for the deflection that a wheel on the head sees.
   void head_shapes(double x, std::vector<double>& values) const { shapes(x, head_amplitude_, values); }
 
-  /// What the modes lack of the head's deflection under a force on it there, at rest and far from the ends:
-  /// that of the missing modes, and of a Timoshenko beam's upper branch [m/N]. [theory.md, eq. M3]
+  /// Flexibility that the modes lack in the head's deflection under a force on it [m/N], at rest and far from
+  /// the ends: that of the missing modes, and of a Timoshenko beam's upper branch. [theory.md, eq. M3]
   double residual_flexibility() const { return residual_; }
 
  private:
@@ -41,7 +41,7 @@ class ModalBeam {
   double residual_ = 0;
 };
 
-/// How many modes lie below a frequency [Hz].
+/// Number of modes below a frequency [Hz].
 int modes_below(const BeamProperties& properties, double length, double frequency);
 
 }  // namespace tread

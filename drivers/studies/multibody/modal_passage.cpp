@@ -45,7 +45,7 @@ void ModalTrack::support_forces(const std::vector<double>& state, const std::vec
   const std::size_t n = state.size();
   for (std::size_t s = 0; s < supports(); ++s) {
     const double* mode = by_support_.data() + s * n;
-    // Four sums side by side: one alone would wait for every addition.
+    // Four sums run side by side: one alone would wait for every addition.
     double sum[4] = {0, 0, 0, 0};
     std::size_t i = 0;
     for (; i + 4 <= n; i += 4)
@@ -64,7 +64,7 @@ void ModalTrack::support_forces(const std::vector<double>& state, const std::vec
 /// Largest eigenvalue of the weighted sum of the supports' dyads, by power iteration.
 double ModalTrack::largest(const std::vector<double>& weight) const {
   const auto n = static_cast<std::size_t>(beam_.modes());
-  // All modes alike at the first support: the high ones take part from the start.
+  // All modes start alike at the first support, so that the high ones take part.
   std::vector<double> vector(by_support_.begin(), by_support_.begin() + static_cast<std::ptrdiff_t>(n));
   double value = 0;
   for (int iteration = 0; iteration < 30; ++iteration) {
@@ -102,7 +102,7 @@ ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, 
   before_.resize(state_.size());
   shape_.resize(state_.size());
   scratch_.resize(track.supports());
-  // Where the wheel lies follows from the contact's law.
+  // The contact's law gives the height of the wheel.
   double modal = 0;
   track.beam().head_shapes(x, shape_);
   for (std::size_t i = 0; i < state_.size(); ++i) modal += shape_[i] * state_[i];
@@ -140,10 +140,10 @@ void ModalPassage::step(double x, double roughness) {
 
 namespace {
 
-/// F of F = C (approach - flexibility F)^1.5 at F > 0, else 0: Newton's method from above.
+/// Solves F = C (approach - flexibility F)^1.5 for F > 0 by Newton's method from above; 0 without contact.
 double contact_force(double approach, double contact, double flexibility) {
   if (approach <= 0) return 0;
-  double d = approach;  // of the spring alone
+  double d = approach;  // compression of the spring alone
   for (int i = 0; i < 50; ++i) {
     const double root = std::sqrt(d);
     const double change =
@@ -176,7 +176,8 @@ void ModalPassage::accelerate(double x, double roughness) {
 
 double passage_step(const ModalTrack& track, const BeamVehicle& vehicle) {
   const ModalBeam& beam = track.beam();
-  // The contact at ten times the static load, on the wheel and on the beam where its modes add up.
+  // The estimate takes the contact at ten times the static load, on the wheel and on the beam where its modes
+  // add up.
   const double approach = std::pow(10 * vehicle.load() / vehicle.contact, 2.0 / 3);
   const double contact = 1.5 * vehicle.contact * std::sqrt(approach);
   std::vector<double> shape(static_cast<std::size_t>(beam.modes()));

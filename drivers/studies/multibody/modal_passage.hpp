@@ -19,13 +19,13 @@ class ModalTrack {
   /// Modal coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
   std::vector<double> static_state(double x, double force) const;
 
-  /// Adds the modal forces of springs and dampers; `scratch` holds a value of each support.
+  /// Adds the modal forces of springs and dampers. `scratch` holds a value for each support.
   void support_forces(const std::vector<double>& state, const std::vector<double>& rate,
                       std::vector<double>& forces, std::vector<double>& scratch) const;
   std::size_t supports() const { return stiffness_.size(); }
 
-  /// What the supports add to the squares of the modes' frequencies at the most [rad2/s2], and their largest
-  /// rate of decay [1/s]: estimates.
+  /// Estimates of the supports' largest contribution to the squares of the modes' frequencies [rad2/s2], and
+  /// of their largest rate of decay [1/s].
   double support_stiffness() const;
   double support_damping() const;
 
@@ -33,27 +33,27 @@ class ModalTrack {
   double largest(const std::vector<double>& weight) const;
 
   ModalBeam beam_;
-  std::vector<double> stiffness_, damping_;  ///< by support
+  std::vector<double> stiffness_, damping_;  ///< values by support
   std::vector<double> by_support_;           ///< mode values, support by support
 };
 
-/// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference where nothing is
-/// damped, second order with dampers, one evaluation of the forces a step. [theory.md, eq. M4]
-/// A copy goes on by itself over the same track: runs with a common beginning share it.
+/// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference without damping,
+/// second order with dampers, one evaluation of the forces per step. [theory.md, eq. M4] A copy goes on by
+/// itself over the same track, so that runs with a common beginning share it.
 class ModalPassage {
  public:
-  /// In equilibrium at x, at rest. The vehicle does not bend (no BeamVehicle::bending).
+  /// Starts in equilibrium at x, at rest. The vehicle does not bend (no BeamVehicle::bending).
   ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt);
 
-  /// One step; the wheel is then at x over `roughness` (positive: the rail is lower) [m]. NumericalError when
-  /// the step is not stable.
+  /// Does one step, after which the wheel is at x over `roughness` [m] (positive: the rail is lower). Throws
+  /// NumericalError if the step is not stable.
   void step(double x, double roughness = 0);
 
   double time() const { return time_; }
   double dt() const { return dt_; }
   double force() const { return force_; }    ///< F_N [N]
   double rail() const { return rail_; }      ///< deflection of the rail under the wheel [m]
-  double wheel() const { return wheel_.z; }  ///< of the wheel, downwards [m]
+  double wheel() const { return wheel_.z; }  ///< deflection of the wheel, downwards [m]
   double sprung() const { return sprung_.z; }
 
  private:
@@ -66,14 +66,15 @@ class ModalPassage {
   const ModalTrack* track_;
   BeamVehicle vehicle_;
   double dt_;
-  std::vector<double> state_, rate_, acceleration_, before_;  ///< by mode; before_: of the last step
+  std::vector<double> state_, rate_, acceleration_, before_;  ///< values by mode; before_: values of the last
+                                                              ///< step
   std::vector<double> shape_, scratch_;
   Mass wheel_, sprung_;
   bool first_ = true;
   double time_ = 0, force_ = 0, rail_ = 0;
 };
 
-/// Half the step at which track and vehicle together become unstable, as far as estimates go [s].
+/// Half the step [s] at which track and vehicle together become unstable, by estimates.
 double passage_step(const ModalTrack& track, const BeamVehicle& vehicle);
 
 }  // namespace tread

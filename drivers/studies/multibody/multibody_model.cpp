@@ -17,8 +17,8 @@ namespace tread {
 
 namespace {
 
-constexpr double kTopFrequency = 20e3;  ///< of the modes [Hz]
-constexpr double kBeyond = 0.1;         ///< of the way beyond what is evaluated [m]
+constexpr double kTopFrequency = 20e3;  ///< highest frequency of the modes [Hz]
+constexpr double kBeyond = 0.1;         ///< length of the passage beyond the evaluated stretch [m]
 constexpr double kEndOfRail = 0.3;      ///< least distance of the wheel from the rail's ends [m]
 
 void require_parts(const Scene& scene) {
@@ -49,16 +49,16 @@ BeamVehicle lumped_vehicle(const Scene& scene) {
   return vehicle;
 }
 
-/// As the scene states it.
+/// Corrugation as the scene states it.
 Corrugation stated_corrugation(const MultibodyModel& model) {
   const auto& spec = model.scene.corrugation;
   return spec ? corrugation_of(*spec, spec->centre.value_or(model.contact_y)) : Corrugation{};
 }
 
-/// Empty where both are the same.
+/// Sentence on the difference of two values; empty if they are equal.
 std::string difference(const char* name, const char* unit, double here, double there) {
   constexpr double kRounding = 1e-6;
-  constexpr double kNothing = 1e-9;  // in any of the units
+  constexpr double kNothing = 1e-9;  // smallest difference in any of the units
   if (std::abs(here - there) <= std::max(kNothing, kRounding * std::abs(here))) return "";
   return fmt::format("{} is {:.6g}{} here and {:.6g}{} there", name, here, unit, there, unit);
 }
@@ -153,7 +153,8 @@ std::string corrugation_difference(const MultibodyModel& here, const MultibodyMo
                                    difference("the corrugation's end", " m", ours.last(), theirs.last())})
     if (!apart.empty()) return apart;
   constexpr int kPlaces = 1000;
-  constexpr double kSame = 0.01;  // of the largest depth: where the wheel touches hangs a little on the mesh
+  constexpr double kSame = 0.01;  // share of the largest depth: the place of contact depends slightly on the
+                                  // mesh
   double deepest = 0;
   double apart = 0;
   for (int i = 0; i <= kPlaces; ++i) {
@@ -179,7 +180,7 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength) {
   const HertzPatch& patch = model.patch;
   const CorrugationSpec& spec = *model.scene.corrugation;
   const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 8;
-  // A trough more curved than the wheel is bridged, from crest to crest at the most.
+  // The wheel bridges a trough that is more curved than the wheel, at most from crest to crest.
   const double curvature = 0.5 * spec.depth * std::pow(2 * std::numbers::pi / wavelength, 2);
   const bool bridged = curvature * 0.5 * model.scene.wheel->diameter > 0.5;
   const double half_length =

@@ -1,5 +1,5 @@
 #pragma once
-// What `tread multibody` shows: tables, figures, files.
+// Tables, figures and files of `tread multibody`.
 
 #include <optional>
 #include <string>
@@ -14,9 +14,9 @@ namespace tread {
 struct MultibodyOutcome {
   MultibodyModel model;
   MultibodyResult result;
-  std::optional<double> filter_gain;       ///< with --filter [-]
-  std::optional<Calibration> calibration;  ///< with --calibrate
-  std::optional<ResponseMap> map;          ///< with --map
+  std::optional<double> filter_gain;       ///< gain with --filter [-]
+  std::optional<Calibration> calibration;  ///< calibration with --calibrate
+  std::optional<ResponseMap> map;          ///< map with --map
   std::vector<MapDot> dots;
   double seconds = 0;
 };
@@ -29,7 +29,7 @@ Table calibration_table(const Calibration& calibration, const MultibodyModel& mo
 
 std::string multibody_json(const MultibodyOutcome& outcome);
 
-/// CSV files, a unit in every column's head.
+/// CSV files with a unit in every column's head.
 std::string passage_csv(const MultibodyModel& model, const MultibodyResult& result);
 std::string calibration_csv(const Calibration& calibration);
 std::string map_csv(const ResponseMap& map);
@@ -40,7 +40,7 @@ Figure passage_figure(const MultibodyOutcome& outcome);
 /// F_N of the transient run and of both springs.
 Figure calibration_figure(const MultibodyOutcome& outcome);
 
-/// The largest F_N over static against speed and wavelength.
+/// Largest F_N over static against speed and wavelength.
 Heatmap response_heatmap(const MultibodyOutcome& outcome);
 
 Report multibody_report(const MultibodyOutcome& outcome, const std::string& command);

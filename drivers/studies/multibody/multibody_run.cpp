@@ -75,7 +75,7 @@ double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double s
 
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step) {
   const ModalTrack track = modal_track(model, step.modes);
-  // Estimates of the stable step are good to a factor of two; beyond, nothing is left to try.
+  // Estimates of the stable step are good to a factor of two; a longer step cannot be stable.
   const double longest = 4 * passage_step(track, model.vehicle);
   if (step.step && *step.step > longest)
     throw InputError(fmt::format("--step {:.4g} s: steps beyond {:.2g} s cannot be stable with {} modes",

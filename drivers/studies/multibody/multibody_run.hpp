@@ -1,5 +1,5 @@
 #pragma once
-// A passage of the multi-body model and what it amounts to.
+// A passage of the multi-body model and its results.
 
 #include <cstdint>
 #include <optional>
@@ -13,53 +13,54 @@ namespace tread {
 /// One instant of a passage.
 struct MultibodySample {
   double time = 0;       ///< [s]
-  double x = 0;          ///< of the wheel [m]
+  double x = 0;          ///< place of the wheel [m]
   double force = 0;      ///< F_N [N]
-  double wheel = 0;      ///< deflections downwards [m]
-  double rail = 0;       ///< under the wheel [m]
-  double sprung = 0;     ///< [m]
+  double wheel = 0;      ///< deflection of the wheel, downwards [m]
+  double rail = 0;       ///< deflection under the wheel [m]
+  double sprung = 0;     ///< deflection of the sprung mass [m]
   double roughness = 0;  ///< depth of the corrugation under the wheel [m]
 };
 
-/// F_N's largest value about a crest of the corrugation.
+/// Largest F_N about a crest of the corrugation.
 struct CrestPeak {
-  double crest = 0;  ///< x [m]
-  double peak = 0;   ///< x [m]
+  double crest = 0;  ///< x of the crest [m]
+  double peak = 0;   ///< x of the peak [m]
   double force = 0;  ///< [N]
-  double shift = 0;  ///< how far before the crest, a wavelength being 2 pi [rad]
+  double shift = 0;  ///< lead before the crest, a wavelength being 2 pi [rad]
 };
 
 struct MultibodyStep {
-  std::optional<int> modes;    ///< absent: all below 20 kHz
-  std::optional<double> step;  ///< [s]; absent: half the stable step, a fortieth of a wave's passing at most
+  std::optional<int> modes;    ///< number of modes; absent: all below 20 kHz
+  std::optional<double> step;  ///< step [s]; absent: half the stable step, a fortieth of a wave's passing at
+                               ///< most
 };
 
 struct MultibodyResult {
-  std::vector<MultibodySample> samples;  ///< of every step from x = 0 on
+  std::vector<MultibodySample> samples;  ///< samples of every step from x = 0 on
   double dt = 0;                         ///< [s]
   int modes = 0;
   std::int64_t steps = 0;
   double static_rail = 0;  ///< deflection of the rail under the wheel at rest at x = 0 [m]
-  double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of `force` [m]
+  double evaluated_first = 0, evaluated_last = 0;  ///< evaluated stretch of `force` [m]
   Statistics force;                                ///< [N]
-  double loss_of_contact = 0;                      ///< share of the stretch
+  double loss_of_contact = 0;                      ///< share of the stretch without contact [-]
   double passing = 0;            ///< half the range of F_N over the last span before the corrugation [N]
-  std::vector<CrestPeak> peaks;  ///< of a sine's crests between its first and its last
+  std::vector<CrestPeak> peaks;  ///< peaks of a sine's crests between its first and its last
 };
 
-/// InputError where a stated step is far beyond what can be stable; NumericalError where it turns out not to
-/// be.
+/// Runs a passage. Throws InputError if a stated step is far beyond any stable one, and NumericalError if the
+/// step turns out to be unstable.
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step);
 
-/// The largest forces about the crests of a sine: `force` at `x`, both growing in x. Crests about which the
-/// curve has not covered half a wave on both sides are left out.
+/// Largest forces about the crests of a sine: `force` at `x`, both by ascending x. A crest is left out unless
+/// the curve covers half a wave on both sides.
 std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavelength,
                                    const std::vector<double>& x, const std::vector<double>& force);
 
 /// Mean shift over the crests [rad]; 0 without any.
 double mean_shift(const std::vector<CrestPeak>& peaks);
 
-/// The step of a passage at a speed [m/s] over waves no shorter than `wavelength` [m] (0: a smooth rail).
+/// Step of a passage [s] at a speed [m/s] over waves no shorter than `wavelength` [m] (0: a smooth rail).
 double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double speed, double wavelength);
 
 /// Rolls on to x = `to` and calls visit(x, roughness) after every step. The wheel started at `start`.

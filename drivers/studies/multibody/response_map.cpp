@@ -51,7 +51,7 @@ MapAxis parse_axis(const std::string& text, const std::string& range, const Quan
   return axis;
 }
 
-/// Largest and smallest force and the loss of contact while a passage lasts.
+/// Largest and smallest force and the loss of contact during a passage.
 struct Extremes {
   double max = 0, min = 1e300;
   int steps = 0, lost = 0;

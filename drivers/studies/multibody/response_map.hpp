@@ -11,8 +11,8 @@ namespace tread {
 
 /// Evenly spaced values.
 struct MapAxis {
-  std::string unit;            ///< as the user writes it, "km/h"
-  std::vector<double> values;  ///< growing, SI
+  std::string unit;            ///< unit as the user writes it, such as "km/h"
+  std::vector<double> values;  ///< values, ascending, SI
 };
 
 struct MapAxes {
@@ -20,19 +20,19 @@ struct MapAxes {
   MapAxis wavelength;  ///< [m]
 };
 
-/// From "speed=100:500:10km/h" and "wavelength=40:150:2mm", in any order: first, last and step, whose unit
-/// holds for all three. InputError that says what is wrong.
+/// Reads axes such as "speed=100:500:10km/h" and "wavelength=40:150:2mm", in any order: first, last and step
+/// with a common unit. Throws InputError that says what is wrong.
 MapAxes parse_map_axes(const std::vector<std::string>& texts);
 
 /// F_N over the evaluated stretch, over the static load.
 struct MapPoint {
-  double max = 0, min = 0;     ///< [-]
-  double loss_of_contact = 0;  ///< share of the stretch
+  double max = 0, min = 0;     ///< largest and smallest F_N [-]
+  double loss_of_contact = 0;  ///< share of the stretch without contact [-]
 };
 
 struct ResponseMap {
   MapAxes axes;
-  std::vector<MapPoint> points;      ///< speed by speed, wavelengths running fastest
+  std::vector<MapPoint> points;      ///< points speed by speed, wavelengths running fastest
   double dt_first = 0, dt_last = 0;  ///< steps at the lowest and the highest speed [s]
 
   const MapPoint& at(std::size_t speed, std::size_t wavelength) const {
@@ -40,22 +40,22 @@ struct ResponseMap {
   }
 };
 
-/// All passages with the model's depth of corrugation, start and fastenings. What lies before the corrugation
-/// is rolled once a speed. `filtered`: each wavelength as deep as the contact filter leaves it. InputError
-/// without a sine.
+/// All passages with the model's depth of corrugation, start and fastenings. The part before the corrugation
+/// is rolled once per speed. `filtered`: each wavelength is as deep as the contact filter leaves it. Throws
+/// InputError without a sine.
 ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const MultibodyStep& step,
                          bool filtered);
 
 /// A transient run on the map.
 struct MapDot {
   std::string label;        ///< name of its directory
-  double speed = 0;         ///< on the evaluated stretch [m/s]
+  double speed = 0;         ///< speed on the evaluated stretch [m/s]
   double wavelength = 0;    ///< [m]
   double max = 0, min = 0;  ///< F_N over the run's static load [-]
-  std::string remark;       ///< where its scene is not the map's
+  std::string remark;       ///< differences of its scene from the map's
 };
 
-/// InputError where the run has no sine or has not reached it.
+/// Dot of a run. Throws InputError if the run has no sine or has not reached it.
 MapDot map_dot(const MultibodyModel& model, const TransientRun& run);
 
 }  // namespace tread
