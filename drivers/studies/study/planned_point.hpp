@@ -1,5 +1,5 @@
 #pragma once
-// The points of a study and what they share.
+// The points of a study and their shared rolling.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,34 +17,34 @@ namespace tread {
 struct PlannedPoint {
   std::string name;
   std::vector<StudySetting> varied;
-  std::vector<std::string> overrides;  ///< as after --set, later ones first in rank
+  std::vector<std::string> overrides;  ///< overrides as after --set, later ones first in rank
   ResolvedScene resolved;
   SceneContent content;
-  std::string from = {};  ///< state that the run begins with, as in fork_from(); empty: its start
+  std::string from = {};  ///< state with which the run begins, as in fork_from(); empty: its start
   std::filesystem::path folder;
   PointStatus status;
-  std::optional<Estimate> cost;       ///< of a point that is not done
-  double saved_seconds = 0;           ///< that others compute for it; not in the cost
-  std::optional<std::size_t> shared;  ///< its place in StudyPlan::shared
-  bool keeps_state = false;           ///< the others of its StudyPlan::shared begin with its state
+  std::optional<Estimate> cost;       ///< cost of a point that is not done
+  double saved_seconds = 0;           ///< time that other points compute for it; not in the cost [s]
+  std::optional<std::size_t> shared;  ///< index in StudyPlan::shared
+  bool keeps_state = false;           ///< true if the others of its StudyPlan::shared begin with its state
 
   bool to_run(bool retry) const {
     return status.state != PointState::done && (status.state != PointState::failed || retry);
   }
-  /// Nothing in the folder is of use to go on from.
+  /// Returns true if nothing in the folder is of use to go on from.
   bool begins_anew() const {
     return status.state == PointState::waiting || (status.state == PointState::failed && status.anew);
   }
 };
 
-/// Points that are the same run to the bit until the patch meets what tells their corrugations apart.
+/// Points whose runs agree bit for bit until the patch reaches the first difference of their corrugations.
 /// [reliability.md, Fork]
 struct SharedRolling {
-  std::vector<std::size_t> points;  ///< of StudyPlan::points, in their order
-  double from_x = 0;                ///< corrugations differ from there on [m]
-  double deepest = 0;               ///< corrugation [m]
-  std::optional<double> room;       ///< contact.depth_room where the usual one is not enough [m]
-  double until = 0;                 ///< a state is kept then; 0: not known [s]
+  std::vector<std::size_t> points;  ///< indices in StudyPlan::points, in their order
+  double from_x = 0;                ///< place from which corrugations differ [m]
+  double deepest = 0;               ///< largest depth of the corrugations [m]
+  std::optional<double> room;       ///< contact.depth_room, if the usual one is not enough [m]
+  double until = 0;                 ///< time at which a state is kept; 0: not known [s]
 };
 
 struct StudyPlan {
@@ -52,10 +52,10 @@ struct StudyPlan {
   std::filesystem::path folder;
   std::vector<PlannedPoint> points;
   std::vector<SharedRolling> shared;
-  int jobs = 1;     ///< runs at once
-  int threads = 0;  ///< of one run; 0: its share of the cores that are idle when it begins
+  int jobs = 1;     ///< number of runs at once
+  int threads = 0;  ///< threads of one run; 0: its share of the cores that are idle when it begins
 
-  /// What the first failed point's process exited with; resources where a signal ended it.
+  /// Exit code of the first failed point's process; ExitCode::resources if a signal ended it.
   ExitCode failure_code() const;
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kFailure = "failed.json";
 
-/// What the last process said at its end.
+/// Last words of the last process.
 std::string last_words(const fs::path& log) {
   constexpr std::streamoff kEnd = 4000;  // [B]
   std::ifstream stream(log, std::ios::binary | std::ios::ate);
@@ -42,7 +42,8 @@ std::string last_words(const fs::path& log) {
   return text;
 }
 
-/// Resources may be there the next time; the same computation comes to the same end.
+/// Returns true if another attempt would come to the same end. Missing resources may be available at the next
+/// attempt.
 bool leads_to_the_same_end(const ProcessEnd& end) {
   return end.signal == 0 && end.code != static_cast<int>(ExitCode::resources);
 }
@@ -55,14 +56,14 @@ std::string reason(const fs::path& folder, const ProcessEnd& end) {
   return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
 }
 
-/// Of a process that failed; any code that is not the program's own counts as the machine's.
+/// Exit code of a process that failed; any code that is not the program's own counts as the machine's.
 ExitCode exit_code(std::optional<double> code) {
   for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
     if (code && *code == static_cast<double>(known)) return known;
   return ExitCode::resources;
 }
 
-/// Of the run in the folder: why it is not that of the scene, and what it keeps.
+/// Examines the run in the folder: differences from the scene, and the state that it keeps.
 void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
   try {
     const KeptScene there = kept_scene(folder);

@@ -1,5 +1,5 @@
 #pragma once
-// The folder of one run of a study: what stands in it, and what has to be done.
+// The folder of one run of a study: its content and the work left to do.
 
 #include <filesystem>
 #include <optional>
@@ -16,33 +16,33 @@ enum class PointState {
   interrupted,  ///< a checkpoint or an order to go on from
   running,
   done,
-  failed  ///< its last process ended with an error
+  failed  ///< last process ended with an error
 };
 
-/// For readers: "done".
+/// Name for readers, such as "done".
 const char* name_of(PointState state);
 
 struct PointStatus {
   PointState state = PointState::waiting;
-  std::string why;                      ///< of one that failed
-  ExitCode code = ExitCode::resources;  ///< of one that failed
-  bool anew = false;                    ///< of one that failed: its checkpoint leads to the same end
-  bool foreign = false;                 ///< a run of another scene: `why` says what differs
-  std::optional<double> keeps_at = {};  ///< forks.at of the run that stands there [s]
-  double room = 0;                      ///< for a corrugation of its forks [m]
+  std::string why;                      ///< reason, for a failed point
+  ExitCode code = ExitCode::resources;  ///< exit code, for a failed point
+  bool anew = false;                    ///< true for a failed point whose checkpoint leads to the same end
+  bool foreign = false;                 ///< true for a run of another scene: `why` says what differs
+  std::optional<double> keeps_at = {};  ///< forks.at of the run in the folder [s]
+  double room = 0;                      ///< room for a corrugation of its forks [m]
 };
 
-/// Looks into the folder, which need not exist. A run that stands in it counts whoever began it, if its scene
-/// is this one.
+/// Status of the folder, which need not exist. A run in it counts whoever began it, if its scene is this one.
 PointStatus look_into(const std::filesystem::path& folder, const SceneContent& scene);
 
-/// After the folder's process has ended: keeps why it failed, or forgets why it once did. ResourceError.
+/// Notes the end of the folder's process: keeps the reason of a failure, or removes an older one. Throws
+/// ResourceError.
 void note_end(const std::filesystem::path& folder, const ProcessEnd& end);
 
-/// Keeps why it failed before it began. ResourceError.
+/// Keeps the reason of a failure before the start. Throws ResourceError.
 void note_failure(const std::filesystem::path& folder, ExitCode code, const std::string& why);
 
-/// Where the processes of the folder print.
+/// Path of the output of the folder's processes.
 std::filesystem::path log_of(const std::filesystem::path& folder);
 
 }  // namespace tread

@@ -19,7 +19,7 @@ const SharedRolling* group_of(const StudyPlan& plan, const PlannedPoint& point) 
   return point.shared ? &plan.shared[*point.shared] : nullptr;
 }
 
-/// Equal for points whose rolling is the same until their corrugations differ.
+/// Content that is equal for points whose rolling agrees until their corrugations differ.
 SceneContent content_before(const PlannedPoint& point) {
   const Scene& scene = point.resolved.scene;
   SceneContent content = point.content;
@@ -49,13 +49,13 @@ bool has_state(const PlannedPoint& point) {
   return point.keeps_state && !CheckpointFolder(point.folder / kForkFolder).states().empty();
 }
 
-/// Whether the point is going to leave the state without being told.
+/// Returns true if the point is going to leave the state without a request.
 bool will_keep(const PlannedPoint& point) {
   const PointState state = point.status.state;
   return point.keeps_state && state != PointState::failed && state != PointState::done;
 }
 
-/// A state that an earlier study left serves as well, if it is not too late and has room.
+/// Accepts a state that an earlier study left, if it is not too late and has room.
 void recognise_keepers(StudyPlan& plan, const SharedRolling& group) {
   constexpr double kRounding = 1 + 1e-12;
   for (const std::size_t i : group.points) {

@@ -10,45 +10,47 @@
 
 namespace tread {
 
-/// Fills plan.shared and the points' places there: scenes with the same content but for corrugations by gap.
-/// Nothing else that a fork allows leaves the bits of a run from the start: a shorter duration divides
-/// another rail, another interval of the histories begins with the state.
+/// Fills plan.shared and the points' places there: scenes of equal content except for corrugations by gap.
+/// Any other change that a fork allows would alter the bits of a run from the start: a shorter duration
+/// divides another rail, another interval of the histories begins with the state.
 void find_shared_rolling(StudyPlan& plan);
 
-/// Whether runs of the scene can begin with the state of another one, or keep it, for another corrugation.
+/// Returns true if runs of the scene can begin with the state of another one, or keep it, for another
+/// corrugation.
 bool can_share(const Scene& scene);
 
 /// SharedRolling::room of the point.
 std::optional<double> room_of(const StudyPlan& plan, const PlannedPoint& point);
 
-/// The point's scene as that of a run that keeps a state, where it can.
+/// The point's scene as that of a run that keeps a state, if it can.
 Scene keeping_scene(const StudyPlan& plan, const PlannedPoint& point);
 
-/// Fills SharedRolling::until where it is not known: the wheel is then still before what tells the
-/// corrugations apart. Leaves every point alone where the wheel begins nearer.
+/// Fills SharedRolling::until if it is not known: the wheel is then still before the first difference of the
+/// corrugations. Leaves every point alone if the wheel begins nearer.
 void place_state(StudyPlan& plan, const PlannedPoint& point, const Approach& approach);
 
-/// For every group that lacks it, makes the first of the points that begin anew the one that keeps the state,
-/// if another one does, too.
+/// Chooses the keepers: in every group without one, the first of the points that begin anew keeps the state,
+/// provided that a second one does.
 void choose_keepers(StudyPlan& plan, bool retry);
 
-/// The point whose folder has the state that this one can begin with; nullptr: none has.
+/// Point whose folder has the state with which this one can begin; nullptr if there is none.
 const PlannedPoint* keeper_of(const StudyPlan& plan, const PlannedPoint& point);
 
-/// Whether the point is to begin with another one's state, which may not be there yet.
+/// Returns true if the point is to begin with another one's state, which may not exist yet.
 bool begins_with_state(const StudyPlan& plan, const PlannedPoint& point);
 
-/// For readers: "keeps the state at 28.4 ms", "at 28.4 ms, from smooth"; empty where it begins at the start.
+/// Text for readers: "keeps the state at 28.4 ms", "at 28.4 ms, from smooth"; empty if the point begins at
+/// the start.
 std::string beginning_text(const StudyPlan& plan, const PlannedPoint& point);
 
-/// Whether the point has to wait for the state of another one.
+/// Returns true if the point has to wait for the state of another one.
 bool waits_for_state(const StudyPlan& plan, const PlannedPoint& point);
 
-/// What of the command line makes the point keep the state or begin with it.
+/// Arguments of the command line that make the point keep the state or begin with it.
 std::vector<std::string> sharing_arguments(const StudyPlan& plan, const PlannedPoint& point);
 
-/// After the run that was to keep the state has ended without: another one takes its place, but where it has
-/// come to an end that the others would come to as well; those are returned.
+/// Replaces a keeper whose run has ended without keeping the state. If that run came to an end that the
+/// others would come to as well, no other point takes its place and those points are returned.
 std::vector<PlannedPoint*> replace_keeper(StudyPlan& plan, PlannedPoint& point);
 
 }  // namespace tread

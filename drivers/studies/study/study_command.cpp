@@ -26,7 +26,7 @@ int stated(int option, int study) {
   return option > 0 ? option : study;
 }
 
-/// Before the cost is known: as many runs as cores have room for.
+/// Chooses the number of runs before the cost is known: as many as cores have room for.
 void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
@@ -40,7 +40,7 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
                     plan.jobs, each, plan.jobs * each, cores));
 }
 
-/// Fewer runs at once where memory is short and their number was not stated.
+/// Lowers the number of runs at once if memory is short and their number was not stated.
 void mind_memory(StudyPlan& plan, const StudyOptions& options) {
   if (stated(options.jobs, plan.study.jobs) > 0) return;
   while (plan.jobs > 1 && total_cost(plan).memory > machine_memory()) --plan.jobs;
@@ -90,7 +90,7 @@ void require_disk(const StudyPlan& plan, const StudyCost& cost) {
       bytes_text(cost.disk), plan.folder.string(), bytes_text(static_cast<std::int64_t>(space.available))));
 }
 
-/// Where the study brings its own.
+/// Writes the scene of a study that brings its own.
 void leave_scene(const Study& study) {
   if (study.scene_text.empty()) return;
   constexpr std::size_t kLargest = 1 << 20;  // [B]
@@ -100,7 +100,7 @@ void leave_scene(const Study& study) {
   write_text_file(study.scene, study.scene_text);
 }
 
-/// What is to be said of points that did not come to their end.
+/// Error for points that did not come to their end; nullopt if there are none.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
                                const std::string& way_on) {
   std::string failures;

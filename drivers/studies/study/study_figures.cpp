@@ -21,7 +21,7 @@ Series series_of(const FinishedRun& run, const CurvePanel& panel) {
   return {panel.prefix + run.label, std::move(points.x), std::move(points.y), Stroke::solid};
 }
 
-/// What full slip would transmit, in the panel's unit.
+/// Force that full slip would transmit, in the panel's unit.
 Series limit_of(const FinishedRun& run, const CurvePanel& panel) {
   RunCurve curve = panel.curve;
   curve.y = {"vertical_force", "N"};
@@ -34,7 +34,7 @@ Range united(const Range& a, const Range& b) {
   return {std::min(a[0], b[0]), std::max(a[1], b[1])};
 }
 
-/// The stretches that the runs are about, as far as they have come.
+/// Stretch of interest of all runs, as far as they have come.
 Range in_sight(const std::vector<FinishedRun>& runs, const Range& way) {
   std::optional<Range> range;
   for (const FinishedRun& run : runs) {
@@ -54,7 +54,7 @@ bool same_track(const Scene& a, const Scene& b) {
   return places(a) == places(b);
 }
 
-/// Fastenings and corrugation where they are the same for all.
+/// Marks the fastenings and the corrugation if they are common to all runs.
 void mark_common_track(const std::vector<FinishedRun>& runs, Figure& figure) {
   const FinishedRun& first = runs.front();
   const Corrugation corrugation = first.corrugation();
@@ -68,7 +68,7 @@ void mark_common_track(const std::vector<FinishedRun>& runs, Figure& figure) {
   mark_track(first.scene, one_corrugation ? corrugation : Corrugation(), *figure.x_range, figure);
 }
 
-/// 1, 2 or 5 times a power of ten, and no more than `most` of them in `length`.
+/// Step of 1, 2 or 5 times a power of ten with at most `most` steps in `length`.
 double even_step(double length, int most) {
   const double decade = std::pow(10.0, std::floor(std::log10(length / most)));
   for (const double factor : {1.0, 2.0, 5.0})

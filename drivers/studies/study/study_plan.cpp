@@ -25,12 +25,12 @@ namespace tread {
 
 namespace {
 
-/// Whether a key's path is another's or leads into its table.
+/// Returns true if a key's path is `table` or leads into it.
 bool lies_in(const std::string& path, const std::string& table) {
   return path == table || path.starts_with(table + ".");
 }
 
-/// Problems of many points, each told once: with the first point that has it unless all have it.
+/// Problems of many points, each reported once: with the first point that has it unless all have it.
 class PointProblems {
  public:
   explicit PointProblems(const Study& study) : study_(study) {}
@@ -96,7 +96,7 @@ void refuse_doubles(const StudyPlan& plan, PointProblems& problems) {
   }
 }
 
-/// With `act(point)` for each; what it refuses is collected.
+/// Calls `act(point)` for each point and collects its errors.
 void for_each_point(StudyPlan& plan, PointProblems& problems, const std::function<void(PlannedPoint&)>& act) {
   for (PlannedPoint& point : plan.points) {
     try {
@@ -109,14 +109,14 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
   }
 }
 
-/// Traction acts on the mesh by it.
+/// Text of the run's span, by which traction acts on the mesh.
 std::string run_text(const PlannedPoint& point) {
   const Span run = run_span(point.resolved.scene);
   return fmt::format("{:.3f} m to {:.3f} m", run.first, run.last);
 }
 
-/// What the size, memory and step of a point's model depend on: all but how fast and under what traction the
-/// wheel goes its way, and over what corrugation by gap.
+/// Content on which the size, memory and step of a point's model depend: everything but speed, duration,
+/// traction and a corrugation by gap.
 SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
   SceneContent content = point.content;
   std::erase_if(content, [&](const auto& entry) {
@@ -140,7 +140,7 @@ double duration_of(const PlannedPoint& point) {
   return point.resolved.scene.motion ? point.resolved.scene.motion->duration : 0;
 }
 
-/// Of the same model over `ratio` times the duration.
+/// Estimate of the same model over `ratio` times the duration.
 Estimate prolonged(Estimate cost, double ratio) {
   const auto times = [ratio](std::int64_t number) {
     return std::llround(static_cast<double>(number) * ratio);
@@ -153,7 +153,8 @@ Estimate prolonged(Estimate cost, double ratio) {
   return cost;
 }
 
-/// Takes from the costs what others compute: preloads that the cache will have, the rolling before a state.
+/// Subtracts from the costs the work of other points: preloads that the cache will have, the rolling before a
+/// state.
 void subtract_shared(StudyPlan& plan) {
   const bool cached = preload_cache("").has_value();
   std::set<SceneContent> solved;

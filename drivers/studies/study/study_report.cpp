@@ -16,7 +16,7 @@ namespace tread {
 
 namespace {
 
-/// In the key's unit; nothing where it is not a number.
+/// Value in the key's unit; nullopt if it is not a number.
 std::optional<double> number_of(const PlannedPoint& point, const std::string& path) {
   const Key* key = find_key(path);
   if (!key || !key->locate) return std::nullopt;
@@ -31,7 +31,7 @@ std::string unit_of(const std::string& path) {
   return key && !key->unit.empty() ? key->unit : "-";
 }
 
-/// The first key whose values are numbers and differ.
+/// First key whose values are numbers and differ.
 std::string abscissa_key(const StudyPlan& plan) {
   for (const std::string& key : varied_keys(plan)) {
     std::set<double> values;
@@ -42,7 +42,7 @@ std::string abscissa_key(const StudyPlan& plan) {
   return "";
 }
 
-/// What tells the point from others at the same abscissa.
+/// Values that distinguish the point from others at the same abscissa.
 std::string group_of(const StudyPlan& plan, const PlannedPoint& point, const std::string& abscissa) {
   std::string group;
   for (const std::string& key : varied_keys(plan))
@@ -74,7 +74,7 @@ std::optional<Chapter> trend_chapter(const StudyPlan& plan, const std::vector<Fi
   return Chapter{"Trends", {std::move(figure)}};
 }
 
-/// Overlaid curves, as many to a figure as there are colours.
+/// Overlaid curves, as many in a figure as there are colours.
 void add_curves(const CurvesSpec& spec, const std::vector<FinishedRun>& runs, Chapter& chapter) {
   for (std::size_t first = 0; first < runs.size(); first += kMostCurves) {
     const std::size_t last = std::min(runs.size(), first + kMostCurves);

@@ -1,5 +1,5 @@
 #pragma once
-// What a study leaves: sweep.csv and report.html.
+// Results of a study: sweep.csv and report.html.
 
 #include <string>
 #include <vector>
@@ -10,20 +10,20 @@
 
 namespace tread {
 
-/// Of the points that are done, in their order. InputError where a summary does not read.
+/// Runs of the points that are done, in their order. Throws InputError if a summary cannot be read.
 std::vector<FinishedRun> finished_runs(const StudyPlan& plan);
 
-/// The key's value in a point's scene in the key's unit of documentation, "300"; a text as it is.
+/// The key's value in a point's scene in the key's unit of documentation, such as "300"; a text unchanged.
 std::string value_text(const PlannedPoint& point, const std::string& key);
 
 /// Keys that any point varies, in order of appearance.
 std::vector<std::string> varied_keys(const StudyPlan& plan);
 
-/// A row a point: name, state, varied keys in their units, results in SI; the results of points that are not
-/// done are empty.
+/// Table with a row per point: name, state, varied keys in their units, results in SI. The results of points
+/// that are not done are empty.
 std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
-/// The same as JSON.
+/// The rows of sweep_csv() as JSON.
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
 /// Headline results of the runs for readers.
@@ -32,7 +32,7 @@ Table result_table(const std::vector<FinishedRun>& runs);
 /// Forces, creepage, Von Mises stress and frictional work of runs that have rolled, over one another.
 Chapter curve_chapter(const std::vector<FinishedRun>& rolled);
 
-/// The points' state and values.
+/// State and values of the points.
 Table point_table(const StudyPlan& plan);
 
 Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command);

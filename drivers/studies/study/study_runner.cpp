@@ -21,9 +21,9 @@ namespace tread {
 namespace {
 
 constexpr double kShowInterval = 5;                    ///< [s]
-constexpr auto kLook = std::chrono::milliseconds(50);  ///< between looks at the children
+constexpr auto kLook = std::chrono::milliseconds(50);  ///< time between looks at the children
 
-/// What the run shows of itself; nothing before its first status.
+/// Status file of the run; empty before its first status.
 JsonRecord status_of(const PlannedPoint& point) {
   try {
     return read_json(point.folder / "status.json");
@@ -79,7 +79,8 @@ std::string StudyRunner::run(bool retry) {
   return stopped_by_;
 }
 
-/// The idle cores are dealt out among the points that can begin now; 0: none can.
+/// Threads for the next run: the idle cores are dealt out among the points that can begin; 0 if there is
+/// none.
 int StudyRunner::threads_for_next() const {
   const auto ready = std::count_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
     return !waits_for_state(*plan_, *point);
@@ -92,7 +93,7 @@ int StudyRunner::threads_for_next() const {
   return idle > 0 ? std::max(1, idle / beginning) : 0;
 }
 
-/// The first that waits for nobody; nullptr: none, now.
+/// Takes the first point that waits for no other; nullptr if there is none.
 PlannedPoint* StudyRunner::take_next() {
   const auto next = std::find_if(queue_.begin(), queue_.end(), [this](const PlannedPoint* point) {
     return !waits_for_state(*plan_, *point);
@@ -144,7 +145,7 @@ void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
   }
 }
 
-/// The point would come to the same end as `keeper`, whose state it was to begin with.
+/// Fails a point that would come to the same end as `keeper`, with whose state it was to begin.
 void StudyRunner::fail_with(const PlannedPoint& keeper, PlannedPoint& point) {
   note_failure(point.folder, keeper.status.code,
                fmt::format("not begun: up to {:.6g} ms it is the run of {}, which failed before: {}",
@@ -172,7 +173,7 @@ void StudyRunner::stop(const std::string& why) {
 }
 
 double StudyRunner::seconds_left() const {
-  // Threads that work, and what one of them alone would take; costs are those of the plan's threads, or one.
+  // Work in core-time: costs are those of the plan's threads, or of one.
   const int each = std::max(1, plan_->threads);
   const int workers = plan_->threads > 0 ? plan_->jobs * each : machine_cores();
   double sum = 0;

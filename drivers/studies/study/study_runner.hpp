@@ -11,15 +11,15 @@
 
 namespace tread {
 
-/// Runs what is to run: a point begins with `tread run`, with another one's state where rolling is shared,
-/// and goes on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys
-/// `tread ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
+/// Runs the points: a point begins with `tread run`, with another one's state if rolling is shared, and goes
+/// on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys `tread
+/// ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
 class StudyRunner {
  public:
   StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress);
 
-  /// Until every point has ended or the study is stopped; fills the points' status. What stopped it, empty
-  /// where nothing did. `retry`: failed points, too.
+  /// Runs until every point has ended or the study is stopped; fills the points' status. Returns the reason
+  /// of a stop, empty without one. `retry`: failed points run, too.
   std::string run(bool retry);
 
  private:
@@ -27,7 +27,7 @@ class StudyRunner {
     PlannedPoint* point;
     ChildProcess process;
     int threads;
-    double started;  ///< on the progress' clock [s]
+    double started;  ///< start on the clock of the progress [s]
   };
   int threads_for_next() const;
   PlannedPoint* take_next();
@@ -43,12 +43,12 @@ class StudyRunner {
   StudyPlan* plan_;
   const RunFolder* folder_;
   Progress* progress_;
-  std::vector<PlannedPoint*> queue_;  ///< the next one first
+  std::vector<PlannedPoint*> queue_;  ///< waiting points, the next one first
   std::vector<Running> running_;
   std::string stopped_by_;
 };
 
-/// The command line of a point after "tread".
+/// Command line of a point after "tread".
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads);
 
 }  // namespace tread
