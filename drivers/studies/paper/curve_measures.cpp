@@ -19,7 +19,7 @@ bool has_sine(const FinishedRun& run) {
   return run.rolled() && run.scene.corrugation && run.scene.corrugation->kind == "sine";
 }
 
-/// Values at even places of the evaluated stretch; empty where the curve does not cover it.
+/// Values at even places of the evaluated stretch; empty if the curve does not cover it.
 std::vector<double> evaluated(const FinishedRun& run, const CurvePoints& curve) {
   const Span stretch = evaluated_stretch(run.scene, run.corrugation());
   if (curve.x.size() < 2 || curve.x.front() > stretch.first || curve.x.back() < stretch.last) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// How curves over a corrugation follow it and one another.
+// Relations of curves over a corrugation with the corrugation and with one another.
 
 #include <optional>
 #include <vector>
@@ -11,42 +11,42 @@ namespace tread {
 
 /// A curve's first two harmonics over whole waves.
 struct WavePattern {
-  double share = 0;  ///< of its variance that they carry [-]
-  double shift = 0;  ///< of the first one's peak before a crest, a wavelength being 2 pi [rad]
+  double share = 0;  ///< share of the curve's variance in these harmonics [-]
+  double shift = 0;  ///< lead of the first harmonic's peak before a crest, a wavelength being 2 pi [rad]
 
-  /// Whether the first harmonic is larger at crests than at troughs.
+  /// Returns true if the first harmonic is larger at crests than at troughs.
   bool larger_at_crests() const;
 };
 
-/// Over the stretch that the run is evaluated on; nothing where the run has no sine or the curve does not
-/// cover the stretch.
+/// Pattern over the stretch on which the run is evaluated; nullopt if the run has no sine or the curve does
+/// not cover the stretch.
 std::optional<WavePattern> wave_pattern(const FinishedRun& run, const CurvePoints& curve);
 
-/// Whether the run has come to the end of its sine.
+/// Returns true if the run has come to the end of its sine.
 bool has_passed(const FinishedRun& run);
 
-/// Of two curves over that stretch.
+/// Correlation of two curves over the evaluated stretch.
 std::optional<double> correlation(const FinishedRun& run, const CurvePoints& a, const CurvePoints& b);
 
-/// F_N's peaks about the crests of the run's sine; empty where there is none.
+/// Peaks of F_N about the crests of the run's sine; empty if there is none.
 std::vector<CrestPeak> vertical_peaks(const FinishedRun& run);
 
-/// Mean of the peaks nearer to a fastening than to mid-span less that of the others, over the static load;
-/// nothing where one kind is missing.
+/// Mean of the peaks nearer to a fastening than to mid-span less that of the others, over the static load
+/// [-]; nullopt if one kind is missing.
 std::optional<double> fastening_effect(const FinishedRun& run);
 
-/// When the mean of F_L over 1 ms first reaches 98 % of F_L's mean from `steady_from` [s] on, less T1;
-/// nothing where the run ends earlier. [s]
+/// Delay after T1 [s] until the mean of F_L over 1 ms first reaches 98 % of F_L's mean from `steady_from` [s]
+/// on; nullopt if the run ends earlier.
 std::optional<double> longitudinal_delay(const FinishedRun& run, double steady_from);
 
-/// Largest difference of F_N from the static load behind x [m], over that load.
+/// Largest difference of F_N from the static load behind x [m], over that load [-].
 std::optional<double> residual_oscillation(const FinishedRun& run, double x);
 
-/// Largest difference of the runs' F_N from `time` [s] on, over the static load.
+/// Largest difference of the runs' F_N from `time` [s] on, over the static load [-].
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time);
 
 /// Largest value of the column of creepages over the evaluated stretch, over the steady creepage of the
-/// summary; nothing where the run has not come to a crest.
+/// summary [-]; nullopt if the run has not come to a crest.
 std::optional<double> creepage_ratio(const FinishedRun& run, const char* column);
 
 /// Curves of the histories and of the axis, SI.

@@ -45,7 +45,7 @@ bool along_the_rail(const Figure& figure) {
   return figure.x_range && figure.x_label.find("[m]") != std::string::npos;
 }
 
-/// The corrugated surface below the curves, where they all have the same.
+/// Adds the corrugated surface below the curves if it is common to all runs.
 void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   const Corrugation first = runs.front().corrugation();
   if (first.smooth() || !along_the_rail(figure)) return;
@@ -54,14 +54,14 @@ void add_surface(const std::vector<FinishedRun>& runs, Figure& figure) {
   figure.panels.push_back(panel("Rail surface [mm]", {running_surface(first, *figure.x_range)}, {}, 70));
 }
 
-/// As the paper's: traction carries slow wheels farther than fast ones.
+/// Ends the abscissa as the paper does: traction carries slow wheels farther than fast ones.
 void end_with_solution_zone(const Scene& scene, Figure& figure) {
   if (!along_the_rail(figure)) return;
   double& last = (*figure.x_range)[1];
   last = std::min(last, scene.zone_start + scene.zone_length);
 }
 
-/// Runs of a figure and where they stand on the abscissa of its trends.
+/// Runs of a figure and their places on the abscissa of its trends.
 struct FoundRuns {
   std::vector<FinishedRun> runs;
   std::vector<double> places;
@@ -98,7 +98,7 @@ Figure drawn_curves(const std::string& title, const PaperFigure& wanted, const P
   return figure;
 }
 
-/// Of 40 m of each wave.
+/// Roughness levels of 40 m of each wave.
 DrawnFigure drawn_levels(const std::string& title, const std::vector<Passage>& waves) {
   constexpr double kSpacing = 1e-3, kLength = 40, kSegment = 2;  // [m]
   std::vector<NamedLevels> rails;
@@ -111,11 +111,11 @@ DrawnFigure drawn_levels(const std::string& title, const std::vector<Passage>& w
   }
   Figure figure = level_figure(rails);
   figure.title = title;
-  figure.panels.front().y_range = Range{-20, 40};  // what lies below leaks out of the window
+  figure.panels.front().y_range = Range{-20, 40};  // levels below are leakage of the window
   return {figure, figure_csv(figure), figure_svg(figure)};
 }
 
-/// Of the run's instants; the last 0.12 m of a smooth rail, as many as the paper shows.
+/// Places of the run's instants. On a smooth rail: as many as the paper shows, over the last 0.12 m.
 std::vector<double> places_of(const FinishedRun& run) {
   const CurvePoints pressure = history_over_way(run, "max_pressure", "Pa");
   return typical_places(run.scene, evaluated_stretch(run.scene, run.corrugation()), 0.12, pressure.x,

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's figures drawn from the passages that have been run.
+// The paper's figures drawn from the finished passages.
 
 #include <string>
 
@@ -8,14 +8,15 @@
 
 namespace tread {
 
-/// A figure for the report, as a table and as a picture of its own; a text and nothing else where none of its
-/// passages has been run that it cannot be drawn without.
+/// A figure for the report, as a table and as a separate picture. It is a mere text if none of the passages
+/// that it needs has been run.
 struct DrawnFigure {
   Block block;
   std::string csv, svg;
 };
 
-/// From those of its passages that have been run. InputError where a file does not read.
+/// Draws the figure from those of its passages that have been run. Throws InputError if a file cannot be
+/// read.
 DrawnFigure draw(const PaperFigure& figure, const PassageRuns& runs);
 
 }  // namespace tread

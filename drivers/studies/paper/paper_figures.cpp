@@ -17,7 +17,7 @@ constexpr std::array<double, 6> kMus = {0, 0.1, 0.2, 0.3, 0.4, 0.5};
 constexpr std::array<double, 3> kWavelengths = {65, 80, 95};         // [mm]
 constexpr std::array<double, 4> kDepths = {0.04, 0.08, 0.14, 0.18};  // [mm]
 
-/// `base` with `member` set to each value.
+/// Copies of `base` with `member` set to each value.
 template <class Values>
 std::vector<Passage> varied(const Passage& base, double Passage::*member, const Values& values) {
   std::vector<Passage> passages;
@@ -88,7 +88,7 @@ std::vector<TrendPanel> forces_of() {
   const std::vector<TrendPanel> all = fluctuation_panels();
   return {all.begin(), all.begin() + 2};
 }
-/// Von Mises stress and frictional work.
+/// Panels of Von Mises stress and frictional work.
 std::vector<TrendPanel> responses() {
   const std::vector<TrendPanel> all = fluctuation_panels();
   return {all.begin() + 2, all.end()};

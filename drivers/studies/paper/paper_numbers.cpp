@@ -17,7 +17,7 @@ namespace {
 
 using Ours = std::function<std::optional<double>(const PassageRuns&)>;
 
-/// measure(run) of a passage's run.
+/// Applies `measure` to a passage's run.
 template <class Measure>
 Ours of(const Passage& passage, const Measure& measure) {
   return [passage, measure](const PassageRuns& runs) -> std::optional<double> {
@@ -26,7 +26,7 @@ Ours of(const Passage& passage, const Measure& measure) {
   };
 }
 
-/// What the run's summary states at `path`, times `scale`.
+/// Value in the run's summary at `path`, times `scale`.
 Ours stated(const Passage& passage, std::string path, double scale) {
   return of(passage, [path = std::move(path), scale](const FinishedRun& run) -> std::optional<double> {
     const std::optional<double> value = run.number(path);
@@ -34,7 +34,7 @@ Ours stated(const Passage& passage, std::string path, double scale) {
   });
 }
 
-/// The same where the run has come to the end of its corrugation.
+/// Value in the summary as by stated(), if the run has come to the end of its corrugation.
 Ours over_the_corrugation(const Passage& passage, std::string path, double scale) {
   return [passage, value = stated(passage, std::move(path), scale)](const PassageRuns& runs) {
     const FinishedRun* run = runs.find(passage);
@@ -47,7 +47,7 @@ std::optional<double> first_shift(const FinishedRun& run) {
   return peaks.empty() ? std::nullopt : std::optional(peaks.front().shift / std::numbers::pi);
 }
 
-/// [%]; nothing where the torque still rises or has just risen over the stretch.
+/// Steady creepage [%]; nullopt if the torque still rises or has just risen over the stretch.
 std::optional<double> steady_creepage(const FinishedRun& run) {
   const MotionSpec& motion = *run.scene.motion;
   const std::optional<double> first = run.number("steady_x_m.0");
@@ -59,7 +59,7 @@ std::optional<double> smallest_by_multibody(const FinishedRun& run) {
   return 1e-3 * run_multibody(multibody_model(run.scene, BeamTheory::euler), {}).force.min;
 }
 
-constexpr double kSteadyTime = 0.028;  ///< from which the paper calls forces stable [s]
+constexpr double kSteadyTime = 0.028;  ///< time from which the paper calls forces stable [s]
 
 std::vector<PaperNumber> smooth_numbers() {
   const Passage smooth = smooth_rail();

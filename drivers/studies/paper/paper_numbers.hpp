@@ -1,5 +1,5 @@
 #pragma once
-// Every number that the paper states in its text, as data, and ours beside it.
+// Every number that the paper states in its text, as data, and our value beside it.
 
 #include <functional>
 #include <optional>
@@ -12,22 +12,23 @@
 namespace tread {
 
 struct PaperNumber {
-  std::string figure;  ///< id of the figure that it belongs to; empty: none
-  std::string place;   ///< in the paper: "section 4.2, Fig. 15"
+  std::string figure;  ///< id of the figure to which it belongs; empty: none
+  std::string place;   ///< place in the paper: "section 4.2, Fig. 15"
   std::string quantity;
   std::string unit;
-  double value = 0;  ///< the paper's
+  double value = 0;  ///< value of the paper
   std::function<std::optional<double>(const PassageRuns&)> ours;
-  std::string remark;  ///< how ours is taken; why they differ
+  std::string remark;  ///< measure of our value and reason of a difference
 };
 
-/// In the paper's order.
+/// All numbers, in the paper's order.
 const std::vector<PaperNumber>& paper_numbers();
 
-/// All of them beside ours; what has not been run, or not far enough, is left open.
+/// Table of all numbers beside our values. A value is left open if its passage has not been run, or not far
+/// enough.
 Table number_table(const PassageRuns& runs);
 
-/// Columns: figure, place, quantity, unit, paper, ours, difference in per cent.
+/// Table with the columns figure, place, quantity, unit, paper, ours, difference in per cent.
 std::string number_csv(const PassageRuns& runs);
 
 }  // namespace tread

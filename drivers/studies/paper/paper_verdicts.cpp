@@ -61,7 +61,7 @@ std::optional<double> range_of(const FinishedRun& run, const std::string& path) 
   return high && low ? std::optional(*high - *low) : std::nullopt;
 }
 
-/// A value of each of some passages.
+/// Values of some passages.
 struct Listed {
   std::vector<double> at, values;
 
@@ -79,7 +79,7 @@ struct Listed {
   }
 };
 
-/// `value` of every passage that has passed its corrugation; nothing unless all have.
+/// Lists `value` of every passage that has passed its corrugation; nullopt unless all have.
 template <class Value>
 std::optional<Listed> list(const PassageRuns& runs, const std::vector<Passage>& passages,
                            double Passage::*member, const Value& value) {
@@ -210,7 +210,7 @@ Judgement multibody_overestimates(const PassageRuns& runs) {
               1e-3 * high, 1e-3 * low, 1e-3 * cheap.force.max, 1e-3 * cheap.force.min)};
 }
 
-/// What the paper's theory rests on: the response to a corrugation is larger at crests and grows with depth.
+/// Premise of the paper's theory: the response to a corrugation is larger at crests and grows with depth.
 Judgement response_fights_the_corrugation(const PassageRuns& runs) {
   const FinishedRun* run = runs.find(corrugated());
   std::vector<Passage> depths;

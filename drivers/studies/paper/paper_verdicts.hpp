@@ -11,27 +11,27 @@ namespace tread {
 
 enum class Verdict { not_run, reproduced, partly, not_reproduced };
 
-/// For readers: "not run".
+/// Name for readers, such as "not run".
 const char* name_of(Verdict verdict);
 
 struct Judgement {
   Verdict verdict = Verdict::not_run;
-  std::string why;  ///< our numbers, or what is missing
+  std::string why;  ///< our numbers, or the missing passages
 };
 
 struct Conclusion {
   int number;
-  std::string claim;    ///< in our words
-  std::string decided;  ///< what makes it reproduced
+  std::string claim;    ///< conclusion in our words
+  std::string decided;  ///< criterion for "reproduced"
   Judgement (*judge)(const PassageRuns&);
 };
 
 const std::vector<Conclusion>& paper_conclusions();
 
-/// Columns: number, conclusion, decided by, verdict, our numbers.
+/// Table with the columns number, conclusion, decided by, verdict, our numbers.
 Table verdict_table(const PassageRuns& runs);
 
-/// Columns: number, verdict, our numbers.
+/// Table with the columns number, verdict, our numbers.
 Table short_verdict_table(const PassageRuns& runs);
 
 }  // namespace tread

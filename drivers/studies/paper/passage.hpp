@@ -9,35 +9,35 @@
 
 namespace tread {
 
-/// What the paper's figures vary; everything else is Table 1. Units as the paper states them.
+/// Quantities that the paper's figures vary; everything else is Table 1. Units as the paper states them.
 struct Passage {
-  double speed = 300;     ///< [km/h]
+  double speed = 300;     ///< speed [km/h]
   double mu = 0.3;        ///< traction coefficient; negative brakes
-  double wavelength = 0;  ///< L [mm]; 0: smooth rail
-  double depth = 0;       ///< d_m [mm]
-  double ramp = 5;        ///< T1 [ms]
+  double wavelength = 0;  ///< wavelength L [mm]; 0: smooth rail
+  double depth = 0;       ///< depth d_m [mm]
+  double ramp = 5;        ///< ramp time T1 [ms]
 
   bool operator==(const Passage&) const = default;
 };
 
 Passage smooth_rail(double speed = 300, double mu = 0.3);
-/// Corrugation D is the default.
+/// Passage over a corrugation; the default is corrugation D.
 Passage corrugated(double wavelength = 80, double depth = 0.14);
 
-/// Of its folder: "80mm,0.14mm,300km_h,mu=0.3".
+/// Name of its folder: "80mm,0.14mm,300km_h,mu=0.3".
 std::string name_of(const Passage& passage);
 
-/// As a point of a study: far enough to pass the corrugation, or the solution zone.
+/// The passage as a point of a study: far enough to pass the corrugation, or the solution zone.
 StudyPoint study_point(const Passage& passage);
 
-/// The scene that all passages begin with.
+/// Scene with which all passages begin.
 std::string paper_scene();
 
 /// Runs by passage.
 class PassageRuns {
  public:
   void add(const Passage& passage, FinishedRun run) { runs_.emplace_back(passage, std::move(run)); }
-  /// nullptr: not run.
+  /// Run of a passage; nullptr if it has not been run.
   const FinishedRun* find(const Passage& passage) const;
   bool empty() const { return runs_.empty(); }
 
