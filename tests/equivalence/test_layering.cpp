@@ -1,5 +1,5 @@
-// What the floors of the house may include, that nothing includes in a circle, and that some libraries stand
-// in one place only. [architecture.md, Floors]
+// Includes of the floors, absence of cycles among them, and libraries that are included in one place only.
+// [architecture.md, Floors]
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Include {
-  std::string file;  ///< relative to the repository
+  std::string file;  ///< path relative to the repository
   std::string target;
 };
 
@@ -46,7 +46,7 @@ std::string first_folder(const std::string& target) {
 
 const std::set<std::string> kFolders = {"core", "kernels", "io", "drivers", "tests", "perf"};
 
-/// A floor of the house and what it may include beside itself.
+/// A floor of the house and the floors that it may include beside itself.
 struct Floor {
   std::string folder;
   std::vector<std::string> below;
@@ -100,7 +100,7 @@ TEST(Layering, EveryFolderOfDriversIsAFloor) {
   }
 }
 
-/// Includes among our own files, by `key` of includer and included.
+/// Includes among the repository's files, by `key` of includer and included.
 template <class Key>
 std::map<std::string, std::set<std::string>> include_graph(const Key& key) {
   std::map<std::string, std::set<std::string>> graph;
@@ -111,7 +111,7 @@ std::map<std::string, std::set<std::string>> include_graph(const Key& key) {
   return graph;
 }
 
-/// A way that leads back to its start; empty if there is none.
+/// A path that leads back to its start; empty if there is none.
 std::vector<std::string> cycle_in(const std::map<std::string, std::set<std::string>>& graph) {
   std::set<std::string> done;
   std::vector<std::string> way;

@@ -1,4 +1,4 @@
-// Nodes that move with the elements of their tile, or all after them: the same bits.
+// Nodes that move with the elements of their tile, or all after them, give the same bits.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace tread {
 namespace {
 
-constexpr int kSteps = 70;  // some of them measured in either run
+constexpr int kSteps = 70;  // some steps are measured in either run
 
 /// Bodies without strain, the wheel pressed into the rail.
 Preload pressed(const Model& model) {
@@ -29,7 +29,7 @@ struct Run {
   Sample last;
 };
 
-/// Measured steps move all nodes after the elements.
+/// Runs the model. Measured steps move all nodes after the elements.
 Run run(Model& model, int threads, bool measure_every_step) {
   set_threads(threads);
   Simulation simulation(model, pressed(model), 5e-8);

@@ -20,7 +20,7 @@
 namespace tread {
 namespace {
 
-/// Runs of tiles with the same elements, which the loop may take two at a time, and others; swept and moved.
+/// Runs of tiles with equal elements, which the loop may take two at a time, and others; swept and moved.
 Mesh long_blocks() {
   constexpr double kTurn = 6.283185307179586;
   const Section section = samples::grid_section({3, 2, -0.01, 0.05, 0.03, 0.02, 0.2});
@@ -38,7 +38,7 @@ Mesh long_blocks() {
   return mesh;
 }
 
-/// Damping and finite rotation in some blocks.
+/// Sets damping and finite rotation in some blocks.
 template <class Force>
 void choose_laws(Force& force) {
   for (const int block : {1, 3, 5}) force.set_finite_rotation(block, true);
@@ -153,7 +153,7 @@ class Rolled {
 
   struct Run {
     std::uint64_t hash;
-    double mean_force;  ///< of the samples [N]
+    double mean_force;  ///< mean force of the samples [N]
     Sample last;
   };
   Run run(const std::string& precision, int threads = 1, std::string_view by = "openmp",

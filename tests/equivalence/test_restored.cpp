@@ -1,4 +1,4 @@
-// A state that is copied into a fresh simulation goes on as if nothing had happened: the same bits.
+// A state that is copied into a fresh simulation goes on unchanged, with the same bits.
 
 #include <gtest/gtest.h>
 
@@ -64,8 +64,8 @@ struct Run {
   }
 };
 
-/// Rolls through, and beside it up to a step that is not sampled, then on in a fresh model with other
-/// threads.
+/// Rolls a run through. Beside it, rolls another run up to a step that is not sampled and goes on in a fresh
+/// model with other threads.
 void expect_same_bits(const Scene& scene, std::int64_t steps) {
   Run whole(scene);
   const Preload preload =

@@ -66,7 +66,7 @@ std::vector<Case> cases() {
   return list;
 }
 
-/// A random displacement of the given size on top of a rotation by `angle`. [m, rad]
+/// Random displacement of the given size [m] on top of a rotation by `angle` [rad].
 AlignedVector<double> random_motion(const Mesh& mesh, double size, double angle) {
   auto u = samples::random_field(mesh);
   for (double& value : u) value *= size / samples::kRandomSize;
@@ -101,8 +101,8 @@ std::vector<Vec3> cartesian_values(const SweptBlock& block, const AlignedVector<
 }
 
 struct Motion {
-  double size;   ///< random part; elements measure 4 to 20 mm [m]
-  double angle;  ///< rigid part [rad]
+  double size;   ///< size of the random part; elements measure 4 to 20 mm [m]
+  double angle;  ///< angle of the rigid part [rad]
 };
 constexpr Motion kMotions[] = {{1e-6, 0}, {1e-5, 0}, {1e-3, 0}, {1e-5, 0.1}, {1e-4, 1}};
 
@@ -278,7 +278,8 @@ TEST(InternalForceSingle, AgreesToItsPrecision) {
   }
 }
 
-/// Where nodes move vertically only: the force that the whole element has along component 2, nothing else.
+/// Expects, where nodes move vertically only, the force of the whole element along component 2 and nothing
+/// else.
 template <class Real, class U>
 void expect_vertical_force_alone(double tolerance) {
   Mesh whole;

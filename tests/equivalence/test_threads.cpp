@@ -1,4 +1,4 @@
-// One thread or several, OpenMP or TBB: the same bits.
+// One thread or several, OpenMP or TBB, give the same bits.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ struct Run {
   Sample sample;
 };
 
-/// Mesh, preload, corrugation, step and rolling of a small scene with all that a wheel can have.
+/// Mesh, preload, corrugation, step and rolling of a small scene with all parts that a wheel can have.
 Run run(const Scene& scene, int threads, std::string_view by) {
   set_backend(by);
   set_threads(threads);
@@ -40,7 +40,7 @@ Run run(const Scene& scene, int threads, std::string_view by) {
   return {simulation.state_hash(), preload.residual, dt, simulation.sample()};
 }
 
-/// Of a run with one thread, and those of runs that (threads, backend) describe.
+/// Compares the bits of a run with one thread and of runs by the given pairs of threads and backend.
 void expect_same_bits(const Scene& scene, const std::vector<std::pair<int, std::string_view>>& teams) {
   const Run one = run(scene, 1, "openmp");
   EXPECT_GT(one.sample.vertical_force, 1e4);
