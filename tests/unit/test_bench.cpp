@@ -1,4 +1,4 @@
-// What `tread bench` counts, measures and reads.
+// Counts, measurements and files of `tread bench`.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -25,13 +25,13 @@ std::int64_t operations(const std::function<void()>& body) {
 }
 
 TEST(Counted, CountsWhatTheElementBodyDoes) {
-  // The butterfly: 24 additions both ways a component, less the eighth mode, which no element needs.
+  // The butterfly has 24 additions both ways a component, less the eighth mode, which no element needs.
   Counted s[4] = {1, 2, 3, 4};
   Counted d[4] = {5, 6, 7, 8};
   Counted a[kModes] = {};
   EXPECT_EQ(operations([&] { to_modes(s, d, a); }), 7 + 8);
   EXPECT_EQ(operations([&] { from_modes(a, s, d); }), 2 + 4 + 4 + 4);
-  // Two products and a sum for each of four values that turn.
+  // Each of four values that turn needs two products and a sum.
   Counted x[3] = {1, 2, 3};
   Counted y[3] = {4, 5, 6};
   EXPECT_EQ(operations([&] { turn_to_middle(Counted(0.8), Counted(0.6), x, y); }), 12);
@@ -49,12 +49,12 @@ TEST(ElementWork, GrowsWithWhatTheElementDoes) {
   EXPECT_LT(plain.flops, 350);
   EXPECT_GT(turning.flops, plain.flops);
   EXPECT_GT(perturbed.flops, 1.5 * plain.flops);
-  // Displacement in, force fetched and out, velocity in with damping: 24 B a slot each; a shift
-  // and its index a node, a mark a quad.
+  // A slot moves 24 B each: displacement in, force fetched, force out, with damping velocity in. A node moves
+  // a shift and its index, a quad a mark.
   const double slots = static_cast<double>(block.slots()) / static_cast<double>(block.elements());
   EXPECT_DOUBLE_EQ(plain.bytes, 72 * slots);
   EXPECT_DOUBLE_EQ(damped.bytes, 96 * slots);
-  // A third in, all forces out.
+  // A third of the displacement in, all forces out.
   EXPECT_DOUBLE_EQ(vertical.bytes, 56 * slots);
   EXPECT_LT(vertical.flops, 0.4 * plain.flops);
   EXPECT_DOUBLE_EQ(perturbed.bytes - plain.bytes, 24.5 * slots + 0.125);

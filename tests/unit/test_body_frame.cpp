@@ -19,7 +19,7 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Rotation about +y, Cartesian.
+/// Rotation of a Cartesian vector about +y.
 Vec3 rotate(const Vec3& a, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -50,7 +50,7 @@ TEST(BodyFrame, TurnAndSpinAreAboutY) {
     const Vec3 x = cylindrical_to_cartesian(phi, a);
     expect_near(cylindrical_to_cartesian(phi, turn(a, 0.3)), rotate(x, 0.3), 1e-14);
     expect_near(cylindrical_to_cartesian(phi, spin_cross(5, a)), cross({0, 5, 0}, x), 1e-14);
-    // A node at angle phi seen from one at phi + 0.3: the same vector, components turned back.
+    // A node at angle phi, seen from one at phi + 0.3, is one vector with its components turned back.
     expect_near(cartesian_to_cylindrical(phi + 0.3, x), turn(a, -0.3), 1e-14);
   }
 }
@@ -62,14 +62,14 @@ TEST(BodyFrame, AdvancesUniformly) {
   EXPECT_DOUBLE_EQ(frame.angle, 0.7);
 }
 
-/// A closed ring with uneven masses, and how its nodes move in space.
+/// A closed ring with uneven masses, and the motion of its nodes in space.
 class Ring : public testing::Test {
  protected:
   Ring() {
     mesh_.add(make_swept_block("ring", Sweep::revolved, rectangle(-0.02, 0.03, 2, 0.1, 0.16, 2),
                                {samples::steel()}, 0.3, {{19, kTurn / 19, 0}}));
     mass_.assign(index(mesh_.slots), 0.0);
-    // The same mass at all stations: the axis is a principal axis of inertia.
+    // All stations have equal masses, so the axis is a principal axis of inertia.
     samples::for_each_node(mesh_, [&](const SweptBlock&, int node, int, std::int64_t slot) {
       mass_[index(slot)] = 1 + 0.1 * node;
     });
@@ -77,8 +77,8 @@ class Ring : public testing::Test {
   }
 
   struct State {
-    std::vector<Vec3> position;  ///< at the step [m]
-    std::vector<Vec3> velocity;  ///< at the half step before [m/s]
+    std::vector<Vec3> position;  ///< positions at the step [m]
+    std::vector<Vec3> velocity;  ///< velocities at the half step before [m/s]
   };
 
   State absolute(const AlignedVector<double>& u, const AlignedVector<double>& w, const BodyFrame& frame,
@@ -98,7 +98,7 @@ class Ring : public testing::Test {
     return state;
   }
 
-  /// A local field from a function of (reference position in space at frame angle `angle`), Cartesian.
+  /// Local field of a Cartesian function of the reference position in space at frame angle `angle`.
   template <class Field>
   AlignedVector<double> local_field(double angle, const Field& field) const {
     AlignedVector<double> values(index(3 * mesh_.slots), 0.0);
@@ -147,7 +147,7 @@ TEST_F(Ring, MeanMotionOfARigidBodyIsExact) {
   constexpr double rotation = 1e-4;
   constexpr double quicker = 2.0;
   const auto u = local_field(frame.angle, [&](const Vec3& x) { return shift + cross({0, rotation, 0}, x); });
-  // Moves with V + faster, spins with the frame's spin + quicker about its own displaced axis.
+  // The ring moves with V + faster and spins with the frame's spin + quicker about its own displaced axis.
   const auto w = local_field(frame.angle, [&](const Vec3& x) {
     return faster + cross({0, quicker, 0}, x) - cross({0, frame.spin, 0}, shift);
   });
@@ -195,7 +195,7 @@ TEST_F(Ring, AnchoringKeepsPositionsAndHalfStepVelocities) {
     expect_near(after.position[i], before.position[i], 1e-14 * norm(before.position[i]));
     expect_near(after.velocity[i], before.velocity[i], 1e-14 * fastest + second_order);
   }
-  // What is left of the mean motion: the rotation's second order, the step's half in the velocities.
+  // The remaining mean motion is the rotation's second order and the step's half in the velocities.
   const MeanMotion left = body_.mean_motion(u.data(), w.data(), frame);
   EXPECT_LT(std::hypot(left.displacement.x, left.displacement.z), 1e-17);
   EXPECT_LT(std::abs(left.rotation), 1e-5 * 1e-3);

@@ -54,7 +54,7 @@ TEST_F(Fastened, ForcesAreThoseOfSpringsAndDampers) {
   const auto v = samples::random_field(mesh_, 2);
   auto f = field();
   fastenings.apply(u.data(), v.data(), 1e-6, f.data());
-  // The virtual work on a test displacement.
+  // The forces are tested by their virtual work on a test displacement.
   const auto test = samples::random_field(mesh_, 3);
   double work = 0;
   for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * test[i];
@@ -93,7 +93,7 @@ TEST(SprungMass, SwingsAtItsFrequency) {
   const double omega = std::sqrt(880e3 / 8000.0);
   const double rest = -8000 * 9.81 / 880e3;
   mass.height = rest + 0.01;
-  // Ten periods by the crossings of the position of rest.
+  // Ten periods are counted by the crossings of the position of rest.
   int crossings = 0;
   double first = 0, last = 0, before = 0.01;
   for (int step = 1; crossings < 21; ++step) {
@@ -204,8 +204,8 @@ TEST_F(Spinning, PowerOfTheTorqueIsThatOfItsNodalForces) {
 }
 
 TEST_F(Spinning, UnsprungMassIsCarriedAlong) {
-  // An elastic ring with M_a on its bore, pushed there: the momentum of both is the impulse, and on the
-  // average the body accelerates as F / (m + M_a).
+  // An elastic ring with M_a on its bore is pushed there. The momentum of both is the impulse, and the body's
+  // mean acceleration is F / (m + M_a).
   const Journal journal(block(), block().section.paths.at("bottom"), mass_.data());
   const double added = 2 * body_.mass();
   const double gravity = 9.81;

@@ -55,7 +55,7 @@ TEST(SurfaceProfile, EdgeUnderAPointIsFound) {
   }
 }
 
-/// Largest distance of the curve from the circle of the crown, and of its direction.
+/// Largest distance of the curve from the circle of the crown, and largest difference of their directions.
 std::array<double, 2> distance_to_circle(double element_size, SurfaceKind kind) {
   const Section section =
       make_tyre_section(crowned(0.06, kCrown), 0.86, 0, 0.06, size_of(element_size, 30e-3));
@@ -80,7 +80,7 @@ TEST(SurfaceProfile, HermiteCurvesAreTheCircleToFourthOrder) {
   EXPECT_LT(coarse[0], 1e-10);
   EXPECT_LT(coarse[1], 1e-7);
   EXPECT_LT(fine[0], coarse[0] / 10);
-  // A chord of 2 mm stands off h^2 / (8 R) = 1.7 um.
+  // A chord of 2 mm stands off by h^2 / (8 R) = 1.7 um.
   const auto facets = distance_to_circle(2e-3, SurfaceKind::facets);
   EXPECT_NEAR(facets[0], 4e-6 / (8 * kCrown), 0.2e-6);
 }
@@ -215,7 +215,7 @@ TEST(StationFinder, FindsTheCellOfOpenGradedBlocks) {
 }
 
 TEST(StationFinder, TakesAnyAngleOfAClosedBlock) {
-  // Three pitches around, as a tread with a fine arc has them.
+  // Three pitches around, as in a tread with a fine arc.
   const double fine = 0.01;
   const double rest = (kTurn - 40 * fine - 0.5) / 31;
   const SweptBlock block =

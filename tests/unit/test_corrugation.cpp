@@ -87,7 +87,7 @@ TEST(Corrugation, TheFirstDifferenceIsFoundWhereverItLies) {
   EXPECT_FALSE(differ(Corrugation(), Corrugation(), 10));
   EXPECT_FALSE(differ(Corrugation(), kSine, 2.4));
   EXPECT_NEAR(differ(Corrugation(), kSine, 10).value(), 2.4, 2e-4);
-  // Of sines of the same start the longer goes on; another width, centre or depth shows at once.
+  // Two sines of one start differ where the shorter ends; another width, centre or depth shows at once.
   const Corrugation longer({0.08, 0.14e-3}, 2.4, 0.7, 1e-3, 30e-3);
   EXPECT_FALSE(differ(kSine, longer, 2.4 + 7 * 0.08));
   EXPECT_NEAR(differ(kSine, longer, 10).value(), 2.4 + 7 * 0.08, 2e-4);
@@ -131,7 +131,8 @@ TEST(Corrugation, RoughnessHoldsTheWavesOfItsBandAlone) {
     for (int i = 0; i < 1200; ++i) {
       const double x = length * i / 1200;
       const double angle = 2 * std::acos(-1.0) * x / wavelength;
-      const double window = 1 - std::cos(2 * std::acos(-1.0) * x / length);  // the fading ends count little
+      const double window = 1 - std::cos(2 * std::acos(-1.0) * x / length);  // the fading ends have little
+                                                                             // weight
       real += window * rough.depth(x, 0) * std::cos(angle) / 600;
       imaginary += window * rough.depth(x, 0) * std::sin(angle) / 600;
     }

@@ -1,4 +1,4 @@
-// The rail's surface about the wheel: where it is read, and how uneven it is.
+// The rail's surface about the wheel: places of its samples, and asymmetry.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// How the dial measures curves, finds its front and names a setting.
+// Measures of curves, front and names of settings of the dial.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,8 @@ TEST(DialMeasures, ACurveBesideItselfDiffersByNothing) {
   const CurvePoints curve = sampled(wave);
   const auto d = curve_difference(curve, curve, kStretch, kLongest);
   ASSERT_TRUE(d);
-  // The parabola through the best shift and its neighbours, 0.25 mm away, is the correlation's but nearly.
+  // The parabola through the best shift and its neighbours, 0.25 mm away, differs slightly from the
+  // correlation.
   EXPECT_LT(d->error, 1e-6);
   EXPECT_EQ(d->mean, 0);
   EXPECT_EQ(*d->range, 0);
@@ -50,7 +51,7 @@ TEST(DialMeasures, ACurveBesideItselfDiffersByNothing) {
 }
 
 TEST(DialMeasures, AShiftIsFoundAndTakenOut) {
-  // Between samples of 0.83 mm and between the shifts that are tried, 0.25 mm apart.
+  // True shifts lie between samples of 0.83 mm and between the tried shifts, 0.25 mm apart.
   for (const double shift : {-7.13e-3, -0.4e-3, 0.07e-3, 3.31e-3, 15e-3}) {
     const CurvePoints moved = sampled([shift](double x) { return wave(x - shift); });
     const auto d = curve_difference(moved, sampled(wave), kStretch, kLongest);
@@ -174,7 +175,7 @@ TEST(DialTable, TheMeasuredTableHasItsReference) {
             1);
   for (const DialRow& one : measured.rows)
     EXPECT_EQ(one.differences.size(), dial_quantities().size()) << one.point;
-  // What docs/dial.md answers.
+  // Questions that docs/dial.md answers.
   EXPECT_NE(cheapest(measured, "F_N", 0.02, DialCost::element_steps), nullptr);
   EXPECT_NE(cheapest(measured, "pressure", 0.05, DialCost::element_steps), nullptr);
 }
@@ -217,7 +218,7 @@ TEST_F(DialDesigns, OneKeyAtATimeAboutTheBase) {
   EXPECT_EQ(points(axes),
             (Names{"element_size=6mm,precision=single", "element_size=8mm", "quality=draft", "start=rigid"}));
   const Study study = design_dial(scene(), axes).study;
-  // A quality is not hidden by the base's element size.
+  // The base's element size does not hide a quality.
   ASSERT_EQ(study.points[2].own.size(), 1U);
   EXPECT_EQ(study.points[2].own[0].as_override(), "scene.precision=single");
   EXPECT_EQ(study.points[3].own.size(), 2U);

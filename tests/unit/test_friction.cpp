@@ -16,11 +16,11 @@ double size(const Traction& t) {
   return std::hypot(t.along, t.across);
 }
 
-/// A step without compliance, and what it does to the energies [J/m2].
+/// A step without compliance, and its changes of the energies [J/m2].
 struct Step {
   Traction traction;
   bool slips;
-  double work;  ///< of the mid-step traction
+  double work;  ///< work of the mid-step traction
   double dissipation;
 };
 
@@ -46,7 +46,7 @@ TEST(Friction, SlipsAtTheLimitAlongTheTrialTraction) {
   EXPECT_TRUE(result.slips);
   EXPECT_NEAR(size(result.traction), 0.4e9, 1e-6);
   EXPECT_NEAR(result.traction.across / result.traction.along, 4.0 / 3, 1e-14);
-  // Slipped way times the mean traction, less what the stick stores.
+  // The work is the slipped distance times the mean traction, less the energy stored in the stick.
   EXPECT_NEAR(result.work, 0.5 * 0.4e9 * 5e-4, 1e-9);
   EXPECT_NEAR(result.dissipation, result.work - 0.5 * 0.4e9 * 0.4e9 / 2e13, 1e-9);
 }
@@ -108,7 +108,7 @@ TEST(Friction, RandomPathsDissipateAndTheWorkCloses) {
     const Traction slip{4e-7 * value(random) + 2e-7, 4e-7 * value(random)};
     const auto result = advance(kLaw, traction, slip, pressure);
     EXPECT_LE(size(result.traction), 0.4 * pressure * (1 + 1e-15));
-    // A step that takes pressure away and turns the shear round counts the release at the new direction.
+    // A step that lowers the pressure and turns the shear round counts the release at the new direction.
     const double squared = traction.along * traction.along + traction.across * traction.across;
     const double turned =
         kLaw.tangential_penalty * (traction.along * slip.along + traction.across * slip.across);

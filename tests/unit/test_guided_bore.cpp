@@ -1,4 +1,4 @@
-// A bore on a rigid carrier: statics' unknown, momentum of a step, the whole wheel's balance.
+// A bore on a rigid carrier: unknown of the statics, momentum of a step, balance of the whole wheel.
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ TEST(GuidedBore, LoadAndTorqueReachTheRailAndTheEnergyCloses) {
                             "motion.traction.mu=0.2", "motion.traction.ramp=0.5 ms"}));
   const Preload preload = solve_preload(model, steady_motion(model), [](const std::string&) {});
   measured("F_N / load - 1", -preload.contact.force_on_rail.z / 87564 - 1);
-  EXPECT_NEAR(-preload.contact.force_on_rail.z / 87564, 1, 5e-3);  // and the part's centrifugal force
+  EXPECT_NEAR(-preload.contact.force_on_rail.z / 87564, 1, 5e-3);  // includes the part's centrifugal force
   const double stable = step_limit(model).stable_step;
   Simulation simulation(model, preload, 0.95 * stable);
   simulation.set_sampling_interval(20);

@@ -29,7 +29,7 @@ TEST(Hertz, CircularPatchIsThatOfTheClosedForm) {
 }
 
 TEST(Hertz, EllipticPatchOfTheWheelOnTheRail) {
-  // Elliptic integrals evaluated apart, to seven digits.
+  // Reference values come from elliptic integrals evaluated separately, to seven digits.
   const HertzPatch patch = hertz(0.43, 0.3, kModulus, kLoad);
   EXPECT_NEAR(patch.semi_axis_x, 6.673e-3, 5e-7);
   EXPECT_NEAR(patch.semi_axis_y, 5.250e-3, 5e-7);
@@ -63,7 +63,7 @@ TEST(Hertz, GrowsWithTheCubeRootAndGoesOverSmoothlyToTheCircle) {
 TEST(Hertz, SlenderPatchNearsALine) {
   const HertzPatch patch = hertz(1e4, 0.3, kModulus, kLoad);
   EXPECT_GT(patch.semi_axis_x, 100 * patch.semi_axis_y);
-  // Load per length at the middle, 3/4 of the total over the semi-axis: line contact of that load.
+  // Load per length at the middle is 3/4 of the total over the semi-axis: line contact of that load.
   const double line = 0.75 * kLoad / patch.semi_axis_x;
   EXPECT_NEAR(line_load(0.3, kModulus, patch.semi_axis_y) / line, 1, 2e-3);
 }

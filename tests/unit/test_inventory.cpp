@@ -1,4 +1,4 @@
-// A scene pays for what it contains and for nothing else.
+// A scene pays only for its own parts.
 
 #include <gtest/gtest.h>
 
@@ -135,7 +135,7 @@ TEST(Inventory, WithoutSlabThereIsNoVerticalUpdate) {
   EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"vertical update"});
   EXPECT_EQ(field_names(with), field_names(without));
   EXPECT_EQ(with.mesh.blocks.size(), without.mesh.blocks.size() + 1);
-  // One block less in every node field: nothing of the slab is left.
+  // Every node field has one block less: no part of the slab is left.
   const std::int64_t slab = with.mesh.blocks[static_cast<std::size_t>(with.index.slab)].slots();
   EXPECT_EQ(with.mesh.slots - without.mesh.slots, slab);
   EXPECT_EQ(bytes_of(with, "displacement") - bytes_of(without, "displacement"),
@@ -162,7 +162,7 @@ TEST(Inventory, SmoothRailMovesNoNodesForACorrugation) {
   EXPECT_EQ(bytes_of(smooth, "moved nodes"), chords);
   EXPECT_GT(bytes_of(corrugated, "moved nodes"), chords);
   EXPECT_GT(bytes_of(corrugated, "coefficients"), bytes_of(smooth, "coefficients"));
-  // Added to the gap it moves nothing.
+  // Added to the gap, the corrugation moves no node.
   Model gap(small_track({"corrugation.apply=gap"}));
   gap.apply_corrugation(0);
   EXPECT_EQ(bytes_of(gap, "moved nodes"), chords);

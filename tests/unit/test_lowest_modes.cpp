@@ -9,7 +9,7 @@
 namespace tread {
 namespace {
 
-/// A chain of unit springs between equal masses, both ends free, every eighth unknown of a longer field.
+/// A chain of unit springs between equal masses, both ends free, on every eighth unknown of a longer field.
 struct Chain {
   static constexpr std::size_t kMasses = 200, kStride = 8;
   static constexpr double kMass = 0.25;
@@ -31,7 +31,7 @@ struct Chain {
   }
 };
 
-/// Solves (K + shift M) z = r of the chain exactly but for a part: z / 2 + (K + shift M)^-1 r.
+/// Solves (K + shift M) z = r of the chain exactly except for a part: z / 2 + (K + shift M)^-1 r.
 class NearlyExact : public Preconditioner {
  public:
   explicit NearlyExact(double shift) : shift_(shift) {}

@@ -1,4 +1,4 @@
-// The paper's figures as data, and how curves are measured.
+// The paper's figures as data, and measures of curves.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class MadeUpRun : public testing::Test {
  protected:
   using Formula = std::function<double(double)>;
 
-  /// Histories over 0 ... 3.05 m at 300 km/h, a row a millimetre.
+  /// Writes histories over 0 ... 3.05 m at 300 km/h, one row per millimetre.
   void write_histories(const Formula& vertical, const Formula& longitudinal) const {
     std::string text = "time [s],wheel_x [m],vertical_force [N],longitudinal_force [N]\n";
     for (int i = 0; i <= 3050; ++i) {
@@ -51,7 +51,7 @@ class MadeUpRun : public testing::Test {
   static Formula constant(double value) {
     return [value](double) { return value; };
   }
-  /// With its peaks `shift` [rad] before the crests.
+  /// Wave with its peaks `shift` [rad] before the crests.
   static Formula wave(double shift) {
     return [shift](double x) { return kLoad + 5e4 * std::cos(2 * kPi * (x - 2.4) / 0.08 + shift); };
   }

@@ -1,4 +1,4 @@
-// Threads: every item once, whoever runs them; times that add up.
+// Threads: every item runs once, on any thread; times add up.
 
 #include <gtest/gtest.h>
 

@@ -24,7 +24,8 @@ double largest_kink(const PlaneCurve& curve, double from, double to) {
   return kink;
 }
 
-/// Tangents are unit vectors and agree with central differences of the position away from joints.
+/// Expects that tangents are unit vectors and agree with central differences of the position away from
+/// joints.
 void expect_consistent(const PlaneCurve& curve) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> anywhere(1e-4, curve.length() - 1e-4);
@@ -92,7 +93,8 @@ TEST(Cn60, HeadIsAsWideAsTheDrawing) {
     if (p.y > -0.12 && p.y < -0.06) web = std::min(web, p.x);
   }
   EXPECT_NEAR(2 * web, 16.5 * mm, 1e-6);
-  EXPECT_NEAR(2 * widest, 73 * mm, 0.3 * mm);  // the R3 rounding takes the sharp corner's last 0.1 mm a side
+  EXPECT_NEAR(2 * widest, 73 * mm, 0.3 * mm);  // the R3 rounding takes the sharp corner's last 0.1 mm on
+                                               // either side
 }
 
 TEST(Lma, PassesThroughTheListedJunctions) {
@@ -100,7 +102,7 @@ TEST(Lma, PassesThroughTheListedJunctions) {
   const Point2 listed[] = {{-70, 6.619},      {-62.308, 24.659}, {-55.540, 27.901},
                            {-38.746, 15.007}, {-28.436, 3.322},  {-10.750, 0.499},
                            {4.254, -0.126},   {30.000, -0.770},  {65.000, -3.103}};
-  // 5 um: the listed R14-R90 junction lies 4 um off both of its own circles.
+  // The tolerance is 5 um: the listed R14-R90 junction lies 4 um off both of its own circles.
   std::vector<double> junctions = curve.joints(0, curve.length());
   junctions.insert(junctions.begin(), 0.0);
   junctions.push_back(curve.length());

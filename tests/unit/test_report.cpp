@@ -125,7 +125,7 @@ TEST(Heatmap, CellsStandAtTheirPlaces) {
   EXPECT_NE(html.find("cx=\"422.0\" cy=\"228.0\""), std::string::npos);
   EXPECT_NE(html.find("1 Hz"), std::string::npos);
   EXPECT_EQ(count(heatmap_svg(map), "xmlns"), 1U);
-  // Readers of SVG files know no variables of style sheets.
+  // Viewers of SVG files know no variables of style sheets.
   EXPECT_EQ(count(heatmap_svg(map), "var("), 0U) << heatmap_svg(map);
   EXPECT_EQ(count(heatmap_svg(map), ".c0 { stroke: #1f5fa8; }"), 1U) << heatmap_svg(map);
   map.values.pop_back();
@@ -143,15 +143,16 @@ TEST(Relief, WhatStandsBeforeIsDrawnLast) {
   reliefs.reliefs.front().values = {0, 0, 0, 12, 12, 12, 0, 0, 0};
   const std::string rows = reliefs_html(reliefs);
   EXPECT_LT(rows.find("M141.6 86.1"), rows.find("M62.0 282.0L274.3 282.0"))
-      << rows;  // the strip behind first
+      << rows;  // the strip behind comes first
   EXPECT_EQ(count(reliefs_svg(reliefs), "xmlns"), 1U);
   reliefs.reliefs.push_back(reliefs.reliefs.front());
-  EXPECT_NE(reliefs_svg(reliefs).find("M522.0 282.0"), std::string::npos);  // beside the first
+  EXPECT_NE(reliefs_svg(reliefs).find("M522.0 282.0"), std::string::npos);  // the second relief stands beside
+                                                                            // the first
   reliefs.reliefs.back().values.pop_back();
   EXPECT_THROW(reliefs_html(reliefs), std::logic_error);
 }
 
-/// Two stations, four rows; only the second row touches.
+/// A movie of two stations and four rows; only the second row touches.
 PatchMovie one_frame() {
   MovieFrame frame;
   frame.centre = 10;
@@ -166,7 +167,7 @@ TEST(PatchMovie, KeepsTheRowsThatTouchAndTheirNeighbours) {
   const std::string html = movie_html(one_frame());
   EXPECT_NE(html.find("\"y\": [-1, 0, 1]"), std::string::npos) << html;
   EXPECT_NE(html.find("\"largest\": [100]"), std::string::npos) << html;
-  // Bytes 0 255 0 0 128 0, then the states 0 1 0 0 2 0.
+  // Expected bytes: 0 255 0 0 128 0, then the states 0 1 0 0 2 0.
   EXPECT_NE(html.find("\"values\": \"AP8AAIAAAAEAAAIA\""), std::string::npos) << html;
 }
 

@@ -1,4 +1,4 @@
-// Roughness levels and what is done to a profile before.
+// Roughness levels and the preparation of a profile.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::size_t band(double nominal_mm) {
   return 0;
 }
 
-/// Of a sine of that depth: 10 lg of its mean square over 1 um2.
+/// Level of a sine of that depth: 10 lg of its mean square over 1 um2.
 double decibels(double depth) {
   return 20 * std::log10(depth / (2 * std::numbers::sqrt2) / 1e-6);
 }
@@ -64,7 +64,7 @@ TEST(RoughnessLevels, OfCorrugationD) {
   const double level = levels.level[band(80)].value();
   measured("0.14 mm at 80 mm", level, "dB");
   EXPECT_NEAR(level, decibels(0.14e-3), 0.01);
-  // Nothing of it elsewhere: Hann's window leaks into no other band at all here.
+  // Other bands hold none of the level: Hann's window leaks into no other band here.
   for (std::size_t i = 0; i < levels.level.size(); ++i)
     if (i != band(80)) {
       EXPECT_LT(levels.level[i].value(), 33.9 - 60) << i;
@@ -112,7 +112,7 @@ TEST(RoughnessLevels, BandsThatTheRecordCannotShowAreAbsent) {
 }
 
 TEST(RoughnessLevels, TheWholeRecordCounts) {
-  // Rough in its last 0.9 m alone: a second segment reaches it.
+  // The profile is rough in its last 0.9 m alone: a second segment reaches it.
   RoughnessProfile profile = sines(2.9, 1e-3, {{0.08, 0.14e-3}});
   std::fill(profile.height.begin(), profile.height.begin() + 2000, 0.0);
   const RoughnessLevels levels = roughness_levels(profile, 2);
@@ -148,7 +148,7 @@ TEST(RoughnessProfiles, SpikesGoAndCorrugationStays) {
 }
 
 TEST(RoughnessProfiles, PitsCloseAsFarAsADiscReaches) {
-  // A deep slot of 10 mm: the disc sinks in by its sag over half of the width.
+  // The disc sinks into a deep slot of 10 mm by its sag over half of the width.
   RoughnessProfile slot;
   slot.spacing = 1e-3;
   slot.height.assign(400, 0.0);

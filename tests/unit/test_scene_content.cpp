@@ -1,4 +1,4 @@
-// What tells a run of a scene from that of another.
+// Content that distinguishes a run of a scene from that of another.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST_F(SceneOnATable, IsKeptAsItWas) {
 }
 
 TEST_F(SceneOnATable, NeedsNoChecksums) {
-  // Folders of earlier versions have none: the file as it is counts.
+  // Folders without kept contents of files: the file in its present state counts.
   keep_scene(folder_.path, resolved());
   std::filesystem::remove(folder_.path / "scene.files.json");
   EXPECT_EQ(difference(scene_content(resolved()), kept_scene(folder_.path).content), "");

@@ -40,7 +40,7 @@ ResolvedScene resolve(const std::string& text, const std::vector<std::string>& o
 
 const std::string kBase = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
 
-/// Field by field, bit by bit.
+/// Compares field by field, bit by bit.
 void expect_same(Scene a, Scene b) {
   for (const SceneTable& table : scene_tables()) EXPECT_EQ(table.exists(a), table.exists(b)) << table.name;
   for (const Key& key : scene_keys()) {

@@ -36,8 +36,8 @@ double worst_quality(const Section& section) {
   return worst;
 }
 
-/// Side of the smallest square with the stable step of one of the quads: 2 / side^2 = 1 / a^2 + 1 / b^2 with
-/// the mean lengths a, b of opposite edges. [m]
+/// Side [m] of the smallest square with the stable step of one of the quads: 2 / side^2 = 1 / a^2 + 1 / b^2
+/// with the mean lengths a, b of opposite edges.
 double smallest_square(const Section& section) {
   double smallest = 1;
   for (const auto& quad : section.quads) {
@@ -50,8 +50,8 @@ double smallest_square(const Section& section) {
   return smallest;
 }
 
-/// Stable step of the section swept at `pitch`, by what a pressure wave takes for the pitch: 1 where the
-/// section's cells do not matter. `pitch`: [m]
+/// Stable step of the section swept at `pitch` [m], over the time in which a pressure wave crosses the pitch:
+/// 1 if the section's cells do not matter.
 double step_by_pitch(const Section& section, double pitch) {
   Mesh mesh;
   mesh.add(make_swept_block("piece", Sweep::extruded, section, samples::materials(), 0, {{6, pitch, 0}}));
@@ -70,8 +70,8 @@ double step_by_pitch(const Section& section, double pitch) {
   return stable_step(highest_frequency(apply, inverse_mass).omega, 0) * wave / pitch;
 }
 
-/// Every edge of the coarse path is straight, starts and ends at fine nodes, and all fine nodes lie on the
-/// edges.
+/// Expects that every edge of the coarse path is straight, starts and ends at fine nodes, and that all fine
+/// nodes lie on the edges.
 void expect_nested(const Section& fine, const std::vector<int>& fine_path, const Section& coarse,
                    const std::vector<int>& coarse_path) {
   std::size_t at = 0;
@@ -159,8 +159,8 @@ TEST(RailSection, IsWellShapedAndNestedForAllSizes) {
       const RailSections rail = make_rail_sections(cn60(), inclination, size);
       EXPECT_GT(worst_quality(rail.cap), 0.5);
       EXPECT_GT(worst_quality(rail.base), 0.75);
-      // Columns of 4 mm follow the rounded corners whatever the size; what coarse cells there cost the step:
-      // CornersLeaveTheStepToThePitch.
+      // Columns of 4 mm follow the rounded corners whatever the size. CornersLeaveTheStepToThePitch tests the
+      // cost of coarse cells there.
       EXPECT_GT(smallest_square(rail.cap), (surface <= 2.2 ? 0.88 : 0.72) * size.surface);
       EXPECT_GT(smallest_square(rail.base), 4 * mm);
       expect_nested(rail.cap, rail.cap.paths.at("tie"), rail.base, rail.base.paths.at("tie"));

@@ -325,7 +325,7 @@ TEST(HeldMotions, CarryTheLoadsOfAFreeBody) {
     EXPECT_NEAR(dot(size_of(x), means[k].data(), x.data()), 0, 1e-18);
     EXPECT_NEAR(result.reactions[k], dot(size_of(b), motions[k].data(), b.data()), 1e-6);
   }
-  // What remains is the unbalanced load spread like the means: a rigid acceleration.
+  // The remainder is the unbalanced load spread like the means: a rigid acceleration.
   Field rest(b.size());
   elastic.with()(x.data(), rest.data());
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = b[i] - rest[i];
@@ -352,7 +352,7 @@ TEST(ConjugateGradients, ReportsABodyWithoutRestraint) {
   Field x(push.size(), 0.0);
   EXPECT_FALSE(
       samples::solve_system(elastic.with(), &jacobi, nullptr, push, x, {1e-9, 1000}).result.converged);
-  // The load whose first search direction is the rigid motion itself.
+  // The first search direction of this load is the rigid motion itself.
   for (std::size_t i = 0; i < push.size(); ++i) push[i] *= elastic.diagonal[i];
   std::fill(x.begin(), x.end(), 0.0);
   EXPECT_THROW(samples::solve_system(elastic.with(), &jacobi, nullptr, push, x, {1e-9, 1000}),

@@ -1,4 +1,4 @@
-// Study files: points, names, and what is wrong with them.
+// Study files: points, names, and messages for wrong files.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 class StudyReader : public testing::Test {
  protected:
   Study read(const std::string& text) const { return read_study(program_.write("study.toml", text)); }
-  /// What the study is refused with.
+  /// Message with which the study is refused.
   std::string refusal(const std::string& text) const {
     try {
       read(text);

@@ -1,4 +1,4 @@
-// Averages at surface nodes and what accumulates there, from made-up points on a plane rail.
+// Averages and accumulated values at surface nodes, from made-up points on a plane rail.
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ Section strip() {
   return section;
 }
 
-/// Elements of 2 mm, then of 4 mm.
+/// A rail with elements of 2 mm, then of 4 mm.
 SweptBlock rail() {
   return make_swept_block("rail", Sweep::extruded, strip(), {samples::steel()}, 0.0,
                           {{5, 2e-3, 0}, {4, 4e-3, 0}});
 }
 
-/// At the fractions (along, across) of a face of the rail.
+/// Contact point at the fractions (along, across) of a face of the rail.
 ContactPoint point_on(const SweptBlock& block, std::array<int, 2> face, double along, double across) {
   ContactPoint point{};
   point.face = face;
@@ -97,7 +97,7 @@ TEST_F(SurfaceFieldsTest, EvenTractionsAreTheirOwnAverage) {
       EXPECT_NEAR(node.touching, 1, 1e-12);
       EXPECT_EQ(state_of(node), PatchState::slip);
     }
-  // At the patch's end half of what the node stands for is out of contact; the slip is that of the rest.
+  // At the patch's end half of the node's area is out of contact; the slip is that of the other half.
   EXPECT_NEAR(patch.at(2, 1).pressure, 2.5e8, 1e-3);
   EXPECT_NEAR(patch.at(2, 1).slip_speed.along, -0.3, 1e-12);
   EXPECT_NEAR(patch.max_pressure(), 5e8, 1e-3);

@@ -1,4 +1,4 @@
-// patch.h5, surface.h5 and the table of the axis: what is written can be read back and has units.
+// patch.h5, surface.h5 and the table of the axis: files can be read back and state units.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Twelve stations of 2 mm by four rows of 3 mm.
+/// A grid of twelve stations of 2 mm by four rows of 3 mm.
 SurfaceGrid plane() {
   SurfaceGrid grid;
   for (int i = 0; i < 12; ++i) grid.x.push_back(2e-3 * i);
@@ -36,7 +36,7 @@ SurfaceGrid plane() {
   return grid;
 }
 
-/// One point on the middle of a face; its nodes get a quarter of its load each.
+/// One point in the middle of a face, whose nodes get a quarter of its load each.
 ContactPoint point_on(std::array<int, 2> face, double pressure) {
   ContactPoint point{};
   point.face = face;
@@ -56,7 +56,7 @@ class SurfaceFiles : public testing::Test {
   const fs::path& folder_ = temporary_.path;
   SurfaceGrid grid_ = plane();
 
-  /// Four steps, each a sample, of a point that moves from station to station.
+  /// Surface after four steps, each a sample, of a point that moves from station to station.
   SurfaceFields passed_surface() const {
     PatchNodes patch(grid_, 5);
     SurfaceFields fields(grid_);
@@ -78,7 +78,7 @@ TEST_F(SurfaceFiles, PatchIsReadBackSampleBySample) {
       const int first = i * 7 / kSamples;
       patch.average(first, first + 3, {point_on({first + 1, 1}, 1e6 * (i + 1))});
       file.append(1e-5 * i, 1e-4 * i, patch);
-      if (i == 70) {  // a run that is killed now leaves whole blocks
+      if (i == 70) {  // a run killed here leaves whole blocks
         EXPECT_EQ(Hdf5File::open_to_read(folder_ / "patch.h5").shape("/state")[0], PatchFile::kBlock);
       }
     }

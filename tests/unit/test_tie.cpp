@@ -58,7 +58,7 @@ TEST_P(TieRatio, SecondaryNodesLieOnTheChords) {
                       position(ring.coarse(), coarse_path[j], (first + end) % ring.coarse().station_count());
       EXPECT_LT(norm(position(ring.fine(), fine_path[i], station) - expected), 1e-15);
     }
-  // Nodes off the line stay where they were.
+  // Nodes off the line are not moved.
   for (const auto& [slot, shift] : ring.fine().node_shift) EXPECT_GT(norm(shift), 1e-12);
   EXPECT_EQ(ring.fine().node_shift.size(), fine_path.size() * index(12 * (ratio - 1)));
 }

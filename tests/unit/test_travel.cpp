@@ -15,7 +15,7 @@ Scene scene_of(const std::string& text) {
   return resolve_scene(SceneSource{"scene.toml", text, "."}, {}).scene;
 }
 
-/// The paper's wheelset carries 8340 kg, of which M_a = 340 kg moves along with it.
+/// Scene of the paper's wheelset, which carries 8340 kg; M_a = 340 kg of these moves with the wheelset.
 Scene wheelset(const std::string& motion) {
   return scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"8 mm\"\n[motion]\n" +
                   motion);
@@ -51,7 +51,7 @@ TEST(Travel, NoTorqueDrivesBeyondFriction) {
   EXPECT_NEAR(bounded.last, travel_of(wheelset(motion + "traction.mu = 0.5")).last, 1e-9);
 }
 
-/// Brakes from 1 m/s at 0.5 g' end in the way back: 1 t - a t^2/2.
+/// Brakes from 1 m/s at 0.5 g' reverse the wheel: x = 1 t - a t^2/2.
 TEST(Travel, BrakesTurnASlowWheelBack) {
   const double a = 0.5 * kLoad / 926;
   const Travel travel = travel_of(
@@ -80,7 +80,7 @@ TEST(Travel, RingsKeepTheirSpeedWhenGuided) {
   EXPECT_NEAR(travel_of(ring("free")).last, 0.2 + 0.5 * a * 0.02 * 0.02, 1e-9);
 }
 
-/// Where it gets to, the rail is divided as on the way there.
+/// The rail is divided alike at the end of the travel and before it.
 TEST(Travel, TheRailIsFineWhereItEnds) {
   const Scene scene = wheelset("speed = \"60 km/h\"\nduration = \"200 ms\"\ntraction.mu = 0.4");
   const Model model(scene);

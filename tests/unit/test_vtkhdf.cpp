@@ -82,7 +82,7 @@ TEST_F(VtkhdfTest, HexahedraArePositiveAndFillTheVolume) {
   double volume[2] = {0, 0};
   for (std::size_t cell = 0; cell < block.size(); ++cell) {
     const auto corner = [&](std::size_t i) { return point(xyz, ids[8 * cell + i]); };
-    // VTK: corners 1, 3 and 4 are the neighbours of corner 0; these elements are prisms, so the mean face
+    // In VTK, corners 1, 3 and 4 are the neighbours of corner 0. These elements are prisms, so the mean face
     // area along the sweep times the length is exact.
     const Vec3 along = 0.5 * (corner(4) + corner(6) - corner(0) - corner(2));
     const Vec3 area = 0.25 * (cross(corner(1) - corner(0), corner(3) - corner(0)) +
@@ -105,7 +105,7 @@ TEST_F(VtkhdfTest, CellArraysNameBlockMaterialAndLength) {
   const std::vector<double> pitch = file.read<double>("/VTKHDF/CellData/pitch [m]");
   EXPECT_EQ(material[0], 0);
   EXPECT_EQ(material[1], 1);
-  EXPECT_EQ(material[22], 1);  // the ring's first quad is of filler
+  EXPECT_EQ(material[22], 1);  // material of the ring's first quad: filler
   EXPECT_DOUBLE_EQ(pitch[0], 0.01);
   EXPECT_DOUBLE_EQ(pitch[21], 0.02);
   EXPECT_DOUBLE_EQ(pitch[22], std::numbers::pi / 6 * 0.415);

@@ -62,7 +62,7 @@ TEST(Wear, WavesOfTheBandPassUnchangedAndNothingElseDoes) {
   });
   EXPECT_NEAR(mean_work(work, kFlat, kBand), kMean, 1e-3 * kMean);
   const std::vector<double> uneven = uneven_work(work, kFlat, kBand);
-  // Where the ends fade, waves have parts outside of the band: 3 % of the amplitude is missed inside.
+  // Waves that fade at the ends have parts outside the band: 3 % of the amplitude is missing inside.
   for (std::size_t i = 0; i < uneven.size(); ++i) {
     const double x = kFlat.x(i);
     const double inside = std::min(x - kStart, kStart + kLength - x);
@@ -72,7 +72,7 @@ TEST(Wear, WavesOfTheBandPassUnchangedAndNothingElseDoes) {
   }
   EXPECT_NEAR(uneven.front(), 0, 1e-9);
   EXPECT_NEAR(uneven.back(), 0, 1e-9);
-  // The same noise alone leaves nothing.
+  // The noise without the wave leaves nothing.
   const std::vector<double> noise =
       uneven_work(work_of([](double x, int i) {
                     return kMean + 300 * (i % 2 == 0 ? 1 : -1) + 200 * wave(x, 3 * kElement);
