@@ -48,7 +48,8 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   simulation.set_sampling_interval(1);
   const SweptBlock& bar = model.mesh.blocks[0];
   const double sound = std::sqrt(scene.steel.youngs_modulus / scene.steel.density);
-  // The step of velocity splits into two of half the size; arrival: a quarter of it at two stations.
+  // The step of velocity splits into two of half the size. A wave has arrived when two stations have a
+  // quarter of the step.
   const auto station_at = [&](double x) {
     int s = 0;
     while (bar.stations[index(s)] < x - 1e-9) ++s;
@@ -64,7 +65,7 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
     simulation.step();
     const double now_near = velocity(bar, near, simulation.velocity());
     const double now_far = velocity(bar, far, simulation.velocity());
-    const double at = simulation.time() - 0.5 * dt;  // of the velocities
+    const double at = simulation.time() - 0.5 * dt;  // time of the velocities
     const double quarter = 0.25 * scene.pulse->velocity;
     const auto crossing = [&](double before, double now) {
       return at - dt * (now - quarter) / (now - before);
@@ -90,7 +91,7 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
       // Without lateral contraction nothing moves sideways.
       EXPECT_NEAR(simulation.velocity()[dof(slot, 1)], 0, 1e-9);
     }
-  // The first 20 of 200 elements, the station at 0.1 m not: 0.1 m less half an element of the bar's
+  // The first 20 of 200 elements move, the station at 0.1 m does not: 0.1 m less half an element of the bar's
   // cross-section.
   const double h = bar.stations[1] - bar.stations[0];
   const double mass = scene.steel.density * 0.01 * 0.01 * (0.1 - 0.5 * h);

@@ -43,7 +43,7 @@ TEST(Extremes, WheelThatLeavesTheRailLandsWithoutGainOfEnergy) {
   EXPECT_EQ(count_not_finite(model, run), 0);
 }
 
-/// A torque of four times what friction carries, and the other way round.
+/// A torque of four times the limit of adhesion, in either direction.
 class BeyondAdhesion : public ::testing::TestWithParam<double> {};
 
 TEST_P(BeyondAdhesion, ForceStaysAtTheLimitAndTheRestSpinsTheWheel) {

@@ -31,15 +31,15 @@ std::size_t index(std::int64_t i) {
 
 struct Placed {
   double crown;  ///< lateral radius of the tread [m]
-  double angle;  ///< of the wheel [rad]
-  Vec3 offset;   ///< of the axle from where the wheel touches at x = 0, y = 0 [m]
+  double angle;  ///< angle of the wheel [rad]
+  Vec3 offset;   ///< place of the axle, relative to contact at x = 0, y = 0 [m]
   bool corrugated;
 };
 
 /// A wheel with a fine arc and a coarse one, over a flat rail of two pitches.
 class Placement {
  public:
-  /// `points`: of a face in each direction, 2 as points_inside() counts.
+  /// Places the wheel. `points`: number of points of a face in each direction, 2 for points_inside().
   explicit Placement(const Placed& placed, SurfaceKind kind = SurfaceKind::exact, int points = 2)
       : placed_(placed) {
     SectionSize size;
@@ -77,7 +77,8 @@ class Placement {
     return std::hypot(std::hypot(d.x, d.z) - (kRadius - placed_.crown), d.y) - placed_.crown;
   }
 
-  /// Points of 2 x 2 Gauss on every face of the rail that lie inside the wheel by more than `depth`.
+  /// Number of points of 2 x 2 Gauss on every face of the rail that lie inside the wheel by more than `depth`
+  /// [m].
   int points_inside(double depth) const {
     const SweptBlock& rail = mesh_.blocks[0];
     const double g = 0.5 / std::sqrt(3.0);
@@ -127,7 +128,7 @@ TEST(PlacedWheel, NodesAverageTheirShareOfThePoints) {
     const Placement placement({0.3, 0.123, {0.0123, 0.002, -1e-4}, false}, SurfaceKind::exact, points);
     const PatchNodes& nodes = placement.contact().nodes();
     const SurfaceGrid& grid = nodes.grid();
-    // The node nearest to the patch's middle, all of whose points touch.
+    // The tested node is the one nearest to the patch's middle, all of whose points touch.
     const auto nearest = [](const std::vector<double>& places, double to) {
       const auto nearer = [to](double a, double b) { return std::abs(a - to) < std::abs(b - to); };
       return std::min_element(places.begin(), places.end(), nearer) - places.begin();
@@ -137,11 +138,11 @@ TEST(PlacedWheel, NodesAverageTheirShareOfThePoints) {
     const auto pressure = [&](int i, int j) {
       return -kPenalty * placement.gap({grid.x[index(station + i)], grid.y[index(row + j)], 0});
     };
-    // Of a pressure that is quadratic within the box.
+    // Expected value for a pressure that is quadratic within the box.
     const double bent =
         pressure(1, 0) + pressure(-1, 0) + pressure(0, 1) + pressure(0, -1) - 4 * pressure(0, 0);
     const double expected = pressure(0, 0) + 0.5 * kSpread[index(points - 1)] * bent;
-    EXPECT_GT(std::abs(expected / pressure(0, 0) - 1), 1e-3);  // what wrong shares would get wrong
+    EXPECT_GT(std::abs(expected / pressure(0, 0) - 1), 1e-3);  // effect of wrong shares
     EXPECT_NEAR(nodes.at(station, row).pressure / expected, 1, 1e-5) << points;
   }
 }
@@ -165,7 +166,7 @@ TEST(PlacedWheel, GapsAreThoseOfTheTorus) {
       worst_normal = std::max(worst_normal, norm(point.normal - (1 / norm(from_ring)) * from_ring));
       EXPECT_NEAR(point.pressure, -kPenalty * point.gap, 1e-6);
     }
-    // All points inside the wheel were found, and no other.
+    // The search found all points inside the wheel, and no other.
     const int count = static_cast<int>(placement.contact().points().size());
     EXPECT_LE(count, placement.points_inside(-1e-9));
     EXPECT_GE(count, placement.points_inside(1e-9));
@@ -241,7 +242,7 @@ TEST(PlacedWheel, SpringsAreTheDerivativeOfTheForces) {
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_NEAR(force[i], from_springs[i], 1e-9);
 }
 
-// However stiff the penalty is for the step, pressures belong to the gaps of the motion that they cause.
+// Pressures belong to the gaps of the motion that they cause, however stiff the penalty is for the step.
 TEST(PlacedWheel, PressuresAreThoseOfTheMiddleOfTheStep) {
   Placement placement({0.3, 0.123, {0.0123, 0.002, -5e-6}, false});
   const Mesh& mesh = placement.mesh();

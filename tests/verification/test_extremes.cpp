@@ -104,8 +104,7 @@ TEST(Extremes, Elements) {
   expect_bounds_hold("extremes_elements", {});
 }
 
-/// Whatever size the contact's elements have, the step is theirs: dampers act on single nodes of the rail's
-/// foot.
+/// The contact's elements of any size determine the step: dampers act on single nodes of the rail's foot.
 TEST(Extremes, FastenersTakeNothingOfTheStepOfFineElements) {
   const auto step = [](const std::string& size, const std::string& damping) {
     const SceneSource hammer = load_scene_source(std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml");

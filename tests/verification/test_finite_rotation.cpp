@@ -28,7 +28,7 @@ std::vector<Case> cases() {
   return list;
 }
 
-/// Displacement of an affine map that strains by about 5e-3 and turns by `angle`. [rad]
+/// Displacement [m] of an affine map that strains by about 5e-3 and turns by `angle` [rad].
 Vec3 strained(const Vec3& x, double angle) {
   const Vec3 stretched = {x.x + 3e-3 * x.x - 1e-3 * x.y + 2e-3 * x.z,
                           x.y + 4e-3 * x.x - 2e-3 * x.y + 1e-3 * x.z,
@@ -42,7 +42,7 @@ double largest(const AlignedVector<double>& field) {
   return value;
 }
 
-/// Moment of nodal forces about the origin with arms to the positions displaced by u. [N m]
+/// Moment of nodal forces about the origin, with arms to the positions displaced by u [N m].
 struct Moment {
   Vec3 sum;
   double magnitude = 0;  ///< sum of the absolute values
@@ -84,7 +84,7 @@ class FiniteRotation : public testing::TestWithParam<std::size_t> {
 };
 
 TEST_P(FiniteRotation, IsFreeOfStressAndForce) {
-  // Measured by what a stretch of the same size gives.
+  // The scale is the moment of a stretch of equal size.
   const auto stretch = samples::sample(mesh_, [](const Vec3& x) { return 0.1 * x; });
   const double force_scale = largest(force_of(stretch));
   const double stress_scale = von_mises({samples::steel().youngs_modulus * 0.1, 0, 0, 0, 0, 0});
@@ -122,8 +122,8 @@ TEST_P(FiniteRotation, BalancesMomentsInTheDeformedShape) {
   }
 }
 
-// What is left is of second order in the hourglass amplitudes. Measured: 0.13 to 0.23 of the linear law's for
-// fields that are random from node to node, 0.001 to 0.02 for this wave of about ten elements.
+// The remaining moment is of second order in the hourglass amplitudes. Measured: 0.13 to 0.23 of the linear
+// law's for fields that are random from node to node, 0.001 to 0.02 for this wave of about ten elements.
 TEST_P(FiniteRotation, LeavesTheFalseMomentOfTheHourglassForcesOnly) {
   const auto wave = samples::sample(mesh_, [](const Vec3& x) {
     return Vec3{1e-5 * std::sin(40 * x.y + 30 * x.z + 9 * x.x), 2e-5 * std::cos(30 * x.x + 25 * x.z),
@@ -143,8 +143,8 @@ TEST_P(FiniteRotation, ForceIsTheGradientOfTheEnergy) {
   const auto jitter = samples::random_field(mesh_);
   for (std::size_t i = 0; i < u.size(); ++i) u[i] += jitter[i];
   const auto f = force_of(u);
-  // Along a random direction at nodes and along single unknowns; W is quartic in u: the five-point stencil is
-  // exact.
+  // Derivatives are taken along a random direction at nodes and along single unknowns. W is quartic in u, so
+  // the five-point stencil is exact.
   const auto derivative = [&](const AlignedVector<double>& direction, double step) {
     const auto at = [&](double s) {
       auto moved = u;

@@ -1,4 +1,4 @@
-// A wheel without a rail: what it keeps while it moves, and its natural modes; small variants of `tread
+// A wheel without a rail: conserved quantities of its motion, and its natural modes; small variants of `tread
 // verify`.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Small variants of the cases of tread verify that rub.
+// Small variants of those cases of `tread verify` that have friction.
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 namespace tread {
 namespace {
 
-// Steep enough for its slope to show in F_L: slope pi d / L = 6.3e-3, at most.
+// The slope is steep enough to show in F_L: at most pi d / L = 6.3e-3.
 constexpr double kWavelength = 0.04;  // [m]
 constexpr double kDepth = 0.08e-3;    // [m]
 
@@ -39,7 +39,7 @@ double range(const RunResults& results, Value value) {
   return value(*high) - value(*low);
 }
 
-/// At the same instants: moved nodes make another step.
+/// Largest difference at equal instants: moved nodes make another step.
 double largest_difference(const RunResults& a, const RunResults& b, Value value) {
   double largest = 0;
   std::size_t i = 0;
@@ -62,7 +62,8 @@ TEST(GapOffset, IsTheSlopeThatPushesTheWheelWithoutFriction) {
   const RunResults gap = roll("gap", {"contact.friction=0"});
   const RunResults nodes = roll("nodes", {"contact.friction=0"});
   const double slope = std::numbers::pi * kDepth / kWavelength;
-  // Without friction F_L is all slope: the pressure acts along the wheel's normal where it lies on the flank.
+  // Without friction F_L comes from the slope alone: on the flank, the pressure acts along the wheel's
+  // normal.
   const Value share = [](const Sample& s) { return s.longitudinal_force / s.vertical_force; };
   measured("range of F_L / F_N over that of the slope", range(gap, share) / (2 * slope));
   measured("gap against nodes, F_N over its range",

@@ -1,6 +1,6 @@
 // The half-space reference of `tread verify` against theory and against CONTACT, the field's reference
-// program (Vollebregt and Kalker, open source, r2707 of 2025-07), at the same grids. CONTACT's numbers: E
-// 205.9 GPa, nu 0.3, f 0.5, F_N 8926 kg * 9.81 m/s2, radii 430 mm along and 300 mm across.
+// program (Vollebregt and Kalker, open source, r2707 of 2025-07), at equal grids. CONTACT's numbers: E 205.9
+// GPa, nu 0.3, f 0.5, F_N 8926 kg * 9.81 m/s2, radii 430 mm along and 300 mm across.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace tread::half_space {
 namespace {
 
 constexpr Material kSteel{205.9e9, 0.3};
-constexpr double kModulus = 205.9e9 / (2 * 0.91);  ///< of two steel bodies
+constexpr double kModulus = 205.9e9 / (2 * 0.91);  ///< contact modulus of two steel bodies
 constexpr double kLoad = 8926 * 9.81;              ///< [N]
 constexpr double kFriction = 0.5;
 constexpr double kRadiusX = 0.43;
@@ -40,7 +40,7 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Wheel on rail, pressed together.
+/// Wheel and rail, pressed together.
 struct Pressed {
   Influence influence;
   NormalContact contact;
@@ -124,7 +124,7 @@ TEST(HalfSpaceNormal, ContactThatLeavesTheGridIsRefused) {
   EXPECT_THROW(press(small, quadratic_gap(kRadiusX, kRadiusY), kLoad), NumericalError);
 }
 
-/// The paper's corrugation under a wheel at `wheel` [m] from its crest. Height that the wheel loses [m].
+/// Height [m] that the wheel loses on the paper's corrugation, with the wheel at `wheel` [m] from the crest.
 double sinks(const Influence& influence, double wavelength, double wheel, double& max_pressure) {
   constexpr double depth = 0.14e-3;
   constexpr double half_width = 30e-3;
@@ -259,7 +259,7 @@ TEST(HalfSpaceRolling, SphereUnderATangentialLoop) {
   const HertzPatch hertz = tread::hertz(kRadiusX, kRadiusX, kModulus, kLoad);
   const RollingContact rolling(pressed.influence, pressed.contact, kFriction);
   const double largest = kFriction * kLoad;
-  const double limit = 3 * largest * 1.7 / (8 * hertz.semi_axis_x * kSteel.shear_modulus());  // of the shift
+  const double limit = 3 * largest * 1.7 / (8 * hertz.semi_axis_x * kSteel.shear_modulus());  // shift limit
   const auto stick_radius = [&](const FrictionState& state) {
     return std::sqrt((1 - state.slip_fraction) * pressed.contact.area / std::numbers::pi);
   };
@@ -356,13 +356,13 @@ TEST(HalfSpaceStress, UnderTheMiddleOfAHertzPatch) {
   }
 }
 
-/// Stress under unit point forces along z and x on the surface's origin. [Johnson, sect. 3.4 and 3.6]
+/// Stress under unit point forces along z and x at the surface's origin. [Johnson, sect. 3.4 and 3.6]
 Stress point_force(double x, double y, double z, double nu, double normal, double along) {
   const double r2 = x * x + y * y + z * z;
   const double r = std::sqrt(r2);
   const double n = normal / (2 * std::numbers::pi);
   const double t = along / (2 * std::numbers::pi);
-  // (1 - 2 nu) terms of the normal force through second derivatives of ln(r + z).
+  // The (1 - 2 nu) terms of the normal force come from second derivatives of ln(r + z).
   const auto twice = [&](double u) {
     return 1 / (r * (r + z)) - u * u / (r2 * r * (r + z)) - u * u / (r2 * std::pow(r + z, 2));
   };
@@ -431,7 +431,7 @@ TEST(HalfSpaceStress, OfACellIsTheSumOfItsPointForces) {
   EXPECT_LT(worst, 1e-5);
 }
 
-/// Largest Von Mises stress in a depth below y = 0 [Pa].
+/// Largest Von Mises stress at a depth below y = 0 [Pa].
 double largest_von_mises(const SurfaceLoad& load, double depth, double& at) {
   double largest = 0;
   for (int i = 0; i < load.grid.nx; ++i) {

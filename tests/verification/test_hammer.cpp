@@ -1,4 +1,4 @@
-// A blow on a rail without a wheel: momentum, work, what the cases of the track make of it.
+// A blow on a rail without a wheel: momentum, work, and the cases of the track.
 
 #include <gtest/gtest.h>
 

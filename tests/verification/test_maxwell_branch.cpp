@@ -21,7 +21,7 @@ namespace tread {
 namespace {
 
 constexpr double kBeta = 5e-6;       ///< [s]
-constexpr double kFrequency = 10e3;  ///< up to which it holds [Hz]
+constexpr double kFrequency = 10e3;  ///< frequency up to which the damping holds [Hz]
 constexpr double kElement = 5e-3;    ///< [m]
 
 const auto kSilent = [](const std::string&) {};
@@ -169,7 +169,7 @@ TEST(MaxwellBranch, StepIsThatOfTheStifferBodies) {
   EXPECT_TRUE(run_small(scene, preload, 1.01 * limit, 3000).stopped);
 }
 
-// Looks in every step at waves of element length: what is left is of second order in the step.
+// The test looks in every step at waves of element length: the residual is of second order in the step.
 TEST(MaxwellBranch, WhatItDissipatesClosesTheBalance) {
   const Scene scene = bar_scene();
   Model model(scene);
@@ -196,8 +196,8 @@ TEST(MaxwellBranch, WhatItDissipatesClosesTheBalance) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.2);
 }
 
-// Its material passes under the load again and again: what that costs is in the balance, in finite rotation
-// too.
+// The tyre's material passes under the load again and again. The balance includes that loss, in finite
+// rotation too.
 TEST(MaxwellBranch, RollingTyreClosesItsBalance) {
   const Scene scene =
       samples::tyre_with_maxwell_branches({"scene.element_size=8 mm", "motion.duration=0.5 ms"});

@@ -74,7 +74,7 @@ TEST(ModalPassage, StaysInEquilibrium) {
 }
 
 TEST(ModalPassage, WheelOscillatesOnItsContact) {
-  // On a rail that hardly moves the wheel is a mass on the linearised Hertz spring.
+  // On a rail that hardly moves, the wheel is a mass on the linearised Hertz spring.
   const BeamProperties stiff = {1e13, 0, 1e7, 0};
   const ModalTrack track(ModalBeam(stiff, -1, 2, 4), {{0, 1e14, 0}});
   BeamVehicle wheel;
@@ -85,7 +85,8 @@ TEST(ModalPassage, WheelOscillatesOnItsContact) {
   const double approach = std::pow(wheel.load() / wheel.contact, 2.0 / 3);
   const double k = 1.5 * wheel.contact * std::sqrt(approach);
   const double period = 2 * std::numbers::pi * std::sqrt(wheel.unsprung_mass / k);
-  // A rail lower by a little: F_N swings about the weight; the time between two of its upward crossings.
+  // A rail lower by a little makes F_N oscillate about the weight; the period is the time between two upward
+  // crossings.
   std::vector<double> crossings;
   double before = passage.force();
   while (crossings.size() < 3 && passage.time() < 5 * period) {
@@ -181,7 +182,7 @@ TEST(Multibody, AgreesWithImplicitFiniteElements) {
       before = passage.force();
     }
     measured(name_of(theory), difference(ours, theirs) / model.vehicle.load());
-    // Around kinks modes and elements both converge with their first power only.
+    // Around kinks both modes and elements converge with their first power only.
     EXPECT_LT(difference(ours, theirs), (kinked ? 0.02 : 0.005) * model.vehicle.load()) << name_of(theory);
   }
 }
@@ -250,7 +251,7 @@ TEST(Multibody, CorrugationIsThatOfTheScene) {
   EXPECT_NEAR(model.roughness(2.44), 0.14e-3, 1e-15);
   EXPECT_NEAR(model.roughness(2.46), 0.07e-3, 1e-15);
   EXPECT_EQ(model.roughness(2.97), 0);
-  // Off its deepest line: eq. (7).
+  // The depth off the deepest line follows eq. (7).
   const MultibodyModel aside =
       multibody_model(scene(300, std::string(kCorrugationD) + "centre = \"15 mm\"\n"), BeamTheory::euler);
   const double across = (aside.contact_y - 0.015) / 0.030;
@@ -262,7 +263,7 @@ TEST(Multibody, AnUnstableStepIsAnError) {
   const double stable = passage_step(modal_track(model, std::nullopt), model.vehicle);
   EXPECT_NO_THROW(run_multibody(model, {std::nullopt, stable}));
   EXPECT_THROW(run_multibody(model, {std::nullopt, 3 * stable}), NumericalError);
-  // Far beyond it nothing is tried.
+  // A step far beyond the limit is refused at once.
   EXPECT_THROW(run_multibody(model, {std::nullopt, 8 * stable}), InputError);
 }
 

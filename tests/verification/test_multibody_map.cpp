@@ -27,7 +27,7 @@ MultibodyModel model_of(double speed_km_h, double wavelength_mm) {
 
 constexpr MultibodyStep kQuick = {50, 1e-5};
 
-/// What a run with another contact spring would leave.
+/// Results of a run with another contact spring.
 TransientRun run_with(double factor, double speed_km_h = 300) {
   MultibodyModel model = model_of(speed_km_h, 80);
   model.vehicle.contact *= factor;

@@ -27,7 +27,7 @@ struct Oscillator {
 
   double omega() const { return std::sqrt(stiffness / mass); }
   double damped() const { return omega() * std::sqrt(1 - damping_ratio * damping_ratio); }
-  /// Released at 1 mm without speed.
+  /// Position after a release at 1 mm without speed [m].
   double position(double t) const {
     const double decay = damping_ratio * omega();
     return 1e-3 * std::exp(-decay * t) * (std::cos(damped() * t) + decay / damped() * std::sin(damped() * t));
@@ -39,8 +39,8 @@ struct Oscillator {
 };
 
 struct Result {
-  double error;         ///< largest over three periods, relative to the amplitude
-  double energy_error;  ///< stored + dissipated - at the start, relative
+  double error;         ///< largest error over three periods, relative to the amplitude
+  double energy_error;  ///< stored + dissipated energy less that at the start, relative
 };
 
 Result integrate(const Oscillator& o, int steps_per_period) {
@@ -92,7 +92,7 @@ TEST(Oscillator, FollowsTheoryToSecondOrder) {
   EXPECT_NEAR(std::log2(coarse.energy_error / fine.energy_error), 2, 0.1);
 }
 
-// The damper sees the velocity of half a step ago: its force is late by zeta omega dt of itself.
+// The damper sees the velocity of half a step ago: its force is late by the share zeta omega dt.
 TEST(Oscillator, LaggedDampersAreOfFirstOrderInTheirSmallShare) {
   Oscillator o;
   o.damping_ratio = 0.05;

@@ -1,4 +1,4 @@
-// What accumulates on the rail under a rolling tyre against the run's histories and energy balance.
+// Accumulated fields on the rail under a rolling tyre against the run's histories and energy balance.
 // [theory.md, Fields of the surface]
 
 #include <gtest/gtest.h>
@@ -40,13 +40,13 @@ TEST(Passage, FieldsSumToTheFrictionalWorkAndHoldTheLargestOfTheHistories) {
   measured("shear stress times slip speed, every step / frictional work - 1", sampled / ledger - 1);
   EXPECT_GT(ledger, 0.5);
   EXPECT_NEAR(work, ledger, 1e-10 * ledger);
-  // They differ by what the elastic stick stores, and by points that leave.
+  // The two differ by the energy stored in the elastic stick, and by points that leave contact.
   EXPECT_NEAR(sampled, ledger, 0.02 * ledger);
   EXPECT_EQ(*std::max_element(fields.max_pressure().begin(), fields.max_pressure().end()), pressure);
   EXPECT_EQ(*std::max_element(fields.max_shear().begin(), fields.max_shear().end()), shear);
 
-  // Von Mises stress at the surface of a Hertz contact: (1 - 2 nu) p0 for a circle without friction, up to
-  // sqrt(3) f p0 more where all of it slips.
+  // Von Mises stress at the surface of a Hertz contact is (1 - 2 nu) p0 for a circle without friction, and
+  // larger by up to sqrt(3) f p0 in full slip.
   const double stress = *std::max_element(fields.max_von_mises().begin(), fields.max_von_mises().end());
   measured("largest Von Mises stress of the surface elements / largest pressure", stress / pressure);
   EXPECT_GT(stress, 0.4 * pressure);

@@ -42,7 +42,7 @@ std::vector<Case> patches() {
   return list;
 }
 
-/// Nodes on the section's outline: those of edges that one quad only has.
+/// Nodes on the section's outline: those of edges that belong to one quad only.
 std::set<int> outline(const Section& section) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& quad : section.quads)
@@ -212,13 +212,13 @@ AlignedVector<double> solve(const InternalForce& force, const std::vector<bool>&
 struct Cantilever {
   int along;          ///< axis of the beam
   int across;         ///< axis of the thickness and of the load
-  bool plane_strain;  ///< hold the third axis
+  bool plane_strain;  ///< true if the third axis is held
   double aspect;      ///< element length by thickness
 };
 
 constexpr double kSlenderness = 20;  ///< length by thickness
 
-/// Tip deflection by that of beam theory.
+/// Ratio of the tip deflection to that of beam theory [-].
 double tip_ratio(const Cantilever& c) {
   const double thickness = 0.01;
   const int count = static_cast<int>(std::lround(kSlenderness / c.aspect));
@@ -241,7 +241,7 @@ double tip_ratio(const Cantilever& c) {
     const Vec3 x = position(block, node, station);
     const bool root = x[c.along] < 1e-9;
     const bool low = x[c.across] < 1e-9;
-    // The root holds what stops rigid motion and turning, the section may contract.
+    // The root is held against rigid motion and turning; the section may contract.
     if (root) held[index(dof(slot, c.along))] = true;
     if (root && low) held[index(dof(slot, c.across))] = true;
     if (c.plane_strain || (root && low && x[third] < 1e-9)) held[index(dof(slot, third))] = true;

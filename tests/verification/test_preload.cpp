@@ -1,4 +1,4 @@
-// Static contact against Hertz, and what a wheel at rest does in time. [theory.md, Preload]
+// Static contact against Hertz, and the motion of a wheel at rest. [theory.md, Preload]
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@ namespace {
 
 using Field = AlignedVector<double>;
 
-/// Unit-free coordinates from `start`: `count` steps that grow by `growth`.
+/// Coordinates without unit from `start`: `count` steps that grow by `growth`.
 std::vector<double> graded(double start, double step, double growth, int count) {
   std::vector<double> at{start};
   for (int i = 0; i < count; ++i, step *= growth) at.push_back(at.back() + step);
@@ -51,7 +51,7 @@ struct Problem {
 
 struct Iterations {
   int two_level = 0;
-  int jacobi = 0;  ///< cut off at twenty times as many
+  int jacobi = 0;  ///< Jacobi's iterations, cut off at twenty times as many
 };
 
 Iterations solve(const Problem& problem, bool with_jacobi) {
@@ -125,7 +125,7 @@ Problem rail(double length) {
   return problem;
 }
 
-/// Contact points over four nodes, `ratio` times as stiff as an element.
+/// Adds contact points over four nodes, `ratio` times as stiff as an element.
 void add_penalties(Problem& problem, double ratio) {
   const SweptBlock& block = problem.mesh.blocks[0];
   const int station = block.station_count() / 2;

@@ -69,7 +69,7 @@ class FreeRing {
     });
   }
 
-  /// visit(slot, space angle, (0, y, r)).
+  /// Calls visit(slot, space angle, (0, y, r)).
   template <class Visit>
   void each_node(const Visit& visit) const {
     samples::for_each_node(mesh_, [&](const SweptBlock& block, int node, int station, std::int64_t slot) {
@@ -86,7 +86,7 @@ class FreeRing {
     return elastic.strain + elastic.hourglass + body_.kinetic_energy(u_.data(), w_.data(), frame);
   }
 
-  /// Inertial, about the mass centre; positions at the half step of the velocities.
+  /// Inertial angular momentum about the mass centre; positions at the half step of the velocities.
   Vec3 angular_momentum() const {
     BodyFrame half = frame;
     half.advance(-0.5 * dt_);
@@ -128,7 +128,7 @@ class FreeRing {
     return largest;
   }
 
-  /// u += dt w with the velocities of a rigid rotation at `spin`: chords of the true circles.
+  /// Computes u += dt w with the velocities of a rigid rotation at `spin`: chords of the true circles.
   void impose_rotation(double spin) {
     const double relative = (spin - frame.spin) * dt_;
     each_node([&](std::int64_t slot, double, const Vec3& reference) {
@@ -182,7 +182,7 @@ TEST(Spinning, RigidRotationThroughATurnLeavesNoStress) {
 
 TEST(Spinning, FreeRingKeepsEnergyAndMomentum) {
   FreeRing ring(kSmallRing);
-  // Starts unstretched: it breathes under its own spin. The frame's spin is 1 % wrong.
+  // The ring starts unstretched and breathes under its own spin. The frame's spin is 1 % wrong.
   constexpr double spin = 600;
   ring.frame.spin = 0.99 * spin;
   ring.frame.velocity = {30, 0, 0};
@@ -216,10 +216,10 @@ TEST(Spinning, TranslationWithSpinHasNoDrift) {
   const Vec3 velocity{80, 0, -1};
   ring.frame.spin = spin;
   ring.frame.velocity = {80, 0, 0};
-  ring.push([&](const Vec3&) { return velocity - Vec3{80, 0, 0}; });  // the frame does not know all of it
+  ring.push([&](const Vec3&) { return velocity - Vec3{80, 0, 0}; });  // the frame knows only a part of it
   const auto steps = static_cast<int>(std::lround(2 * kTurn / spin / ring.dt()));
-  // The frame takes over the mean velocity, up to a share of spin * dt at each anchoring, and keeps it from
-  // then on.
+  // The frame takes over the mean velocity, up to a share of spin * dt at each anchoring, and keeps it
+  // afterwards.
   for (int step = 0; step < 4 * kAnchorInterval; ++step) ring.step();
   const Vec3 start = ring.mass_centre();
   const Vec3 taken = ring.frame.velocity;
@@ -234,16 +234,16 @@ TEST(Spinning, TranslationWithSpinHasNoDrift) {
 }
 
 struct Wobble {
-  double rate;            ///< of the figure axis about the angular momentum, inertial [rad/s]
+  double rate;            ///< rate of the figure axis about the angular momentum, inertial [rad/s]
   double expected;        ///< I_a w / I_t [rad/s]
-  double angular_change;  ///< relative
-  double energy_change;   ///< relative to the energy of rotation
+  double angular_change;  ///< relative change of the angular momentum
+  double energy_change;   ///< change of the energy, relative to the energy of rotation
 };
 
 Wobble wobble(const RingShape& shape, double spin) {
   FreeRing disc(shape);
   disc.frame.spin = spin;
-  // The stretch that the spin causes, to first order, would only breathe: start from the slow ring.
+  // To first order, the stretch by the spin would only breathe: the test starts from the slow ring.
   constexpr double kick = 0.3;  // about z [rad/s]
   disc.push([&](const Vec3& x) { return cross({0, 0, kick}, x); });
   const Vec3 angular = disc.angular_momentum();

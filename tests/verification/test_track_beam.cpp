@@ -93,14 +93,14 @@ TEST(TrackBeam, FreeAndGuidedBeamsHaveTheirFrequencies) {
   EXPECT_LT(free.eigenfrequency(1), 0.1);  // two rigid motions
   EXPECT_NEAR(free.eigenfrequency(2), scale * std::pow(4.730040745, 2), 1e-3);
   EXPECT_NEAR(free.eigenfrequency(3), scale * std::pow(7.853204624, 2), 1e-2);
-  // Between guided ends run pure cosines.
+  // Between guided ends the modes are pure cosines.
   const BeamProperties rail = timoshenko_rail(0.4);
   const TrackBeam guided(rail, 0, length, BeamEnds::guided);
   for (int n = 1; n < 8; ++n) {
     const double theory = wave_frequency(rail, n * std::numbers::pi / length);
     const double error = guided.eigenfrequency(n) / theory - 1;
     EXPECT_NEAR(error, 0, 6e-4) << n;
-    // Second order in the element.
+    // The error is of second order in the element.
     const TrackBeam coarse(rail, 0, length, BeamEnds::guided, 0.02);
     if (n > 4) {
       EXPECT_NEAR((coarse.eigenfrequency(n) / theory - 1) / error, 4, 0.1);
@@ -126,19 +126,19 @@ BeamVehicle wheel() {
   return v;
 }
 
-/// Long waves: what Cowper's coefficient, of the sections' mean deflection, leaves of the strip's Poisson
-/// strains. [theory.md, eq. B5]
+/// Long waves: Cowper's coefficient holds for the sections' mean deflection, so a part of the strip's Poisson
+/// strains remains. [theory.md, eq. B5]
 TEST(HeadSpread, OfLongWaves) {
   const double nu = 0.3;
   const double limit = 0.2 * std::sqrt(11 * nu / 30);
   EXPECT_NEAR(head_spread(0.2, nu, 0.5), limit, 1e-3 * limit);
   measured("of CN60's depth, waves of 0.65 m", head_spread(0.176, nu, 2 * std::numbers::pi / 0.65), "m");
   measured("waves of 0.325 m", head_spread(0.176, nu, 4 * std::numbers::pi / 0.65), "m");
-  // Without Poisson's ratio only the depth over the wavelength is left.
+  // Without Poisson's ratio only the effect of depth over wavelength remains.
   EXPECT_LT(head_spread(0.2, 0, 0.5), 0.05 * limit);
 }
 
-/// A wave of deflection is felt on the head as the spread load averages it: times exp(-(k s)^2 / 2).
+/// The head feels a wave of deflection as the spread load averages it: times exp(-(k s)^2 / 2).
 TEST(TrackBeam, SpreadsAForceOnTheHead) {
   const double spread = 0.06;
   TrackBeam beam(kEuler, -2, 4, BeamEnds::free, 0.01);
@@ -154,7 +154,7 @@ TEST(TrackBeam, SpreadsAForceOnTheHead) {
       const std::vector<double> load = beam.head_load(x);
       double felt = 0;
       for (std::size_t i = 0; i < load.size(); ++i) felt += load[i] * wave[i];
-      // What lies beyond three deviations.
+      // The tolerance is the load beyond three deviations.
       EXPECT_NEAR(felt, std::exp(-0.5 * k * k * spread * spread) * std::cos(k * x), 0.01) << k << ' ' << x;
     }
   }
@@ -169,7 +169,8 @@ TEST(BeamPassage, StaysInEquilibrium) {
 }
 
 TEST(BeamPassage, WheelOnAStiffBeamOscillatesOnItsContact) {
-  // A beam that hardly moves: the wheel on the Hertz spring alone, displaced a little by a step of roughness.
+  // The beam hardly moves: the wheel oscillates on the Hertz spring alone, displaced a little by a step of
+  // roughness.
   const BeamProperties stiff = {1e16, 0, 1e9, 0};
   TrackBeam beam(stiff, -1, 2, BeamEnds::guided, 0.1);
   beam.support(0, 1e16, 0);
@@ -195,7 +196,7 @@ TEST(BeamPassage, WheelOnAStiffBeamOscillatesOnItsContact) {
   EXPECT_NEAR(turned, 0.5 * period, 0.01 * period);
 }
 
-/// A wheel that has been run in goes on as it was: the suspension bears the sprung mass in the mean of a
+/// A wheel that has been run in goes on unchanged: the suspension bears the sprung mass in the mean of a
 /// span, F_N repeats.
 TEST(RunningWheel, IsPeriodic) {
   const BeamVehicle vehicle = {926, {}, 8000, 880e3, 4e3, 0, 9e10, 9.81};

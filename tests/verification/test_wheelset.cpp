@@ -1,5 +1,5 @@
-// The flexible half wheelset on its rail: what spin does to its bending, and the rail's deflection against a
-// beam. [theory.md, Finite rotation]
+// The flexible half wheelset on its rail: the effect of spin on its bending, and the rail's deflection
+// against a beam. [theory.md, Finite rotation]
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ present = false
 }
 
 /// Largest change of the tilt while the wheelset rolls, relative to the static one. The rail's foot is fixed:
-/// nothing but the spin can change the tilt.
+/// only the spin can change the tilt.
 double change_of_tilt(bool finite_rotation) {
   const Scene scene = wheelset_scene(R"([fastenings]
 present = false
@@ -89,7 +89,9 @@ duration = "0.1 ms"
   const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.steel);
   const TrackBeam rail = rail_beam(scene, properties);
   const FasteningSpec& f = *scene.fastenings;
-  const double weight = properties.mass * scene.gravity * f.spacing / f.stiffness;  // sinks the rail evenly
+  const double weight = properties.mass * scene.gravity * f.spacing / f.stiffness;  // deflection by which the
+                                                                                    // weight sinks the rail
+                                                                                    // evenly
   const double beam = rail.deflection(rail.static_state(0, model.wheel_load()), 0) + weight;
   measured("rail's foot under the wheel", preload.rail_deflection, "m");
   measured("Timoshenko beam", beam, "m");
