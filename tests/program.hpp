@@ -28,7 +28,7 @@ inline bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Asks for a minute.
+/// Tests the condition again and again for at most a minute.
 inline bool wait_until(const std::function<bool()>& condition) {
   for (int i = 0; i < 6000; ++i) {
     if (condition()) return true;
@@ -37,14 +37,14 @@ inline bool wait_until(const std::function<bool()>& condition) {
   return false;
 }
 
-/// The exit status; that of a signal is 1000 + its number.
+/// Exit status of the process; after a signal 1000 + its number.
 inline int wait_for(pid_t process) {
   int status = 0;
   ::waitpid(process, &status, 0);
   return WIFSIGNALED(status) ? 1000 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-/// A child process that calls `action`.
+/// Starts a child process that calls `action`.
 inline pid_t child(const std::function<void()>& action) {
   const pid_t process = ::fork();
   if (process != 0) return process;
@@ -52,8 +52,8 @@ inline pid_t child(const std::function<void()>& action) {
   ::_exit(0);
 }
 
-/// The program in a shell, its words in `folder`/out and `folder`/errors; `before`: what the shell does
-/// first.
+/// Starts the program in a shell, with its output in `folder`/out and `folder`/errors. `before`: commands
+/// that the shell runs first.
 inline pid_t start_program(const std::string& arguments, const std::filesystem::path& folder,
                            const std::string& before = "") {
   const std::string command = fmt::format("{} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
@@ -64,7 +64,7 @@ inline pid_t start_program(const std::string& arguments, const std::filesystem::
   });
 }
 
-/// A folder that goes with the test, in which the program's output lands.
+/// A folder that lives as long as the test and receives the program's output.
 class Program {
  public:
   pid_t start(const std::string& arguments) const { return start_program(arguments, folder); }

@@ -1,5 +1,5 @@
 #pragma once
-// Tests that run the program as users do, and compare what its runs leave.
+// Tests that run the program as users do, and compare the results of its runs.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace tread::samples {
 
 namespace fs = std::filesystem;
 
-/// What the summary states besides times and where the start came from.
+/// Values of the summary besides times and the origin of the start.
 inline std::string figures(const fs::path& folder) {
   std::istringstream lines(content_of(folder / "summary.json"));
   std::string kept;
@@ -42,7 +42,7 @@ inline void expect_same_file(const fs::path& a, const fs::path& b) {
   }
 }
 
-/// None where there is no folder of frames.
+/// Frames in a folder; none without a folder of frames.
 inline std::vector<std::string> frames_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code none;
@@ -75,7 +75,7 @@ class ProgramTest : public testing::Test {
   static std::string errors() { return content_of(root_ / "errors"); }
   static std::string output() { return content_of(root_ / "out"); }
 
-  /// Starts the program; what it prints goes to files.
+  /// Starts the program; its output goes to files.
   static pid_t start(const std::string& arguments, const std::string& before = "") {
     return start_program(arguments, root_, "export TREAD_CACHE=off; " + before);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A linear system solved by conjugate gradients, and what its solution leaves.
+// A linear system solved by conjugate gradients, and the residual of its solution.
 
 #include <cmath>
 #include <vector>
@@ -12,11 +12,11 @@ namespace tread::samples {
 struct SolvedSystem {
   CgResult result;
   int iterations = 0;
-  double relative_residual = 0;   ///< of the solution, balanced, against the balanced right side
+  double relative_residual = 0;   ///< residual of the solution, balanced, against the balanced right side
   std::vector<double> reactions;  ///< HeldMotions::work(b - A x)
 };
 
-/// b - A x
+/// Residual b - A x.
 inline AlignedVector<double> residual_of(const Operator& a, const AlignedVector<double>& b,
                                          AlignedVector<double> x) {
   AlignedVector<double> r(b.size());

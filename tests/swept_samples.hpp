@@ -21,9 +21,9 @@ inline Material concrete() {
 }
 
 struct Grid {
-  int columns = 3;  ///< quads along p
-  int rows = 2;     ///< quads along q
-  double p = 0;     ///< corner [m]
+  int columns = 3;  ///< number of quads along p
+  int rows = 2;     ///< number of quads along q
+  double p = 0;     ///< first coordinate of the corner [m]
   double q = 0;
   double width = 0.03;   ///< [m]
   double height = 0.02;  ///< [m]
@@ -80,7 +80,7 @@ inline void shift_nodes(SweptBlock& block, double size, double share = 0.2, unsi
                                                        size * value(random)};
 }
 
-/// Gives every node the shift of the one `period` stations before it; those of the first period stay.
+/// Gives every node the shift of the one `period` stations before it. Shifts of the first period stay.
 inline void repeat_shifts(SweptBlock& block, int period) {
   for (int station = period; station < block.station_count(); ++station)
     for (int node = 0; node < block.section.nodes(); ++node)
@@ -115,7 +115,7 @@ inline AlignedVector<double> random_field(const Mesh& mesh, unsigned seed = 3) {
   return sample(mesh, [&](const Vec3&) { return Vec3{value(random), value(random), value(random)}; });
 }
 
-/// Displacement at x of a rotation by `angle` about a skew axis through the origin. [m, rad]
+/// Displacement [m] at x of a rotation by `angle` [rad] about a skew axis through the origin.
 inline Vec3 rotation(const Vec3& x, double angle) {
   const Vec3 axis = {2.0 / 7, 3.0 / 7, 6.0 / 7};
   const Vec3 across = cross(axis, x);

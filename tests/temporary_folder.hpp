@@ -9,7 +9,7 @@
 
 namespace tread::samples {
 
-/// A new folder that no other test or process has; it goes with the object.
+/// A new folder that no other test or process has. It is removed with the object.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path(made()) {}

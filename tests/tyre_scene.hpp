@@ -8,7 +8,7 @@
 
 namespace tread::samples {
 
-/// Overrides as on the command line ("motion.speed=250 km/h").
+/// Scene of the tyre with overrides as on the command line ("motion.speed=250 km/h").
 inline Scene tyre_scene(const std::vector<std::string>& overrides = {}) {
   return resolve_scene(SceneSource{"tyre.toml",
                                    R"([scene]
@@ -50,7 +50,7 @@ duration = "0.3 ms"
       .scene;
 }
 
-/// Under traction, its steel damped up to a frequency.
+/// Scene of the tyre under traction, its steel damped up to a frequency.
 inline Scene tyre_with_maxwell_branches(std::vector<std::string> overrides) {
   overrides.insert(
       overrides.end(),

@@ -12,10 +12,10 @@
 
 namespace tread {
 
-/// Inputs by name and what they become, as after --set.
+/// Inputs by name and their new values, as after --set.
 using InputChanges = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs the case of that name; the test fails where there is none or it has no such input.
+/// Runs the case of that name. The test fails if there is none or the case has no such input.
 inline CaseResult run_case(const std::string& name, const InputChanges& changes) {
   for (const VerifyCase& c : verify_cases()) {
     if (c.name != name) continue;
@@ -31,14 +31,14 @@ inline CaseResult run_case(const std::string& name, const InputChanges& changes)
   return {};
 }
 
-/// All findings of the run keep their bounds.
+/// Expects that all findings of the run keep their bounds.
 inline void expect_bounds_hold(const std::string& name, const InputChanges& changes) {
   const CaseResult result = run_case(name, changes);
   for (const Finding& f : result.findings)
     EXPECT_TRUE(f.pass()) << f.quantity << ": " << f.value << " against " << f.reference;
 }
 
-/// Error of the finding of that name, relative or absolute as the case has it.
+/// Error of the finding of that name, relative or absolute as the case states it.
 inline double error_of(const CaseResult& result, const std::string& quantity) {
   for (const Finding& f : result.findings)
     if (f.quantity == quantity) return f.error();
