@@ -29,7 +29,7 @@ inline Vec3 turn(const Vec3& a, double angle) {
   return {c * a.x + s * a.z, a.y, -s * a.x + c * a.z};
 }
 
-/// spin * y-axis x a, in components (t, y, r).
+/// Returns spin * y-axis x a, in components (t, y, r).
 inline Vec3 spin_cross(double spin, const Vec3& a) {
   return {spin * a.z, 0, -spin * a.x};
 }

@@ -43,9 +43,9 @@ class PlaneCurve {
   explicit PlaneCurve(Point2 start) : end_(start) {}
 
   PlaneCurve& line_to(Point2 end);
-  /// The shorter arc about `centre`; start and end must have the same distance from it to 1e-8 m.
+  /// Appends the shorter arc about `centre`. Start and end must have equal distances from it to 1e-8 m.
   PlaneCurve& arc_to(Point2 end, Point2 centre);
-  /// y(x) cubic with the given slopes dy/dx at start and end; end.x > start.x.
+  /// Appends a cubic y(x) with the given slopes dy/dx at start and end; end.x > start.x.
   PlaneCurve& cubic_to(Point2 end, double slope_start, double slope_end);
   /// Appends a curve whose start lies within 1e-8 m of the end of this curve.
   PlaneCurve& append(const PlaneCurve& other);

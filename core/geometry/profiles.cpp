@@ -18,8 +18,8 @@ Point2 unit(Point2 a) {
   return (1 / norm(a)) * a;
 }
 
-/// Continues `curve`, which ends on the line through `corner`, along that line, around the corner with the
-/// given radius and on to the tangent point of the line from `corner` to `next`.
+/// Continues `curve`, which ends on the line through `corner`, along that line and around the corner with the
+/// given radius. The arc ends at the tangent point of the line from `corner` to `next`.
 void round_corner(PlaneCurve& curve, Point2 corner, Point2 next, double radius) {
   const Point2 in = unit(corner - curve.end()), out = unit(next - corner);
   const double turn = std::atan2(cross(in, out), dot(in, out));

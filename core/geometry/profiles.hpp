@@ -31,7 +31,7 @@ RailProfile cn60();
 
 /// CN60 with the head's surface from a measured table (y increasing, z up) [m]; z is shifted so that the
 /// surface passes through the origin. Points deeper than 18 mm are left out; straight lines join the table to
-/// the side faces. Throws InputError when the table does not reach across the head.
+/// the side faces. Throws InputError if the table does not reach across the head.
 RailProfile rail_with_head(std::span<const double> y, std::span<const double> z);
 
 /// Wheel axes: y across (field side positive, flange negative), z towards the flange tip, origin on the
@@ -44,7 +44,7 @@ struct WheelProfile {
 WheelProfile lma();
 
 /// A measured or designed wheel profile (y increasing, z towards the flange tip) [m]; z is shifted so that
-/// the surface passes through the origin. Throws InputError when the table does not contain y = 0.
+/// the surface passes through the origin. Throws InputError if the table does not contain y = 0.
 WheelProfile wheel_from_table(std::span<const double> y, std::span<const double> z);
 
 /// Wheel profile of |y| <= width / 2 [m] with a crown of radius `crown_radius` [m] that bulges outward; 0

@@ -31,7 +31,7 @@ void check(const SectionSize& size, double depth, const std::string& name);
 /// Increasing parameters that contain every break and whose spacing follows size(parameter).
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size);
 
-/// count + 1 values from first to last, both exact.
+/// Returns count + 1 evenly spaced values from first to last, both exact.
 std::vector<double> evenly(double first, double last, int count);
 
 /// Depths below a surface, from 0 to `depth`: fine layers of equal thickness, then rows that grow up to

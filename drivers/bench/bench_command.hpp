@@ -34,8 +34,8 @@ struct BenchScalingOptions : BenchOptions {
   std::int64_t elements = 400000;  ///< size of the made-up mesh; per thread if it grows with the threads
 };
 
-/// Measures one to all threads with every backend. The work is internal force and update of a made-up rail,
-/// of one size and of one that grows with the threads, or whole steps of a scene.
+/// Measures one to all threads with every backend. The work is whole steps of a scene, or internal force and
+/// update of a made-up rail. The rail has one size, or a size that grows with the threads.
 void bench_scaling(const BenchScalingOptions& options);
 void bench_scaling(const ResolvedScene& scene, const BenchScalingOptions& options);
 

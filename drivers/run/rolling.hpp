@@ -24,8 +24,8 @@ class Rolling {
   /// Goes on from a checkpoint whose results have been unpacked.
   void go_on(const SealedContent& checkpoint);
 
-  /// Steps to the end and fills the results. Throws NumericalError and ResourceError that say what is left.
-  /// Throws Interrupted after a signal, a request or stop.wall_time.
+  /// Steps to the end and fills the results. Throws NumericalError and ResourceError whose texts name the
+  /// remaining files and the way on. Throws Interrupted after a signal, a request or stop.wall_time.
   void to_the_end();
 
  private:

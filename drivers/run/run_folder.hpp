@@ -18,7 +18,7 @@ std::string folder_name(const std::filesystem::path& folder);
 /// Returns true if a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 
-/// Throws InputError if a run lies in the folder, whose results others of the same names would overwrite.
+/// Throws InputError if a run lies in the folder: files of equal names would overwrite its results.
 void require_no_run(const std::filesystem::path& folder);
 
 /// Request of another process to the one that works on the folder.

@@ -5,7 +5,7 @@
 
 namespace tread {
 
-/// F_N at times and places of a passage. [N]
+/// F_N at times and places of a passage [N].
 struct ForceCurve {
   std::vector<double> time;   ///< [s]
   std::vector<double> x;      ///< place of the wheel [m]

@@ -24,7 +24,7 @@ constexpr const char* kKind = "cached";
 constexpr int kVersion = 1;
 constexpr const char* kKey = "key";
 constexpr const char* kSuffix = ".h5";
-constexpr const char* kClaims = "claims.lock";  ///< this file stays in the folder, empty
+constexpr const char* kClaims = "claims.lock";  ///< name of the lock file, which stays empty in the folder
 constexpr std::size_t kDigits = 16;
 
 std::uint64_t hash_of(const std::string& key) {

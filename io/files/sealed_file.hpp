@@ -25,8 +25,8 @@ void write_sealed(const std::filesystem::path& path, const std::string& kind, in
                   SealedContent content);
 
 /// Reads a file of write_sealed() back by its list, without HDF5. Throws InputError with the reason if the
-/// file is absent, no regular file (a symbolic link is none), truncated, damaged, of another kind or version,
-/// or lists entries that it does not hold.
+/// file is absent, not a regular file (a symbolic link is none), truncated or damaged. Throws it also for
+/// another kind or version, and if the file lacks a listed entry.
 SealedContent read_sealed(const std::filesystem::path& path, const std::string& kind, int version);
 
 /// Hash of each entry.

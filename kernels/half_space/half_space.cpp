@@ -13,7 +13,7 @@ namespace tread::half_space {
 
 namespace {
 
-/// x asinh(y / |x|), zero for x = 0.
+/// Returns x asinh(y / |x|), zero for x = 0.
 double x_asinh(double x, double y) {
   return x == 0 ? 0 : x * std::asinh(y / std::abs(x));
 }

@@ -35,8 +35,7 @@ void add(double factor, const std::vector<double>& from, std::vector<double>& to
 }
 
 /// Generalised minimal residual without restart: x with |rhs - A x| <= tolerance |rhs|, from x = 0. After
-/// `steps` products the best x so far is returned. [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986)
-/// 856]
+/// `steps` products it returns the last x. [Saad and Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856]
 template <class Product>
 std::vector<double> gmres(const Product& product, const std::vector<double>& rhs, double tolerance,
                           int steps) {
@@ -108,8 +107,8 @@ std::array<std::vector<double>, 2> displacements(const OffsetTable& xx, const Of
 }  // namespace
 
 /// Equations of one step or of the steady state. Slip = shift + before - displacement by the tractions.
-/// Vectors of the solver hold the tractions of the n cells in contact, x of all, then y of all, over f p_max,
-/// and the shift over `length` = f p_max times the table's diagonal.
+/// Vectors of the solver hold the tractions of the n cells in contact over f p_max: x of all, then y of all.
+/// They also hold the shift over `length` = f p_max times the table's diagonal.
 struct RollingContact::Problem {
   const Grid& grid;
   const std::vector<int>& cells;

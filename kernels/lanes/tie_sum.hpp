@@ -42,9 +42,9 @@ struct TieTile {
   const NodeLink* links = nullptr;
 };
 
-/// Sums up the links of a tile: the sum replaces a node's values or is added to them. It is formed in double
-/// for either storage, for each of the others in the order of the stations' links, then in the order of the
-/// nodes' links. Nothing is contracted, so all instruction sets give the same bits.
+/// Sums up the links of a tile: the sum replaces a node's values or is added to them. The sum is formed in
+/// double for either storage. For each of the others its order is that of the stations' links, then that of
+/// the nodes' links. Nothing is contracted, so all instruction sets give equal bits.
 template <class Real>
 using TieSum = void (*)(const TieTile& tile, bool add, Real* field);
 

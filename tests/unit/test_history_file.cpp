@@ -66,7 +66,7 @@ TEST_F(HistoryFileTest, FlushedRowsCanBeReadWhileTheRunGoesOn) {
   histories.append(std::array{0.0, 87560.0});
   histories.flush();
   EXPECT_EQ(csv(), "time [s],vertical_force [N]\n0,87560\n");
-  // A copy holds what a killed run would leave: nothing of this process's memory is in it.
+  // A copy holds the files of a killed run, without this process's memory.
   fs::copy_file(folder_ / "run.h5", folder_ / "copy.h5");
   EXPECT_EQ(Hdf5File::open_to_read(folder_ / "copy.h5").read<double>("/histories/vertical_force"),
             std::vector<double>{87560.0});

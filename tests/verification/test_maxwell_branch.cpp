@@ -33,7 +33,7 @@ Scene bar_scene() {
   return scene;
 }
 
-/// u'' + w^2 (u + g q) = 0, q' = u' - q / tau.
+/// Oscillator with u'' + w^2 (u + g q) = 0, q' = u' - q / tau.
 struct Oscillator {
   double omega;  ///< [rad/s]
   MaxwellBranch branch;

@@ -45,8 +45,8 @@ TEST(Passage, FieldsSumToTheFrictionalWorkAndHoldTheLargestOfTheHistories) {
   EXPECT_EQ(*std::max_element(fields.max_pressure().begin(), fields.max_pressure().end()), pressure);
   EXPECT_EQ(*std::max_element(fields.max_shear().begin(), fields.max_shear().end()), shear);
 
-  // Von Mises stress at the surface of a Hertz contact is (1 - 2 nu) p0 for a circle without friction, and
-  // larger by up to sqrt(3) f p0 in full slip.
+  // Von Mises stress at the surface of a Hertz contact: (1 - 2 nu) p0 for a circle without friction. In full
+  // slip it is larger by up to sqrt(3) f p0.
   const double stress = *std::max_element(fields.max_von_mises().begin(), fields.max_von_mises().end());
   measured("largest Von Mises stress of the surface elements / largest pressure", stress / pressure);
   EXPECT_GT(stress, 0.4 * pressure);

@@ -91,8 +91,8 @@ Iterations solve(const Problem& problem, bool with_jacobi) {
   return iterations;
 }
 
-/// A box rail 70 x 170 mm with layers of 3 mm on top, 2 mm stations around the load and 25 mm beyond, on soft
-/// springs every 0.65 m.
+/// A box rail 70 x 170 mm on soft springs every 0.65 m. Layers are 3 mm thick on top; stations are 2 mm apart
+/// around the load and 25 mm beyond.
 Problem rail(double length) {
   Problem problem;
   auto q = graded(0, 0.003, 1.0, 2);

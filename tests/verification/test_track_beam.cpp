@@ -26,7 +26,7 @@ BeamProperties timoshenko_rail(double kappa) {
   return {kBending, kappa * kShear, kMass, kMass * 3217e-8 / kArea};
 }
 
-/// n x n squares of a rectangle.
+/// Section of n x n quads of a rectangle.
 Section rectangle_section(double width, double height, int n) {
   Section one;
   one.p = {0, width, width, 0};
@@ -126,8 +126,8 @@ BeamVehicle wheel() {
   return v;
 }
 
-/// Long waves: Cowper's coefficient holds for the sections' mean deflection, so a part of the strip's Poisson
-/// strains remains. [theory.md, eq. B5]
+/// Long waves: the rest of the strip's Poisson strains, which Cowper's coefficient of the mean deflection
+/// leaves. [theory.md, eq. B5]
 TEST(HeadSpread, OfLongWaves) {
   const double nu = 0.3;
   const double limit = 0.2 * std::sqrt(11 * nu / 30);

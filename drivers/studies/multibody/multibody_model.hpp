@@ -56,9 +56,9 @@ std::string corrugation_difference(const MultibodyModel& here, const MultibodyMo
 /// The model's corrugation with another wavelength [m]. Throws InputError without a sine.
 Corrugation with_wavelength(const MultibodyModel& model, double wavelength);
 
-/// Share of a sine's depth that appears in the height of a wheel at rest on a half-space, crest against
-/// trough, at the scene's depth and under the static load [-]. [Kalker, ch. 4, by
-/// kernels/half_space/half_space]
+/// Gain of the contact filter [-]: share of a sine's depth that the height of a wheel at rest shows, crest
+/// against trough. The wheel rests on a half-space at the scene's depth and under the static load. [Kalker,
+/// ch. 4, by kernels/half_space/half_space]
 double contact_filter_gain(const MultibodyModel& model, double wavelength);
 
 /// Makes the scene's sine as deep as the contact filter leaves it and returns the gain [-]. Throws InputError
