@@ -10,8 +10,7 @@ namespace tread {
 
 /// Element sizes of a section with a running surface.
 struct SectionSize {
-  double surface = 2.2e-3;         ///< size of contact elements: columns in the running band, rows of the top
-                                   ///< layers [m]
+  double surface = 2.2e-3;         ///< contact elements: columns in the running band, top layers' rows [m]
   double coarse = 9e-3;            ///< size of elements away from the contact [m]
   double band_centre = -3e-3;      ///< middle of the running band, coordinate p [m]
   double band_half_width = 20e-3;  ///< [m]

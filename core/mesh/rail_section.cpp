@@ -13,8 +13,7 @@ namespace tread {
 namespace {
 
 constexpr double kTieDepth = 24e-3;      // [m]
-constexpr double kLargestColumn = 4e-3;  // largest column on the cap's surface, which resolves the R13
-                                         // corners [m]
+constexpr double kLargestColumn = 4e-3;  // largest column on the cap's surface: resolves the R13 corners [m]
 constexpr double kCoarseRatio =
     1.6;  // least ratio of coarse to surface size: several fine edges on a coarse one
 
@@ -142,8 +141,7 @@ Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSi
 }
 
 struct CapEdges {
-  double left, right;          // parameters of the logical corners, where the surface is inclined by 45
-                               // degrees
+  double left, right;          // parameters of the logical corners, where the surface leans by 45 degrees
   double left_tie, right_tie;  // parameters where the side faces meet the tie
 };
 

@@ -28,8 +28,7 @@ enum class Sweep { extruded, revolved };
 struct Segment {
   int elements = 0;
   double pitch = 0;         ///< length [m] (extruded) or angle [rad] (revolved) of one element
-  int material_offset = 0;  ///< offset to Section::quad_material in this segment (slab gaps of another
-                            ///< material)
+  int material_offset = 0;  ///< offset to Section::quad_material here (slab gaps of another material)
 };
 
 /// Up to kLanes consecutive stations and the elements that start at them. Lane l holds station
@@ -38,8 +37,7 @@ struct Segment {
 struct Tile {
   int first_station = 0;
   int stations = 0;  ///< used lanes, 1 ... kLanes
-  int elements = 0;  ///< number of elements: `stations`, or 0 in the tile that only holds the last station of
-                     ///< an open block
+  int elements = 0;  ///< `stations`, or 0 in the tile that only holds the last station of an open block
   int pitch_class = 0;
   int next = -1;  ///< tile that holds the station after this one's last element; -1 if none
 };
@@ -65,8 +63,8 @@ struct SweptBlock {
   std::int64_t base = 0;  ///< slot of (tile 0, section node 0, lane 0) in the mesh's node fields
 
   /// Displacement of nodes from their swept position, in their local basis [m], by slot relative to `base`.
-  /// Corrugation moves nodes; so do chords of a coarser block with its interface nodes. Elements that touch a
-  /// shifted node have a shape of their own.
+  /// Nodes are shifted for a corrugation and, at interfaces, onto the chords of a coarser block. Elements
+  /// that touch a shifted node have a shape of their own.
   std::map<std::int64_t, Vec3> node_shift;
 
   std::int64_t slots() const { return static_cast<std::int64_t>(tiles.size()) * section.nodes() * kLanes; }

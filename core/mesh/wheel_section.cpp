@@ -22,11 +22,9 @@ constexpr double kBrakeInnerRadius = 175e-3;
 constexpr double kBrakeGap = 10e-3;  // gap between web and brake ring, bridged at the bolt circle [m]
 constexpr double kHubOuterRadius = 145e-3, kHubTieRadius = 127e-3, kSeatRadius = 95e-3, kHubLength = 178e-3;
 constexpr double kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
-constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // places along
-                                                                                            // y_wheel [m]
+constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // y_wheel [m]
 
-constexpr double kFlangeSize = 4.2e-3;  // size on the flange and its root [m]: two elements on half of the
-                                        // R14
+constexpr double kFlangeSize = 4.2e-3;  // size on the flange and its root [m]: two elements on half the R14
 constexpr double kFlangeRatio = 1.8;    // least ratio of the flange's size to the surface size: the flange
                                         // costs no time step
 constexpr double kCoarseRatio = 1.6;    // least ratio of coarse to surface size

@@ -15,8 +15,7 @@ struct WheelShape {
   double lateral_offset = 6.5e-3;   ///< rail centre line in wheel coordinates, positive to the field side [m]
   double axle_bore = 0.060;         ///< diameter of the bore [m]
   double web_thickness = 0.030;     ///< [m]
-  double brake_ring_thickness = 0;  ///< thickness of each of the two ring plates bolted to the web; 0: none
-                                    ///< [m]
+  double brake_ring_thickness = 0;  ///< thickness of each of the two rings bolted to the web; 0: none [m]
 };
 
 /// Sections in (p, q) = (y_wheel - lateral_offset, r). Nodes of tread.paths["tie"] lie on the edges of

@@ -52,8 +52,8 @@ void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& opti
 enum class BenchMeasure {
   rate,               ///< element-steps a second: for two builds on one machine
   fraction_of_limit,  ///< fraction of the machine's limit in the same run: for two machines
-  instructions,       ///< instructions per unit on one thread: for busy machines with one instruction set and
-                      ///< one compiler
+  instructions,       ///< instructions per unit, one thread: busy machines, equal instruction set and
+                      ///< compiler
 };
 
 /// Compares two files of `bench kernels --json`. Returns true if no row of `after` is slower than its

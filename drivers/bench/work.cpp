@@ -114,8 +114,9 @@ Work update_work(Sweep sweep, bool vertical_only, ValueBytes bytes) {
 namespace {
 
 // Tie of one to three: nine secondary nodes for a primary node. A secondary node takes from a third of a
-// primary section node, because lanes across share their values; from two stations along and five thirds
-// across. A primary node takes from three secondary section nodes, from five stations along and five across.
+// primary section node, because nodes across share the values of a lane; from two stations along and five
+// thirds across. A primary node takes from three secondary section nodes, from five stations along and five
+// across.
 constexpr double kPrimaries = 1.0 / 9;
 constexpr double kStationFlops = 10;  ///< four products and four sums of t and r with the turn, two of y
 constexpr double kAcrossFlops = 6;

@@ -21,8 +21,7 @@ struct SurfaceView {
 /// Values of a surface field on the rows that have been in contact, and one more row on either side.
 struct SurfaceMap {
   std::string column;          ///< name and unit, such as "max_pressure [Pa]"
-  std::vector<double> x, y;    ///< nodes along and across the rail, middles of elements for element fields
-                               ///< [m]
+  std::vector<double> x, y;    ///< nodes along and across the rail, elements' middles for element fields [m]
   std::vector<double> values;  ///< values [station][row], in the field's unit
 };
 

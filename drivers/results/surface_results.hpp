@@ -34,13 +34,10 @@ struct SurfaceResults {
   bool covers(const AxisNode& node) const { return node.x >= first && node.x <= last; }
 
   double max_pressure = 0, max_shear = 0, max_von_mises = 0;  ///< largest stresses over the whole width [Pa]
-  double max_work = 0;                                        ///< largest frictional work over the whole
-                                                              ///< width [J/m2]
+  double max_work = 0;                                        ///< largest work over the whole width [J/m2]
   Statistics von_mises;                                       ///< Von Mises stress on the axis [Pa]
-  Statistics cell_work, sampled_cell_work;                    ///< frictional work on the axis, in kPaperCell
-                                                              ///< [J]
-  double total_work = 0, total_sampled_work = 0;              ///< frictional work of the whole passage and
-                                                              ///< width [J]
+  Statistics cell_work, sampled_cell_work;                    ///< work on the axis, in kPaperCell [J]
+  double total_work = 0, total_sampled_work = 0;              ///< work of the whole passage and width [J]
 };
 
 /// Results with the values of the stretch [first, last] [m].

@@ -70,8 +70,7 @@ class Rolling {
   double checkpoint_at_ = 0;     ///< last checkpoint on the session's clock [s]
   std::optional<Mark> written_;  ///< last checkpoint that is safe
   std::optional<Mark> being_written_;
-  BackgroundTask writer_;  ///< writer of checkpoints and frames, one after another: a checkpoint's frames are
-                           ///< safe
+  BackgroundTask writer_;  ///< writes checkpoints and frames in turn: a checkpoint's frames are safe
 };
 
 }  // namespace tread

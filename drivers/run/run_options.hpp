@@ -22,8 +22,7 @@ struct RunOptions {
   std::string command;        ///< command as typed, for the report
   /// Overrides of `tread resume`: other values of motion.duration, output and stop.
   std::vector<std::string> overrides;
-  CheckpointObserver observer;  ///< observer of each stage of each checkpoint, called by the thread that
-                                ///< writes it
+  CheckpointObserver observer;  ///< called at each stage of each checkpoint by the thread that writes it
 };
 
 }  // namespace tread

@@ -59,8 +59,7 @@ double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoi
 
 struct Moment {
   double push = 0;          ///< tangential force on the wheel over f F_N
-  double shift = 0;         ///< shift of distant points of the wheel against those of the block, backwards
-                            ///< [m]
+  double shift = 0;         ///< backward shift of distant points of the wheel against those of the block [m]
   double stick_radius = 0;  ///< [m]
   double work = 0;          ///< frictional work since the start [J]
   double residual = 0;      ///< residual of the energy [J]

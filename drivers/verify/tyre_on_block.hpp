@@ -29,8 +29,7 @@ struct TyreOnBlock {
   bool guided = false;
   int points = 3;                      ///< points of contact per face and direction
   bool facets = false;                 ///< true for contact on facets in place of exact profiles
-  double penetration = 0;              ///< penetration over Hertz's approach; 0: the program's own penalty
-                                       ///< [-]
+  double penetration = 0;              ///< penetration over Hertz's approach; 0: program's own penalty [-]
   std::string more;                    ///< further tables of the scene
   std::vector<std::string> overrides;  ///< overrides of keys, as on the command line
 

@@ -58,8 +58,7 @@ struct CaseResult {
 };
 
 /// Name that chooses all cases that belong together.
-inline constexpr std::string_view kStandardCases = "standard";  ///< cases that `tread verify` runs without
-                                                                ///< arguments
+inline constexpr std::string_view kStandardCases = "standard";  ///< cases that `tread verify` runs by default
 inline constexpr std::string_view kExtremes = "extremes";       ///< cases at the ends of the program's range
 
 struct VerifyCase {

@@ -177,8 +177,7 @@ struct MeshedWheelset {
 };
 
 MeshedWheelset wheelset_of(double element_size, int count, const ProgressText& progress) {
-  constexpr double kRigid = 5;  // largest frequency of a rigid mode: elastic modes of a wheelset are faster
-                                // [Hz]
+  constexpr double kRigid = 5;  // bound on frequencies of rigid modes; elastic modes are faster [Hz]
   const Model model(free_wheelset(element_size));
   const SweptOutline outline = outline_of(model);
   MeshedWheelset out;

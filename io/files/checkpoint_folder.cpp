@@ -117,8 +117,7 @@ std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std:
 
 void CheckpointFolder::clear() const {
   std::error_code ignored;
-  fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would start the run from the
-                                              // beginning
+  fs::remove(folder_ / "order.h5", ignored);  // first: an order without states would start the run anew
   remove_states(folder_, newest_first(folder_));
   remove_parts(folder_);
   fs::remove(folder_, ignored);

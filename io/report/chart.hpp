@@ -18,8 +18,7 @@ struct Series {
   std::vector<double> x;  ///< abscissae in the unit of the figure's x label
   std::vector<double> y;  ///< as many ordinates, in the unit of the panel's label
   Stroke stroke = Stroke::solid;
-  std::optional<int> colour = {};  ///< colour shared by one quantity in several panels; absent: a colour of
-                                   ///< its own
+  std::optional<int> colour = {};  ///< colour of a quantity in several panels; absent: a colour of its own
 };
 
 /// A line across a panel at a value, or across all panels at an abscissa.

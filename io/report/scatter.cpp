@@ -17,8 +17,7 @@ namespace {
 // Page geometry [px].
 constexpr double kLeft = 58;  // space left of a panel for tick labels
 constexpr double kRight = 30;
-constexpr double kLabel = 60;    // space at the plot's right end, beyond which labels stand left of their
-                                 // dots
+constexpr double kLabel = 60;    // space at the plot's right end, where labels stand left of their dots
 constexpr double kTop = 24;      // space for a panel's title
 constexpr double kBottom = 26;   // space for tick labels
 constexpr double kHeight = 190;  // height of a plot

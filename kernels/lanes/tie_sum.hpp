@@ -43,8 +43,8 @@ struct TieTile {
 };
 
 /// Sums up the links of a tile: the sum replaces a node's values or is added to them. The sum is formed in
-/// double for either storage. For each of the others its order is that of the stations' links, then that of
-/// the nodes' links. Nothing is contracted, so all instruction sets give equal bits.
+/// double for either storage: for each of `others` over the stations' links in their order, then over the
+/// nodes' links in theirs. Nothing is contracted, so all instruction sets give equal bits.
 template <class Real>
 using TieSum = void (*)(const TieTile& tile, bool add, Real* field);
 

@@ -34,8 +34,7 @@ struct CgOptions {
 };
 
 struct CgResult {
-  bool converged = false;  ///< true if the recurrence's residual converged; rounding may leave it below the
-                           ///< true residual
+  bool converged = false;  ///< true if the recurrence's residual, which rounding may lower, converged
   int iterations = 0;
   std::vector<double> residual_history;  ///< 2-norm of the balanced residual, entry k after k iterations [N]
 };

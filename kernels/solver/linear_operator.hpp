@@ -16,8 +16,7 @@ using Operator = std::function<void(double* x, double* y)>;
 struct Spring {
   double stiffness = 0;            ///< [N/m]
   std::vector<std::int64_t> dofs;  ///< free unknowns, each once
-  std::vector<double> weights;     ///< weights of the displacements in the spring's elongation [-], as many
-                                   ///< as dofs
+  std::vector<double> weights;     ///< weights of the displacements in the elongation [-], as many as dofs
 };
 
 /// A secondary node that a tie eliminates and one of the primary nodes that it follows. A primary node is not

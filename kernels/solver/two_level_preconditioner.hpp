@@ -47,9 +47,8 @@ class TwoLevelPreconditioner : public Preconditioner {
   Aggregates aggregates_;
   CoarseSolver coarse_;
   Operator a_;
-  AlignedVector<float> inverse_;  ///< inverse of the diagonal with springs; 0 where an unknown is not free
-                                  ///< [m/N]
-  std::vector<std::pair<std::size_t, float>> changes_;  ///< changes of inverse_ by the springs: place, value
+  AlignedVector<float> inverse_;  ///< inverse diagonal with springs; 0 where an unknown is not free [m/N]
+  std::vector<std::pair<std::size_t, float>> changes_;  ///< changes of inverse_ by springs: place, value
                                                         ///< before
   double lambda_max_ = 0;                               ///< largest eigenvalue of D^-1 A
   mutable AlignedVector<double> a_z_;

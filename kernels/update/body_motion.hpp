@@ -27,8 +27,7 @@ class SpinningBody {
   double inertia() const { return inertia_; }  ///< moment of inertia about the axis [kg m2]
   double transverse_inertia() const {
     return transverse_;
-  }                                              ///< moment of inertia about a diameter through the mass
-                                                 ///< centre [kg m2]
+  }                                              ///< about a diameter through the mass centre [kg m2]
   double centre_y() const { return centre_y_; }  ///< centre of mass, on the axis [m]
   const std::vector<int>& blocks() const { return blocks_; }
 

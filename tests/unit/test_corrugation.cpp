@@ -131,8 +131,7 @@ TEST(Corrugation, RoughnessHoldsTheWavesOfItsBandAlone) {
     for (int i = 0; i < 1200; ++i) {
       const double x = length * i / 1200;
       const double angle = 2 * std::acos(-1.0) * x / wavelength;
-      const double window = 1 - std::cos(2 * std::acos(-1.0) * x / length);  // the fading ends have little
-                                                                             // weight
+      const double window = 1 - std::cos(2 * std::acos(-1.0) * x / length);  // the fading ends count little
       real += window * rough.depth(x, 0) * std::cos(angle) / 600;
       imaginary += window * rough.depth(x, 0) * std::sin(angle) / 600;
     }

@@ -93,8 +93,7 @@ TEST(Cn60, HeadIsAsWideAsTheDrawing) {
     if (p.y > -0.12 && p.y < -0.06) web = std::min(web, p.x);
   }
   EXPECT_NEAR(2 * web, 16.5 * mm, 1e-6);
-  EXPECT_NEAR(2 * widest, 73 * mm, 0.3 * mm);  // the R3 rounding takes the sharp corner's last 0.1 mm on
-                                               // either side
+  EXPECT_NEAR(2 * widest, 73 * mm, 0.3 * mm);  // the R3 rounding takes the sharp corner's last 0.1 mm a side
 }
 
 TEST(Lma, PassesThroughTheListedJunctions) {

@@ -146,8 +146,7 @@ TEST(Relief, WhatStandsBeforeIsDrawnLast) {
       << rows;  // the strip behind comes first
   EXPECT_EQ(count(reliefs_svg(reliefs), "xmlns"), 1U);
   reliefs.reliefs.push_back(reliefs.reliefs.front());
-  EXPECT_NE(reliefs_svg(reliefs).find("M522.0 282.0"), std::string::npos);  // the second relief stands beside
-                                                                            // the first
+  EXPECT_NE(reliefs_svg(reliefs).find("M522.0 282.0"), std::string::npos);  // beside the first relief
   reliefs.reliefs.back().values.pop_back();
   EXPECT_THROW(reliefs_html(reliefs), std::logic_error);
 }

@@ -89,9 +89,7 @@ duration = "0.1 ms"
   const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.steel);
   const TrackBeam rail = rail_beam(scene, properties);
   const FasteningSpec& f = *scene.fastenings;
-  const double weight = properties.mass * scene.gravity * f.spacing / f.stiffness;  // deflection by which the
-                                                                                    // weight sinks the rail
-                                                                                    // evenly
+  const double weight = properties.mass * scene.gravity * f.spacing / f.stiffness;  // sinks the rail evenly
   const double beam = rail.deflection(rail.static_state(0, model.wheel_load()), 0) + weight;
   measured("rail's foot under the wheel", preload.rail_deflection, "m");
   measured("Timoshenko beam", beam, "m");

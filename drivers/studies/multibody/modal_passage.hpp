@@ -66,8 +66,7 @@ class ModalPassage {
   const ModalTrack* track_;
   BeamVehicle vehicle_;
   double dt_;
-  std::vector<double> state_, rate_, acceleration_, before_;  ///< values by mode; before_: values of the last
-                                                              ///< step
+  std::vector<double> state_, rate_, acceleration_, before_;  ///< by mode; before_: values of the last step
   std::vector<double> shape_, scratch_;
   Mass wheel_, sprung_;
   bool first_ = true;

@@ -153,8 +153,7 @@ std::string corrugation_difference(const MultibodyModel& here, const MultibodyMo
                                    difference("the corrugation's end", " m", ours.last(), theirs.last())})
     if (!apart.empty()) return apart;
   constexpr int kPlaces = 1000;
-  constexpr double kSame = 0.01;  // share of the largest depth: the place of contact depends slightly on the
-                                  // mesh
+  constexpr double kSame = 0.01;  // share of the largest depth: the mesh slightly affects the contact's place
   double deepest = 0;
   double apart = 0;
   for (int i = 0; i <= kPlaces; ++i) {

@@ -31,8 +31,7 @@ struct CrestPeak {
 
 struct MultibodyStep {
   std::optional<int> modes;    ///< number of modes; absent: all below 20 kHz
-  std::optional<double> step;  ///< step [s]; absent: half the stable step, a fortieth of a wave's passing at
-                               ///< most
+  std::optional<double> step;  ///< step [s]; absent: half the stable step, at most 1/40 of a wave's passing
 };
 
 struct MultibodyResult {

@@ -8,8 +8,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kWay = 3.02;     ///< place past the corrugation's end at 2.96 m and the solution zone's at 3
-                                  ///< m [m]
+constexpr double kWay = 3.02;     ///< end past the corrugation's at 2.96 m and the solution zone's at 3 m [m]
 constexpr double kUsualRamp = 5;  ///< [ms]
 
 std::string title_of(const Passage& p) {

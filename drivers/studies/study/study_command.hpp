@@ -15,8 +15,7 @@ struct StudyOptions {
   std::filesystem::path output;        ///< output directory; may be empty with `list`
   std::string quality;                 ///< quality of all points; empty: the scene's
   std::vector<std::string> overrides;  ///< overrides of all points
-  int jobs = 0;                        ///< number of runs at once; 0: the study's, or as many as cores and
-                                       ///< memory allow
+  int jobs = 0;                        ///< runs at once; 0: the study's, or as cores and memory allow
   int threads = 0;                     ///< threads of one run; 0: the study's, or 1
   bool retry = false;                  ///< true to run failed points, too
   bool no_share = false;               ///< true if every point rolls from the start
