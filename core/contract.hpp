@@ -1,10 +1,10 @@
 #pragma once
 // Contracts of functions, checked in debug builds (preset `debug`) and absent from release builds.
 //
-//   TREAD_EXPECT(condition)  what a function demands of its arguments
-//   TREAD_ENSURE(condition)  what a function promises of its results
+//   TREAD_EXPECT(condition)  precondition: demand on a function's arguments
+//   TREAD_ENSURE(condition)  postcondition: promise of a function's results
 //
-// A broken contract is a defect of the program, not of its input: the process says where and aborts.
+// A broken contract is a defect of the program, not of its input: the process names the place and aborts.
 
 #ifdef NDEBUG
 #define TREAD_EXPECT(condition) static_cast<void>(sizeof(!(condition)))
