@@ -158,6 +158,27 @@ Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
   return series;
 }
 
+/// Creepage from the way `from` [m] on beside the half-space, and the traction coefficient.
+Figure transient_figure(const Transient& transient, const Curve& ours, const Reference& reference,
+                        double from) {
+  Series force{"F_L / F_N", {}, {}, Stroke::solid};
+  for (const Place& place : transient.places) {
+    force.x.push_back(1e3 * place.way);
+    force.y.push_back(place.force);
+  }
+  Figure figure;
+  figure.title = "From a shift to steady rolling";
+  figure.x_label = "Position of the wheel [mm]";
+  figure.panels = {{"Creepage [%]",
+                    {shown("finite elements", ours, from, Stroke::solid),
+                     shown("half-space", reference.curve, 0, Stroke::dashed)},
+                    {{100 * reference.steady, "steady"}},
+                    260,
+                    std::nullopt},
+                   {"Traction coefficient [-]", {force}, {}, 160, std::nullopt}};
+  return figure;
+}
+
 CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& progress) {
   TyreOnBlock bodies = tyre_of(inputs, false);
   bodies.friction = inputs["friction"];
@@ -183,7 +204,6 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   const Curve ours = creepage_curve(transient, window);
   Reference reference = reference_of(bodies, mu * bodies.load, way);
   for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift lies in the middle of the growth
-  Series force{"F_L / F_N", {}, {}, Stroke::solid};
   double difference = 0;
   const Statistics full = statistics(
       transient.places, [&](const Place& place) { return place.way >= grown; },
@@ -193,10 +213,6 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   for (std::size_t i = 0; i < ours.way.size(); ++i) {
     if (ours.way[i] < from) continue;
     difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference.curve, ours.way[i])));
-  }
-  for (const Place& place : transient.places) {
-    force.x.push_back(1e3 * place.way);
-    force.y.push_back(place.force);
   }
   const Peak highest = peak_of(ours, from, sign);
   const Peak top = peak_of(reference.curve, 0, sign);
@@ -209,17 +225,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
                      {"smallest F_L / F_N under the full torque", "-", full.min, mu, 0.05},
                      {"largest F_L / F_N under the full torque", "-", full.max, mu, 0.05},
                      {"energy residual / frictional work", "-", transient.residual, 0, 0.01, true}};
-  Figure figure;
-  figure.title = "From a shift to steady rolling";
-  figure.x_label = "Position of the wheel [mm]";
-  figure.panels = {{"Creepage [%]",
-                    {shown("finite elements", ours, from, Stroke::solid),
-                     shown("half-space", reference.curve, 0, Stroke::dashed)},
-                    {{100 * reference.steady, "steady"}},
-                    260,
-                    std::nullopt},
-                   {"Traction coefficient [-]", {force}, {}, 160, std::nullopt}};
-  result.figures.push_back(std::move(figure));
+  result.figures.push_back(transient_figure(transient, ours, reference, from));
   return result;
 }
 
