@@ -2,34 +2,34 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
 std::string json_line(const BenchRow& row) {
   const BenchKey& key = row.key;
-  JsonWriter json(JsonWriter::Layout::line);
-  json.begin_object()
-      .member("kernel", std::string_view(key.kernel))
-      .member("path", std::string_view(key.path))
-      .member("precision", std::string_view(key.precision))
-      .member("backend", std::string_view(key.backend))
-      .member("lanes", std::string_view(key.lanes))
-      .member("threads", key.threads)
-      .member("elements", key.elements)
-      .member("element_steps_per_s", row.rate())
-      .member("gb_per_s", 1e-9 * row.rate() * row.work.bytes)
-      .member("gflops", 1e-9 * row.rate() * row.work.flops)
-      .member("fraction_of_limit", row.fraction_of_limit())
-      .member("limited_by", row.limit.name())
-      .member("unit", std::string_view(row.unit))
-      .member("bytes_per_element_step", row.work.bytes)
-      .member("flops_per_element_step", row.work.flops)
-      .member("spread", row.measured.spread)
-      .member("repetitions", row.measured.repetitions);
-  if (row.instructions > 0) json.member("instructions_per_element_step", row.instructions);
-  return json.end_object().text();
+  Json json = {{"kernel", key.kernel},
+               {"path", key.path},
+               {"precision", key.precision},
+               {"backend", key.backend},
+               {"lanes", key.lanes},
+               {"threads", key.threads},
+               {"elements", key.elements},
+               {"element_steps_per_s", row.rate()},
+               {"gb_per_s", 1e-9 * row.rate() * row.work.bytes},
+               {"gflops", 1e-9 * row.rate() * row.work.flops},
+               {"fraction_of_limit", row.fraction_of_limit()},
+               {"limited_by", row.limit.name()},
+               {"unit", row.unit},
+               {"bytes_per_element_step", row.work.bytes},
+               {"flops_per_element_step", row.work.flops},
+               {"spread", row.measured.spread},
+               {"repetitions", row.measured.repetitions}};
+  if (row.instructions > 0) json["instructions_per_element_step"] = row.instructions;
+  return json_line(json);
 }
 
 std::vector<Column> key_columns() {

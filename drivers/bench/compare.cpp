@@ -7,7 +7,7 @@
 #include "drivers/bench/bench_command.hpp"
 #include "drivers/bench/bench_row.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_lines.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 

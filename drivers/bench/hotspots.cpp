@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
@@ -12,7 +13,7 @@
 #include "drivers/bench/step_work.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "kernels/blocks/internal_force.hpp"
 
 namespace tread {
@@ -137,28 +138,27 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
                        bool counted) {
   std::string lines;
   for (const Hotspot& s : spots) {
-    JsonWriter json(JsonWriter::Layout::line);
-    json.begin_object()
-        .member("phase", s.name)
-        .member("backend", backend())
-        .member("threads", threads())
-        .member("elements", elements)
-        .member("repetitions", measured.repetitions)
-        .member("spread", measured.spread)
-        .member("seconds_per_step", s.seconds)
-        .member("share", s.seconds / spots.back().seconds)
-        .member("parallel_share", s.parallel_share)
-        .member("imbalance", s.imbalance)
-        .member("bytes_per_step", s.load.bytes)
-        .member("flops_per_step", s.load.flops)
-        .member("gb_per_s", 1e-9 * s.load.bytes / s.seconds)
-        .member("gflops", 1e-9 * s.load.flops / s.seconds)
-        .member("fraction_of_limit", s.limit.seconds / s.seconds);
-    if (counted)
-      json.member("cycles", s.counters.cycles)
-          .member("instructions", s.counters.instructions)
-          .member("cache_misses", s.counters.cache_misses);
-    lines += json.end_object().text();
+    Json json = {{"phase", s.name},
+                 {"backend", backend()},
+                 {"threads", threads()},
+                 {"elements", elements},
+                 {"repetitions", measured.repetitions},
+                 {"spread", measured.spread},
+                 {"seconds_per_step", s.seconds},
+                 {"share", s.seconds / spots.back().seconds},
+                 {"parallel_share", s.parallel_share},
+                 {"imbalance", s.imbalance},
+                 {"bytes_per_step", s.load.bytes},
+                 {"flops_per_step", s.load.flops},
+                 {"gb_per_s", 1e-9 * s.load.bytes / s.seconds},
+                 {"gflops", 1e-9 * s.load.flops / s.seconds},
+                 {"fraction_of_limit", s.limit.seconds / s.seconds}};
+    if (counted) {
+      json["cycles"] = s.counters.cycles;
+      json["instructions"] = s.counters.instructions;
+      json["cache_misses"] = s.counters.cache_misses;
+    }
+    lines += json_line(json);
   }
   return lines;
 }

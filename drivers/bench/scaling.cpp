@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
@@ -12,7 +13,7 @@
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/rolling_scene.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/blocks/time_update.hpp"
 
@@ -168,25 +169,20 @@ class Scaling {
 
   std::string json() const {
     std::string lines;
-    for (const ScalingRow& r : rows_) {
-      JsonWriter json(JsonWriter::Layout::line);
-      json.begin_object()
-          .member("kind", r.kind)
-          .member("backend", r.backend)
-          .member("threads", r.threads)
-          .member("elements", r.elements)
-          .member("seconds_per_step", r.step.measured.seconds)
-          .member("element_steps_per_s", static_cast<double>(r.elements) / r.step.measured.seconds)
-          .member("efficiency", r.efficiency())
-          .member("lost_serial", r.lost_serial())
-          .member("lost_waiting", r.lost_waiting())
-          .member("lost_slower", r.lost_slower())
-          .member("triad_ratio", r.triad)
-          .member("spread", r.step.measured.spread)
-          .member("repetitions", r.step.measured.repetitions)
-          .end_object();
-      lines += json.text();
-    }
+    for (const ScalingRow& r : rows_)
+      lines += json_line({{"kind", r.kind},
+                          {"backend", r.backend},
+                          {"threads", r.threads},
+                          {"elements", r.elements},
+                          {"seconds_per_step", r.step.measured.seconds},
+                          {"element_steps_per_s", static_cast<double>(r.elements) / r.step.measured.seconds},
+                          {"efficiency", r.efficiency()},
+                          {"lost_serial", r.lost_serial()},
+                          {"lost_waiting", r.lost_waiting()},
+                          {"lost_slower", r.lost_slower()},
+                          {"triad_ratio", r.triad},
+                          {"spread", r.step.measured.spread},
+                          {"repetitions", r.step.measured.repetitions}});
     return lines;
   }
 

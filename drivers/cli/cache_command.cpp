@@ -3,12 +3,13 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "drivers/process/progress.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -30,16 +31,14 @@ void show_text(const ContentCache& cache, const std::vector<ContentCache::Entry>
 
 void show_json(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
                std::int64_t bytes) {
-  JsonWriter json;
-  const std::string folder = cache.folder().string();
-  json.begin_object().member("folder", std::string_view(folder));
-  json.member("bytes", bytes).member("limit_bytes", cache.limit()).key("preloads").begin_array();
-  for (const ContentCache::Entry& entry : entries) {
-    const std::string name = entry.path.filename().string();
-    json.begin_object().member("file", std::string_view(name)).member("bytes", entry.bytes);
-    json.member("unused_s", age(entry)).end_object();
-  }
-  fmt::print("{}", json.end_array().end_object().text());
+  Json preloads = Json::array();
+  for (const ContentCache::Entry& entry : entries)
+    preloads.push_back(
+        {{"file", entry.path.filename().string()}, {"bytes", entry.bytes}, {"unused_s", age(entry)}});
+  fmt::print("{}", json_text({{"folder", cache.folder().string()},
+                              {"bytes", bytes},
+                              {"limit_bytes", cache.limit()},
+                              {"preloads", preloads}}));
 }
 
 }  // namespace

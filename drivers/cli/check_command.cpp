@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
@@ -10,7 +12,7 @@
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -49,51 +51,36 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
 }
 
 std::string check_json(const Model& model, const Estimate& e, const std::optional<Advice>& advice) {
-  JsonWriter json;
-  json.begin_object().member("ok", true).key("problems").begin_array().end_array();
-  json.member("elements", model.elements()).member("nodes", model.nodes());
-  json.key("blocks").begin_array();
+  Json json = {{"ok", true}, {"problems", Json::array()}};
+  json["elements"] = model.elements();
+  json["nodes"] = model.nodes();
+  json["blocks"] = Json::array();
   for (const SweptBlock& block : model.mesh.blocks)
-    json.begin_object()
-        .member("name", std::string_view(block.name))
-        .member("elements", block.elements())
-        .member("nodes", block.nodes())
-        .end_object();
-  json.end_array();
-  if (e.steps > 0)
-    json.member("dt_s", e.dt)
-        .member("stable_step_s", e.limit.stable_step)
-        .member("dt_reason", std::string_view(e.limit.reason))
-        .member("steps", e.steps);
-  json.member("memory_bytes", e.memory)
-      .member("disk_bytes", e.disk.results)
-      .member("frame_bytes", e.disk.frames)
-      .member("checkpoint_bytes", e.disk.checkpoints)
-      .member("history_rows", e.disk.rows);
-  json.member("threads", threads())
-      .member("preload_s", e.preload_seconds)
-      .member("rolling_s", e.rolling_seconds);
-  json.key("phases").begin_array();
-  for (const PhaseInfo& phase : phases(model)) {
-    json.begin_object().member("name", std::string_view(phase.name));
-    for (const auto& [key, names] : {std::pair{"reads", phase.reads}, std::pair{"writes", phase.writes}}) {
-      json.key(key).begin_array();
-      for (const std::string& name : names) json.value(std::string_view(name));
-      json.end_array();
-    }
-    json.end_object();
+    json["blocks"].push_back(
+        {{"name", block.name}, {"elements", block.elements()}, {"nodes", block.nodes()}});
+  if (e.steps > 0) {
+    json["dt_s"] = e.dt;
+    json["stable_step_s"] = e.limit.stable_step;
+    json["dt_reason"] = e.limit.reason;
+    json["steps"] = e.steps;
   }
-  json.end_array().key("fields").begin_array();
+  json["memory_bytes"] = e.memory;
+  json["disk_bytes"] = e.disk.results;
+  json["frame_bytes"] = e.disk.frames;
+  json["checkpoint_bytes"] = e.disk.checkpoints;
+  json["history_rows"] = e.disk.rows;
+  json["threads"] = threads();
+  json["preload_s"] = e.preload_seconds;
+  json["rolling_s"] = e.rolling_seconds;
+  json["phases"] = Json::array();
+  for (const PhaseInfo& phase : phases(model))
+    json["phases"].push_back({{"name", phase.name}, {"reads", phase.reads}, {"writes", phase.writes}});
+  json["fields"] = Json::array();
   for (const FieldInfo& field : fields(model))
-    json.begin_object()
-        .member("name", std::string_view(field.name))
-        .member("unit", std::string_view(field.unit))
-        .member("entity", std::string_view(field.entity))
-        .member("bytes", field.bytes)
-        .end_object();
-  json.end_array();
-  if (advice) add_advice(*advice, json);
-  return json.end_object().text();
+    json["fields"].push_back(
+        {{"name", field.name}, {"unit", field.unit}, {"entity", field.entity}, {"bytes", field.bytes}});
+  if (advice) json["advice"] = advice_json(*advice);
+  return json_text(json);
 }
 
 }  // namespace

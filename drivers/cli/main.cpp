@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@
 #include "drivers/run/run_scene.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/scene_reader.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace {
 
@@ -57,17 +58,14 @@ struct SceneCommand {
 };
 
 void print_problems(const std::vector<tread::Problem>& problems) {
-  tread::JsonWriter json;
-  json.begin_object().member("ok", false).key("problems").begin_array();
+  tread::Json list = tread::Json::array();
   for (const tread::Problem& problem : problems)
-    json.begin_object()
-        .member("file", std::string_view(problem.file))
-        .member("line", problem.line)
-        .member("column", problem.column)
-        .member("key", std::string_view(problem.key))
-        .member("message", std::string_view(problem.message))
-        .end_object();
-  fmt::print("{}", json.end_array().end_object().text());
+    list.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"column", problem.column},
+                    {"key", problem.key},
+                    {"message", problem.message}});
+  fmt::print("{}", tread::json_text({{"ok", false}, {"problems", list}}));
 }
 
 /// Calls `action`; with `json` what is wrong goes to stdout as a list, too.

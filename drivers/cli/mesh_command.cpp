@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/process/machine.hpp"
@@ -10,7 +12,7 @@
 #include "io/files/output_file.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "io/vtk/vtkhdf.hpp"
 
 namespace tread {
@@ -106,47 +108,40 @@ void write_mesh(const Model& model, const std::filesystem::path& directory) {
                  resting_places(model));
 }
 
-void write_extreme(JsonWriter& json, const char* name, const Extreme& extreme) {
-  json.key(name).begin_object().member("value", extreme.value).key("at_m").begin_array();
-  json.value(extreme.at.x).value(extreme.at.y).value(extreme.at.z).end_array().end_object();
+Json extreme_json(const Extreme& extreme) {
+  return {{"value", extreme.value}, {"at_m", {extreme.at.x, extreme.at.y, extreme.at.z}}};
 }
 
 std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& blocks, const StepLimit& limit) {
-  JsonWriter json;
-  json.begin_object().member("elements", model.elements()).member("nodes", model.nodes());
-  json.key("blocks").begin_array();
+  Json json = {{"elements", model.elements()}, {"nodes", model.nodes()}};
+  json["blocks"] = Json::array();
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const BlockMeasures& b = blocks[i];
-    json.begin_object()
-        .member("name", std::string_view(b.name))
-        .member("elements", b.elements)
-        .member("nodes", b.nodes);
-    json.member("quads", b.quads).member("stations", b.stations);
-    write_extreme(json, "shortest_edge_m", b.shortest_edge);
-    write_extreme(json, "longest_edge_m", b.longest_edge);
-    write_extreme(json, "worst_quality", b.worst_quality);
-    json.member("mass_kg", b.mass).member("swept_mass_kg", b.swept_mass);
-    json.member("stiffest_element_step_s", limit.stiffest[i].step).end_object();
+    json["blocks"].push_back({{"name", b.name},
+                              {"elements", b.elements},
+                              {"nodes", b.nodes},
+                              {"quads", b.quads},
+                              {"stations", b.stations},
+                              {"shortest_edge_m", extreme_json(b.shortest_edge)},
+                              {"longest_edge_m", extreme_json(b.longest_edge)},
+                              {"worst_quality", extreme_json(b.worst_quality)},
+                              {"mass_kg", b.mass},
+                              {"swept_mass_kg", b.swept_mass},
+                              {"stiffest_element_step_s", limit.stiffest[i].step}});
   }
-  json.end_array().key("bodies").begin_array();
+  json["bodies"] = Json::array();
   for (const BodyMass& body : bodies_of(model, blocks))
-    json.begin_object()
-        .member("name", std::string_view(body.name))
-        .member("mass_kg", body.mass)
-        .member("nominal_kg", body.nominal)
-        .end_object();
-  json.end_array();
+    json["bodies"].push_back({{"name", body.name}, {"mass_kg", body.mass}, {"nominal_kg", body.nominal}});
   if (model.wheelset) {
-    json.key("wheelset").begin_object();
-    json.member("polar_inertia_kg_m2", model.wheelset->inertia());
-    json.member("transverse_inertia_kg_m2", model.wheelset->transverse_inertia());
-    json.member("centre_y_m", model.wheelset->centre_y());
-    if (model.index.axle >= 0) json.member("brake_ring_thickness_m", model.brake_ring_thickness);
-    json.end_object();
+    Json& wheelset = json["wheelset"];
+    wheelset["polar_inertia_kg_m2"] = model.wheelset->inertia();
+    wheelset["transverse_inertia_kg_m2"] = model.wheelset->transverse_inertia();
+    wheelset["centre_y_m"] = model.wheelset->centre_y();
+    if (model.index.axle >= 0) wheelset["brake_ring_thickness_m"] = model.brake_ring_thickness;
   }
-  json.member("stable_step_s", limit.stable_step)
-      .member("stable_step_reason", std::string_view(limit.reason));
-  return json.end_object().text();
+  json["stable_step_s"] = limit.stable_step;
+  json["stable_step_reason"] = limit.reason;
+  return json_text(json);
 }
 
 }  // namespace

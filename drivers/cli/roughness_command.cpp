@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,7 +15,7 @@
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -83,25 +84,18 @@ std::string levels_csv(const Outcome& o) {
 }
 
 std::string levels_json(const Outcome& o, const RoughnessOptions& options) {
-  JsonWriter json;
-  json.begin_object();
-  json.member("file", std::string_view(options.file.string()));
-  json.member("samples", o.profile.height.size()).member("spacing_m", o.profile.spacing);
-  json.member("interpolated", o.profile.resampled);
-  json.member("segments", o.levels.segments).member("segment_length_m", o.levels.segment_length);
-  json.member("processed", !options.raw);
-  json.member("spikes", o.spikes).member("largest_change_by_disc_m", o.pits);
-  json.key("bands").begin_array();
+  Json json = {{"file", options.file.string()},     {"samples", o.profile.height.size()},
+               {"spacing_m", o.profile.spacing},    {"interpolated", o.profile.resampled},
+               {"segments", o.levels.segments},     {"segment_length_m", o.levels.segment_length},
+               {"processed", !options.raw},         {"spikes", o.spikes},
+               {"largest_change_by_disc_m", o.pits}};
   const std::vector<RoughnessBand>& bands = roughness_bands();
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    json.begin_object().member("wavelength_m", bands[i].nominal).key("level_dB_re_1_um");
-    if (o.levels.level[i])
-      json.value(*o.levels.level[i]);
-    else
-      json.null();
-    json.member("limit_iso_3095_dB_re_1_um", bands[i].limit).end_object();
-  }
-  return json.end_array().end_object().text();
+  json["bands"] = Json::array();
+  for (std::size_t i = 0; i < bands.size(); ++i)
+    json["bands"].push_back({{"wavelength_m", bands[i].nominal},
+                             {"level_dB_re_1_um", number_or_null(o.levels.level[i])},
+                             {"limit_iso_3095_dB_re_1_um", bands[i].limit}});
+  return json_text(json);
 }
 
 Figure profile_figure(const Outcome& o) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "core/error.hpp"
@@ -17,7 +18,7 @@
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
 #include "io/scene/schema.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -109,31 +110,27 @@ Table table_of(std::span<const Outcome> outcomes) {
 }
 
 std::string json_lines(const Outcome& outcome) {
-  std::string lines;
-  for (const Finding& f : outcome.result.findings) {
-    JsonWriter json(JsonWriter::Layout::line);
-    json.begin_object().member("case", std::string_view(outcome.verified->name)).key("inputs").begin_object();
-    for (const VerifyInput& input : outcome.inputs.all()) {
-      if (input.quantity)
-        json.member(input.name, std::string_view(shown(input)));
-      else
-        json.member(input.name, input.value);
-    }
-    json.end_object()
-        .member("quantity", std::string_view(f.quantity))
-        .member("value", f.value)
-        .member("unit", std::string_view(f.unit))
-        .member("reference", f.reference)
-        .member("error", f.error())
-        .member("error_is_relative", !f.absolute)
-        .key("bound");
-    if (f.bound)
-      json.value(*f.bound);
+  Json inputs = Json::object();
+  for (const VerifyInput& input : outcome.inputs.all()) {
+    Json& value = inputs[std::string(input.name)];
+    if (input.quantity)
+      value = shown(input);
     else
-      json.null();
-    json.member("pass", f.pass()).member("seconds", outcome.seconds).end_object();
-    lines += json.text();
+      value = input.value;
   }
+  std::string lines;
+  for (const Finding& f : outcome.result.findings)
+    lines += json_line({{"case", outcome.verified->name},
+                        {"inputs", inputs},
+                        {"quantity", f.quantity},
+                        {"value", f.value},
+                        {"unit", f.unit},
+                        {"reference", f.reference},
+                        {"error", f.error()},
+                        {"error_is_relative", !f.absolute},
+                        {"bound", number_or_null(f.bound)},
+                        {"pass", f.pass()},
+                        {"seconds", outcome.seconds}});
   return lines;
 }
 

@@ -2,12 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
 #include "drivers/engine/model.hpp"
 #include "io/scene/schema.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -28,22 +29,19 @@ void print_version(bool json) {
                TREAD_VERSION, TREAD_COMPILER, TREAD_BUILD, joined(sets), TREAD_PACKAGES);
     return;
   }
-  JsonWriter out;
-  out.begin_object()
-      .member("version", TREAD_VERSION)
-      .member("compiler", TREAD_COMPILER)
-      .member("build", TREAD_BUILD);
-  out.key("instruction_sets").begin_array();
-  for (const char* name : sets) out.value(name);
-  out.end_array().key("packages").begin_object();
+  Json packages = Json::object();
   std::string_view rest = TREAD_PACKAGES;
   while (!rest.empty()) {
     const std::string_view package = rest.substr(0, rest.find(", "));
     rest.remove_prefix(std::min(rest.size(), package.size() + 2));
     const auto blank = package.find(' ');
-    out.member(package.substr(0, blank), package.substr(blank + 1));
+    packages[std::string(package.substr(0, blank))] = package.substr(blank + 1);
   }
-  fmt::print("{}", out.end_object().end_object().text());
+  fmt::print("{}", json_text({{"version", TREAD_VERSION},
+                              {"compiler", TREAD_COMPILER},
+                              {"build", TREAD_BUILD},
+                              {"instruction_sets", sets},
+                              {"packages", packages}}));
 }
 
 void print_scene_reference(bool json) {
@@ -51,9 +49,7 @@ void print_scene_reference(bool json) {
     fmt::print("{}", scene_reference());
     return;
   }
-  JsonWriter out;
-  fmt::print("{}",
-             out.begin_object().member("markdown", std::string_view(scene_reference())).end_object().text());
+  fmt::print("{}", json_text({{"markdown", scene_reference()}}));
 }
 
 }  // namespace tread

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -10,7 +11,7 @@
 #include "drivers/process/machine.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/step_files.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -151,16 +152,11 @@ void FrameFiles::write_copy() {
 }
 
 void FrameFiles::write_series() const {
-  JsonWriter json;
-  json.begin_object().member("file-series-version", std::string_view("1.0")).key("files").begin_array();
-  for (const std::int64_t steps : steps_in(folder(), kSuffix)) {
-    const std::string name = step_file(kFolder, steps, kSuffix).string();
-    json.begin_object()
-        .member("name", std::string_view(name))
-        .member("time", static_cast<double>(steps) * dt_)
-        .end_object();
-  }
-  show_text_file(directory_ / kSeries, json.end_array().end_object().text());
+  Json files = Json::array();
+  for (const std::int64_t steps : steps_in(folder(), kSuffix))
+    files.push_back(
+        {{"name", step_file(kFolder, steps, kSuffix).string()}, {"time", static_cast<double>(steps) * dt_}});
+  show_text_file(directory_ / kSeries, json_text({{"file-series-version", "1.0"}, {"files", files}}));
 }
 
 std::vector<float> FrameFiles::points() const {

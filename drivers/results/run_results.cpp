@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -203,100 +204,89 @@ void evaluate(const Model& model, RunResults& r) {
 
 namespace {
 
-void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s) {
-  json.key(key).begin_object();
-  json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
+Json statistics_json(const Statistics& s) {
+  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
 }
 
-/// Largest values over the width, statistics on the axis; of the stretch, where there is one.
-void add_surface(JsonWriter& json, const SurfaceResults& s) {
-  json.key("surface").begin_object();
-  json.member("axis_y_m", s.axis_y);
+/// Largest values over the width and statistics on the axis, where the run has an evaluated stretch.
+Json surface_json(const SurfaceResults& s) {
+  Json json = {{"axis_y_m", s.axis_y}};
   if (s.last > s.first) {
-    json.key("stretch_x_m").begin_array().value(s.first).value(s.last).end_array();
-    json.member("max_pressure_Pa", s.max_pressure);
-    json.member("max_shear_Pa", s.max_shear);
-    json.member("max_von_mises_Pa", s.max_von_mises);
-    json.member("max_frictional_work_J_per_m2", s.max_work);
-    add_statistics(json, "axis_max_von_mises_Pa", s.von_mises);
-    add_statistics(json, "axis_frictional_work_J_in_1.1_mm_cell", s.cell_work);
-    json.member("axis_frictional_work_range_J_in_1.1_mm_cell", s.cell_work.range());
-    json.member("axis_frictional_work_range_sampled_J_in_1.1_mm_cell", s.sampled_cell_work.range());
+    json["stretch_x_m"] = {s.first, s.last};
+    json["max_pressure_Pa"] = s.max_pressure;
+    json["max_shear_Pa"] = s.max_shear;
+    json["max_von_mises_Pa"] = s.max_von_mises;
+    json["max_frictional_work_J_per_m2"] = s.max_work;
+    json["axis_max_von_mises_Pa"] = statistics_json(s.von_mises);
+    json["axis_frictional_work_J_in_1.1_mm_cell"] = statistics_json(s.cell_work);
+    json["axis_frictional_work_range_J_in_1.1_mm_cell"] = s.cell_work.range();
+    json["axis_frictional_work_range_sampled_J_in_1.1_mm_cell"] = s.sampled_cell_work.range();
   }
-  json.member("frictional_work_every_step_J", s.total_work);
-  json.member("frictional_work_sampled_J", s.total_sampled_work);
-  json.member("frictional_work_sampled_difference_percent",
-              s.total_work > 0 ? 100 * (s.total_sampled_work / s.total_work - 1) : 0.0);
-  json.end_object();
+  json["frictional_work_every_step_J"] = s.total_work;
+  json["frictional_work_sampled_J"] = s.total_sampled_work;
+  json["frictional_work_sampled_difference_percent"] =
+      s.total_work > 0 ? 100 * (s.total_sampled_work / s.total_work - 1) : 0.0;
+  return json;
+}
+
+void add_contact(const Model& model, const RunResults& r, Json& json) {
+  json["static_wheel_load_N"] = -r.preload.contact.force_on_rail.z;
+  json["static_max_pressure_Pa"] = r.preload.max_pressure;
+  json["static_max_point_pressure_Pa"] = r.preload.contact.max_pressure;
+  json["static_patch_area_m2"] = r.preload.contact.area;
+  json["static_penetration_m"] = r.preload.contact.max_penetration;
+  json["contact_centre_y_m"] = r.preload.contact.centre.y;
+  json["rail_deflection_m"] = r.preload.rail_deflection;
+  json["wheel_tilt_rad"] = r.preload.tilt;
+  json["wheelset_mass_kg"] = model.wheelset->mass();
+  json["wheelset_inertia_kg_m2"] = model.wheelset->inertia();
+  json["vertical_force_N"] = statistics_json(r.vertical_force);
+  json["longitudinal_force_N"] = statistics_json(r.longitudinal_force);
+  json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
+  json["steady_x_m"] = {r.steady_first, r.steady_last};
+  json["vertical_force_steady_N"] = r.vertical_force_steady;
+  json["traction_coefficient"] = r.traction_coefficient;
+  json["creepage_percent"] = 100 * r.creepage;
+  json["creepage_max_percent"] = 100 * r.creepage_max;
+  json["full_slip_share"] = r.full_slip_share;
+  json["max_pressure_Pa"] = r.max_pressure;
+  json["max_shear_Pa"] = r.max_shear;
+  json["patch_area_m2"] = r.patch_area;
+  json["frictional_work_J"] = r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work;
+  json["frictional_work_decrease_J"] = r.frictional_work_decrease;
+  json["momentum_error"] = r.momentum_error;
+  if (r.surface_fields) json["surface"] = surface_json(r.surface);
 }
 
 }  // namespace
 
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
-  JsonWriter json;
-  json.begin_object();
-  json.member("title", std::string_view(resolved.scene.title));
-  json.member("quality", std::string_view(resolved.scene.quality));
-  json.member("elements", model.elements());
-  json.member("nodes", model.nodes());
-  json.member("steps", r.steps);
-  if (r.origin) {
-    json.key("fork").begin_object();
-    json.member("from", std::string_view(r.origin->folder));
-    json.member("time_s", r.origin->time).member("step", r.origin->steps).end_object();
-  }
-  json.member("dt_s", r.dt);
-  json.member("dt_reason", std::string_view(r.limit.reason));
-  json.member("threads", threads());
-  json.member("mesh_s", r.seconds_mesh);
-  json.member("preload_s", r.seconds_preload);
-  json.member("preload_cached", r.preload_cached != 0);
-  json.member("rolling_s", r.seconds_rolling);
-  json.member("element_steps_per_s",
-              r.seconds_rolling > 0
-                  ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling
-                  : 0.0);
-  json.member("preload_residual", r.preload.residual);
-  if (model.contact) {
-    json.member("static_wheel_load_N", -r.preload.contact.force_on_rail.z);
-    json.member("static_max_pressure_Pa", r.preload.max_pressure);
-    json.member("static_max_point_pressure_Pa", r.preload.contact.max_pressure);
-    json.member("static_patch_area_m2", r.preload.contact.area);
-    json.member("static_penetration_m", r.preload.contact.max_penetration);
-    json.member("contact_centre_y_m", r.preload.contact.centre.y);
-    json.member("rail_deflection_m", r.preload.rail_deflection);
-    json.member("wheel_tilt_rad", r.preload.tilt);
-    json.member("wheelset_mass_kg", model.wheelset->mass());
-    json.member("wheelset_inertia_kg_m2", model.wheelset->inertia());
-    add_statistics(json, "vertical_force_N", r.vertical_force);
-    add_statistics(json, "longitudinal_force_N", r.longitudinal_force);
-    json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
-    json.key("steady_x_m").begin_array().value(r.steady_first).value(r.steady_last).end_array();
-    json.member("vertical_force_steady_N", r.vertical_force_steady);
-    json.member("traction_coefficient", r.traction_coefficient);
-    json.member("creepage_percent", 100 * r.creepage);
-    json.member("creepage_max_percent", 100 * r.creepage_max);
-    json.member("full_slip_share", r.full_slip_share);
-    json.member("max_pressure_Pa", r.max_pressure);
-    json.member("max_shear_Pa", r.max_shear);
-    json.member("patch_area_m2", r.patch_area);
-    json.member("frictional_work_J", r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work);
-    json.member("frictional_work_decrease_J", r.frictional_work_decrease);
-    json.member("momentum_error", r.momentum_error);
-    if (r.surface_fields) add_surface(json, r.surface);
-  }
-  json.member("energy_error", r.energy_error);
-  json.key("energy_by_body_J").begin_array();
+  Json json = {{"title", resolved.scene.title},
+               {"quality", resolved.scene.quality},
+               {"elements", model.elements()},
+               {"nodes", model.nodes()},
+               {"steps", r.steps}};
+  if (r.origin)
+    json["fork"] = {{"from", r.origin->folder}, {"time_s", r.origin->time}, {"step", r.origin->steps}};
+  json["dt_s"] = r.dt;
+  json["dt_reason"] = r.limit.reason;
+  json["threads"] = threads();
+  json["mesh_s"] = r.seconds_mesh;
+  json["preload_s"] = r.seconds_preload;
+  json["preload_cached"] = r.preload_cached != 0;
+  json["rolling_s"] = r.seconds_rolling;
+  json["element_steps_per_s"] =
+      r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling : 0.0;
+  json["preload_residual"] = r.preload.residual;
+  if (model.contact) add_contact(model, r, json);
+  json["energy_error"] = r.energy_error;
+  json["energy_by_body_J"] = Json::array();
   for (std::size_t b = 0; b < r.block_energy.size(); ++b)
-    json.begin_object()
-        .member("body", std::string_view(model.mesh.blocks[b].name))
-        .member("strain", r.block_energy[b].strain)
-        .member("hourglass", r.block_energy[b].hourglass)
-        .end_object();
-  json.end_array();
-  json.member("state_hash", std::string_view(fmt::format("{:016x}", r.state_hash)));
-  json.end_object();
-  return json.text();
+    json["energy_by_body_J"].push_back({{"body", model.mesh.blocks[b].name},
+                                        {"strain", r.block_energy[b].strain},
+                                        {"hourglass", r.block_energy[b].hourglass}});
+  json["state_hash"] = fmt::format("{:016x}", r.state_hash);
+  return json_text(json);
 }
 
 }  // namespace tread

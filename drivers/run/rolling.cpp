@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <nlohmann/json.hpp>
 #include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/report/plain_text.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -216,8 +218,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   text +=
       fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
   text += "; " + way_on<E>();
-  session_->folder.show_status(
-      session_->status("failed").member("text", std::string_view(text)).end_object().text());
+  session_->show("failed", text);
   throw E(text);
 }
 
@@ -255,24 +256,24 @@ std::string Rolling::status() const {
   const Sample& sample = simulation_->sample();
   const double per_step =
       (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
-  JsonWriter json = session_->status("rolling");
-  json.member("time_s", simulation_->time()).member("duration_s", model_->scene.motion->duration);
-  json.member("step", simulation_->steps()).member("steps", end_).member("dt_s", simulation_->dt());
-  if (model_->contact)
-    json.member("wheel_x_m", sample.wheel_x)
-        .member("vertical_force_N", sample.vertical_force)
-        .member("longitudinal_force_N", sample.longitudinal_force);
-  json.member("energy_residual_J", sample.energy.residual);
-  json.member("rolling_s", seconds());
-  json.member("left_s", per_step * static_cast<double>(end_ - simulation_->steps()));
-  json.member("frames", frames_->count());
-  json.member("folder_bytes", session_->folder.bytes());
-  json.key("checkpoint_time_s");
-  if (written_)
-    json.value(written_->time);
-  else
-    json.null();
-  return json.end_object().text();
+  Json json = session_->status("rolling");
+  json["time_s"] = simulation_->time();
+  json["duration_s"] = model_->scene.motion->duration;
+  json["step"] = simulation_->steps();
+  json["steps"] = end_;
+  json["dt_s"] = simulation_->dt();
+  if (model_->contact) {
+    json["wheel_x_m"] = sample.wheel_x;
+    json["vertical_force_N"] = sample.vertical_force;
+    json["longitudinal_force_N"] = sample.longitudinal_force;
+  }
+  json["energy_residual_J"] = sample.energy.residual;
+  json["rolling_s"] = seconds();
+  json["left_s"] = per_step * static_cast<double>(end_ - simulation_->steps());
+  json["frames"] = frames_->count();
+  json["folder_bytes"] = session_->folder.bytes();
+  json["checkpoint_time_s"] = written_ ? Json(written_->time) : Json();
+  return json_text(json);
 }
 
 void Rolling::fill_results() {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "drivers/process/machine.hpp"
 
@@ -37,20 +38,21 @@ std::string RunSession::way_on() const {
   return resumption(folder.path());
 }
 
-JsonWriter RunSession::status(const std::string& stage) const {
+Json RunSession::status(const std::string& stage) const {
   std::array<char, 256> machine{};
   ::gethostname(machine.data(), machine.size() - 1);
-  JsonWriter json;
-  json.begin_object();
-  json.member("stage", std::string_view(stage));
-  json.member("process", ::getpid());
-  json.member("machine", std::string_view(machine.data()));
-  return json;
+  return {{"stage", stage}, {"process", ::getpid()}, {"machine", machine.data()}};
+}
+
+void RunSession::show(const std::string& stage, const std::string& text) const {
+  Json json = status(stage);
+  json["text"] = text;
+  folder.show_status(json_text(json));
 }
 
 void RunSession::enter(const std::string& stage, const std::string& text) const {
   progress.say(fmt::format("[{}] {}", stage, text));
-  folder.show_status(status(stage).member("text", std::string_view(text)).end_object().text());
+  show(stage, text);
 }
 
 }  // namespace tread

@@ -9,7 +9,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/run_options.hpp"
 #include "io/files/checkpoint_folder.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -28,8 +28,11 @@ struct RunSession {
   /// Command that goes on with the run: "`tread resume out`".
   std::string way_on() const;
 
-  /// Start of status.json: an object with stage, process and machine, still open.
-  JsonWriter status(const std::string& stage) const;
+  /// The beginning of status.json: stage, process and machine.
+  Json status(const std::string& stage) const;
+
+  /// Shows stage and text in status.json.
+  void show(const std::string& stage, const std::string& text) const;
 
   /// Says `text` and shows it in status.json.
   void enter(const std::string& stage, const std::string& text) const;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "core/math/hash.hpp"
 #include "io/files/output_file.hpp"
-#include "io/text/json_reader.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -53,11 +53,9 @@ std::string file_key(const std::string& place) {
 void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
   write_text_file(folder / kKeptScene, resolved_toml(resolved));
   if (resolved.source.files.empty()) return;
-  JsonWriter json;
-  json.begin_object();
-  for (const auto& [place, text] : resolved.source.files)
-    json.member(place, std::string_view(checksum(text)));
-  write_text_file(folder / kChecksums, json.end_object().text());
+  Json json;
+  for (const auto& [place, text] : resolved.source.files) json[place] = checksum(text);
+  write_text_file(folder / kChecksums, json_text(json));
 }
 
 KeptScene kept_scene(const fs::path& folder) {

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 #include <string_view>
 
 #include "io/report/markup.hpp"
 #include "io/report/shades.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -97,32 +98,18 @@ double rounded(double millimetres) {
 std::string data(const PatchMovie& movie) {
   const Rows rows = rows_in_contact(movie);
   const std::vector<double> largest = largest_values(movie);
-  JsonWriter json(JsonWriter::Layout::line);
-  const auto numbers = [&json](const char* key, const auto& values, const auto& shown) {
-    json.key(key).begin_array();
-    for (const auto& value : values) json.value(shown(value));
-    json.end_array();
-  };
-  json.begin_object().member("xLabel", movie.x_label).member("yLabel", movie.y_label);
-  numbers("labels", movie.labels, [](const std::string& label) { return std::string_view(label); });
-  numbers("largest", largest, [](double value) { return value; });
-  json.key("stops").begin_array();
-  for (const auto& stop : kShadeStops) {
-    json.begin_array();
-    for (const int part : stop) json.value(part);
-    json.end_array();
-  }
-  json.end_array();
-  numbers("y", std::span(movie.y).subspan(rows.first, rows.last - rows.first), rounded);
-  json.key("frames").begin_array();
+  Json json = {{"xLabel", movie.x_label}, {"yLabel", movie.y_label}, {"labels", movie.labels},
+               {"largest", largest},      {"stops", kShadeStops},    {"y", Json::array()},
+               {"frames", Json::array()}};
+  for (std::size_t i = rows.first; i < rows.last; ++i) json["y"].push_back(rounded(movie.y[i]));
   for (const MovieFrame& frame : movie.frames) {
-    json.begin_object().member("centre", rounded(frame.centre)).member("note", frame.note);
-    numbers("x", frame.x, rounded);
-    json.end_object();
+    Json one = {{"centre", rounded(frame.centre)}, {"note", frame.note}, {"x", Json::array()}};
+    for (const double x : frame.x) one["x"].push_back(rounded(x));
+    json["frames"].push_back(one);
   }
-  json.end_array().member("values", base64(packed(movie, rows, largest))).end_object();
+  json["values"] = base64(packed(movie, rows, largest));
   std::string text;
-  for (const char c : json.text()) text += c == '<' ? "\\u003c" : std::string(1, c);
+  for (const char c : json_line(json)) text += c == '<' ? "\\u003c" : std::string(1, c);
   return text;
 }
 

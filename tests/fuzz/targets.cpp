@@ -22,7 +22,7 @@
 #include "io/files/step_files.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/table_reader.hpp"
-#include "io/text/json_lines.hpp"
+#include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread::fuzz {

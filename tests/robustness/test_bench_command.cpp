@@ -10,7 +10,7 @@
 #include <fstream>
 #include <set>
 
-#include "io/text/json_lines.hpp"
+#include "io/text/json.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "drivers/studies/study/study_plan.hpp"
-#include "io/text/json_reader.hpp"
+#include "io/text/json.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/text/json_lines.hpp"
+#include "io/text/json.hpp"
 #include "tests/program.hpp"
 
 namespace tread {

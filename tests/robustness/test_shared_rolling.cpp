@@ -11,7 +11,7 @@
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/checkpoint_folder.hpp"
-#include "io/text/json_reader.hpp"
+#include "io/text/json.hpp"
 #include "tests/program_test.hpp"
 
 namespace tread {
@@ -149,14 +149,14 @@ class SharedRollingList : public SharedRollingStudy {
 
 TEST_F(SharedRollingList, ShowsWhoBeginsWithWhom) {
   ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json")), 0) << errors();
-  const JsonRecord list = *parse_json(output(), JsonShape::nested);
+  const JsonRecord list = parse_json(output(), "list");
   EXPECT_TRUE(has(text_in(list, "points.0.begins"), "keeps the state at 1."));
   EXPECT_TRUE(has(text_in(list, "points.1.begins"), "from smooth"));
   EXPECT_LT(*number_in(list, "points.2.seconds"), 0.8 * *number_in(list, "points.0.seconds"));
   EXPECT_GT(*number_in(list, "saved_seconds"), 0);
   ASSERT_EQ(call(sweep("all.toml", runs_, "--list --json --no-share")), 0) << errors();
   EXPECT_FALSE(has(output(), "begins"));
-  EXPECT_EQ(number_in(*parse_json(output(), JsonShape::nested), "saved_seconds"), 0);
+  EXPECT_EQ(number_in(parse_json(output(), "list"), "saved_seconds"), 0);
 }
 
 /// Which points are one run up to where; nothing runs.

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/text/json_reader.hpp"
+#include "io/text/json.hpp"
 #include "tests/program.hpp"
 
 namespace tread {
@@ -91,7 +91,7 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
 TEST_F(Sweep, ListsCostWithoutRunning) {
   const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
   EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json", file.string())), 0) << errors();
-  const JsonRecord list = *parse_json(program_.out(), JsonShape::nested);
+  const JsonRecord list = parse_json(program_.out(), "list");
   EXPECT_EQ(text_in(list, "points.1.name"), "velocity=2m_s");
   EXPECT_EQ(text_in(list, "points.1.state"), "waiting");
   EXPECT_GT(number_in(list, "points.1.steps"), 1);
@@ -158,7 +158,7 @@ TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
       "m\" "
       "--set \"corrugation.length=0.1 m\" --set \"corrugation.start=2.41 m\"";
   ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 22 --list --json {}", coarse)), 0) << errors();
-  const JsonRecord list = *parse_json(program_.out(), JsonShape::nested);
+  const JsonRecord list = parse_json(program_.out(), "list");
   EXPECT_EQ(text_in(list, "points.0.name"), "80mm,0.14mm,300km_h,mu=0.3");
   EXPECT_EQ(text_in(list, "points.2.name"), "95mm,0.14mm,300km_h,mu=0.3");
   EXPECT_EQ(list.count("points.3.name"), 0U);

@@ -11,7 +11,7 @@
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/work.hpp"
-#include "io/text/json_lines.hpp"
+#include "io/text/json.hpp"
 #include "kernels/element/element_body.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "io/report/markup.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -161,26 +162,24 @@ std::string growth_csv(const Development& d) {
 }
 
 std::string development_json(const Development& d) {
-  JsonWriter json;
-  json.begin_object().member("passages", d.passages.size()).member("real_passages", d.real_passages());
-  json.member("mean_work_J_per_m2", d.mean_work());
-  json.member("even_wear_m_per_passage", d.plan.per_work * d.mean_work());
-  json.member("verdict", std::string_view(verdict(d)));
-  json.key("bands").begin_array();
+  Json json = {{"passages", d.passages.size()},
+               {"real_passages", d.real_passages()},
+               {"mean_work_J_per_m2", d.mean_work()},
+               {"even_wear_m_per_passage", d.plan.per_work * d.mean_work()},
+               {"verdict", verdict(d)}};
+  json["bands"] = Json::array();
   for (const BandOutcome& b : outcome(d))
-    json.begin_object()
-        .member("wavelength_m", b.wavelength)
-        .member("depth_rms_before_m", b.before)
-        .member("depth_rms_after_m", b.after)
-        .member("growth_of_profile_per_passage", b.growth)
-        .member("growth_by_first_work_per_passage", b.first_growth)
-        .member("growth_by_last_work_per_passage", b.last_growth)
-        .member("growth_per_even_wear_per_m", b.per_wear)
-        .member("lag_of_work_waves", b.lag)
-        .member("coherence", b.coherence)
-        .member("telling", b.telling)
-        .end_object();
-  return json.end_array().end_object().text();
+    json["bands"].push_back({{"wavelength_m", b.wavelength},
+                             {"depth_rms_before_m", b.before},
+                             {"depth_rms_after_m", b.after},
+                             {"growth_of_profile_per_passage", b.growth},
+                             {"growth_by_first_work_per_passage", b.first_growth},
+                             {"growth_by_last_work_per_passage", b.last_growth},
+                             {"growth_per_even_wear_per_m", b.per_wear},
+                             {"lag_of_work_waves", b.lag},
+                             {"coherence", b.coherence},
+                             {"telling", b.telling}});
+  return json_text(json);
 }
 
 Table growth_table(const Development& d) {

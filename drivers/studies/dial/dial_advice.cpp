@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "drivers/process/progress.hpp"
@@ -90,19 +91,18 @@ std::string advice_text(const Advice& advice) {
                             duration_text(advice.cost->seconds()), advice.cost->elements, advice.cost->steps);
 }
 
-void add_advice(const Advice& advice, JsonWriter& json) {
-  json.key("advice").begin_object().member("wanted", advice.wanted);
-  json.member("quantity", std::string_view(advice.quantity));
-  json.member("measured_on", std::string_view(advice.measured_on));
-  json.member("reference", std::string_view(advice.reference));
+Json advice_json(const Advice& advice) {
+  Json json = {{"wanted", advice.wanted},
+               {"quantity", advice.quantity},
+               {"measured_on", advice.measured_on},
+               {"reference", advice.reference}};
   if (advice.row) {
-    json.member("point", std::string_view(advice.row->point));
-    json.member("error", error_of(*advice.row, advice.quantity).value_or(0));
-    json.key("settings").begin_array();
-    for (const std::string& one : advice.row->settings) json.value(std::string_view(one));
-    json.end_array().member("seconds", advice.cost->seconds());
+    json["point"] = advice.row->point;
+    json["error"] = error_of(*advice.row, advice.quantity).value_or(0);
+    json["settings"] = advice.row->settings;
+    json["seconds"] = advice.cost->seconds();
   }
-  json.end_object();
+  return json;
 }
 
 }  // namespace tread

@@ -8,7 +8,7 @@
 #include "drivers/results/estimate.hpp"
 #include "drivers/studies/dial/dial_table.hpp"
 #include "io/scene/scene_reader.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -37,7 +37,7 @@ std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions&
 
 std::string advice_text(const Advice& advice);
 
-/// As the member "advice".
-void add_advice(const Advice& advice, JsonWriter& json);
+/// The member "advice" of `check --json`.
+Json advice_json(const Advice& advice);
 
 }  // namespace tread

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/error.hpp"
 #include "drivers/studies/dial/measured_dial.hpp"
 #include "drivers/studies/study/study_figures.hpp"
-#include "io/text/json_lines.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -173,17 +173,18 @@ std::string dial_csv(const DialTable& table) {
 std::string dial_lines(const DialTable& table) {
   std::string text;
   for (const DialRow& row : table.rows) {
-    JsonWriter json(JsonWriter::Layout::line);
-    json.begin_object().member("scene", std::string_view(table.scene));
-    json.member("reference", std::string_view(table.reference)).member("point", std::string_view(row.point));
-    json.member("settings", std::string_view(fmt::format("{}", fmt::join(row.settings, kSeparator))));
-    json.member("elements", row.elements).member("steps", row.steps).member("minutes", row.minutes);
+    Json json = {
+        {"scene", table.scene},     {"reference", table.reference},
+        {"point", row.point},       {"settings", fmt::format("{}", fmt::join(row.settings, kSeparator))},
+        {"elements", row.elements}, {"steps", row.steps},
+        {"minutes", row.minutes}};
     for (const auto& [name, difference] : row.differences) {
-      json.member(name + "_error", difference.error).member(name + "_mean", difference.mean);
-      if (difference.range) json.member(name + "_range", *difference.range);
-      if (difference.shift) json.member(name + "_shift_m", *difference.shift);
+      json[name + "_error"] = difference.error;
+      json[name + "_mean"] = difference.mean;
+      if (difference.range) json[name + "_range"] = *difference.range;
+      if (difference.shift) json[name + "_shift_m"] = *difference.shift;
     }
-    text += json.end_object().text();
+    text += json_line(json);
   }
   return text;
 }

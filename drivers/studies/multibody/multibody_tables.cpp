@@ -4,66 +4,61 @@
 
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "drivers/studies/multibody/multibody_report.hpp"
 #include "io/report/markup.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
 namespace {
 
-void add_statistics(JsonWriter& json, std::string_view key, const Statistics& s) {
-  json.key(key).begin_object();
-  json.member("mean", s.mean).member("min", s.min).member("max", s.max).end_object();
+Json statistics_json(const Statistics& s) {
+  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
 }
 
-void add_fit(JsonWriter& json, std::string_view key, const CurveFit& fit) {
-  json.key(key).begin_object();
-  add_statistics(json, "vertical_force_N", fit.force);
-  json.member("vertical_force_range_N", fit.force.range());
-  json.member("mean_shift_before_crests_rad", fit.shift);
-  json.member("misfit_rms_N", fit.misfit).end_object();
+Json fit_json(const CurveFit& fit) {
+  return {{"vertical_force_N", statistics_json(fit.force)},
+          {"vertical_force_range_N", fit.force.range()},
+          {"mean_shift_before_crests_rad", fit.shift},
+          {"misfit_rms_N", fit.misfit}};
 }
 
-void add_calibration(JsonWriter& json, const MultibodyOutcome& o) {
+Json calibration_json(const MultibodyOutcome& o) {
   const Calibration& c = *o.calibration;
-  json.key("calibration").begin_object();
-  json.member("contact_C_N_per_m1.5", c.contact);
-  json.member("contact_C_over_hertz", c.contact / o.model.vehicle.contact);
-  json.member("best_at_bound_of_search", c.at_bound);
-  json.key("stretch_x_m").begin_array().value(c.first).value(c.last).end_array();
-  add_fit(json, "run", c.run);
-  add_fit(json, "hertz", c.before);
-  add_fit(json, "fitted", c.after);
-  json.end_object();
+  return {{"contact_C_N_per_m1.5", c.contact},
+          {"contact_C_over_hertz", c.contact / o.model.vehicle.contact},
+          {"best_at_bound_of_search", c.at_bound},
+          {"stretch_x_m", {c.first, c.last}},
+          {"run", fit_json(c.run)},
+          {"hertz", fit_json(c.before)},
+          {"fitted", fit_json(c.after)}};
 }
 
-void add_map(JsonWriter& json, const MultibodyOutcome& o) {
+Json map_json(const MultibodyOutcome& o) {
   const ResponseMap& map = *o.map;
   std::size_t largest = 0;
   for (std::size_t i = 0; i < map.points.size(); ++i)
     if (map.points[i].max > map.points[largest].max) largest = i;
   const std::size_t waves = map.axes.wavelength.values.size();
-  json.key("map").begin_object();
-  json.member("points", map.points.size());
-  json.member("dt_s_at_lowest_speed", map.dt_first).member("dt_s_at_highest_speed", map.dt_last);
-  json.key("largest").begin_object();
-  json.member("speed_m_per_s", map.axes.speed.values[largest / waves]);
-  json.member("wavelength_m", map.axes.wavelength.values[largest % waves]);
-  json.member("max_over_static", map.points[largest].max).end_object();
-  json.key("dots").begin_array();
+  Json json = {{"points", map.points.size()},
+               {"dt_s_at_lowest_speed", map.dt_first},
+               {"dt_s_at_highest_speed", map.dt_last},
+               {"largest",
+                {{"speed_m_per_s", map.axes.speed.values[largest / waves]},
+                 {"wavelength_m", map.axes.wavelength.values[largest % waves]},
+                 {"max_over_static", map.points[largest].max}}},
+               {"dots", Json::array()}};
   for (const MapDot& dot : o.dots)
-    json.begin_object()
-        .member("run", std::string_view(dot.label))
-        .member("speed_m_per_s", dot.speed)
-        .member("wavelength_m", dot.wavelength)
-        .member("max_over_static", dot.max)
-        .member("min_over_static", dot.min)
-        .member("remark", std::string_view(dot.remark))
-        .end_object();
-  json.end_array().end_object();
+    json["dots"].push_back({{"run", dot.label},
+                            {"speed_m_per_s", dot.speed},
+                            {"wavelength_m", dot.wavelength},
+                            {"max_over_static", dot.max},
+                            {"min_over_static", dot.min},
+                            {"remark", dot.remark}});
+  return json;
 }
 
 std::string in_pi(double radians) {
@@ -125,39 +120,36 @@ Table calibration_table(const Calibration& c, const MultibodyModel& model) {
 std::string multibody_json(const MultibodyOutcome& o) {
   const MultibodyModel& m = o.model;
   const MultibodyResult& r = o.result;
-  JsonWriter json;
-  json.begin_object();
-  json.member("title", std::string_view(m.scene.title));
-  json.member("beam", name_of(m.theory)).member("modes", r.modes);
-  json.member("dt_s", r.dt).member("steps", r.steps).member("seconds", o.seconds);
-  json.member("speed_m_per_s", m.speed);
-  json.member("static_wheel_load_N", m.vehicle.load());
-  json.member("static_rail_deflection_m", r.static_rail);
-  json.member("contact_C_N_per_m1.5", m.vehicle.contact);
-  json.member("contact_stiffness_N_per_m", m.contact_stiffness());
-  json.member("contact_y_m", m.contact_y);
-  json.member("bending_stiffness_N_m2", m.rail.bending_stiffness);
-  json.member("shear_stiffness_N", m.rail.shear_stiffness);
-  json.member("rail_mass_kg_per_m", m.rail.mass);
-  json.member("unsprung_mass_kg", m.vehicle.unsprung_mass);
-  if (o.filter_gain) json.member("contact_filter_gain", *o.filter_gain);
-  json.key("evaluated_x_m").begin_array().value(r.evaluated_first).value(r.evaluated_last).end_array();
-  add_statistics(json, "vertical_force_N", r.force);
-  json.member("loss_of_contact_share", r.loss_of_contact);
-  json.member("passing_half_range_N", r.passing);
-  json.key("crests").begin_array();
+  Json json = {{"title", m.scene.title},
+               {"beam", name_of(m.theory)},
+               {"modes", r.modes},
+               {"dt_s", r.dt},
+               {"steps", r.steps},
+               {"seconds", o.seconds},
+               {"speed_m_per_s", m.speed},
+               {"static_wheel_load_N", m.vehicle.load()},
+               {"static_rail_deflection_m", r.static_rail},
+               {"contact_C_N_per_m1.5", m.vehicle.contact},
+               {"contact_stiffness_N_per_m", m.contact_stiffness()},
+               {"contact_y_m", m.contact_y},
+               {"bending_stiffness_N_m2", m.rail.bending_stiffness},
+               {"shear_stiffness_N", m.rail.shear_stiffness},
+               {"rail_mass_kg_per_m", m.rail.mass},
+               {"unsprung_mass_kg", m.vehicle.unsprung_mass}};
+  if (o.filter_gain) json["contact_filter_gain"] = *o.filter_gain;
+  json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
+  json["vertical_force_N"] = statistics_json(r.force);
+  json["loss_of_contact_share"] = r.loss_of_contact;
+  json["passing_half_range_N"] = r.passing;
+  json["crests"] = Json::array();
   for (const CrestPeak& p : r.peaks)
-    json.begin_object()
-        .member("crest_x_m", p.crest)
-        .member("peak_x_m", p.peak)
-        .member("peak_N", p.force)
-        .member("shift_before_crest_rad", p.shift)
-        .end_object();
-  json.end_array();
-  if (o.calibration) add_calibration(json, o);
-  if (o.map) add_map(json, o);
-  json.end_object();
-  return json.text();
+    json["crests"].push_back({{"crest_x_m", p.crest},
+                              {"peak_x_m", p.peak},
+                              {"peak_N", p.force},
+                              {"shift_before_crest_rad", p.shift}});
+  if (o.calibration) json["calibration"] = calibration_json(o);
+  if (o.map) json["map"] = map_json(o);
+  return json_text(json);
 }
 
 std::string passage_csv(const MultibodyModel& model, const MultibodyResult& result) {

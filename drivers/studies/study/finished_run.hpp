@@ -9,7 +9,7 @@
 #include "core/corrugation.hpp"
 #include "core/scene.hpp"
 #include "io/files/history_reader.hpp"
-#include "io/text/json_reader.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 
@@ -13,8 +14,7 @@
 #include "drivers/process/machine.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/output_file.hpp"
-#include "io/text/json_reader.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -77,10 +77,10 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatu
 }
 
 void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
-  JsonWriter json;
-  json.begin_object().member("exit", end.code).member("signal", end.signal);
-  json.member("why", std::string_view(why)).member("anew", leads_to_the_same_end(end));
-  write_text_file(folder / kFailure, json.end_object().text());
+  write_text_file(
+      folder / kFailure,
+      json_text(
+          {{"exit", end.code}, {"signal", end.signal}, {"why", why}, {"anew", leads_to_the_same_end(end)}}));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 
@@ -15,7 +16,7 @@
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/plain_text.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -60,24 +61,22 @@ std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
 }
 
 std::string plan_json(const StudyPlan& plan, const StudyCost& cost) {
-  JsonWriter json;
-  json.begin_object().member("jobs", plan.jobs).member("threads", plan.threads);
-  json.member("wall_s", cost.wall).member("seconds", cost.seconds).member("saved_seconds", cost.saved);
-  json.member("disk_bytes", cost.disk).member("memory_bytes", cost.memory);
-  json.key("points").begin_array();
+  Json json = {{"jobs", plan.jobs},          {"threads", plan.threads},     {"wall_s", cost.wall},
+               {"seconds", cost.seconds},    {"saved_seconds", cost.saved}, {"disk_bytes", cost.disk},
+               {"memory_bytes", cost.memory}};
+  json["points"] = Json::array();
   for (const PlannedPoint& point : plan.points) {
-    json.begin_object().member("name", std::string_view(point.name));
-    json.member("state", name_of(point.status.state));
-    if (point.cost)
-      json.member("elements", point.cost->elements)
-          .member("steps", point.cost->steps)
-          .member("seconds", point.cost->seconds())
-          .member("disk_bytes", point.cost->disk.results + point.cost->disk.frames);
-    const std::string begins = beginning_text(plan, point);
-    if (!begins.empty()) json.member("begins", std::string_view(begins));
-    json.end_object();
+    Json one = {{"name", point.name}, {"state", name_of(point.status.state)}};
+    if (point.cost) {
+      one["elements"] = point.cost->elements;
+      one["steps"] = point.cost->steps;
+      one["seconds"] = point.cost->seconds();
+      one["disk_bytes"] = point.cost->disk.results + point.cost->disk.frames;
+    }
+    if (const std::string begins = beginning_text(plan, point); !begins.empty()) one["begins"] = begins;
+    json["points"].push_back(one);
   }
-  return json.end_array().end_object().text();
+  return json_text(json);
 }
 
 void require_disk(const StudyPlan& plan, const StudyCost& cost) {

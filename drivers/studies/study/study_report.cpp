@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "drivers/studies/study/study_figures.hpp"
 #include "io/report/markup.hpp"
 #include "io/scene/schema.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -129,19 +130,17 @@ std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& run
 }
 
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs) {
-  JsonWriter json;
-  json.begin_object().key("points").begin_array();
+  Json points = Json::array();
   for (const PlannedPoint& point : plan.points) {
-    json.begin_object().member("name", std::string_view(point.name));
-    json.member("state", name_of(point.status.state));
-    if (!point.status.why.empty()) json.member("why", std::string_view(point.status.why));
+    Json one = {{"name", point.name}, {"state", name_of(point.status.state)}};
+    if (!point.status.why.empty()) one["why"] = point.status.why;
     const FinishedRun* run = find_run(runs, point.name);
     for (const ResultColumn& column : result_columns())
       if (const auto value = run ? result_of(*run, column) : std::nullopt)
-        json.member(column.name + (column.unit == "-" ? "" : "_" + column.unit), *value);
-    json.end_object();
+        one[column.name + (column.unit == "-" ? "" : "_" + column.unit)] = *value;
+    points.push_back(one);
   }
-  return json.end_array().end_object().text();
+  return json_text({{"points", points}});
 }
 
 Table result_table(const std::vector<FinishedRun>& runs) {

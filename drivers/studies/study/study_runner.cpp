@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -13,8 +14,7 @@
 #include "drivers/process/interruption.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
-#include "io/text/json_reader.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -200,19 +200,18 @@ void StudyRunner::show() {
   const double left = seconds_left();
   std::string line = fmt::format("[sweep] {} of {} done", count(plan, PointState::done), plan.points.size());
   if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
-  JsonWriter json;
-  json.begin_object().member("stage", running_.empty() ? "ended" : "sweep").member("process", ::getpid());
+  Json json = {{"stage", running_.empty() ? "ended" : "sweep"}, {"process", ::getpid()}};
   for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
                                  PointState::done, PointState::failed})
-    json.member(name_of(state), count(plan, state));
-  json.member("left_s", left).key("points").begin_array();
+    json[name_of(state)] = count(plan, state);
+  json["left_s"] = left;
+  json["points"] = Json::array();
   for (const PlannedPoint& point : plan.points) {
-    json.begin_object().member("name", std::string_view(point.name));
-    json.member("state", name_of(point.status.state));
-    if (!point.status.why.empty()) json.member("why", std::string_view(point.status.why));
-    json.end_object();
+    Json one = {{"name", point.name}, {"state", name_of(point.status.state)}};
+    if (!point.status.why.empty()) one["why"] = point.status.why;
+    json["points"].push_back(one);
   }
-  folder_->show_status(json.end_array().end_object().text());
+  folder_->show_status(json_text(json));
   for (const Running& running : running_) {
     const JsonRecord status = status_of(*running.point);
     const auto time = number_in(status, "time_s");
