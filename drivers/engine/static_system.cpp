@@ -62,9 +62,8 @@ void refuse_heavy_damping(double beta, double omega) {
       "- "
       "xi) = {:.2e} s, {:.2g} % of the 2/w = {:.2e} s without damping (w = {:.3e} rad/s, xi = beta w/2 = "
       "{:.3g}); at least {:g} % must be left: state rayleigh_beta of at most {:.2g} s, or {{ kind = "
-      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF, which "
-      "the "
-      "paper's 1e-4 is), or with this beta damping_up_to = \"3 kHz\" or another frequency that is enough",
+      "\"high_frequency_fraction\", value = xi }} with xi of at most {:.2g} (LS-DYNA's positive COEF), "
+      "or with this beta damping_up_to = \"3 kHz\" or another frequency that is enough",
       beta, damped_step, 100 * damped_step / free_step, free_step, omega, 0.5 * beta * omega,
       100 * kLeastShare, largest, 0.5 * largest * omega));
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "drivers/report/figure_parts.hpp"
-#include "drivers/report/report_references.hpp"
 
 namespace tread {
 
@@ -127,11 +126,8 @@ Figure passage_figure(const Model& model, const RunResults& r) {
   return figure;
 }
 
-Figure creepage_figure(const Model& model, const RunResults& r) {
+Figure creepage_figure(const Model& model, const RunResults& r, const std::vector<Marker>& levels) {
   Figure figure = over_the_way("Longitudinal creepage", model, r);
-  std::vector<Marker> levels;
-  if (const double paper = paper_creepage(model.scene); paper > 0)
-    levels.push_back({100 * paper, "paper, smooth rail"});
   figure.panels.push_back(panel("Creepage [%]",
                                 {curve("at the node that starts in the patch", model, r,
                                        [](const Sample& s) { return 100 * s.creepage_node; }),

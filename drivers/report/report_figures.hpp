@@ -15,7 +15,7 @@ Figure force_figure(const Model& model, const RunResults& results);
 Figure passage_figure(const Model& model, const RunResults& results);
 
 /// Creepage at a node and mean of 28. [paper, Fig. 18]
-Figure creepage_figure(const Model& model, const RunResults& results);
+Figure creepage_figure(const Model& model, const RunResults& results, const std::vector<Marker>& levels);
 
 /// Area, slip area, pressure, shear stress and penetration.
 Figure patch_figure(const Model& model, const RunResults& results);

@@ -1,22 +1,27 @@
 #pragma once
-// Numbers from the literature that a run can be held against, where its scene is the one that they belong to.
+// A run's results beside theory and beside values from the literature.
 
 #include <vector>
 
 #include "drivers/engine/model.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
+#include "io/scene/references.hpp"
 
 namespace tread {
 
-/// Figures that the paper states for this scene; empty if it states none.
-std::vector<Comparison> paper_comparisons(const Model& model, const RunResults& results);
+/// References of the library's scenes that hold for this scene, those of one file together; files that are
+/// missing are left out. Throws InputError where a file does not read.
+std::vector<References> library_references(const Scene& scene);
 
-/// Hertz for the static patch; CONTACT for steady rolling where its case is this one. Empty without contact.
-std::vector<Comparison> theory_comparisons(const Model& model, const RunResults& results);
+/// The run beside the references, or with `theory` beside those that belong to theory.
+std::vector<Comparison> comparisons(const References& references, bool theory, const Model& model,
+                                    const ResolvedScene& resolved, const RunResults& results);
 
-/// Creepage that the paper states for the smooth rail under this speed, friction and traction [-]; 0 if it
-/// does not.
-double paper_creepage(const Scene& scene);
+/// Hertz for the static patch; empty without contact.
+std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& results);
+
+/// Lines of the references in the figure of the creepage [%].
+std::vector<Marker> creepage_levels(const std::vector<References>& references);
 
 }  // namespace tread

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
@@ -29,16 +30,18 @@ struct Run {
   const Model& model;
   const ResolvedScene& resolved;
   const RunResults& results;
+  std::vector<References> references = {};
+  std::string without_references = {};  ///< why there are none; empty: all files read
 
   const Scene& scene() const { return model.scene; }
   bool rolled() const { return model.contact && !results.samples.empty(); }
   bool corrugated() const { return model.contact && !model.contact->corrugation().smooth(); }
-  /// Whether the wheel has come to the stretch that the scene is about.
+  /// Returns true if the wheel has come to the stretch that the scene is about.
   bool in_sight() const {
     const double first = corrugated() ? model.contact->corrugation().first() : scene().zone_start;
     return rolled() && results.samples.back().wheel_x > first;
   }
-  /// Whether the wheel has come to the corrugation at all.
+  /// Returns true if the wheel has come to the corrugation.
   bool on_corrugation() const { return corrugated() && in_sight(); }
 };
 
@@ -117,10 +120,16 @@ Chapter result_chapter(const Run& run) {
                                            {"Time", readable(1e3 * r.samples.back().time), "ms"},
                                            {"Steps", grouped(r.steps), ""}});
   }
-  const std::vector<Comparison> paper = paper_comparisons(run.model, r);
-  const std::vector<Comparison> theory = theory_comparisons(run.model, r);
-  if (!paper.empty()) chapter.blocks.emplace_back(comparison_table("Beside the paper", "Paper", paper));
+  std::vector<Comparison> theory = hertz_comparisons(run.model, r);
+  for (const References& references : run.references) {
+    const std::vector<Comparison> rows = comparisons(references, false, run.model, run.resolved, r);
+    if (!rows.empty())
+      chapter.blocks.emplace_back(comparison_table(references.title, references.column, rows));
+    for (const Comparison& row : comparisons(references, true, run.model, run.resolved, r))
+      theory.push_back(row);
+  }
   if (!theory.empty()) chapter.blocks.emplace_back(comparison_table("Beside theory", "Theory", theory));
+  if (!run.without_references.empty()) chapter.blocks.emplace_back(Text{run.without_references});
   return chapter;
 }
 
@@ -318,6 +327,15 @@ Chapter scene_chapter(const Run& run) {
   return {"Scene", {table}};
 }
 
+/// A file of references that does not read must not cost a finished run its report.
+void find_references(Run& run) {
+  try {
+    run.references = library_references(run.scene());
+  } catch (const InputError& error) {
+    run.without_references = fmt::format("Without values from the literature: {}", error.what());
+  }
+}
+
 std::string subtitle(const Run& run) {
   const Scene& scene = run.scene();
   std::string text = run.resolved.name;
@@ -336,7 +354,8 @@ std::string subtitle(const Run& run) {
 
 void write_run_report(const std::filesystem::path& path, const Model& model, const ResolvedScene& resolved,
                       const RunResults& results, const std::string& command) {
-  const Run run{model, resolved, results};
+  Run run{model, resolved, results};
+  find_references(run);
   Report report;
   report.title = resolved.scene.title;
   report.subtitle = subtitle(run);
@@ -347,7 +366,8 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     if (run.in_sight()) forces.blocks.emplace_back(force_figure(model, results));
     forces.blocks.emplace_back(passage_figure(model, results));
     report.chapters.push_back(std::move(forces));
-    report.chapters.push_back({"Creepage", {creepage_figure(model, results)}});
+    report.chapters.push_back(
+        {"Creepage", {creepage_figure(model, results, creepage_levels(run.references))}});
     if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
     report.chapters.push_back(patch_chapter(run));
   }

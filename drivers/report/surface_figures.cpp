@@ -74,9 +74,9 @@ Figure surface_figure(const Model& model, const RunResults& r) {
       {}, 240));
   figure.panels.push_back(
       panel("Work [mJ]",
-            {along_axis("frictional work", s, [](const AxisNode& n) { return 1e3 * kPaperCell * n.work; }),
+            {along_axis("frictional work", s, [](const AxisNode& n) { return 1e3 * kWorkCell * n.work; }),
              along_axis(
-                 "by samples", s, [](const AxisNode& n) { return 1e3 * kPaperCell * n.sampled_work; },
+                 "by samples", s, [](const AxisNode& n) { return 1e3 * kWorkCell * n.sampled_work; },
                  Stroke::dotted)},
             {}, 170));
   if (!corrugation.smooth())
@@ -85,8 +85,8 @@ Figure surface_figure(const Model& model, const RunResults& r) {
   figure.caption += fmt::format(
       "On the row of nodes at y = {:.1f} mm. Von Mises stress: centres of the row of surface elements that "
       "carries the largest, at samples. "
-      "Frictional work of a cell of 1.1 mm x 1.1 mm, the paper's surface mesh: every step with the traction "
-      "of its middle; by samples as the paper sums it, eq. (5) there.",
+      "Frictional work of a cell of 1.1 mm x 1.1 mm: every step with the traction of its middle; by samples: "
+      "the sum over the samples alone.",
       1e3 * s.axis_y);
   return figure;
 }

@@ -105,9 +105,9 @@ SurfaceResults surface_results(const SurfaceFields& fields, double first, double
   s.max_work = largest(fields, s, fields.frictional_work(), rows);
   const auto inside = [&](const AxisNode& n) { return s.covers(n); };
   s.von_mises = statistics(s.axis, inside, [](const AxisNode& n) { return n.max_von_mises; });
-  s.cell_work = statistics(s.axis, inside, [](const AxisNode& n) { return kPaperCell * n.work; });
+  s.cell_work = statistics(s.axis, inside, [](const AxisNode& n) { return kWorkCell * n.work; });
   s.sampled_cell_work =
-      statistics(s.axis, inside, [](const AxisNode& n) { return kPaperCell * n.sampled_work; });
+      statistics(s.axis, inside, [](const AxisNode& n) { return kWorkCell * n.sampled_work; });
   s.total_work = fields.sum(fields.frictional_work());
   s.total_sampled_work = fields.sum(fields.sampled_frictional_work());
   return s;
@@ -147,7 +147,7 @@ void write_axis(const std::filesystem::path& path, const SurfaceResults& surface
                  "frictional_work_sampled [J/m2],frictional_work_in_1.1_mm_cell [J]\n");
   for (const AxisNode& n : surface.axis)
     fmt::format_to(out, "{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", n.x, n.max_pressure,
-                   n.max_shear, n.max_von_mises, n.work, n.sampled_work, kPaperCell * n.work);
+                   n.max_shear, n.max_von_mises, n.work, n.sampled_work, kWorkCell * n.work);
   write_text_file(path, {text.data(), text.size()});
 }
 

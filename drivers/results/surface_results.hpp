@@ -10,9 +10,8 @@
 
 namespace tread {
 
-/// Area of a surface cell of the paper's mesh, 1.1 mm x 1.1 mm, for which frictional work is stated [m2].
-/// [paper, section 3.3]
-inline constexpr double kPaperCell = 1.1e-3 * 1.1e-3;
+/// The surface cell, 1.1 mm x 1.1 mm, for which frictional work is stated [m2]. [paper, section 3.3]
+inline constexpr double kWorkCell = 1.1e-3 * 1.1e-3;
 
 /// A node on the patch's longitudinal axis.
 struct AxisNode {
@@ -33,11 +32,11 @@ struct SurfaceResults {
   double first = 0, last = 0;  ///< ends of the stretch [m]
   bool covers(const AxisNode& node) const { return node.x >= first && node.x <= last; }
 
-  double max_pressure = 0, max_shear = 0, max_von_mises = 0;  ///< largest stresses over the whole width [Pa]
-  double max_work = 0;                                        ///< largest work over the whole width [J/m2]
-  Statistics von_mises;                                       ///< Von Mises stress on the axis [Pa]
-  Statistics cell_work, sampled_cell_work;                    ///< work on the axis, in kPaperCell [J]
-  double total_work = 0, total_sampled_work = 0;              ///< work of the whole passage and width [J]
+  double max_pressure = 0, max_shear = 0, max_von_mises = 0;  ///< of the whole width [Pa]
+  double max_work = 0;                                        ///< of the whole width [J/m2]
+  Statistics von_mises;                                       ///< on the axis [Pa]
+  Statistics cell_work, sampled_cell_work;                    ///< on the axis, in kWorkCell [J]
+  double total_work = 0, total_sampled_work = 0;              ///< of the whole passage and width [J]
 };
 
 /// Results with the values of the stretch [first, last] [m].

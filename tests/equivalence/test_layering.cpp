@@ -151,6 +151,26 @@ TEST(Layering, StudiesAndVerificationAreSeenByCommandsAlone) {
       }
 }
 
+/// Lines of a file without comments.
+std::vector<std::string> code_of(const fs::path& path) {
+  std::vector<std::string> lines;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) lines.push_back(line.substr(0, line.find("//")));
+  return lines;
+}
+
+/// Values and names of the paper are data of the library's scene (share/references) and of studies/paper.
+TEST(Layering, ThePaperStaysOutOfEngineRunsAndReports) {
+  const std::regex paper(R"(paper[^'"]|highspeed|\b(193\.19|87\.56|0\.276|0\.265|8\.9e-8)\b)",
+                         std::regex::icase);
+  const fs::path root = TREAD_SOURCE_DIR;
+  EXPECT_TRUE(std::regex_search("rows.push_back({\"Creepage\", 0.276});", paper));
+  for (const std::string floor : {"engine", "results", "report", "run"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / "drivers" / floor))
+      for (const std::string& line : code_of(entry.path()))
+        EXPECT_FALSE(std::regex_search(line, paper)) << entry.path() << ": " << line;
+}
+
 TEST(Layering, OwnHeadersAreNamedFromTheRoot) {
   const fs::path root = TREAD_SOURCE_DIR;
   for (const std::string folder : {"core", "kernels", "io", "drivers", "tests"})

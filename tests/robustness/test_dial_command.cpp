@@ -95,6 +95,16 @@ TEST_F(Dial, RefusesBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(runs_ / "element_size=12mm"));
 }
 
+TEST_F(Dial, SaysWhereTheMeasuredTableIsMissing) {
+  ::setenv("TREAD_SHARE", program_.folder.c_str(), 1);
+  EXPECT_EQ(call(fmt::format("check {} -t 1 --error 2%", scene("tyre.toml"))), 2);
+  ::unsetenv("TREAD_SHARE");
+  EXPECT_TRUE(
+      has(errors(), "there is no table of measured settings in " + (program_.folder / "dial").string()))
+      << errors();
+  EXPECT_TRUE(has(errors(), "--dial")) << errors();
+}
+
 TEST_F(Dial, AReferenceIsOfTheSamePassage) {
   ASSERT_EQ(call(fmt::format("run {} -o {} -t 1 --quiet --set \"scene.element_size=10 mm\" --set "
                              "\"motion.duration=0.1 ms\" --set \"solution_zone.start=0 m\" --set "

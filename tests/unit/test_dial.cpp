@@ -169,7 +169,7 @@ TEST(DialTable, WhatItDoesNotKnowIsRefused) {
 }
 
 TEST(DialTable, TheMeasuredTableHasItsReference) {
-  const DialTable& measured = measured_dial();
+  const DialTable measured = measured_dial();
   EXPECT_EQ(std::count_if(measured.rows.begin(), measured.rows.end(),
                           [&](const DialRow& one) { return one.point == measured.reference; }),
             1);

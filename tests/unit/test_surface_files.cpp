@@ -219,7 +219,7 @@ TEST_F(SurfaceFiles, SurfaceHoldsTheStretchInContact) {
   EXPECT_NEAR(surface.max_pressure, 1e8, 1e-6);
   EXPECT_NEAR(surface.total_work, 4 * 2 * 6e-6, 1e-18);
   EXPECT_NEAR(surface.total_sampled_work, 4 * 1e-5 * 4e8 * (0.15 + 0.025) * 6e-6, 1e-12);
-  EXPECT_NEAR(surface.cell_work.mean, kPaperCell * 1.0, 1e-15);
+  EXPECT_NEAR(surface.cell_work.mean, kWorkCell * 1.0, 1e-15);
   EXPECT_NEAR(surface.cell_work.range(), 0, 1e-15);
 
   write_axis(folder_ / "axis.csv", surface);

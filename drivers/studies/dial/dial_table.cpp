@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "drivers/studies/dial/measured_dial.hpp"
 #include "drivers/studies/study/study_figures.hpp"
+#include "io/files/share_folder.hpp"
+#include "io/scene/scene_library.hpp"
 #include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
@@ -53,7 +54,7 @@ double required_number(const JsonRecord& record, const std::string& key, const s
   return *number;
 }
 
-/// Those beside the reference that have an error in the quantity.
+/// Rows other than the reference that have an error in the quantity.
 std::vector<const DialRow*> compared_rows(const DialTable& table, const std::string& quantity) {
   std::vector<const DialRow*> rows;
   for (const DialRow& row : table.rows)
@@ -207,9 +208,17 @@ DialTable read_dial(const std::filesystem::path& path) {
   return parse_dial(read_text_file(file, kLargest), file.string());
 }
 
-const DialTable& measured_dial() {
-  static const DialTable table = parse_dial(kMeasuredDial, "the program's own table");
-  return table;
+DialTable measured_dial() {
+  for (const LibraryEntry& entry : scene_library()) {
+    const std::filesystem::path file = find_share_file(fmt::format("dial/{}.jsonl", entry.name));
+    if (!file.empty()) return read_dial(file);
+  }
+  std::vector<std::string> folders;
+  for (const std::filesystem::path& folder : share_folders()) folders.push_back((folder / "dial").string());
+  throw InputError(
+      fmt::format("there is no table of measured settings in {}: name one with --dial, or the folder of the "
+                  "program's data files in TREAD_SHARE",
+                  fmt::join(folders, ", ")));
 }
 
 }  // namespace tread

@@ -1,5 +1,5 @@
 #pragma once
-// What settings cost and how far their passages are from a reference; the cheapest one for a wanted error.
+// Cost of settings and errors of their passages against a reference; the cheapest one for a wanted error.
 
 #include <filesystem>
 #include <map>
@@ -29,7 +29,7 @@ struct DialTable {
   std::vector<DialRow> rows;
 };
 
-/// What a front is drawn over.
+/// The cost over which a front is drawn.
 enum class DialCost { minutes, element_steps };
 
 /// "minutes", "element-steps". InputError for any other text.
@@ -46,8 +46,8 @@ void require_quantity(const std::string& option, const std::string& quantity);
 /// The row's error [-] in a quantity; nothing where it was not compared in it.
 std::optional<double> error_of(const DialRow& row, const std::string& quantity);
 
-/// Rows that none is both as cheap and as near as, cheapest first. The reference, whose error says nothing,
-/// is not among them.
+/// The Pareto front: rows than which no other row is both cheaper and more accurate, cheapest first. The
+/// reference is not among them.
 std::vector<const DialRow*> pareto_front(const DialTable& table, const std::string& quantity, DialCost cost);
 
 /// The cheapest row whose error is `wanted` [-] at most, of several as cheap within 1 % the one with the
@@ -60,7 +60,7 @@ DialTable dial_table(const std::vector<FinishedRun>& runs, const FinishedRun& re
 /// A line a run, for spreadsheets; units in the header.
 std::string dial_csv(const DialTable& table);
 
-/// The same as flat JSON objects, a line each, which parse_dial() reads.
+/// The table as flat JSON objects, one a line, which parse_dial() reads.
 std::string dial_lines(const DialTable& table);
 
 /// Messages call the text `name`. InputError where it is not such a table.
@@ -69,7 +69,7 @@ DialTable parse_dial(const std::string& text, const std::string& name);
 /// dial.jsonl of a dial's folder, or such a file. InputError.
 DialTable read_dial(const std::filesystem::path& path);
 
-/// The table of docs/dial.md, measured on scenes/corrugation-d.toml.
-const DialTable& measured_dial();
+/// The table that comes with the library's scene. [docs/dial.md] InputError where the file is missing.
+DialTable measured_dial();
 
 }  // namespace tread

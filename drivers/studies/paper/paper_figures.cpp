@@ -109,7 +109,7 @@ std::vector<SurfaceView> surface_views() {
   return {largest_pressure(),
           {"max_shear", "Largest surface shear stress", "[MPa]", 1e-6},
           {"max_von_mises", "Largest Von Mises stress", "[MPa]", 1e-6},
-          {"frictional_work", "Frictional work in a cell of 1.1 mm x 1.1 mm", "[mJ]", 1e3 * kPaperCell}};
+          {"frictional_work", "Frictional work in a cell of 1.1 mm x 1.1 mm", "[mJ]", 1e3 * kWorkCell}};
 }
 
 /// The waves of Figs. 14 and 20 to 22.
