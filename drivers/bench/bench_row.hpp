@@ -13,7 +13,7 @@
 
 namespace tread {
 
-/// Identity of a measurement: rows of two files with equal keys are compared.
+/// The measured work; rows of two files with the same key are compared.
 struct BenchKey {
   std::string kernel;
   std::string path;  ///< version of the kernel
@@ -31,7 +31,7 @@ struct BenchKey {
   }
 };
 
-/// First columns of a table, and a row's cells in them.
+/// The first columns of a table, and a row's cells in them.
 std::vector<Column> key_columns();
 std::vector<std::string> key_cells(const BenchKey& key);
 
@@ -44,7 +44,7 @@ struct BenchRow {
   double instructions = 0;  ///< instructions per unit, by the hardware's counter; 0: not counted
 
   double rate() const { return static_cast<double>(key.elements) / measured.seconds; }  ///< units a second
-  /// Fraction of the rate that the binding limit allows [-]; 0 if nothing is counted.
+  /// Share of the rate that the binding limit allows; 0 where nothing is counted.
   double fraction_of_limit() const { return limit.seconds / measured.seconds; }
 };
 

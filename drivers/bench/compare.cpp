@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "drivers/bench/bench_command.hpp"
+#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/bench_row.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -13,7 +13,7 @@ namespace tread {
 
 namespace {
 
-/// Data of a row that a comparison needs.
+/// The part of a row that a comparison needs.
 struct Recorded {
   double value;   ///< value in the measure's unit
   double spread;  ///< [-]

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/bench/bench_command.hpp"
+#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/measurement.hpp"
 #include "drivers/bench/rolling_scene.hpp"

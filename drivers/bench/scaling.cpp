@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/bench/bench_command.hpp"
+#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/limits.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
 #include "drivers/bench/rolling_scene.hpp"

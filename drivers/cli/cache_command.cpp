@@ -1,59 +1,22 @@
-#include "drivers/cli/cache_command.hpp"
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
-#include <fmt/core.h>
-
-#include <chrono>
-#include <nlohmann/json.hpp>
-#include <vector>
-
-#include "drivers/process/progress.hpp"
-#include "drivers/run/preload_cache.hpp"
-#include "io/report/plain_text.hpp"
-#include "io/text/json.hpp"
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+#include "drivers/run/cache_control.hpp"
 
 namespace tread {
 
-namespace {
-
-/// Since the entry was used [s].
-double age(const ContentCache::Entry& entry) {
-  return std::chrono::duration<double>(std::filesystem::file_time_type::clock::now() - entry.used).count();
-}
-
-void show_text(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
-               std::int64_t bytes) {
-  fmt::print("{}: {} preloads, {} of at most {}\n", cache.folder().string(), entries.size(),
-             bytes_text(bytes), bytes_text(cache.limit()));
-  for (const ContentCache::Entry& entry : entries)
-    fmt::print("  {}  {:>8}  used {} ago\n", entry.path.filename().string(), bytes_text(entry.bytes),
-               duration_text(age(entry)));
-}
-
-void show_json(const ContentCache& cache, const std::vector<ContentCache::Entry>& entries,
-               std::int64_t bytes) {
-  Json preloads = Json::array();
-  for (const ContentCache::Entry& entry : entries)
-    preloads.push_back(
-        {{"file", entry.path.filename().string()}, {"bytes", entry.bytes}, {"unused_s", age(entry)}});
-  fmt::print("{}", json_text({{"folder", cache.folder().string()},
-                              {"bytes", bytes},
-                              {"limit_bytes", cache.limit()},
-                              {"preloads", preloads}}));
-}
-
-}  // namespace
-
-void tend_cache(const CacheOptions& options) {
-  const std::optional<ContentCache> cache = preload_cache(options.place);
-  if (!cache) {
-    fmt::print("{}", options.json ? "{}\n" : "the preload cache is off\n");
-    return;
-  }
-  if (options.action == "clear") cache->clear();
-  const std::vector<ContentCache::Entry> entries = cache->entries();
-  std::int64_t bytes = 0;
-  for (const ContentCache::Entry& entry : entries) bytes += entry.bytes;
-  (options.json ? show_json : show_text)(*cache, entries, bytes);
+void add_cache(CLI::App& app, const std::string& /*command_line*/) {
+  auto options = std::make_shared<CacheOptions>();
+  CLI::App& command = *app.add_subcommand("cache", "preloads that earlier runs have found");
+  command.add_option("action", options->action, "show or clear")
+      ->required()
+      ->check(CLI::IsMember({"show", "clear"}));
+  add_cache_option(command, options->place);
+  command.add_flag("--json", options->json, "JSON on stdout");
+  command.callback([options] { tend_cache(*options); });
 }
 
 }  // namespace tread

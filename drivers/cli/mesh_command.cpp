@@ -1,166 +1,18 @@
-#include "drivers/cli/mesh_command.hpp"
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
-#include <fmt/core.h>
-
-#include <nlohmann/json.hpp>
-
-#include "core/parallel/parallel.hpp"
-#include "drivers/engine/static_system.hpp"
-#include "drivers/process/machine.hpp"
-#include "drivers/report/mesh_measures.hpp"
-#include "drivers/results/frame_files.hpp"
-#include "io/files/output_file.hpp"
-#include "io/report/markup.hpp"
-#include "io/report/plain_text.hpp"
-#include "io/text/json.hpp"
-#include "io/vtk/vtkhdf.hpp"
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+#include "drivers/report/mesh_description.hpp"
 
 namespace tread {
 
-namespace {
-
-/// A body beside what it should weigh.
-struct BodyMass {
-  std::string name;
-  double mass = 0;     ///< of the mesh [kg]
-  double nominal = 0;  ///< that the scene asks for, or of the section swept without facets [kg]
-  std::string remark;
-};
-
-BodyMass sum_of(const std::string& name, const std::vector<int>& indices,
-                const std::vector<BlockMeasures>& blocks) {
-  BodyMass body{name, 0, 0, ""};
-  for (const int b : indices) {
-    body.mass += blocks[static_cast<std::size_t>(b)].mass;
-    body.nominal += blocks[static_cast<std::size_t>(b)].swept_mass;
-  }
-  return body;
-}
-
-std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasures>& blocks) {
-  std::vector<BodyMass> bodies;
-  if (model.wheelset) {
-    BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.index.wheel(), blocks);
-    if (model.index.axle >= 0) {
-      wheel.nominal = model.scene.wheel->mass;
-      wheel.remark =
-          fmt::format("reached by two brake ring plates of {:.2f} mm", 1e3 * model.brake_ring_thickness);
-    }
-    bodies.push_back(wheel);
-  }
-  if (model.scene.rail) {
-    BodyMass rail = sum_of("rail", model.index.rail(), blocks);
-    rail.remark = fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
-                              1e4 * rail.mass / model.scene.rail->length / model.scene.steel.density);
-    bodies.push_back(rail);
-  }
-  if (model.index.slab >= 0) {
-    BodyMass slab = sum_of("slab, gaps and mortar", {model.index.slab}, blocks);
-    slab.remark = fmt::format("{:.1f} kg/m of half track", slab.mass / model.scene.rail->length);
-    bodies.push_back(slab);
-  }
-  return bodies;
-}
-
-Table mass_table(const std::vector<BodyMass>& bodies) {
-  Table table{"Masses",
-              {{"Body"},
-               {"Mass [kg]", Align::right},
-               {"Nominal [kg]", Align::right},
-               {"Difference", Align::right},
-               {"Remark"}},
-              {}};
-  for (const BodyMass& body : bodies)
-    table.rows.push_back({body.name, fmt::format("{:.2f}", body.mass), fmt::format("{:.2f}", body.nominal),
-                          fmt::format("{:+.3f} %", 100 * (body.mass / body.nominal - 1)), body.remark});
-  return table;
-}
-
-Table inertia_table(const SpinningBody& wheelset) {
-  return {"Wheelset",
-          {{"Quantity"}, {"Value", Align::right}, {"Unit"}},
-          {{"inertia about the axle", readable(wheelset.inertia(), 5), "kg m2"},
-           {"inertia about a diameter through the mass centre", readable(wheelset.transverse_inertia(), 5),
-            "kg m2"},
-           {"mass centre from the rail's centre line", readable(1e3 * wheelset.centre_y(), 5), "mm"}}};
-}
-
-/// How far each block alone is from limiting the step: what steps of its own could save.
-Table step_table(const Model& model, const StepLimit& limit) {
-  Table table{"",
-              {{"Block"},
-               {"Stiffest element at (x, y, z) [m]"},
-               {"Stable step of it alone [s]", Align::right},
-               {"Over the shortest", Align::right}},
-              {}};
-  const double shortest = limit.stiffest[limit.stiffest_block()].step;
-  for (std::size_t b = 0; b < limit.stiffest.size(); ++b) {
-    const StiffestElement& element = limit.stiffest[b];
-    table.rows.push_back({model.mesh.blocks[b].name, place(element.at), fmt::format("{:.3e}", element.step),
-                          fmt::format("{:.2f}", element.step / shortest)});
-  }
-  return table;
-}
-
-void write_mesh(const Model& model, const std::filesystem::path& directory) {
-  make_directory(directory);
-  write_vtk_mesh(directory / "mesh.hdf", model.mesh, make_vtk_grid(model.mesh, VtkCells::elements),
-                 resting_places(model));
-}
-
-Json extreme_json(const Extreme& extreme) {
-  return {{"value", extreme.value}, {"at_m", {extreme.at.x, extreme.at.y, extreme.at.z}}};
-}
-
-std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& blocks, const StepLimit& limit) {
-  Json json = {{"elements", model.elements()}, {"nodes", model.nodes()}};
-  json["blocks"] = Json::array();
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const BlockMeasures& b = blocks[i];
-    json["blocks"].push_back({{"name", b.name},
-                              {"elements", b.elements},
-                              {"nodes", b.nodes},
-                              {"quads", b.quads},
-                              {"stations", b.stations},
-                              {"shortest_edge_m", extreme_json(b.shortest_edge)},
-                              {"longest_edge_m", extreme_json(b.longest_edge)},
-                              {"worst_quality", extreme_json(b.worst_quality)},
-                              {"mass_kg", b.mass},
-                              {"swept_mass_kg", b.swept_mass},
-                              {"stiffest_element_step_s", limit.stiffest[i].step}});
-  }
-  json["bodies"] = Json::array();
-  for (const BodyMass& body : bodies_of(model, blocks))
-    json["bodies"].push_back({{"name", body.name}, {"mass_kg", body.mass}, {"nominal_kg", body.nominal}});
-  if (model.wheelset) {
-    Json& wheelset = json["wheelset"];
-    wheelset["polar_inertia_kg_m2"] = model.wheelset->inertia();
-    wheelset["transverse_inertia_kg_m2"] = model.wheelset->transverse_inertia();
-    wheelset["centre_y_m"] = model.wheelset->centre_y();
-    if (model.index.axle >= 0) wheelset["brake_ring_thickness_m"] = model.brake_ring_thickness;
-  }
-  json["stable_step_s"] = limit.stable_step;
-  json["stable_step_reason"] = limit.reason;
-  return json_text(json);
-}
-
-}  // namespace
-
-void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
-  use_threads(options.threads);
-  const Model model(resolved.scene);
-  const std::vector<BlockMeasures> blocks = measure_blocks(model);
-  const StepLimit limit = step_limit(model);
-  if (!options.output.empty()) write_mesh(model, options.output);
-  if (options.json) {
-    fmt::print("{}", mesh_json(model, blocks, limit));
-    return;
-  }
-  fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(blocks)), plain_text(quality_table(blocks)),
-             plain_text(step_table(model, limit)), plain_text(mass_table(bodies_of(model, blocks))));
-  if (model.wheelset) fmt::print("{}\n", plain_text(inertia_table(*model.wheelset)));
-  fmt::print("Stable step  {:.4e} s: {}\n", limit.stable_step, limit.reason);
-  if (!options.output.empty()) fmt::print("Mesh         {}\n", (options.output / "mesh.hdf").string());
+void add_mesh(CLI::App& app, const std::string& /*command_line*/) {
+  auto state = std::make_shared<SceneCommand<MeshOptions>>();
+  CLI::App& command = add_scene_command(
+      app, "mesh", "counts, element sizes, masses and stable step of a scene's mesh", describe_mesh, state);
+  command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
 }
 
 }  // namespace tread

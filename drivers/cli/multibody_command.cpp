@@ -1,107 +1,38 @@
-#include "drivers/cli/multibody_command.hpp"
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
-#include <fmt/core.h>
-
-#include "core/error.hpp"
-#include "drivers/process/machine.hpp"
-#include "drivers/process/progress.hpp"
-#include "drivers/run/run_folder.hpp"
-#include "drivers/run/scene_content.hpp"
-#include "drivers/studies/multibody/multibody_report.hpp"
-#include "io/files/output_file.hpp"
-#include "io/report/plain_text.hpp"
-#include "io/text/units.hpp"
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+#include "drivers/studies/multibody/multibody_study.hpp"
 
 namespace tread {
 
-namespace {
-
-constexpr double kShortestStep = 1e-9;  ///< [s]
-
-MultibodyStep step_of(const MultibodyOptions& options) {
-  MultibodyStep step;
-  step.modes = options.modes;
-  if (options.step.empty()) return step;
-  try {
-    step.step = parse_quantity(options.step, kTime);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--step {}: {}", options.step, error.what()));
-  }
-  if (*step.step < kShortestStep)
-    throw InputError(fmt::format("--step {}: it must be 1 ns at least", options.step));
-  return step;
-}
-
-BeamTheory theory_of(const std::string& beam) {
-  if (beam == "spread") return BeamTheory::spread;
-  return beam == "euler" ? BeamTheory::euler : BeamTheory::timoshenko;
-}
-
-void check(const MultibodyOptions& options) {
-  if (options.map.empty() && !options.dots.empty())
-    throw InputError("--dots: they belong on a map; add --map speed=... wavelength=...");
-  if (!options.output.empty()) require_no_run(options.output);
-}
-
-void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
-                 const MultibodyOptions& options) {
-  const std::filesystem::path& directory = options.output;
-  keep_scene(directory, resolved);
-  write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
-  write_text_file(directory / "summary.json", multibody_json(outcome));
-  write_text_file(directory / "multibody.svg", figure_svg(passage_figure(outcome)));
-  if (outcome.calibration) {
-    write_text_file(directory / "calibration.csv", calibration_csv(*outcome.calibration));
-    write_text_file(directory / "calibration.svg", figure_svg(calibration_figure(outcome)));
-  }
-  if (outcome.map) {
-    write_text_file(directory / "map.csv", map_csv(*outcome.map));
-    write_text_file(directory / "map.svg", heatmap_svg(response_heatmap(outcome)));
-  }
-  write_report(directory / "report.html", multibody_report(outcome, options.command));
-}
-
-}  // namespace
-
-void run_multibody_command(const ResolvedScene& resolved, const MultibodyOptions& options) {
-  check(options);
-  use_threads(options.threads);
-  const Progress progress(options.quiet);
-  const MultibodyStep step = step_of(options);
-  MultibodyOutcome outcome;
-  outcome.model = multibody_model(resolved.scene, theory_of(options.beam));
-  const MultibodyModel unfiltered = outcome.model;
-  if (options.filter) {
-    outcome.filter_gain = apply_contact_filter(outcome.model);
-  }
-  outcome.result = run_multibody(outcome.model, step);
-  progress.say(fmt::format("[multibody] {} steps of {:.3e} s, {} modes, {}", outcome.result.steps,
-                           outcome.result.dt, outcome.result.modes, duration_text(progress.seconds())));
-  if (!options.calibrate.empty()) {
-    outcome.calibration = calibrate(outcome.model, read_transient_run(options.calibrate), step);
-    progress.say(fmt::format("[calibrate] {} springs tried, {}", outcome.calibration->factors.size(),
-                             duration_text(progress.seconds())));
-  }
-  if (!options.map.empty()) {
-    const MapAxes axes = parse_map_axes(options.map);
-    for (const std::filesystem::path& run : options.dots)
-      outcome.dots.push_back(map_dot(unfiltered, read_transient_run(run)));
-    outcome.map = response_map(unfiltered, axes, step, options.filter);
-    progress.say(
-        fmt::format("[map] {} passages, {}", outcome.map->points.size(), duration_text(progress.seconds())));
-  }
-  outcome.seconds = progress.seconds();
-  if (!options.output.empty()) {
-    make_directory(options.output);
-    write_files(outcome, resolved, options);
-  }
-  if (options.json) {
-    fmt::print("{}", multibody_json(outcome));
-    return;
-  }
-  fmt::print("{}", plain_text(multibody_table(outcome)));
-  if (outcome.calibration)
-    fmt::print("\n{}", plain_text(calibration_table(*outcome.calibration, outcome.model)));
+void add_multibody(CLI::App& app, const std::string& command_line) {
+  auto state = std::make_shared<SceneCommand<MultibodyOptions>>();
+  MultibodyOptions& options = state->options;
+  options.command = command_line;
+  CLI::App& command =
+      add_scene_command(app, "multibody", "the scene by the multi-body approach: a second instead of an hour",
+                        run_multibody_study, state);
+  command.add_option("-o,--output", options.output, "directory for CSV, summary and report");
+  command
+      .add_option(
+          "--beam", options.beam,
+          "the rail: euler (default), timoshenko, or spread: timoshenko with the head's forces spread")
+      ->check(CLI::IsMember({"euler", "timoshenko", "spread"}));
+  command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
+      ->check(CLI::Range(2, 3000));
+  command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");
+  command.add_flag("--filter", options.filter, "a sine as deep as the contact patch leaves it");
+  command.add_option("--calibrate", options.calibrate,
+                     "directory of a transient run whose F_N the contact spring is fitted to");
+  command
+      .add_option("--map", options.map,
+                  "response over speed and wavelength: speed=100:500:10km/h wavelength=40:150:2mm")
+      ->expected(2);
+  command.add_option("--dots", options.dots, "directories of transient runs to show on the map");
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
 }
 
 }  // namespace tread

@@ -1,25 +1,20 @@
-#include "drivers/cli/sweep_command.hpp"
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
 
-#include <fmt/core.h>
-
-#include "drivers/studies/study/study_report.hpp"
-#include "io/files/output_file.hpp"
-#include "io/report/plain_text.hpp"
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+#include "drivers/studies/study/sweep.hpp"
 
 namespace tread {
 
-std::optional<Error> sweep(const SweepOptions& options) {
-  Study study = read_study(options.study);
-  add_overrides(study, options.common);
-  return run_study(study, options.common, [&](const StudyPlan& plan) {
-    const std::vector<FinishedRun> runs = finished_runs(plan);
-    write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, runs));
-    write_report(plan.folder / "report.html", sweep_report(plan, runs, options.common.command));
-    if (options.common.json)
-      fmt::print("{}", sweep_json(plan, runs));
-    else
-      fmt::print("{}", plain_text(result_table(runs)));
-  });
+void add_sweep(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<SweepOptions>();
+  options->common.command = command_line;
+  CLI::App& command = *app.add_subcommand(
+      "sweep", "a scene with some keys varied: a run for each point; goes on where it was stopped");
+  command.add_option("study", options->study, "study file (TOML)")->required();
+  add_study(command, options, sweep);
 }
 
 }  // namespace tread

@@ -1,11 +1,12 @@
-#include "drivers/cli/version_command.hpp"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "drivers/cli/commands.hpp"
 #include "drivers/engine/model.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
@@ -20,8 +21,7 @@ std::string joined(const std::vector<const char*>& names) {
   return text;
 }
 
-}  // namespace
-
+/// Version, compiler, instruction sets and packages on stdout.
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   if (!json) {
@@ -44,12 +44,30 @@ void print_version(bool json) {
                               {"packages", packages}}));
 }
 
+/// docs/scene.md on stdout, as JSON one member `markdown`.
 void print_scene_reference(bool json) {
   if (!json) {
     fmt::print("{}", scene_reference());
     return;
   }
   fmt::print("{}", json_text({{"markdown", scene_reference()}}));
+}
+
+void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bool)) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App& command = *app.add_subcommand(name, text);
+  command.add_flag("--json", *json, "JSON on stdout");
+  command.callback([json, act] { act(*json); });
+}
+
+}  // namespace
+
+void add_version(CLI::App& app, const std::string& /*command_line*/) {
+  add_plain(app, "version", "version, compiler, instruction sets, packages", print_version);
+}
+
+void add_scene_reference(CLI::App& app, const std::string& /*command_line*/) {
+  add_plain(app, "scene-reference", "every key of a scene file, as Markdown", print_scene_reference);
 }
 
 }  // namespace tread

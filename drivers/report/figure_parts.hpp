@@ -1,5 +1,5 @@
 #pragma once
-// What charts of a run share.
+// Parts that the charts of a run share.
 
 #include <string>
 #include <vector>

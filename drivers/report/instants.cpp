@@ -28,7 +28,7 @@ std::optional<double> extreme(const std::vector<double>& x, const std::vector<do
   return found ? std::optional(x[*found]) : std::nullopt;
 }
 
-/// Whether a node or one beside it along the rail carries pressure.
+/// Returns true if the node or one beside it along the rail carries pressure.
 bool near_patch(const PatchWindow& window, int i, int row) {
   return window.pressure(i, row) > 0 || (i > 0 && window.pressure(i - 1, row) > 0) ||
          (i + 1 < window.stations() && window.pressure(i + 1, row) > 0);

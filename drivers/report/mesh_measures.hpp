@@ -1,5 +1,5 @@
 #pragma once
-// What a user wants to know of a mesh before trusting it: counts, extreme elements, masses.
+// Measures of a mesh: counts, extreme elements, masses.
 
 #include <cstdint>
 #include <string>

@@ -39,7 +39,7 @@ class FrameFiles {
   static void remove(const std::filesystem::path& directory);
 
  private:
-  /// Data of an instant that write() needs.
+  /// Values of an instant that write() needs.
   struct Instant {
     std::int64_t steps = 0;
     double time = 0;  ///< [s]
@@ -69,17 +69,17 @@ class FrameFiles {
   bool begun_ = false;
 };
 
-/// Bytes of each frame before compression, and of the common mesh [B].
+/// Sizes of a frame before compression and of the mesh that the frames share [B].
 struct FrameBytes {
   std::int64_t frame = 0;
   std::int64_t mesh = 0;
 };
 FrameBytes frame_bytes(const VtkGrid& grid);
 
-/// Placements of the blocks, with the wheel on the rail where the undeformed bodies touch.
+/// Places of the blocks; the wheel stands on the rail where the undeformed bodies touch.
 std::vector<Placement> resting_places(const Model& model);
 
-/// Kind of cells in the scene's frames.
+/// Cells that the scene's frames show.
 VtkCells frame_cells(const Scene& scene);
 
 }  // namespace tread

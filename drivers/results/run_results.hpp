@@ -1,5 +1,5 @@
 #pragma once
-// What a run leaves: histories, summary, report.
+// Results of a run: histories and summary.
 
 #include <filesystem>
 #include <optional>
@@ -22,11 +22,11 @@ namespace tread {
 std::vector<Channel> history_channels(const Model& model);
 std::vector<double> history_row(const Model& model, const Sample& sample);
 
-/// Of a run with step `dt` [s].
+/// Number of steps of a run with step `dt` [s].
 std::int64_t step_count(const Scene& scene, double dt);
 std::int64_t sampling_interval(const Scene& scene, double dt);  ///< steps between samples
 
-/// Where a run comes from that begins with another one's state.
+/// Origin of a run that begins with another run's state.
 struct ForkOrigin {
   std::string folder;  ///< of the other run
   double time = 0;     ///< of the state [s]
@@ -55,7 +55,7 @@ struct RunResults {
   /// Steps that this run took itself.
   std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
 
-  /// What a run that goes on cannot find again, the samples apart.
+  /// Lists the values that a resumed run cannot compute again, without the samples.
   void list_state(StateList& list) {
     list.add_part("preload", preload);
     list.add("stable_step", limit.stable_step);

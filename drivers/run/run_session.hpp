@@ -1,5 +1,5 @@
 #pragma once
-// Surroundings of a process that works on a run, besides model and results.
+// Options, folder and progress of a process that works on a run.
 
 #include <string>
 

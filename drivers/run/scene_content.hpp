@@ -1,5 +1,5 @@
 #pragma once
-// What makes a run of a scene the run that it is.
+// The values of a scene on which the results of a run depend.
 
 #include <filesystem>
 #include <map>

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// U+FFFD.
 std::string json_text(const Json& value);
 
-/// The same in one line.
+/// The value as one line of text with a closing newline.
 std::string json_line(const Json& value);
 
 /// The number, or null where there is none.

@@ -40,7 +40,7 @@ std::string settings_text(const DialRow& row) {
   return text;
 }
 
-/// Whether the scene's element size is in the way of the row's quality.
+/// Returns true if the scene's element size overrides the row's quality.
 bool hides_quality(const ResolvedScene& resolved, const DialRow& row) {
   const auto sets = [&](const char* key) {
     return std::any_of(row.settings.begin(), row.settings.end(),

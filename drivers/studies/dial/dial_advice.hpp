@@ -1,5 +1,5 @@
 #pragma once
-// Which setting leads near enough for the least cost, as a dial has measured it.
+// The cheapest setting within a wanted error, as a dial has measured it.
 
 #include <filesystem>
 #include <optional>
@@ -19,7 +19,7 @@ struct AdviceOptions {
   std::string cost = "element-steps";     ///< or "minutes"
 };
 
-/// What was asked and what the table says.
+/// The question and the answer of the table.
 struct Advice {
   double wanted = 0;  ///< [-]
   std::string quantity;

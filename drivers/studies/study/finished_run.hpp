@@ -19,11 +19,11 @@ struct FinishedRun {
   Scene scene;
   JsonRecord summary;  ///< content of summary.json
 
-  /// Number of the summary by path, such as "vertical_force_N.max".
+  /// The number of the summary at the path, "vertical_force_N.max".
   std::optional<double> number(const std::string& path) const { return number_in(summary, path); }
   /// Corrugation with its centre at y = 0, on which no figure along the rail depends.
   Corrugation corrugation() const;
-  /// Returns true if a wheel has rolled: histories and the surface exist.
+  /// Returns true if a wheel has rolled: histories and surface exist.
   bool rolled() const { return scene.wheel && scene.motion; }
 };
 

@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kFailure = "failed.json";
 
-/// Last words of the last process.
+/// The last words of the last process.
 std::string last_words(const fs::path& log) {
   constexpr std::streamoff kEnd = 4000;  // [B]
   std::ifstream stream(log, std::ios::binary | std::ios::ate);
@@ -56,14 +56,14 @@ std::string reason(const fs::path& folder, const ProcessEnd& end) {
   return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
 }
 
-/// Exit code of a process that failed; any code that is not the program's own counts as the machine's.
+/// Exit code of a process that failed; a code that is not the program's own counts as the machine's.
 ExitCode exit_code(std::optional<double> code) {
   for (const ExitCode known : {ExitCode::input, ExitCode::numerical})
     if (code && *code == static_cast<double>(known)) return known;
   return ExitCode::resources;
 }
 
-/// Examines the run in the folder: differences from the scene, and the state that it keeps.
+/// Finds why the run in the folder is not that of the scene, and which state the run keeps.
 void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatus& status) {
   try {
     const KeptScene there = kept_scene(folder);

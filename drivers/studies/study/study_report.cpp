@@ -43,7 +43,7 @@ std::string abscissa_key(const StudyPlan& plan) {
   return "";
 }
 
-/// Values that distinguish the point from others at the same abscissa.
+/// The values that tell the point from others at the same abscissa.
 std::string group_of(const StudyPlan& plan, const PlannedPoint& point, const std::string& abscissa) {
   std::string group;
   for (const std::string& key : varied_keys(plan))

@@ -1,5 +1,5 @@
 #pragma once
-// Results of a study: sweep.csv and report.html.
+// Files of a study: sweep.csv and report.html.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace tread {
 
-/// Runs of the points that are done, in their order. Throws InputError if a summary cannot be read.
+/// Runs of the points that are done, in their order. InputError where a summary does not read.
 std::vector<FinishedRun> finished_runs(const StudyPlan& plan);
 
 /// The key's value in a point's scene in the key's unit of documentation, such as "300"; a text unchanged.
@@ -23,7 +23,7 @@ std::vector<std::string> varied_keys(const StudyPlan& plan);
 /// that are not done are empty.
 std::string sweep_csv(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
-/// The rows of sweep_csv() as JSON.
+/// The table of sweep_csv() as JSON.
 std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& runs);
 
 /// Headline results of the runs for readers.

@@ -23,7 +23,7 @@ namespace {
 constexpr double kShowInterval = 5;                    ///< [s]
 constexpr auto kLook = std::chrono::milliseconds(50);  ///< time between looks at the children
 
-/// Status file of the run; empty before its first status.
+/// The status of the run; empty before its first one.
 JsonRecord status_of(const PlannedPoint& point) {
   try {
     return read_json(point.folder / "status.json");

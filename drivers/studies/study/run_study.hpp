@@ -1,5 +1,5 @@
 #pragma once
-// Common steps of `tread sweep` and `tread paper`: check, project, run, compare.
+// The common course of sweep, paper and dial: check, project, run, compare.
 
 #include <filesystem>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// `tread cache`: what earlier runs have left for later ones.
+// `tread cache`: preloads that earlier runs have left for later ones.
 
 #include <string>
 

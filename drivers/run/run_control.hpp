@@ -1,5 +1,5 @@
 #pragma once
-// `tread ctl`: looks at a run from outside, and asks it for something.
+// `tread ctl`: shows the state of a run and sends requests to the run.
 
 #include <filesystem>
 #include <string>

@@ -27,6 +27,6 @@ struct MultibodyOptions {
 };
 
 /// Rolls, fits and maps as asked, prints a table or JSON, writes the files. InputError, NumericalError.
-void run_multibody_command(const ResolvedScene& resolved, const MultibodyOptions& options);
+void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& options);
 
 }  // namespace tread

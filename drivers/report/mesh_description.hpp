@@ -1,5 +1,5 @@
 #pragma once
-// `tread mesh`: what the mesh of a scene is made of, and a file to look at.
+// `tread mesh`: parts and measures of a scene's mesh, and a file to look at.
 
 #include <filesystem>
 

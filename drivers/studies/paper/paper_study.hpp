@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/studies/study/study_command.hpp"
+#include "drivers/studies/study/run_study.hpp"
 
 namespace tread {
 

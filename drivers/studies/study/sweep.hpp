@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "drivers/studies/study/study_command.hpp"
+#include "drivers/studies/study/run_study.hpp"
 
 namespace tread {
 

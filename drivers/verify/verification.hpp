@@ -19,7 +19,7 @@ struct VerifyOptions {
   bool quiet = false;
 };
 
-/// Runs the cases and prints a table. Returns whether every bound holds. InputError for unknown names, inputs
+/// Runs the cases and prints a table. Returns true if every bound holds. InputError for unknown names, inputs
 /// and values.
 bool verify(const VerifyOptions& options);
 

@@ -1,11 +1,11 @@
 #pragma once
-// `tread dial`: what a passage costs with which settings, and how far it is from the finest one.
+// `tread dial`: cost of a passage by settings, and the error against the finest settings.
 
 #include <filesystem>
 #include <string>
 
 #include "drivers/studies/dial/dial_design.hpp"
-#include "drivers/studies/study/study_command.hpp"
+#include "drivers/studies/study/run_study.hpp"
 
 namespace tread {
 

@@ -1,4 +1,4 @@
-#include "drivers/studies/study/study_command.hpp"
+#include "drivers/studies/study/run_study.hpp"
 
 #include <fmt/core.h>
 
@@ -99,7 +99,7 @@ void leave_scene(const Study& study) {
   write_text_file(study.scene, study.scene_text);
 }
 
-/// Error for points that did not come to their end; nullopt if there are none.
+/// The error that reports points without an end.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
                                const std::string& way_on) {
   std::string failures;

@@ -1,0 +1,99 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/error.hpp"
+#include "drivers/bench/benchmarks.hpp"
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+
+namespace tread {
+
+namespace {
+
+void add_plan_options(CLI::App& command, MeasurementPlan& plan) {
+  command.add_option("--repetitions", plan.repetitions, "runs, of which the median counts")
+      ->check(at_least(1));
+  command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")->check(at_least(0));
+}
+
+void add_bench_kernels(CLI::App& bench) {
+  auto options = std::make_shared<BenchKernelsOptions>();
+  CLI::App& command =
+      *bench.add_subcommand("kernels", "every kernel on made-up data beside the machine's limits");
+  add_thread_options(command, options->threads);
+  add_plan_options(command, options->plan);
+  command.add_flag("--json", options->json, "one JSON object a line on stdout");
+  command.add_option("--kernel", options->kernels, "names of kernels (default: all)");
+  command.add_option("--elements", options->elements, "mesh sizes (default: 10000 100000 1460000)")
+      ->check(CLI::Range(100, 100000000));
+  command.add_option("--lanes", options->lanes, "instruction sets (default: all of this processor)");
+  command.add_option("--precision", options->precisions, "double, mixed, single (default: all)");
+  command.callback([options] { bench_kernels(*options); });
+}
+
+void add_bench_scaling(CLI::App& bench) {
+  auto state = std::make_shared<SceneCommand<BenchScalingOptions>>();
+  CLI::App& command = *bench.add_subcommand(
+      "scaling", "one to all threads, strong and weak, by every backend, and where efficiency is lost");
+  add_scene_options(command, state->arguments);
+  add_thread_options(command, state->options.threads);
+  add_plan_options(command, state->options.plan);
+  command
+      .add_option("--elements", state->options.elements,
+                  "of the made-up rail that is measured without a scene (default: 400000)")
+      ->check(CLI::Range(100, 100000000));
+  command.add_flag("--json", state->options.json, "one JSON object a line on stdout");
+  command.callback([state] {
+    if (state->arguments.scene.empty())
+      bench_scaling(state->options);
+    else
+      bench_scaling(state->arguments.resolve(), state->options);
+  });
+}
+
+void add_bench_hotspots(CLI::App& bench) {
+  auto state = std::make_shared<SceneCommand<BenchHotspotsOptions>>();
+  CLI::App& command = add_scene_command(bench, "hotspots", "time, work and balance of every phase of a step",
+                                        bench_hotspots, state);
+  command.add_option("--steps", state->options.steps, "of a run (default: 500)")->check(at_least(1));
+  add_plan_options(command, state->options.plan);
+  command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
+}
+
+void add_bench_compare(CLI::App& bench) {
+  auto files = std::make_shared<std::array<std::string, 2>>();
+  auto measure = std::make_shared<BenchMeasure>(BenchMeasure::rate);
+  CLI::App& command = *bench.add_subcommand(
+      "compare", "two files of `bench kernels --json`; exits 3 where the second is slower beyond the spread");
+  command.add_option("before", (*files)[0], "recorded before")->required();
+  command.add_option("after", (*files)[1], "recorded after")->required();
+  const std::map<std::string, BenchMeasure> measures = {{"rate", BenchMeasure::rate},
+                                                        {"limit", BenchMeasure::fraction_of_limit},
+                                                        {"instructions", BenchMeasure::instructions}};
+  command
+      .add_option("--by", *measure,
+                  "rate (default; one quiet machine), limit (shares of what each machine bore) or "
+                  "instructions (recorded with -t 1; busy machines)")
+      ->transform(CLI::CheckedTransformer(measures))
+      ->option_text("TEXT");
+  command.callback([files, measure] {
+    if (!compare_benchmarks((*files)[0], (*files)[1], *measure))
+      throw NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");
+  });
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, const std::string& /*command_line*/) {
+  CLI::App& bench = *app.add_subcommand("bench", "how fast the program is beside what the machine can do");
+  bench.require_subcommand(1);
+  add_bench_kernels(bench);
+  add_bench_scaling(bench);
+  add_bench_hotspots(bench);
+  add_bench_compare(bench);
+}
+
+}  // namespace tread

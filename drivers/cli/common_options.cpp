@@ -1,0 +1,110 @@
+#include "drivers/cli/common_options.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/scene/problems.hpp"
+#include "io/text/json.hpp"
+
+namespace tread {
+
+namespace {
+
+void print_problems(const std::vector<Problem>& problems) {
+  Json list = Json::array();
+  for (const Problem& problem : problems)
+    list.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"column", problem.column},
+                    {"key", problem.key},
+                    {"message", problem.message}});
+  fmt::print("{}", json_text({{"ok", false}, {"problems", list}}));
+}
+
+}  // namespace
+
+ResolvedScene SceneArguments::resolve() const {
+  std::vector<std::string> all;
+  if (!quality.empty()) all.push_back("scene.quality=" + quality);
+  if (!precision.empty()) all.push_back("scene.precision=" + precision);
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return resolve_scene(std::filesystem::path(scene), all);
+}
+
+void report_problems(bool json, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ProblemsError& error) {
+    if (json) print_problems(error.problems);
+    throw;
+  } catch (const Error& error) {
+    if (json) print_problems({{"", 0, 0, "", error.what()}});
+    throw;
+  }
+}
+
+CLI::Validator at_least(int least) {
+  const auto refusal = [least](const std::string& text) {
+    double value = 0;
+    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool number = failure == std::errc() && end == text.data() + text.size();
+    return number && value >= least ? std::string()
+                                    : fmt::format("\"{}\" is not a number of at least {}", text, least);
+  };
+  return {refusal, fmt::format(">= {}", least)};
+}
+
+void add_thread_options(CLI::App& command, ThreadOptions& options) {
+  command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
+  command.add_option("--backend", options.backend,
+                     "library that runs them, openmp (default) or tbb; same bits");
+}
+
+void add_cache_option(CLI::App& command, std::string& place) {
+  place.clear();
+  command.add_option(
+      "--cache", place,
+      "folder of the preload cache, or off (default: TREAD_CACHE, else tread/ in XDG_CACHE_HOME "
+      "or ~/.cache)");
+}
+
+CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("-q,--quality", arguments.quality, "draft, standard or paper; overrides scene.quality");
+  command.add_option("--precision", arguments.precision,
+                     "double, mixed or single; overrides scene.precision");
+  command
+      .add_option("--set", arguments.overrides,
+                  "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
+      ->allow_extra_args(false);
+  return command.add_option("scene", arguments.scene, "scene file (TOML)");
+}
+
+CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {
+  return command.add_option("--cost", cost, "what cheap means: element-steps (default) or minutes");
+}
+
+void add_study_options(CLI::App& command, StudyOptions& options) {
+  command.add_option("-o,--output", options.output, "directory for a folder a run and the comparison");
+  command.add_option("-q,--quality", options.quality, "draft, standard or paper, of all points");
+  command
+      .add_option("--set", options.overrides,
+                  "key=value for all points, e.g. --set \"motion.duration=20 ms\"")
+      ->allow_extra_args(false);
+  command.add_option("-j,--jobs", options.jobs, "runs at once (default: as many as cores and memory allow)")
+      ->check(at_least(1));
+  command
+      .add_option("-t,--threads", options.threads,
+                  "threads of one run (default: its share of the cores that are idle when it begins)")
+      ->check(at_least(1));
+  command.add_flag("--retry", options.retry, "points that failed, too");
+  command.add_flag("--no-share", options.no_share,
+                   "each run begins at the start, also where corrugations by gap could share the rolling");
+  command.add_flag("--list", options.list, "the points and what they will cost, without running them");
+  command.add_flag("--json", options.json, "JSON on stdout");
+  command.add_flag("--quiet", options.quiet, "no progress on stderr");
+}
+
+}  // namespace tread

@@ -1,0 +1,41 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "drivers/cli/commands.hpp"
+#include "drivers/cli/common_options.hpp"
+#include "drivers/run/run_scene.hpp"
+
+namespace tread {
+
+void add_run(CLI::App& app, const std::string& command_line) {
+  auto state = std::make_shared<SceneCommand<RunOptions>>();
+  state->options.command = command_line;
+  CLI::App& command =
+      add_scene_command(app, "run", "preload, roll, write histories, summary and report", run_scene, state);
+  command.add_option("-o,--output", state->options.output, "output directory")->required();
+  command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
+  command.add_flag("--overwrite", state->options.overwrite,
+                   "throw away an unfinished run that the output directory holds");
+  command.add_option(
+      "--from", state->options.from,
+      "begin with the state of another run over another corrugation, DIR or DIR@TIME: out@10ms");
+  add_cache_option(command, state->options.cache);
+}
+
+void add_resume(CLI::App& app, const std::string& /*command_line*/) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App& command = *app.add_subcommand("resume", "go on with a run that was stopped or killed");
+  command.add_option("folder", options->output, "output directory of the run")->required();
+  command
+      .add_option("--set", options->overrides,
+                  "key=value for motion.duration, output.* and stop.*, e.g. --set \"stop.wall_time=2 h\"")
+      ->allow_extra_args(false);
+  add_thread_options(command, options->threads);
+  command.add_flag("--json", options->json, "summary on stdout");
+  command.add_flag("--quiet", options->quiet, "no progress on stderr");
+  add_cache_option(command, options->cache);
+  command.callback([options] { report_problems(options->json, [&] { resume_run(*options); }); });
+}
+
+}  // namespace tread

@@ -1,0 +1,86 @@
+#include "drivers/report/scene_check.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/parallel/parallel.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/report/mesh_measures.hpp"
+#include "drivers/results/estimate.hpp"
+#include "drivers/results/inventory.hpp"
+#include "drivers/results/run_results.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json.hpp"
+
+namespace tread {
+
+namespace {
+
+std::string disk_text(const Model& model, const DiskUse& disk) {
+  std::string text = fmt::format("about {}", bytes_text(disk.results + disk.frames));
+  if (disk.rows == 0) return text;
+  text +=
+      fmt::format(": {} rows of {} channels, {}report {}; ", grouped(disk.rows),
+                  history_channels(model).size(), model.contact ? "patch, " : "", bytes_text(disk.results));
+  if (disk.frames > 0)
+    text += fmt::format("{} frames of {} {}; ", model.scene.output.frames, model.scene.output.frame_cells,
+                        bytes_text(disk.frames));
+  return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
+}
+
+}  // namespace
+
+std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e) {
+  std::string text = fmt::format("{}: no problems found\n\n", resolved.name);
+  text += plain_text(count_table(measure_blocks(model))) + "\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("{:<10}{}\n", name, value);
+  };
+  if (e.steps > 0) {
+    line("Step", fmt::format("{:.4e} s = {:g} of the stable step", e.dt, model.scene.motion->step_safety));
+    line("", e.limit.reason);
+    line("Steps", fmt::format("{} for {:g} ms", grouped(e.steps), 1e3 * model.scene.motion->duration));
+  }
+  line("Memory", fmt::format("about {}", bytes_text(e.memory)));
+  line("Disk", disk_text(model, e.disk));
+  line("Time", fmt::format("about {} with {} thread{}: preload {}{}", duration_text(e.seconds()), threads(),
+                           threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
+                           e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
+  text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
+  return text;
+}
+
+Json check_json(const Model& model, const Estimate& e) {
+  Json json = {{"ok", true}, {"problems", Json::array()}};
+  json["elements"] = model.elements();
+  json["nodes"] = model.nodes();
+  json["blocks"] = Json::array();
+  for (const SweptBlock& block : model.mesh.blocks)
+    json["blocks"].push_back(
+        {{"name", block.name}, {"elements", block.elements()}, {"nodes", block.nodes()}});
+  if (e.steps > 0) {
+    json["dt_s"] = e.dt;
+    json["stable_step_s"] = e.limit.stable_step;
+    json["dt_reason"] = e.limit.reason;
+    json["steps"] = e.steps;
+  }
+  json["memory_bytes"] = e.memory;
+  json["disk_bytes"] = e.disk.results;
+  json["frame_bytes"] = e.disk.frames;
+  json["checkpoint_bytes"] = e.disk.checkpoints;
+  json["history_rows"] = e.disk.rows;
+  json["threads"] = threads();
+  json["preload_s"] = e.preload_seconds;
+  json["rolling_s"] = e.rolling_seconds;
+  json["phases"] = Json::array();
+  for (const PhaseInfo& phase : phases(model))
+    json["phases"].push_back({{"name", phase.name}, {"reads", phase.reads}, {"writes", phase.writes}});
+  json["fields"] = Json::array();
+  for (const FieldInfo& field : fields(model))
+    json["fields"].push_back(
+        {{"name", field.name}, {"unit", field.unit}, {"entity", field.entity}, {"bytes", field.bytes}});
+  return json;
+}
+
+}  // namespace tread

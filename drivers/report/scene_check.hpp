@@ -1,0 +1,20 @@
+#pragma once
+// Size and cost of a scene, before anything runs.
+
+#include <string>
+
+#include "drivers/engine/model.hpp"
+#include "drivers/results/estimate.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/json.hpp"
+
+namespace tread {
+
+/// Counts, stable step with its reason, steps, memory, disk, time, and the phases and fields that the scene
+/// pays for.
+std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& estimate);
+
+/// The figures of check_text() as an object; `problems` is empty.
+Json check_json(const Model& model, const Estimate& estimate);
+
+}  // namespace tread

@@ -1,0 +1,61 @@
+#include "drivers/studies/develop/develop.hpp"
+
+#include <fmt/core.h>
+
+#include "drivers/process/interruption.hpp"
+#include "drivers/studies/develop/development_folder.hpp"
+#include "drivers/studies/develop/development_report.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/plain_text.hpp"
+
+namespace tread {
+
+namespace {
+
+void leave(const DevelopmentFolder& folder, const Development& development, const Scene& scene,
+           const std::string& command) {
+  const RunFolder& place = folder.folder();
+  write_text_file(place / "profiles.csv", profiles_csv(development));
+  write_text_file(place / "spectra.csv", spectra_csv(development));
+  write_text_file(place / "growth.csv", growth_csv(development));
+  write_text_file(place / "development.json", development_json(development));
+  write_text_file(place / "growth.svg", figure_svg(growth_figure(development)));
+  write_text_file(place / "profile.svg", figure_svg(profile_figure(development)));
+  write_report(place / "report.html", development_report(development, scene, command));
+}
+
+std::string passage_text(const Development& development) {
+  std::string text = fmt::format("[develop] passage {} stands for {:.4g}", development.passages.size(),
+                                 development.passages.back().passages);
+  if (const std::optional<BandOutcome> band = deepest(outcome(development)))
+    text += fmt::format("; waves of {:g} mm: {:.4g} um at the start, {:.4g} um now", 1e3 * band->wavelength,
+                        1e6 * band->before, 1e6 * band->after);
+  return text;
+}
+
+}  // namespace
+
+void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
+  Development development;
+  development.plan = wear_plan(resolved.scene);
+  development.profile = development.plan.start;
+  Progress progress(options.quiet);
+  Interruption interruption("tread: stopped before the first passage",
+                            "tread: stopped at once; the same command goes on from the last checkpoint");
+  const DevelopmentFolder folder(options.output, resolved, {options.from, options.threads});
+  interruption.defer();
+  development.smooth = folder.pass(0, nullptr, progress);
+  for (int number = 1; number <= options.passages; ++number) {
+    const WornProfile before = development.profile;
+    development.add(folder.pass(number, &before, progress));
+    progress.say(passage_text(development));
+    leave(folder, development, resolved.scene, options.command);
+  }
+  folder.keep_profile(options.passages, development.profile);
+  if (options.json)
+    fmt::print("{}", development_json(development));
+  else
+    fmt::print("{}{}\n", plain_text(growth_table(development)), verdict(development));
+}
+
+}  // namespace tread

@@ -1,0 +1,107 @@
+#include "drivers/studies/multibody/multibody_study.hpp"
+
+#include <fmt/core.h>
+
+#include "core/error.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "drivers/run/scene_content.hpp"
+#include "drivers/studies/multibody/multibody_report.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kShortestStep = 1e-9;  ///< [s]
+
+MultibodyStep step_of(const MultibodyOptions& options) {
+  MultibodyStep step;
+  step.modes = options.modes;
+  if (options.step.empty()) return step;
+  try {
+    step.step = parse_quantity(options.step, kTime);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--step {}: {}", options.step, error.what()));
+  }
+  if (*step.step < kShortestStep)
+    throw InputError(fmt::format("--step {}: it must be 1 ns at least", options.step));
+  return step;
+}
+
+BeamTheory theory_of(const std::string& beam) {
+  if (beam == "spread") return BeamTheory::spread;
+  return beam == "euler" ? BeamTheory::euler : BeamTheory::timoshenko;
+}
+
+void check(const MultibodyOptions& options) {
+  if (options.map.empty() && !options.dots.empty())
+    throw InputError("--dots: they belong on a map; add --map speed=... wavelength=...");
+  if (!options.output.empty()) require_no_run(options.output);
+}
+
+void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
+                 const MultibodyOptions& options) {
+  const std::filesystem::path& directory = options.output;
+  keep_scene(directory, resolved);
+  write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
+  write_text_file(directory / "summary.json", multibody_json(outcome));
+  write_text_file(directory / "multibody.svg", figure_svg(passage_figure(outcome)));
+  if (outcome.calibration) {
+    write_text_file(directory / "calibration.csv", calibration_csv(*outcome.calibration));
+    write_text_file(directory / "calibration.svg", figure_svg(calibration_figure(outcome)));
+  }
+  if (outcome.map) {
+    write_text_file(directory / "map.csv", map_csv(*outcome.map));
+    write_text_file(directory / "map.svg", heatmap_svg(response_heatmap(outcome)));
+  }
+  write_report(directory / "report.html", multibody_report(outcome, options.command));
+}
+
+}  // namespace
+
+void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& options) {
+  check(options);
+  use_threads(options.threads);
+  const Progress progress(options.quiet);
+  const MultibodyStep step = step_of(options);
+  MultibodyOutcome outcome;
+  outcome.model = multibody_model(resolved.scene, theory_of(options.beam));
+  const MultibodyModel unfiltered = outcome.model;
+  if (options.filter) {
+    outcome.filter_gain = apply_contact_filter(outcome.model);
+  }
+  outcome.result = run_multibody(outcome.model, step);
+  progress.say(fmt::format("[multibody] {} steps of {:.3e} s, {} modes, {}", outcome.result.steps,
+                           outcome.result.dt, outcome.result.modes, duration_text(progress.seconds())));
+  if (!options.calibrate.empty()) {
+    outcome.calibration = calibrate(outcome.model, read_transient_run(options.calibrate), step);
+    progress.say(fmt::format("[calibrate] {} springs tried, {}", outcome.calibration->factors.size(),
+                             duration_text(progress.seconds())));
+  }
+  if (!options.map.empty()) {
+    const MapAxes axes = parse_map_axes(options.map);
+    for (const std::filesystem::path& run : options.dots)
+      outcome.dots.push_back(map_dot(unfiltered, read_transient_run(run)));
+    outcome.map = response_map(unfiltered, axes, step, options.filter);
+    progress.say(
+        fmt::format("[map] {} passages, {}", outcome.map->points.size(), duration_text(progress.seconds())));
+  }
+  outcome.seconds = progress.seconds();
+  if (!options.output.empty()) {
+    make_directory(options.output);
+    write_files(outcome, resolved, options);
+  }
+  if (options.json) {
+    fmt::print("{}", multibody_json(outcome));
+    return;
+  }
+  fmt::print("{}", plain_text(multibody_table(outcome)));
+  if (outcome.calibration)
+    fmt::print("\n{}", plain_text(calibration_table(*outcome.calibration, outcome.model)));
+}
+
+}  // namespace tread

@@ -1,0 +1,216 @@
+#include "drivers/verify/verification.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
+#include "drivers/verify/cases.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/report/report.hpp"
+#include "io/scene/schema.hpp"
+#include "io/text/json.hpp"
+
+namespace tread {
+
+namespace {
+
+/// A case with the inputs that it was run with and what came out.
+struct Outcome {
+  const VerifyCase* verified;
+  VerifyInputs inputs;
+  CaseResult result;
+  double seconds;
+};
+
+std::string shown(const VerifyInput& input) {
+  return input.quantity ? format_quantity(input.value, input.unit) : fmt::format("{:g}", input.value);
+}
+
+/// By the names of cases or groups; without any, the standard ones.
+std::vector<const VerifyCase*> chosen(std::vector<std::string> names) {
+  if (names.empty()) names.emplace_back(kStandardCases);
+  std::vector<const VerifyCase*> cases;
+  for (const std::string& name : names) {
+    const std::size_t before = cases.size();
+    for (const VerifyCase& c : verify_cases())
+      if (c.name == name || c.group == name) cases.push_back(&c);
+    if (cases.size() > before) continue;
+    std::vector<std::string> known = {std::string(kStandardCases), std::string(kExtremes)};
+    for (const VerifyCase& c : verify_cases()) known.push_back(c.name);
+    const std::string near = similar_text(name, known);
+    throw InputError(fmt::format(
+        "verify: there is no case '{}'; {}", name,
+        near.empty() ? "`tread verify --list` names them" : fmt::format("did you mean '{}'?", near)));
+  }
+  return cases;
+}
+
+/// The inputs of every chosen case; each override must find at least one that has it.
+std::vector<VerifyInputs> inputs_of(const std::vector<const VerifyCase*>& cases,
+                                    const std::vector<std::string>& overrides) {
+  std::vector<VerifyInputs> inputs;
+  inputs.reserve(cases.size());
+  for (const VerifyCase* c : cases) inputs.emplace_back(c->inputs);
+  for (const std::string& text : overrides) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos)
+      throw InputError(
+          fmt::format("--set {}: expected name=value, for example --set radius=\"0.5 m\"", text));
+    const std::string name = text.substr(0, equals);
+    bool found = false;
+    std::vector<std::string> known;
+    for (VerifyInputs& of_case : inputs) {
+      found = of_case.set(name, text.substr(equals + 1)) || found;
+      for (const VerifyInput& input : of_case.all())
+        if (std::find(known.begin(), known.end(), input.name) == known.end()) known.push_back(input.name);
+    }
+    if (found) continue;
+    std::string names;
+    for (const std::string& k : known) names += (names.empty() ? "" : ", ") + k;
+    throw InputError(
+        fmt::format("--set {}: no chosen case has the input '{}'; they have {}", text, name, names));
+  }
+  return inputs;
+}
+
+Table table_of(std::span<const Outcome> outcomes) {
+  Table table{"",
+              {{"Case"},
+               {"Quantity"},
+               {"Ours", Align::right},
+               {"Reference", Align::right},
+               {"Unit"},
+               {"Error", Align::right},
+               {"Bound", Align::right},
+               {""}},
+              {}};
+  for (const Outcome& outcome : outcomes)
+    for (const Finding& f : outcome.result.findings) {
+      const auto error = [&](double value) {
+        return f.absolute ? readable(value, 3) : fmt::format("{:+.2f} %", 100 * value);
+      };
+      const auto limit = [&](double value) {
+        return f.absolute ? readable(value, 3) : fmt::format("{:.3g} %", 100 * value);
+      };
+      table.rows.push_back({outcome.verified->name, f.quantity, readable(f.value), readable(f.reference),
+                            f.unit, error(f.error()), f.bound ? limit(*f.bound) : "",
+                            f.bound ? (f.pass() ? "ok" : "FAILS") : ""});
+    }
+  return table;
+}
+
+std::string json_lines(const Outcome& outcome) {
+  Json inputs = Json::object();
+  for (const VerifyInput& input : outcome.inputs.all()) {
+    Json& value = inputs[std::string(input.name)];
+    if (input.quantity)
+      value = shown(input);
+    else
+      value = input.value;
+  }
+  std::string lines;
+  for (const Finding& f : outcome.result.findings)
+    lines += json_line({{"case", outcome.verified->name},
+                        {"inputs", inputs},
+                        {"quantity", f.quantity},
+                        {"value", f.value},
+                        {"unit", f.unit},
+                        {"reference", f.reference},
+                        {"error", f.error()},
+                        {"error_is_relative", !f.absolute},
+                        {"bound", number_or_null(f.bound)},
+                        {"pass", f.pass()},
+                        {"seconds", outcome.seconds}});
+  return lines;
+}
+
+void list_cases() {
+  for (const VerifyCase& c : verify_cases()) {
+    fmt::print("{} ({}): {}\n", c.name, c.group, c.summary);
+    for (const VerifyInput& input : c.inputs)
+      fmt::print("    {} = {}    {}\n", input.name, shown(input), input.meaning);
+  }
+}
+
+/// Inputs that differ from the case's own, each after `lead`.
+std::string changed_inputs(const Outcome& outcome, std::string_view lead) {
+  std::string text;
+  for (std::size_t i = 0; i < outcome.verified->inputs.size(); ++i) {
+    const VerifyInput& input = outcome.inputs.all()[i];
+    if (input.value != outcome.verified->inputs[i].value)
+      text += fmt::format("{}{}=\"{}\"", lead, input.name, shown(input));
+  }
+  return text;
+}
+
+/// The case's name and what differs from its own inputs, fit for a file's name.
+std::string page_name(const Outcome& outcome) {
+  std::string name = outcome.verified->name;
+  for (const char c : changed_inputs(outcome, "-"))
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_')
+      name += c;
+    else if (c == '=')
+      name += '-';
+  return name;
+}
+
+/// A chapter of docs/verification.md: Markdown table and SVG figures.
+void write_page(const Outcome& outcome, const std::filesystem::path& directory) {
+  const std::string name = page_name(outcome);
+  const std::string command = "`tread verify " + outcome.verified->name + changed_inputs(outcome, " --set ");
+  std::string text =
+      fmt::format("{}`: {}; {}.\n\n", command, outcome.verified->summary, duration_text(outcome.seconds));
+  Table table = table_of({&outcome, 1});
+  table.columns.erase(table.columns.begin());
+  for (auto& row : table.rows) row.erase(row.begin());
+  text += markdown(table);
+  text += "\n";
+  for (std::size_t i = 0; i < outcome.result.figures.size(); ++i) {
+    const std::string file = fmt::format("{}-{}.svg", name, i);
+    write_text_file(directory / file, figure_svg(outcome.result.figures[i]));
+    text += fmt::format("![{}]({})\n\n", outcome.result.figures[i].title, file);
+  }
+  write_text_file(directory / (name + ".md"), text);
+}
+
+}  // namespace
+
+bool verify(const VerifyOptions& options) {
+  if (options.list) {
+    list_cases();
+    return true;
+  }
+  use_threads(options.threads);
+  const std::vector<const VerifyCase*> cases = chosen(options.names);
+  const std::vector<VerifyInputs> inputs = inputs_of(cases, options.overrides);
+  if (!options.output.empty()) make_directory(options.output);
+  Progress progress(options.quiet);
+  std::vector<Outcome> outcomes;
+  bool passed = true;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const double started = progress.seconds();
+    CaseResult result = cases[i]->run(inputs[i], [&](const std::string& text) {
+      progress.say(fmt::format("[{}] {}", cases[i]->name, text));
+    });
+    for (const Finding& f : result.findings) passed = passed && f.pass();
+    outcomes.push_back({cases[i], inputs[i], std::move(result), progress.seconds() - started});
+    if (!options.output.empty()) write_page(outcomes.back(), options.output);
+    if (!options.json) continue;
+    fmt::print("{}", json_lines(outcomes.back()));
+    std::fflush(stdout);
+  }
+  if (!options.json) fmt::print("{}", plain_text(table_of(outcomes)));
+  return passed;
+}
+
+}  // namespace tread
