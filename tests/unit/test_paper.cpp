@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <set>
 #include <string>
 
+#include "drivers/report/report_references.hpp"
 #include "drivers/studies/paper/curve_measures.hpp"
 #include "drivers/studies/paper/drawn_figure.hpp"
 #include "drivers/studies/paper/paper_figures.hpp"
@@ -223,6 +225,19 @@ TEST(PaperFigures, AVerdictNamesThePassagesThatItLacksOnce) {
   const std::string shared = "80mm,0.14mm,300km_h,mu=0.3";
   EXPECT_EQ(why.find(shared), why.rfind(shared)) << why;
   EXPECT_NE(why.find(shared), std::string::npos) << why;
+}
+
+/// A number stands in studies/paper and beside the library's scene: the two must be one.
+TEST(PaperNumbers, AreThoseOfTheLibrarysReferences) {
+  const Scene scene = read_scene(std::filesystem::path(TREAD_SOURCE_DIR) / "scenes/corrugation-d.toml");
+  const std::vector<References> references = library_references(scene);
+  ASSERT_EQ(references.size(), 1U);
+  for (const Reference& reference : references[0].rows) {
+    if (reference.theory) continue;
+    EXPECT_TRUE(std::any_of(paper_numbers().begin(), paper_numbers().end(), [&](const PaperNumber& number) {
+      return number.value == reference.value && number.unit == reference.unit;
+    })) << reference.label;
+  }
 }
 
 }  // namespace
