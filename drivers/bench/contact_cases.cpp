@@ -94,7 +94,7 @@ struct Patch {
     options.rail_block = 0;
     options.wheel_block = 1;
     options.penalty = kPenalty;
-    options.friction = kFriction;
+    options.friction = CoulombFriction{kFriction};
     options.wheel_radius = kRadius;
     return options;
   }

@@ -362,7 +362,7 @@ void Model::build_contact() {
   options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
   options.points = spec.points;
   options.penalty = penalty_stiffness(spec);
-  options.friction = spec.friction;
+  options.friction = CoulombFriction{spec.friction};
   options.wheel_radius = wheel_radius();
   // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
   // 2R.

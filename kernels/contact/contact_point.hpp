@@ -6,10 +6,16 @@
 #include <cstdint>
 
 #include "core/math/vec.hpp"
-#include "kernels/contact/friction.hpp"
+#include "kernels/contact/friction/elastic_stick.hpp"
 #include "kernels/lanes/patch_sum.hpp"
 
 namespace tread {
+
+/// State of an integration point between steps.
+struct PointHistory {
+  Traction shear;       ///< [Pa]
+  double pressure = 0;  ///< [Pa]
+};
 
 struct ContactPoint {
   std::array<std::int64_t, kSupport> rail_slot;   ///< nodes about the point, station by station
@@ -17,17 +23,18 @@ struct ContactPoint {
   std::array<double, kSupport> rail_weight;
   std::array<double, kSupport> wheel_weight;
   std::array<double, 4> wheel_angle;               ///< space angle of the four wheel stations [rad]
-  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of it
-  std::array<double, 4> face_share;  ///< of the rail face's corners in the point (for nodal averages)
+  std::array<double, 4> wheel_cosine, wheel_sine;  ///< of these angles
+  std::array<double, 4> face_share;  ///< shares of the rail face's corners in the point (for nodal averages)
   std::array<int, 2> face;           ///< rail station and surface edge
   Vec3 normal;                       ///< out of the wheel, into the rail; Cartesian
   Vec3 along, across;                ///< tangents: along the rolling direction; across, to the field side
   Vec3 position;                     ///< on the rail surface [m]
-  std::int64_t history;              ///< place of the point's history
-  double area;                       ///< that the point stands for [m2]
+  std::int64_t history;              ///< number of the point among all of the rail
+  double area;                       ///< the point's share of the surface [m2]
   double gap;                        ///< at the start of the step, < 0: penetration [m]
   Vec3 velocity_before;              ///< of the wheel against the rail, mean of the step before [m/s]
   Traction shear_before;             ///< in the middle of the step before [Pa]
+  double pressure_before;            ///< in the middle of the step before [Pa]
   double pressure;                   ///< in the middle of the step [Pa]
   Traction shear;                    ///< on the rail, in the middle of the step [Pa]
   double closing_speed;              ///< of the surfaces at the start of the step [m/s]
@@ -35,10 +42,11 @@ struct ContactPoint {
   bool slips;
   double frictional_work;  ///< of the step per area [J/m2]
 
-  /// On the rail [Pa].
+  /// Traction on the rail [Pa].
   Vec3 traction() const { return pressure * normal + shear.along * along + shear.across * across; }
 
-  /// Of the shear stress at the start of the step on the slip speed then; elastic slip included [W/m2].
+  /// Power of the shear stress at the start of the step on the slip speed at that time, elastic slip included
+  /// [W/m2].
   double frictional_power() const {
     return 0.5 * ((shear_before.along + shear.along) * slip_speed.along +
                   (shear_before.across + shear.across) * slip_speed.across);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include "kernels/lanes/tile_force.hpp"
 
@@ -19,17 +21,19 @@ Vec3 vector(const PatchVector& v) {
   return {v.value[0], v.value[1], v.value[2]};
 }
 
-/// Closing, along, across.
+/// Components closing, along, across.
 Vec3 in_frame(const ContactPoint& point, const Vec3& v) {
   return {dot(v, point.normal), dot(v, point.along), dot(v, point.across)};
 }
 
 /// Sets the traction that a point would have if the surfaces went on as in the step before.
-void guess(ContactPoint& point, const Vec3& velocity, double penalty, const CoulombFriction& friction,
+void guess(ContactPoint& point, const Vec3& velocity, const PointSprings& springs, double friction,
            double dt) {
-  point.pressure = std::max(0.0, penalty * (0.5 * dt * velocity.x - point.gap));
+  point.pressure = std::max(0.0, springs.penalty * (0.5 * dt * velocity.x - point.gap));
   point.shear =
-      friction.advance(point.shear_before, {dt * velocity.y, dt * velocity.z}, point.pressure, 0).traction;
+      springs.stick
+          .advance(point.shear_before, {dt * velocity.y, dt * velocity.z}, friction * point.pressure, 0)
+          .traction;
 }
 
 }  // namespace
@@ -39,6 +43,7 @@ PatchSolver::PatchSolver() : lanes_(tile_forces().front()) {}
 void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
   node_of_.assign(static_cast<std::size_t>(slots), -1);
   links_.reserve(points);
+  coefficient_.reserve(points);
   nodes_.reserve(nodes);
   change_.reserve(nodes);
 }
@@ -93,9 +98,11 @@ Vec3 PatchSolver::relative_velocity(const ContactPoint& point, const Link& link)
   return in_frame(point, lanes_->patch_take(link.nodes, change_.data(), link.free));
 }
 
-template <bool rubs>
-PatchSolver::Sweep PatchSolver::sweep(std::vector<ContactPoint>& points, const Law& law) {
-  const double dt = law.dt;
+template <bool rubs, class Law>
+PatchSolver::Sweep PatchSolver::sweep(std::vector<ContactPoint>& points, const Coefficients<Law>& friction,
+                                      const Step& step) {
+  const double dt = step.dt;
+  const double penalty = step.springs.penalty;
   double change = 0;
   double largest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -108,13 +115,14 @@ PatchSolver::Sweep PatchSolver::sweep(std::vector<ContactPoint>& points, const L
     point.closing_speed = mean.x;
     // Gap in the middle of the step if the point's own pressure were zero.
     const double gap = point.gap - 0.5 * dt * velocity.x - compliance * point.pressure;
-    point.pressure = std::max(0.0, -law.penalty * gap / (1 + law.penalty * compliance));
+    point.pressure = std::max(0.0, -penalty * gap / (1 + penalty * compliance));
     if constexpr (rubs) {
       point.slip_speed = {mean.y, mean.z};
       // Slip between both middles if the point's own shear were zero.
       const Traction slip{dt * mean.y + compliance * point.shear.along,
                           dt * mean.z + compliance * point.shear.across};
-      const auto stick = law.friction.advance(point.shear_before, slip, point.pressure, compliance);
+      const auto stick =
+          step.springs.stick.advance(point.shear_before, slip, friction[i] * point.pressure, compliance);
       point.shear = stick.traction;
       point.slips = stick.slips;
     }
@@ -138,22 +146,56 @@ void PatchSolver::slip_freely(std::vector<ContactPoint>& points) const {
   }
 }
 
-void PatchSolver::solve(std::vector<ContactPoint>& points, double penalty, const CoulombFriction& friction,
-                        const BodyFrame& wheel, const NodeMotion& motion, double dt) {
-  link(points, wheel, motion, dt);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    guess(points[i], links_[i].before, penalty, friction, dt);
-    push(links_[i], dt * points[i].area * points[i].traction());
+/// The coefficients of the step, from the sliding in the step before. A point starts to slide in its first
+/// step in contact.
+template <class Law>
+PatchSolver::Coefficients<Law> PatchSolver::advance(const std::vector<ContactPoint>& points,
+                                                    FrictionOf<Law>& friction, double dt) {
+  typename Law::State none{};
+  if constexpr (Law::kUniform) {
+    return {friction.law.advance(none, {}), nullptr};
+  } else {
+    coefficient_.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const ContactPoint& point = points[i];
+      const Vec3 before = point.pressure_before > 0 ? links_[i].before : Vec3{};
+      const Sliding sliding{{before.y, before.z}, point.position.x, point.position.y, dt};
+      if constexpr (FrictionOf<Law>::kHasState)
+        coefficient_[i] =
+            friction.law.advance(friction.state[static_cast<std::size_t>(point.history)], sliding);
+      else
+        coefficient_[i] = friction.law.advance(none, sliding);
+    }
+    return {0, coefficient_.data()};
   }
+}
 
-  // Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
-  const Law law{penalty, friction, dt};
-  const bool rubs = friction.friction_coefficient > 0;
+/// Gauss and Seidel: each point in turn finds the traction that fits the motion which the others leave it.
+template <class Law>
+void PatchSolver::solve_with(std::vector<ContactPoint>& points, const Coefficients<Law>& friction, bool rubs,
+                             const Step& step) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    guess(points[i], links_[i].before, step.springs, friction[i], step.dt);
+    push(links_[i], step.dt * points[i].area * points[i].traction());
+  }
   for (int sweeps = 0; sweeps < kMaxSweeps; ++sweeps) {
-    const Sweep last = rubs ? sweep<true>(points, law) : sweep<false>(points, law);
+    const Sweep last = rubs ? sweep<true>(points, friction, step) : sweep<false>(points, friction, step);
     if (last.change <= kTolerance * last.largest) break;
   }
   if (!rubs) slip_freely(points);
+}
+
+void PatchSolver::solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
+                        const BodyFrame& wheel, const NodeMotion& motion, double dt) {
+  link(points, wheel, motion, dt);
+  std::visit(
+      [&](auto& of) {
+        solve_with(points, advance(points, of, dt), !of.law.frictionless(), {springs, dt});
+        if constexpr (std::decay_t<decltype(of)>::kHasState)
+          for (const ContactPoint& point : points)
+            if (point.pressure <= 0) of.state[static_cast<std::size_t>(point.history)] = {};
+      },
+      friction);
   write_back(motion, wheel.spin, dt);
 }
 
@@ -175,9 +217,9 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
 }
 
 std::int64_t PatchSolver::bytes() const {
-  return static_cast<std::int64_t>(node_of_.size() * sizeof(int) +
-                                   nodes_.capacity() * (sizeof(Node) + sizeof(PatchVector)) +
-                                   links_.capacity() * sizeof(Link));
+  return static_cast<std::int64_t>(
+      node_of_.size() * sizeof(int) + nodes_.capacity() * (sizeof(Node) + sizeof(PatchVector)) +
+      links_.capacity() * sizeof(Link) + coefficient_.capacity() * sizeof(double));
 }
 
 }  // namespace tread

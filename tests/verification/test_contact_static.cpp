@@ -290,5 +290,26 @@ TEST(PlacedWheel, PressuresAreThoseOfTheMiddleOfTheStep) {
   EXPECT_LT(worst, 2e-3);
 }
 
+TEST(ContactStatic, ACorrugationThatIsSetLaterGivesTheSameBits) {
+  Placement built({0.3, 0.123, {0.0123, 0.002, -0.8e-4}, true});
+  Placement set({0.3, 0.123, {0.0123, 0.002, -0.8e-4}, false});
+  const std::vector<ContactPoint> smooth = set.contact().points();
+  const AlignedVector<double> zero(index(3 * set.mesh().slots), 0.0);
+  set.contact().set_corrugation(built.contact().corrugation());
+  set.contact().find_static({zero.data(), nullptr, &set.frame()});
+  const auto& expected = built.contact().points();
+  const auto& found = set.contact().points();
+  ASSERT_EQ(found.size(), expected.size());
+  EXPECT_NE(found.size(), smooth.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].history, expected[i].history);
+    EXPECT_EQ(found[i].gap, expected[i].gap);
+    EXPECT_EQ(found[i].pressure, expected[i].pressure);
+  }
+  EXPECT_EQ(set.contact().reach(), built.contact().reach());
+  EXPECT_EQ(set.contact().totals().area, built.contact().totals().area);
+  EXPECT_EQ(set.contact().bytes(), built.contact().bytes());
+}
+
 }  // namespace
 }  // namespace tread

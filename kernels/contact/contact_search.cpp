@@ -1,0 +1,192 @@
+#include "kernels/contact/contact_search.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double kEver = -std::numeric_limits<double>::infinity();
+
+/// Sets the point's tangents and the bases of the wheel's nodes about it.
+void set_bases(ContactPoint& point) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    point.wheel_cosine[i] = std::cos(point.wheel_angle[i]);
+    point.wheel_sine[i] = std::sin(point.wheel_angle[i]);
+  }
+  const Vec3 ahead{1, 0, 0};
+  const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
+  point.along = (1 / norm(along)) * along;
+  point.across = cross(point.along, point.normal);
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
+                             Corrugation corrugation)
+    : surfaces_(rail, wheel, options.surface), options_(options), quadrature_(options.points) {
+  set_corrugation(std::move(corrugation));
+}
+
+void ContactSearch::set_corrugation(Corrugation corrugation) {
+  surfaces_.set_corrugation(std::move(corrugation));
+  deepest_ = std::max(options_.depth_room, surfaces_.corrugation().deepest());
+  choose_edges();
+  make_room();
+}
+
+/// Edges of the rail that lie within reach of the wheel's undeformed profile lowered to touch.
+void ContactSearch::choose_edges() {
+  const SurfaceProfile& rail = surfaces_.rail_profile();
+  const SurfaceProfile& wheel = surfaces_.wheel_profile();
+  double closest = 1e30;
+  std::vector<double> gap(static_cast<std::size_t>(rail.edges()), 1e30);
+  for (int edge = 0; edge < rail.edges(); ++edge) {
+    const auto at = rail.evaluate(edge, 0.5, options_.surface);
+    if (at.p <= wheel.first_p() || at.p >= wheel.last_p()) continue;
+    const int over = wheel.edge_at(at.p);
+    const double p0 = wheel.edge_p(over, 0);
+    const double eta = (at.p - p0) / (wheel.edge_p(over, 1) - p0);
+    gap[static_cast<std::size_t>(edge)] = -at.q - wheel.evaluate(over, eta, options_.surface).q;
+    closest = std::min(closest, gap[static_cast<std::size_t>(edge)]);
+  }
+  touching_height_ = -closest;
+  const double lateral_reach = 1.5 * options_.reach_gap + deepest_;
+  first_edge_ = rail.edges();
+  last_edge_ = 0;
+  for (int edge = 0; edge < rail.edges(); ++edge)
+    if (gap[static_cast<std::size_t>(edge)] < closest + lateral_reach) {
+      first_edge_ = std::min(first_edge_, edge);
+      last_edge_ = edge + 1;
+    }
+  if (first_edge_ >= last_edge_)
+    throw InputError("contact: the wheel's profile does not lie over the rail's");
+}
+
+void ContactSearch::make_room() {
+  const SweptBlock& rail = surfaces_.rail();
+  wake_time_.assign(static_cast<std::size_t>(face_index(rail.station_count(), 0)), kEver);
+  double pitch = 1e30;
+  for (const PitchClass& c : rail.classes) pitch = std::min(pitch, c.pitch);
+  columns_.assign(static_cast<std::size_t>(2 * reach() / pitch) + 3, {});
+  for (std::vector<ContactPoint>& column : columns_)
+    column.reserve(static_cast<std::size_t>(last_edge_ - first_edge_) * points_per_face());
+}
+
+/// A circle of the wheel's radius lies reach_gap and the corrugation's depth above its lowest point there.
+double ContactSearch::reach() const {
+  return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest_));
+}
+
+void ContactSearch::update_window(const BodyFrame& wheel) {
+  const SweptBlock& rail = surfaces_.rail();
+  const double wheel_x = wheel.origin.x;
+  const double half = reach();
+  const auto low = surfaces_.rail_stations().find(wheel_x - half);
+  const auto high = surfaces_.rail_stations().find(wheel_x + half);
+  if (low.station < 0 || high.station < 0)
+    throw NumericalError(
+        fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
+                    "m); shorten motion.duration or lengthen rail.length",
+                    wheel_x, rail.stations.front(), rail.stations.back()));
+  const double angle = half / options_.wheel_radius;
+  if (surfaces_.wheel_stations().find(-wheel.angle - angle).station < 0 ||
+      surfaces_.wheel_stations().find(-wheel.angle + angle).station < 0)
+    throw NumericalError(fmt::format(
+        "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out",
+        wheel_x));
+  window_first_ = low.station;
+  window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
+}
+
+void ContactSearch::visit_column(const Visit& visit, int station) {
+  const ContactState& state = *visit.state;
+  std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+  column.clear();
+  const bool dynamic = static_cast<bool>(state.velocity);
+  for (int edge = first_edge_; edge < last_edge_; ++edge) {
+    const std::int64_t face = face_index(station, edge);
+    double& wake = wake_time_[static_cast<std::size_t>(face)];
+    if (dynamic && visit.time < wake) continue;
+    double smallest = std::numeric_limits<double>::max();
+    for (int k = 0; k < quadrature_.size(); ++k) {
+      ContactPoint point{};
+      surfaces_.place(state, {station, edge}, quadrature_.point(k), point);
+      const double gap = surfaces_.find_gap(state, 0.5 * options_.reach_gap, point);
+      smallest = std::min(smallest, gap);
+      point.history = face * quadrature_.size() + k;
+      const PointHistory before =
+          dynamic ? visit.history[static_cast<std::size_t>(point.history)] : PointHistory{};
+      // A point that carried pressure stays until a step in which it carries none has released its energy.
+      if (gap >= margin_ && !(before.pressure > 0)) continue;
+      set_bases(point);
+      if (dynamic) {
+        point.shear_before = before.shear;
+        point.pressure_before = before.pressure;
+        point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
+      } else {
+        point.pressure = -options_.penalty * gap;
+      }
+      column.push_back(point);
+    }
+    if (dynamic) wake = smallest > margin_ ? visit.time + (smallest - margin_) / closing_speed_ : visit.time;
+  }
+}
+
+void ContactSearch::gather(std::vector<ContactPoint>& points) const {
+  points.clear();
+  for (int station = window_first_; station < window_last_; ++station) {
+    const std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+    points.insert(points.end(), column.begin(), column.end());
+  }
+}
+
+void ContactSearch::find_static(const ContactState& state, std::vector<ContactPoint>& points) {
+  margin_ = 0;
+  update_window(*state.wheel);
+  for (int station = window_first_; station < window_last_; ++station) visit_column({&state, {}, 0}, station);
+  gather(points);
+}
+
+void ContactSearch::find(const ContactState& state, std::span<const PointHistory> history, double time,
+                         double dt, std::vector<ContactPoint>& points) {
+  update_window(*state.wheel);
+  const double half = reach();
+  const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest();
+  closing_speed_ = norm(state.wheel->velocity) * slope + 5;
+  margin_ = closing_speed_ * dt;
+  const Visit visit{&state, history, time};
+  parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) visit_column(visit, window_first_ + static_cast<int>(i));
+  });
+  gather(points);
+}
+
+void ContactSearch::wake_all() {
+  std::fill(wake_time_.begin(), wake_time_.end(), kEver);
+}
+
+const ContactPoint* ContactSearch::point_at_the_end(const BodyFrame& wheel,
+                                                    const std::vector<ContactPoint>& points) const {
+  const double room = 0.95 * reach();
+  const double outermost = quadrature_.place(0);  // of a face, from its side
+  const int edges = surfaces_.rail_profile().edges();
+  for (const ContactPoint& point : points) {
+    const int edge = point.face[1];
+    const double across = quadrature_.point(static_cast<int>(point.history % quadrature_.size())).across;
+    const bool beside = (first_edge_ > 0 && edge == first_edge_ && across <= outermost) ||
+                        (last_edge_ < edges && edge == last_edge_ - 1 && across >= 1 - outermost);
+    if (beside || std::abs(point.position.x - wheel.origin.x) >= room) return &point;
+  }
+  return nullptr;
+}
+
+}  // namespace tread

@@ -1,0 +1,98 @@
+#pragma once
+// Search for the rail's integration points that touch the wheel. [theory.md, Contact]
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/body_frame.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/contact/contact_point.hpp"
+#include "kernels/contact/contact_state.hpp"
+#include "kernels/contact/face_quadrature.hpp"
+#include "kernels/contact/surface_pair.hpp"
+
+namespace tread {
+
+class ContactSearch {
+ public:
+  struct Options {
+    SurfaceKind surface;
+    int points;           ///< integration points per face and direction
+    double penalty;       ///< normal penalty stiffness per area [Pa/m]
+    double wheel_radius;  ///< of the nominal rolling circle [m]
+    double depth_room;    ///< corrugation depth that there is room for at least [m]
+    double reach_gap;     ///< gap of the undeformed surfaces up to which points are searched [m]
+  };
+
+  /// InputError if the wheel's profile does not lie over the rail's.
+  ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
+                Corrugation corrugation);
+
+  /// Lowers the rail's surface, makes room for its depth and forgets all wake times.
+  void set_corrugation(Corrugation corrugation);
+
+  /// Sets `points` to those in contact, with the pressures of statics.
+  void find_static(const ContactState& state, std::vector<ContactPoint>& points);
+
+  /// Sets `points` to those that touch or may touch before the step of length dt [s] that starts at `time`
+  /// [s] ends, with the tractions and velocities before the step. A point that carried pressure stays.
+  void find(const ContactState& state, std::span<const PointHistory> history, double time, double dt,
+            std::vector<ContactPoint>& points);
+
+  /// Forgets when faces may close.
+  void wake_all();
+
+  /// Returns a point at the end of the searched surface, beyond which points would be missed; or null.
+  const ContactPoint* point_at_the_end(const BodyFrame& wheel, const std::vector<ContactPoint>& points) const;
+
+  /// Half length of the stretch about the wheel's axis that is searched [m].
+  double reach() const;
+  /// Height of the wheel's axis at which the undeformed wheel touches the smooth rail [m].
+  double touching_height() const { return touching_height_; }
+
+  const SurfacePair& surfaces() const { return surfaces_; }
+  const FaceQuadrature& quadrature() const { return quadrature_; }
+  /// Edges of the rail's surface that the wheel's profile can reach, [first, last).
+  std::array<int, 2> edges() const { return {first_edge_, last_edge_}; }
+  /// Stations of the window found last, [first, last).
+  std::array<int, 2> window() const { return {window_first_, window_last_}; }
+  std::size_t window_capacity() const { return columns_.size(); }                         ///< stations
+  std::size_t capacity() const { return columns_.size() * columns_.front().capacity(); }  ///< points
+  std::size_t rail_points() const { return wake_time_.size() * points_per_face(); }  ///< of the whole rail
+  std::vector<double>& wake_time() { return wake_time_; }                            ///< by face [s]
+  /// Bytes of the wake times.
+  std::int64_t bytes() const { return static_cast<std::int64_t>(wake_time_.size() * sizeof(double)); }
+
+ private:
+  struct Visit {
+    const ContactState* state;
+    std::span<const PointHistory> history;
+    double time;
+  };
+  void choose_edges();
+  void make_room();
+  void update_window(const BodyFrame& wheel);
+  void visit_column(const Visit& visit, int station);
+  void gather(std::vector<ContactPoint>& points) const;
+  std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
+  /// Number of a rail face among all.
+  std::int64_t face_index(int station, int edge) const {
+    return static_cast<std::int64_t>(station) * surfaces_.rail_profile().edges() + edge;
+  }
+
+  SurfacePair surfaces_;
+  Options options_;
+  FaceQuadrature quadrature_;
+  double deepest_ = 0;  ///< corrugation that the searched surface has room for [m]
+  int first_edge_ = 0, last_edge_ = 0;
+  int window_first_ = 0, window_last_ = 0;
+  double touching_height_ = 0;
+  double closing_speed_ = 0;                        ///< bound used for wake_time_ [m/s]
+  double margin_ = 0;                               ///< gap up to which points are kept [m]
+  std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
+  std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
+};
+
+}  // namespace tread

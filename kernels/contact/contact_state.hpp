@@ -1,0 +1,37 @@
+#pragma once
+// Motion of the bodies at a contact point.
+
+#include <cstddef>
+
+#include "core/body_frame.hpp"
+#include "core/mesh/node_field.hpp"
+#include "kernels/contact/contact_point.hpp"
+
+namespace tread {
+
+/// Displacement and velocity fields in local components, and the wheel's frame.
+struct ContactState {
+  ConstNodeField displacement;  ///< [m]
+  ConstNodeField velocity;      ///< relative to the frame [m/s]; none in statics
+  const BodyFrame* wheel;
+};
+
+/// Velocity of the rail's surface at the point [m/s].
+inline Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) {
+  Vec3 v;
+  for (std::size_t k = 0; k < kSupport; ++k)
+    v += point.rail_weight[k] * state.velocity.at(point.rail_slot[k]);
+  return v;
+}
+
+/// Velocity of the wheel's surface at the point [m/s].
+inline Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) {
+  Vec3 v;
+  for (std::size_t k = 0; k < kSupport; ++k)
+    v += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
+                                           state.velocity.at(point.wheel_slot[k]));
+  const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
+  return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
+}
+
+}  // namespace tread

@@ -1,0 +1,42 @@
+#pragma once
+// The friction laws and their states over the integration points. [theory.md, Friction]
+//
+// A law is a plain struct with
+//   State                      per integration point; plain doubles, or empty; zero where contact is fresh
+//   kUniform                   true if all points have one coefficient, which no point has to look up
+//   frictionless()             true if the coefficient is zero everywhere and always
+//   advance(state, sliding)    coefficient of friction f of a step from the sliding in the step before; moves
+//                              the state on
+// A new law is a header in this folder and one line in FrictionLaw.
+
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "kernels/contact/friction/coulomb.hpp"
+
+namespace tread {
+
+using FrictionLaw = std::variant<  //
+    CoulombFriction>;
+
+/// A law with the states of all integration points of the rail.
+template <class Law>
+struct FrictionOf {
+  static constexpr bool kHasState = !std::is_empty_v<typename Law::State>;
+
+  Law law;
+  std::vector<typename Law::State> state = {};  ///< by integration point; empty for a law without a state
+};
+
+/// FrictionOf each law of a list.
+template <class Laws>
+struct FrictionsOf;
+template <class... Law>
+struct FrictionsOf<std::variant<Law...>> {
+  using type = std::variant<FrictionOf<Law>...>;
+};
+
+using Friction = FrictionsOf<FrictionLaw>::type;
+
+}  // namespace tread

@@ -1,0 +1,56 @@
+#pragma once
+// The running surfaces of rail and wheel and the gap between them. [theory.md, Surfaces and Contact]
+
+#include <array>
+#include <utility>
+
+#include "core/corrugation.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/contact/contact_point.hpp"
+#include "kernels/contact/contact_state.hpp"
+#include "kernels/contact/contact_surface.hpp"
+#include "kernels/contact/face_quadrature.hpp"
+
+namespace tread {
+
+/// An extruded rail's surface under a revolved wheel's.
+class SurfacePair {
+ public:
+  SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind);
+
+  /// Lowers the rail's surface.
+  void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
+
+  /// Sets nodes, weights, place, face and area of a point of the quadrature on a rail face.
+  void place(const ContactState& state, std::array<int, 2> face, const FaceQuadrature::Point& at,
+             ContactPoint& point) const;
+
+  /// Sets the wheel's nodes, weights, angles, normal and gap at the wheel's point that is closest to the
+  /// placed rail point. Returns the gap [m], or the largest number beyond the wheel's surface. A gap above
+  /// `far` [m] is rough.
+  double find_gap(const ContactState& state, double far, ContactPoint& point) const;
+
+  const SweptBlock& rail() const { return *rail_; }
+  const Corrugation& corrugation() const { return corrugation_; }
+  const SurfaceProfile& rail_profile() const { return rail_profile_; }
+  const SurfaceProfile& wheel_profile() const { return wheel_profile_; }
+  const StationFinder& rail_stations() const { return rail_stations_; }
+  const StationFinder& wheel_stations() const { return wheel_stations_; }
+  SurfaceKind kind() const { return kind_; }
+
+ private:
+  struct WheelPlace;
+  struct WheelSurface;
+  WheelSurface wheel_surface(const ContactState& state, const WheelPlace& at, ContactPoint& point) const;
+
+  const SweptBlock* rail_;
+  const SweptBlock* wheel_;
+  SurfaceKind kind_;
+  Corrugation corrugation_;
+  SurfaceProfile rail_profile_;
+  SurfaceProfile wheel_profile_;
+  StationFinder rail_stations_;
+  StationFinder wheel_stations_;
+};
+
+}  // namespace tread
