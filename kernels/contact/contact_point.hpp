@@ -17,6 +17,7 @@ struct PointHistory {
   double pressure = 0;  ///< [Pa]
 };
 
+/// Place, bases, history and tractions of a point in a step.
 struct ContactPoint {
   std::array<std::int64_t, kSupport> rail_slot;   ///< nodes about the point, station by station
   std::array<std::int64_t, kSupport> wheel_slot;  ///< nodes about the opposite point of the wheel

@@ -15,6 +15,7 @@
 
 namespace tread {
 
+/// Window of rail faces about the wheel and the integration points on them that may touch.
 class ContactSearch {
  public:
   struct Options {

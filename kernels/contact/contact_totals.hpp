@@ -46,6 +46,7 @@ class PatchArea {
   double width_ = 0;                 ///< of the rail's surface along its arc [m]
 };
 
+/// Sums over the points in contact.
 ContactTotals sum_up(const std::vector<ContactPoint>& points, const PointSprings& springs,
                      const PatchArea& area);
 

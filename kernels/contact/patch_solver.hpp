@@ -34,6 +34,7 @@ struct PointSprings {
   }
 };
 
+/// Gauss and Seidel's method over the points, in a fixed order.
 class PatchSolver {
  public:
   PatchSolver();

@@ -1,7 +1,10 @@
-// The bodies of element and motion, compiled for a GPU, an element or a node a thread, so that they stay fit
-// for one. Nothing runs them.
+// The bodies of element, motion and friction, compiled for a GPU, an element, a node or a point a thread, so
+// that they stay fit for one. Nothing runs them.
 //   cmake --build build/release --target nvcc_check      where CMake finds nvcc
 
+#include "kernels/contact/friction/coulomb.hpp"
+#include "kernels/contact/friction/falling.hpp"
+#include "kernels/contact/friction/table.hpp"
 #include "kernels/element/element_body.hpp"
 #include "kernels/update/node_motion_body.hpp"
 
@@ -74,6 +77,16 @@ __global__ void motions(StepConstants<Real> step, const Real* inverse_mass, cons
   move_spinning(step, weight[i], radius[i], inverse_mass[i], f[i], u[i], v[i]);
 }
 
+/// Tractions and states of contact points by a friction law.
+template <class Law>
+__global__ void frictions(Law law, ElasticStick stick, const Sliding* sliding, const double* pressure,
+                          typename Law::State* state, Traction* traction) {
+  const int i = thread_index();
+  const Traction slip{sliding[i].dt * sliding[i].velocity.along, sliding[i].dt * sliding[i].velocity.across};
+  const double friction = law.advance(state[i], sliding[i]);
+  traction[i] = stick.advance(traction[i], slip, friction * pressure[i], 0).traction;
+}
+
 #define TREAD_ELEMENT_KERNELS(Real, finite_rotation)                                                   \
   template __global__ void swept_forces<Sweep::extruded, finite_rotation>(const SweptConstants<Real>*, \
                                                                           ElementValues<Real>*);       \
@@ -85,6 +98,13 @@ __global__ void motions(StepConstants<Real> step, const Real* inverse_mass, cons
   template __global__ void motions(StepConstants<Real>, const Real*, const Real*, const Real(*)[2], \
                                    const Real(*)[3], U(*)[3], Real(*)[3]);
 
+#define TREAD_FRICTION_KERNEL(Law)                                                                  \
+  template __global__ void frictions(Law, ElasticStick, const Sliding*, const double*, Law::State*, \
+                                     Traction*);
+
+TREAD_FRICTION_KERNEL(CoulombFriction)
+TREAD_FRICTION_KERNEL(TableFriction)
+TREAD_FRICTION_KERNEL(FallingFriction)
 TREAD_ELEMENT_KERNELS(double, false)
 TREAD_ELEMENT_KERNELS(double, true)
 TREAD_ELEMENT_KERNELS(float, false)

@@ -290,7 +290,7 @@ TEST(PlacedWheel, PressuresAreThoseOfTheMiddleOfTheStep) {
   EXPECT_LT(worst, 2e-3);
 }
 
-TEST(ContactStatic, ACorrugationThatIsSetLaterGivesTheSameBits) {
+TEST(PlacedWheel, ACorrugationThatIsSetLaterGivesTheSameBits) {
   Placement built({0.3, 0.123, {0.0123, 0.002, -0.8e-4}, true});
   Placement set({0.3, 0.123, {0.0123, 0.002, -0.8e-4}, false});
   const std::vector<ContactPoint> smooth = set.contact().points();

