@@ -84,7 +84,15 @@ struct LoadSpec {
 
 /// [contact]
 struct ContactSpec {
-  double friction = 0.5;  ///< coefficient of friction f [-]
+  std::string friction_law = "coulomb";  ///< "coulomb", "table" or "falling"
+  double friction = 0.5;                 ///< coefficient of friction f; falling: without slip [-]
+  double friction_fast = 0.2;            ///< falling: f of fast slip [-]
+  double friction_speed = 5.0 / 3;       ///< falling: slip speed that leaves 1/e of the fall [m/s]
+  double friction_memory = 0;            ///< falling: sliding length over which f follows the slip speed [m]
+  std::string friction_file;             ///< table: two columns, x from `friction_start` and f
+  double friction_start = 0;             ///< table: x of its zero [m]
+  std::vector<double> friction_x;        ///< table: increasing [m]
+  std::vector<double> friction_at_x;     ///< table: f there [-]
   /// Penetration / Hertz approach under the static wheel load; absent: the stiffest penalty that the mesh
   /// bears. [-]
   std::optional<double> penetration_ratio;
@@ -92,6 +100,12 @@ struct ContactSpec {
   std::optional<double> depth_room;
   std::string surface = "exact";  ///< "exact" (profile curves) or "facets"
   int points = 3;                 ///< integration points per face and direction
+
+  /// The largest coefficient of friction that the law knows: what a patch can transmit at the most [-].
+  double largest_friction() const {
+    if (friction_law != "table" || friction_at_x.empty()) return friction;
+    return *std::max_element(friction_at_x.begin(), friction_at_x.end());
+  }
 };
 
 /// [motion]; absent: the scene ends with its static state

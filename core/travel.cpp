@@ -33,7 +33,8 @@ DrivenWheel driven_wheel(const Scene& scene) {
   const auto& vehicle = scene.vehicle;
   const double own = mass_of(wheel, scene.steel.density);
   return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0),
-          0.5 * wheel.diameter, scene.contact ? scene.contact->friction : 0, wheel.bore == "guided"};
+          0.5 * wheel.diameter, scene.contact ? scene.contact->largest_friction() : 0,
+          wheel.bore == "guided"};
 }
 
 Travel travel_of(const Scene& scene) {

@@ -10,8 +10,8 @@ struct DrivenWheel {
   double load = 0;      ///< static wheel load [N]
   double mass = 1;      ///< mass that the longitudinal contact force accelerates [kg]
   double radius = 1;    ///< [m]
-  double friction = 0;  ///< coefficient of friction, beyond which no torque drives [-]
-  bool guided = false;  ///< true for a wheel at constant speed
+  double friction = 0;  ///< largest coefficient of friction, beyond which no torque drives [-]
+  bool guided = false;  ///< at constant speed
 
   /// Acceleration under the full torque [m/s^2], negative under braking.
   double acceleration(const MotionSpec& motion) const;

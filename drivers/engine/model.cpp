@@ -63,6 +63,16 @@ Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes
   return at;
 }
 
+/// The law of the scene; that of a table views the spec's arrays.
+FrictionLaw friction_of(const ContactSpec& spec) {
+  if (spec.friction_law == "table")
+    return TableFriction{spec.friction_x.data(), spec.friction_at_x.data(),
+                         static_cast<int>(spec.friction_x.size()), spec.friction_start};
+  if (spec.friction_law == "falling")
+    return FallingFriction{spec.friction, spec.friction_fast, spec.friction_speed, spec.friction_memory};
+  return CoulombFriction{spec.friction};
+}
+
 }  // namespace
 
 Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
@@ -362,7 +372,7 @@ void Model::build_contact() {
   options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
   options.points = spec.points;
   options.penalty = penalty_stiffness(spec);
-  options.friction = CoulombFriction{spec.friction};
+  options.friction = friction_of(spec);
   options.wheel_radius = wheel_radius();
   // At the patch's border the undeformed surfaces are apart by up to the approach; of a line contact by a^2 /
   // 2R.

@@ -33,7 +33,7 @@ std::vector<double> typical_places(const Scene& scene, const Span& stretch, doub
 struct Instants {
   PatchAxes axes;
   int axis_row = 0;     ///< the patch's longitudinal axis, of axes.y
-  double friction = 0;  ///< f [-]
+  double friction = 0;  ///< largest f of the law [-]
   Corrugation corrugation;
   std::vector<PatchSample> samples;
 };

@@ -82,7 +82,7 @@ double axis_height(const Model& model) {
 Figure force_figure(const Model& model, const RunResults& r) {
   const Scene& scene = model.scene;
   const Corrugation& corrugation = model.contact->corrugation();
-  const double f = scene.contact->friction;
+  const double f = scene.contact->largest_friction();
   Figure figure;
   figure.title =
       corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
@@ -97,13 +97,13 @@ Figure force_figure(const Model& model, const RunResults& r) {
   if (!corrugation.smooth())
     figure.panels.push_back(
         panel("Rail surface [mm]", {running_surface(corrugation, *figure.x_range)}, {}, 90));
-  figure.caption +=
-      "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4) + ".";
+  figure.caption += "Where F_L meets f F_N the whole patch slides. f = " + std::to_string(f).substr(0, 4);
+  figure.caption += scene.contact->friction_law == "coulomb" ? "." : ", the largest coefficient of friction.";
   return figure;
 }
 
 Figure passage_figure(const Model& model, const RunResults& r) {
-  const double f = model.scene.contact->friction;
+  const double f = model.scene.contact->largest_friction();
   Figure figure = over_the_way("Forces over the whole way", model, r);
   figure.panels.push_back(
       panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},

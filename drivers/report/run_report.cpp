@@ -327,13 +327,12 @@ Chapter scene_chapter(const Run& run) {
   return {"Scene", {table}};
 }
 
-/// A file of references that does not read must not cost a finished run its report.
-void find_references(Run& run) {
-  try {
-    run.references = library_references(run.scene());
-  } catch (const InputError& error) {
-    run.without_references = fmt::format("Without values from the literature: {}", error.what());
-  }
+std::string friction_text(const ContactSpec& contact) {
+  if (contact.friction_law == "table")
+    return fmt::format("f of a table, up to {:g}", contact.largest_friction());
+  if (contact.friction_law == "falling")
+    return fmt::format("f {:g} falling to {:g}", contact.friction, contact.friction_fast);
+  return fmt::format("f {:g}", contact.friction);
 }
 
 std::string subtitle(const Run& run) {
@@ -342,7 +341,7 @@ std::string subtitle(const Run& run) {
   if (scene.motion && scene.wheel) text += fmt::format(" · {:.4g} km/h", 3.6 * scene.motion->speed);
   if (scene.motion && scene.motion->traction_mu)
     text += fmt::format(" · mu {:g}", *scene.motion->traction_mu);
-  if (scene.contact) text += fmt::format(" · f {:g}", scene.contact->friction);
+  if (scene.contact) text += fmt::format(" · {}", friction_text(*scene.contact));
   text += fmt::format(" · quality {}, contact elements {} mm", scene.quality,
                       readable(1e3 * run.model.sizes.contact, 3));
   if (const std::optional<ForkOrigin>& origin = run.results.origin)

@@ -92,7 +92,7 @@ Figure surface_figure(const Model& model, const RunResults& r) {
 }
 
 Figure instants_figure(const Model& model, const RunResults& r) {
-  return instants_figure({axes(model), r.surface.axis_row, model.scene.contact->friction,
+  return instants_figure({axes(model), r.surface.axis_row, model.scene.contact->largest_friction(),
                           model.contact->corrugation(), r.instants});
 }
 

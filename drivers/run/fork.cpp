@@ -113,6 +113,12 @@ bool same_profiles(const Scene& a, const Scene& b) {
   return same(a.wheel, b.wheel) && same(a.rail, b.rail);
 }
 
+bool same_friction_table(const Scene& a, const Scene& b) {
+  return !a.contact || !b.contact ||
+         (a.contact->friction_x == b.contact->friction_x &&
+          a.contact->friction_at_x == b.contact->friction_at_x);
+}
+
 /// Moved nodes are another mesh.
 std::vector<std::string> mesh_differences(const ResolvedScene& there, const ResolvedScene& here) {
   const auto by_nodes = [](const Scene& scene) {
@@ -131,6 +137,8 @@ void require_same_start(const std::string& from, const ResolvedScene& there, con
   std::vector<std::string> texts =
       differences(there, here, [](const std::string& path) { return !is_free(path); });
   for (std::string& text : mesh_differences(there, here)) texts.push_back(std::move(text));
+  if (!same_friction_table(there.scene, here.scene))
+    texts.emplace_back("contact.friction_file (other values)");
   if (!same_profiles(there.scene, here.scene)) texts.emplace_back("a file of a profile (other values)");
   if (texts.empty()) return;
   throw InputError(

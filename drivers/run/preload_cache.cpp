@@ -111,9 +111,13 @@ std::string preload_key(const ResolvedScene& resolved, const Model& model) {
       key += fmt::format("{} = {} {}\n", entry.path, entry.value, entry.unit);
   const Span run = run_span(resolved.scene);  // traction acts on the mesh, too
   key += fmt::format("run {} m to {} m\n", run.first, run.last);
+  const auto acts_on_rolling = [&](const std::string& name) {
+    const Scene& scene = resolved.scene;
+    return (scene.corrugation && name == scene.corrugation->file) ||
+           (scene.contact && name == scene.contact->friction_file);
+  };
   for (const auto& [name, text] : resolved.source.files)
-    if (!resolved.scene.corrugation || name != resolved.scene.corrugation->file)
-      key += fmt::format("{}:\n{}\n", name, text);
+    if (!acts_on_rolling(name)) key += fmt::format("{}:\n{}\n", name, text);
   return key;
 }
 

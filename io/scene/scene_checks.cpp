@@ -28,6 +28,7 @@ class Checker {
     check_values();
     check_components();
     check_materials();
+    if (scene_.contact) check_friction(*scene_.contact);
     if (scene_.wheel) check_wheel(*scene_.wheel);
     if (scene_.rail) check_rail(*scene_.rail);
     if (scene_.motion) check_motion(*scene_.motion);
@@ -125,6 +126,26 @@ class Checker {
             "the gap is not shorter than the pitch of slab and gap together");
   }
 
+  void check_friction(const ContactSpec& contact) {
+    if (contact.friction_law == "table") {
+      constexpr double kLargest = 2;
+      for (std::size_t i = 0; i < contact.friction_at_x.size(); ++i)
+        require(contact.friction_at_x[i] >= 0 && contact.friction_at_x[i] <= kLargest,
+                {"contact.friction_file"},
+                fmt::format("f = {:g} at x = {:g} m is not allowed; it must be from 0 to {:g}",
+                            contact.friction_at_x[i], contact.friction_x[i], kLargest));
+    }
+    if (contact.friction_law != "falling") return;
+    require(contact.friction_memory > 0, {"contact.friction_memory"},
+            "without a memory the motion under falling friction is ill-posed: the shorter a wave of slip, "
+            "the faster it grows (theory.md, Friction); state the sliding length over which the coefficient "
+            "follows the slip speed, for example \"20 um\"");
+    require(contact.friction_fast <= contact.friction, {"contact.friction_fast", "contact.friction"},
+            fmt::format("the coefficient of fast slip, {:g}, is above that without slip, {:g}: friction "
+                        "would not fall; state a smaller one",
+                        contact.friction_fast, contact.friction));
+  }
+
   void check_wheel(const WheelSpec& wheel) {
     const bool arc = wheel.profile == "arc" || wheel.profile == "cylinder";
     if (wheel.shape == "tyre") {
@@ -216,10 +237,13 @@ class Checker {
             "the state for forks is kept after the run's end");
     if (scene_.wheel && !scene_.steel.name.empty()) check_rim(motion, scene_.steel);
     if (!motion.traction_mu || !scene_.contact) return;
+    const double largest = scene_.contact->largest_friction();
     require(
-        std::abs(*motion.traction_mu) <= scene_.contact->friction, {"motion.traction.mu", "contact.friction"},
+        std::abs(*motion.traction_mu) <= largest,
+        {"motion.traction.mu",
+         scene_.contact->friction_law == "table" ? "contact.friction_file" : "contact.friction"},
         fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
-                    *motion.traction_mu, scene_.contact->friction));
+                    *motion.traction_mu, largest));
   }
 
   void check_hammer(const RailSpec& rail, const HammerSpec& hammer) {

@@ -262,6 +262,12 @@ class SceneBuilder {
   }
 
   void read_named_files() {
+    if (scene_.contact && scene_.contact->friction_law == "table") {
+      TwoColumns columns = read_columns("contact.friction_file",
+                                        {.needs_units = true, .increasing = true, .pure_second = true});
+      scene_.contact->friction_x = std::move(columns.first);
+      scene_.contact->friction_at_x = std::move(columns.second);
+    }
     if (scene_.corrugation && scene_.corrugation->kind == "table") {
       TwoColumns columns = read_columns("corrugation.file", {.needs_units = true, .increasing = true});
       scene_.corrugation->table_x = std::move(columns.first);

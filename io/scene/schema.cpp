@@ -291,9 +291,48 @@ void add_vehicle_and_load(Keys& keys) {
                                    above(0, 1e7), "Downward force on the wheel")));
 }
 
+void add_friction(Keys& keys) {
+  const auto with = [](std::vector<std::string> laws, Key key) {
+    return only_with("contact.friction_law", std::move(laws), std::move(key));
+  };
+  keys.push_back(choice("contact.friction_law", at(&Scene::contact, &ContactSpec::friction_law),
+                        {"coulomb", "table", "falling"},
+                        "Coefficient of friction: one for all, along the rail by a file, or falling with "
+                        "the slip speed"));
+  keys.push_back(with({"coulomb", "falling"},
+                      number("contact.friction", at(&Scene::contact, &ContactSpec::friction), {0, 2},
+                             "Coefficient of friction f; of falling friction without slip")));
+  keys.push_back(with(
+      {"falling"}, number("contact.friction_fast", at(&Scene::contact, &ContactSpec::friction_fast), {0, 2},
+                          "Coefficient of friction of fast slip; dry rails: 0.4 f after "
+                          "Polach (2005)")));
+  keys.push_back(
+      with({"falling"}, quantity("contact.friction_speed", at(&Scene::contact, &ContactSpec::friction_speed),
+                                 kSpeed, "m/s", above(0, 1000),
+                                 "Slip speed that leaves 1/e of the fall; dry rails: 1.67 m/s after Polach "
+                                 "(2005), wet ones 5 m/s")));
+  keys.push_back(
+      with({"falling"},
+           required(quantity("contact.friction_memory", at(&Scene::contact, &ContactSpec::friction_memory),
+                             kLength, "um", from(0, 1),
+                             "Sliding length over which the coefficient follows the slip speed; "
+                             "above zero"))));
+  Key file{.path = "contact.friction_file",
+           .kind = Kind::text,
+           .locate = at(&Scene::contact, &ContactSpec::friction_file),
+           .description =
+               "File of two columns, x and coefficient of friction, after a line such as "
+               "`# x [m]  f [-]`; linear between the rows, constant beyond them"};
+  file.takes_file = true;
+  // A table of a later layer takes the place of an earlier coefficient.
+  keys.push_back(with({"table"}, required(instead_of("contact.friction", std::move(file)))));
+  keys.push_back(
+      with({"table"}, quantity("contact.friction_start", at(&Scene::contact, &ContactSpec::friction_start),
+                               kLength, "m", from(-1000, 1000), "x on the rail where the file's x is zero")));
+}
+
 void add_contact(Keys& keys) {
-  keys.push_back(number("contact.friction", at(&Scene::contact, &ContactSpec::friction), {0, 2},
-                        "Coefficient of friction f"));
+  add_friction(keys);
   keys.push_back(
       number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
              "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "

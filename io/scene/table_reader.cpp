@@ -50,6 +50,12 @@ Unit length_unit(const std::string& text) {
   return unit;
 }
 
+/// A pure number's unit is "-".
+Unit pure_unit(const std::string& text) {
+  if (text != "-") throw InputError(fmt::format("[{}] is not [-], the unit of a pure number", text));
+  return {};
+}
+
 bool same_unit(const Unit& a, const Unit& b) {
   return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator;
 }
@@ -63,7 +69,8 @@ class TableParser {
   void read_line(const std::string& line) {
     const std::vector<std::string> units = bracketed(line);
     if (table.first.empty() && units.size() == 2) {
-      const std::array<Unit, 2> stated = {length_unit(units[0]), length_unit(units[1])};
+      const std::array<Unit, 2> stated = {length_unit(units[0]),
+                                          rules_.pure_second ? pure_unit(units[1]) : length_unit(units[1])};
       for (std::size_t i = 0; i < 2; ++i)
         if (rules_.units && !same_unit((*units_)[i], stated[i]))
           throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", units[i],
@@ -82,7 +89,9 @@ class TableParser {
     if (row.size() != 2) throw InputError(fmt::format("expected 2 numbers, found {} columns", row.size()));
     if (!units_ && rules_.needs_units) {
       units_ = {length_unit("mm"), length_unit("mm")};
-      throw InputError("the units are missing: put a line such as \"# x [m]  d [mm]\" before the numbers");
+      throw InputError(
+          fmt::format("the units are missing: put a line such as \"# x [m]  {}\" before the numbers",
+                      rules_.pure_second ? "f [-]" : "d [mm]"));
     }
     const std::array<Unit, 2> units = units_.value_or(std::array{length_unit("mm"), length_unit("mm")});
     const double first = parse_number(row[0], units[0]);

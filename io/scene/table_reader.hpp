@@ -15,12 +15,13 @@ namespace tread {
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row
+  bool pure_second = false;  ///< the second column holds pure numbers, with the unit [-]
   std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
 };
 
 struct TwoColumns {
   std::vector<double> first;   ///< [m]
-  std::vector<double> second;  ///< [m]
+  std::vector<double> second;  ///< [m], or pure numbers
 };
 
 /// The text of such a file. Throws InputError.

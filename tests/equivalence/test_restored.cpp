@@ -133,6 +133,26 @@ TEST(Restored, MaxwellBranches) {
         300);
 }
 
+TEST(Restored, FallingFriction) {
+  expect_same_bits(samples::tyre_scene({"scene.element_size=8 mm", "motion.duration=0.5 ms",
+                                        "motion.creepage=0.05", "solution_zone.start=5 mm",
+                                        "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}),
+                   600);
+}
+
+TEST(Restored, OnlyALawWithAStateListsOne) {
+  const auto listed = [](const std::vector<std::string>& overrides) {
+    Model model(samples::tyre_scene(overrides));
+    StateList list;
+    model.contact->list_state(list);
+    return std::any_of(list.fields().begin(), list.fields().end(),
+                       [](const StateList::Field& field) { return field.name == "friction"; });
+  };
+  EXPECT_FALSE(listed({"scene.element_size=8 mm"}));
+  EXPECT_TRUE(
+      listed({"scene.element_size=8 mm", "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}));
+}
+
 TEST(Restored, GuidedBore) {
   expect_same_bits(
       samples::tyre_scene({"scene.element_size=8 mm", "motion.duration=0.5 ms", "wheel.bore=guided",

@@ -25,7 +25,7 @@ Series series_of(const FinishedRun& run, const CurvePanel& panel) {
 Series limit_of(const FinishedRun& run, const CurvePanel& panel) {
   RunCurve curve = panel.curve;
   curve.y = {"vertical_force", "N"};
-  curve.y_scale *= run.scene.contact ? run.scene.contact->friction : 0;
+  curve.y_scale *= run.scene.contact ? run.scene.contact->largest_friction() : 0;
   CurvePoints points = read_curve(run, curve);
   return {"f F_N, " + run.label, std::move(points.x), std::move(points.y), Stroke::dotted};
 }

@@ -1,0 +1,93 @@
+// Keys of the friction laws: what is read, what is refused and with which words.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+std::string file(const std::string& name, const std::string& text) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+/// The message with which the scene is refused; empty if it is accepted.
+std::string refusal(const std::vector<std::string>& overrides) {
+  try {
+    samples::tyre_scene(overrides);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+void expect_parts(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << part << "\nnot in: " << message;
+}
+
+std::vector<std::string> table(const std::string& text) {
+  return {"contact.friction_law=table", "contact.friction_file=" + file("f.txt", text)};
+}
+
+TEST(FrictionScene, CoulombIsTheDefault) {
+  const Scene scene = samples::tyre_scene();
+  EXPECT_EQ(scene.contact->friction_law, "coulomb");
+  EXPECT_EQ(scene.contact->largest_friction(), 0.5);
+}
+
+TEST(FrictionScene, ATableIsReadInItsUnits) {
+  std::vector<std::string> overrides = table("# x [mm]  f [-]\n0 0.4\n50 0.1\n");
+  overrides.push_back("contact.friction_start=20 mm");
+  const Scene scene = samples::tyre_scene(overrides);
+  EXPECT_EQ(scene.contact->friction_x, (std::vector<double>{0, 0.05}));
+  EXPECT_EQ(scene.contact->friction_at_x, (std::vector<double>{0.4, 0.1}));
+  EXPECT_EQ(scene.contact->friction_start, 0.02);
+  EXPECT_EQ(scene.contact->largest_friction(), 0.4);
+}
+
+TEST(FrictionScene, BadTablesAreRefused) {
+  expect_parts(refusal(table("0 0.4\n1 0.3\n")), {"the units are missing", "f [-]"});
+  expect_parts(refusal(table("# x [m]  f [mm]\n0 0.4\n1 0.3\n")), {"[mm] is not [-]"});
+  expect_parts(refusal(table("# x [m]  f [-]\n0 0.4\n0 0.3\n")), {"must grow"});
+  expect_parts(refusal(table("# x [m]  f [-]\n0 0.4\n1 -0.3\n")),
+               {"contact.friction_file", "f = -0.3 at x = 1 m", "from 0 to 2"});
+  expect_parts(refusal({"contact.friction_law=table"}), {"contact.friction_file"});
+}
+
+TEST(FrictionScene, KeysOfAnotherLawAreRefused) {
+  expect_parts(refusal({"contact.friction_memory=20 um"}),
+               {"contact.friction_memory", "only with contact.friction_law"});
+  std::vector<std::string> overrides = table("# x [m]  f [-]\n0 0.4\n1 0.3\n");
+  overrides.push_back("contact.friction_fast=0.1");
+  expect_parts(refusal(overrides), {"contact.friction_fast", "only with contact.friction_law"});
+}
+
+TEST(FrictionScene, FallingFrictionNeedsAMemory) {
+  expect_parts(refusal({"contact.friction_law=falling"}), {"contact.friction_memory"});
+  expect_parts(refusal({"contact.friction_law=falling", "contact.friction_memory=0 um"}),
+               {"contact.friction_memory", "ill-posed", "state the sliding length"});
+  EXPECT_EQ(refusal({"contact.friction_law=falling", "contact.friction_memory=20 um"}), "");
+}
+
+TEST(FrictionScene, FallingFrictionFalls) {
+  expect_parts(refusal({"contact.friction_law=falling", "contact.friction_memory=20 um",
+                        "contact.friction=0.3", "contact.friction_fast=0.4"}),
+               {"contact.friction_fast", "0.4", "0.3", "would not fall"});
+}
+
+TEST(FrictionScene, TractionBeyondTheLargestCoefficientIsRefused) {
+  std::vector<std::string> overrides = table("# x [m]  f [-]\n0 0.2\n1 0.1\n");
+  overrides.push_back("motion.traction.mu=0.25");
+  expect_parts(refusal(overrides), {"traction coefficient of 0.25", "0.2"});
+}
+
+}  // namespace
+}  // namespace tread
