@@ -4,18 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/material.hpp"
+#include "core/math/elastic_pair.hpp"
 
 namespace tread {
 
 /// [wheel]
 struct WheelSpec {
   std::string shape = "half_wheelset";  ///< "half_wheelset" or "tyre" (a ring: profile of one arc)
+  std::string material = "steel";       ///< one of Scene::materials
   std::string profile = "LMA";          ///< "LMA", "arc", "cylinder", or a file of two columns (y, z)
   double diameter = 0.86;               ///< [m]
   double lateral_offset = 6.5e-3;  ///< rail centre line in wheel coordinates, positive to the field side [m]
@@ -33,6 +38,7 @@ struct WheelSpec {
 
 /// [rail]
 struct RailSpec {
+  std::string material = "steel";      ///< one of Scene::materials
   std::string profile = "CN60";        ///< "CN60", "box", or a file of two columns (y, z)
   double inclination = 1.0 / 40;       ///< [-]
   double length = 15.2;                ///< [m]
@@ -60,6 +66,10 @@ struct FasteningSpec {
 
 /// [slab]; without it the fastenings stand on rigid ground
 struct SlabSpec {
+  /// Materials of slab, gaps and mortar, each one of Scene::materials.
+  std::string material = "slab";
+  std::string gap_material = "gap_filler";
+  std::string mortar_material = "mortar";
   double pitch = 6.5;              ///< slab and gap together [m]
   double gap = 0.05;               ///< [m]
   double first_gap = 0;            ///< distance of the first gap's centre from the rail's left end [m]
@@ -217,11 +227,7 @@ struct Scene {
   bool plane_strain = false;           ///< nothing moves across: a slice of wide bodies
   std::optional<double> element_size;  ///< overrides the quality's contact element size [m]
 
-  /// A material that the scene does not contain has an empty name.
-  Material steel;
-  Material slab;
-  Material gap_filler;
-  Material mortar;
+  std::map<std::string, Material, std::less<>> materials;  ///< by Material::name
 
   std::optional<WheelSpec> wheel;
   std::optional<RailSpec> rail;
@@ -238,6 +244,14 @@ struct Scene {
   std::optional<ForkSpec> forks;
   OutputSpec output;
   StopSpec stop;
+
+  /// The material of that name. InputError, with the names that there are, where the scene has none.
+  const Material& material(std::string_view name) const;
+  const Material& wheel_material() const;  ///< InputError without [wheel]
+  const Material& rail_material() const;   ///< InputError without [rail]
+  ElasticPair elastic_pair() const;        ///< InputError without [wheel] or [rail]
+  /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
+  std::string material_names() const;
 
   /// MotionSpec::start, "auto" resolved; without [motion]: "rigid".
   std::string start() const {

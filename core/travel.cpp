@@ -7,11 +7,13 @@
 namespace tread {
 namespace {
 
-double mass_of(const WheelSpec& wheel, double density) {
+/// Mass of the scene's wheel. [kg]
+double wheel_mass(const Scene& scene) {
+  const WheelSpec& wheel = *scene.wheel;
   if (wheel.shape == "half_wheelset") return wheel.mass;
   const double outer = 0.5 * wheel.diameter;
   const double inner = outer - wheel.thickness;
-  return density * std::numbers::pi * (outer * outer - inner * inner) * wheel.width;
+  return scene.wheel_material().density * std::numbers::pi * (outer * outer - inner * inner) * wheel.width;
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ double carried_load(const Scene& scene) {
 DrivenWheel driven_wheel(const Scene& scene) {
   const WheelSpec& wheel = *scene.wheel;
   const auto& vehicle = scene.vehicle;
-  const double own = mass_of(wheel, scene.steel.density);
+  const double own = wheel_mass(scene);
   return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0),
           0.5 * wheel.diameter, scene.contact ? scene.contact->largest_friction() : 0,
           wheel.bore == "guided"};

@@ -119,22 +119,23 @@ int Model::add(SweptBlock block) {
 
 void Model::build_rail() {
   const RailSpec& rail = *scene.rail;
+  const Material& material = scene.rail_material();
   const Span length{-rail.origin, rail.length - rail.origin};
   if (rail.profile == "box") {
     const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
     const std::vector<Segment> segments =
         scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes).fine
                     : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
-    index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes),
-                                          {scene.steel}, length.first, segments));
+    index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes), {material},
+                                          length.first, segments));
     return;
   }
   const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes)
                                           : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
-  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {scene.steel},
+  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {material},
                                         length.first, plan.fine));
-  index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {scene.steel},
+  index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {material},
                                          length.first, plan.coarse));
   tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
 }
@@ -160,21 +161,24 @@ void Model::build_slab() {
   }
   stretch(rail.length - at, 0);
   const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
+  const Material& mortar = scene.material(slab.mortar_material);
+  const std::vector<Material> materials = {scene.material(slab.material), scene.material(slab.gap_material),
+                                           mortar, mortar};
   SweptBlock block =
-      make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes),
-                       {scene.slab, scene.gap_filler, scene.mortar, scene.mortar}, left, segments);
+      make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes), materials, left, segments);
   block.vertical_only = true;
   index.slab = add(std::move(block));
 }
 
 void Model::build_wheel() {
+  const Material& material = scene.wheel_material();
   if (scene.wheel->shape == "tyre") {
     const std::optional<double>& overhang = scene.wheel->overhang;
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
     const WheelPlan plan = overhang
                                ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(scene), *overhang, sizes)
                                : plan_tyre(wheel_radius(), run_span(scene), zone_span(scene), sizes);
-    index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {scene.steel},
+    index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {material},
                                        plan.start, plan.tread));
     return;
   }
@@ -182,12 +186,12 @@ void Model::build_wheel() {
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   brake_ring_thickness = sized.brake_ring_thickness;
-  index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {scene.steel},
+  index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {material},
                                      plan.start, plan.tread));
-  index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {scene.steel},
+  index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {material},
                                     plan.start, plan.disc));
-  index.axle = add(make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {scene.steel},
-                                    plan.start, plan.axle));
+  index.axle = add(
+      make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {material}, plan.start, plan.axle));
   tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
   tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
 }
@@ -339,8 +343,11 @@ double Model::penalty_stiffness(const ContactSpec& spec) const {
   // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
   // [limits.md, Penalty]
   constexpr double kPerElement = 10;
-  const double preferred =
-      std::max(kPerElement * scene.steel.youngs_modulus / sizes.contact, unit_ratio / 0.02);
+  // The harmonic mean: an element of each body in series.
+  const ElasticPair bodies = scene.elastic_pair();
+  const double youngs_modulus =
+      2 * bodies.wheel.youngs_modulus / (1 + bodies.wheel.youngs_modulus / bodies.rail.youngs_modulus);
+  const double preferred = std::max(kPerElement * youngs_modulus / sizes.contact, unit_ratio / 0.02);
   if (!spec.penetration_ratio) return preferred;
   // At ten times a tenth to four tenths of the area are missing, points carry up to twice the pressure.
   constexpr double kStiffest = 10;
@@ -362,7 +369,7 @@ void Model::build_contact() {
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
   hertz_radius_y = lateral_gap(rail, wheel).radius;
-  const double modulus = contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio);
+  const double modulus = scene.elastic_pair().contact_modulus();
   // A wheel without load has no Hertz patch; a tenth of a kilonewton then sets the penalty's scale.
   hertz_patch = hertz(wheel_radius(), hertz_radius_y, modulus, std::max(wheel_load(), 100.0));
 

@@ -12,7 +12,7 @@ BeamSection rail_beam_section(const Scene& scene) {
   upright.element_size = 1.1e-3;
   upright.rail->inclination = 0;
   const MeshSizes sizes = mesh_sizes(upright);
-  const double nu = scene.steel.poissons_ratio;
+  const double nu = scene.rail_material().poissons_ratio;
   if (scene.rail->profile == "box") {
     const Section box = box_rail_section(upright, sizes);
     return beam_section({&box}, nu);

@@ -131,7 +131,7 @@ RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
   constexpr double kSettled = 1e-3;  // of the load
   const double speed = scene.motion->speed;
   const double spacing = scene.fastenings->spacing;
-  const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.steel);
+  const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.rail_material());
   for (int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));; spans *= 2) {
     auto beam = std::make_unique<TrackBeam>(rail_beam(scene, properties, spans));
     BeamPassage passage(*beam, vehicle, -spans * spacing, spacing / kStepsOfSpan / speed);

@@ -102,9 +102,9 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   const auto mass = [&](double ring) {
     shape.brake_ring_thickness = ring;
     const WheelSections s = make_wheel_sections(profile, shape, size);
-    return scene.steel.density * (revolved_moments(s.tread).volume * polygon(plan.tread) +
-                                  revolved_moments(s.disc).volume * polygon(plan.disc) +
-                                  revolved_moments(s.axle).volume * polygon(plan.axle));
+    return scene.wheel_material().density * (revolved_moments(s.tread).volume * polygon(plan.tread) +
+                                             revolved_moments(s.disc).volume * polygon(plan.disc) +
+                                             revolved_moments(s.axle).volume * polygon(plan.axle));
   };
   // The mass grows almost linearly with the ring's thickness.
   double thickness = 0.02;

@@ -15,35 +15,7 @@ namespace tread {
 
 namespace {
 
-bool is(double value, double wanted) {
-  return std::abs(value - wanted) <= 1e-6 * std::abs(wanted);
-}
-
-/// The vehicle and track of the paper's Table 1, whatever runs on them.
-bool has_paper_vehicle(const Scene& s) {
-  return s.wheel && s.wheel->shape == "half_wheelset" && s.wheel->profile == "LMA" &&
-         is(s.wheel->diameter, 0.86) && s.rail && s.rail->profile == "CN60" && s.vehicle &&
-         is(s.vehicle->sprung_mass, 8000) && is(s.vehicle->unsprung_mass, 340) &&
-         is(s.vehicle->suspension_stiffness, 880e3) && is(s.steel.youngs_modulus, 205.9e9);
-}
-
-bool has_paper_track(const Scene& s) {
-  return s.slab_track && s.fastenings && is(s.fastenings->spacing, 0.65) &&
-         is(s.fastenings->stiffness, 22e6) && is(s.fastenings->damping, 200e3);
-}
-
-bool rolls_at_300(const Scene& s) {
-  return s.motion && is(s.motion->speed, 300 / 3.6) && s.motion->traction_mu &&
-         is(*s.motion->traction_mu, 0.3) && s.contact && s.contact->friction_law == "coulomb" &&
-         is(s.contact->friction, 0.5);
-}
-
-bool is_corrugation_d(const Scene& s) {
-  return s.corrugation && s.corrugation->kind == "sine" && is(s.corrugation->wavelength, 0.08) &&
-         is(s.corrugation->depth, 0.14e-3) && is(s.corrugation->width, 0.03) && is(s.corrugation->start, 2.4);
-}
-
-/// Whether the whole stretch of a figure has been rolled over.
+/// Returns true if the wheel has rolled over the whole stretch up to x [m].
 bool reached(const RunResults& r, double x) {
   return !r.samples.empty() && r.samples.back().wheel_x >= x;
 }

@@ -199,7 +199,7 @@ Chapter preload_chapter(const Run& run) {
     if (scene.rail->profile == "CN60" && scene.fastenings) {
       // I of CN60: 3217 cm4.
       const double foundation = scene.fastenings->stiffness / scene.fastenings->spacing;
-      const double lambda = std::pow(foundation / (4 * scene.steel.youngs_modulus * 3217e-8), 0.25);
+      const double lambda = std::pow(foundation / (4 * scene.rail_material().youngs_modulus * 3217e-8), 0.25);
       remark = fmt::format("beam on elastic foundation: {:.3f} mm",
                            1e3 * run.model.wheel_load() * lambda / (2 * foundation));
     }

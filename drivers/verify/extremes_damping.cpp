@@ -28,7 +28,7 @@ class FirstMode {
     length_ = block_->stations.back() - block_->stations.front();
   }
   double frequency() const {  // angular frequency [rad/s]
-    const Material& steel = model_->scene.steel;
+    const Material& steel = model_->scene.rail_material();
     const double sound = std::sqrt(steel.youngs_modulus / steel.density);
     return 2 * sound / element_size_ * std::sin(0.5 * std::numbers::pi * element_size_ / length_);
   }

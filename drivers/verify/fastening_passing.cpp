@@ -87,7 +87,7 @@ CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& pro
   const BeamVehicle vehicle =
       beam_vehicle(model, axle_bending(model, preload.displacement.data(), preload.wheel));
   const ForceCurve ours = rolled(model, preload, progress);
-  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel));
+  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.rail_material()));
   const ForceCurve theory = rolled_on_beam(*scene.motion, vehicle, beam);
 
   constexpr int kHarmonics = 3;

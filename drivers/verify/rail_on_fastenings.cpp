@@ -178,7 +178,7 @@ duration = "1 ms"
   Model model(scene);
   progress(fmt::format("wheelset on the rail: {} elements", model.elements()));
   const Preload preload = solve_preload(model, {}, progress);
-  const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.steel);
+  const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.rail_material());
   const TrackBeam beam = rail_beam(scene, rail);
   const double force = model.wheel_load();
   const double theory = loaded_deflection(beam, rail, force, scene.gravity);
@@ -228,7 +228,7 @@ CaseResult rail_on_fastenings(const VerifyInputs& inputs, const ProgressText& pr
   add_static(inputs, progress, result);
 
   const Scene scene = struck_rail(inputs, h, 0);
-  const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.steel);
+  const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.rail_material());
   const TrackBeam beam = rail_beam(scene, rail);
   const double span = 0;  // x of both places
   const double support = 0.5 * spacing;

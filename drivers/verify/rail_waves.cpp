@@ -118,7 +118,7 @@ CaseResult rail_waves(const VerifyInputs& inputs, const ProgressText& progress) 
   const double highest = inputs["highest_frequency"];
   const Scene scene = free_rail(inputs, h);
   const BeamSection section = rail_beam_section(scene);
-  const BeamProperties beam = timoshenko(section, scene.steel);
+  const BeamProperties beam = timoshenko(section, scene.rail_material());
   const int count = static_cast<int>(wave_number(beam, highest) * inputs["length"] / std::numbers::pi);
   if (count < 2)
     throw InputError(fmt::format("verify: length = {:g} m holds no wave up to {:g} Hz; state a longer rail",
@@ -143,7 +143,7 @@ CaseResult rail_waves(const VerifyInputs& inputs, const ProgressText& progress) 
   result.findings.push_back({"largest change by elements of 1.5 h", "-", change, 0, 0.03, true});
   result.findings.push_back({"Cowper's shear coefficient of the section (known range 0.34 to 0.53)", "-",
                              section.shear_coefficient, 0.435, 0.095, true});
-  result.figures.push_back(dispersion_figure(modes, beam, euler(section, scene.steel)));
+  result.figures.push_back(dispersion_figure(modes, beam, euler(section, scene.rail_material())));
   return result;
 }
 

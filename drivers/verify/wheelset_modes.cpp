@@ -133,7 +133,7 @@ Shaft shaft_of(const Section& axle) {
 /// [Holzer's method]
 double shaft_torsion(const Model& model) {
   const Section& axle = model.mesh.blocks[static_cast<std::size_t>(model.index.axle)].section;
-  const Material& steel = model.scene.steel;
+  const Material& steel = model.scene.wheel_material();
   const Shaft shaft = shaft_of(axle);
   const auto& hub = axle.paths.at("tie");
   const double hub_middle =
@@ -183,8 +183,8 @@ MeshedWheelset wheelset_of(double element_size, int count, const ProgressText& p
   MeshedWheelset out;
   out.mass = model.wheelset->mass();
   out.inertia = model.wheelset->inertia();
-  out.outline_mass = model.scene.steel.density * outline.volume;
-  out.outline_inertia = model.scene.steel.density * outline.polar;
+  out.outline_mass = model.scene.wheel_material().density * outline.volume;
+  out.outline_inertia = model.scene.wheel_material().density * outline.polar;
   out.shaft_torsion = shaft_torsion(model);
   std::map<std::string, int> ordinal;
   for (NaturalMode& mode : natural_modes(model, count, progress)) {

@@ -148,7 +148,7 @@ CaseResult wheelset_settling(const VerifyInputs& inputs, const ProgressText& pro
   const BeamVehicle vehicle =
       beam_vehicle(model, axle_bending(model, preload.displacement.data(), preload.wheel));
   const Settling ours = settle(model, preload, inputs, progress);
-  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.steel));
+  const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.rail_material()));
   const Settling theory = settle_on_beam(beam, vehicle, inputs["added_mass"], ours.size());
 
   const double last = theory.back();

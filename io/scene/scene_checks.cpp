@@ -51,7 +51,7 @@ class Checker {
 
   void check_values() {
     Scene copy = scene_;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : scene_keys(scene_)) {
       if (!key.locate) continue;
       const std::optional<double> value = number_at(key.locate(copy));
       if (!value || key.range.contains(*value)) continue;
@@ -94,36 +94,52 @@ class Checker {
   }
 
   void check_materials() {
-    const auto need = [&](const Material& material, const std::string& name, const std::string& user) {
-      require(!material.name.empty(), {"material." + name},
-              fmt::format("the {} needs [material.{}]", user, name));
-    };
-    if (scene_.wheel || scene_.rail) need(scene_.steel, "steel", scene_.wheel ? "wheel" : "rail");
-    for (const auto& [name, material] :
-         {std::pair("steel", &scene_.steel), std::pair("slab", &scene_.slab),
-          std::pair("gap_filler", &scene_.gap_filler), std::pair("mortar", &scene_.mortar)}) {
-      const std::string table = fmt::format("material.{}", name);
+    for (const auto& [name, material] : scene_.materials) {
+      const std::string table = std::string(kMaterialTables) + name;
+      require(material.name == name, {table},
+              fmt::format("this material calls itself \"{}\"; a material has one name", material.name));
       require(
-          !material->damping_up_to || material->rayleigh_beta > 0,
+          !material.damping_up_to || material.rayleigh_beta > 0,
           {table + ".damping_up_to", table + ".damping"},
           "a frequency up to which damping holds belongs to damping = { kind = \"rayleigh_beta\", value = "
           "\"1e-4 s\" }");
     }
-    if (!scene_.slab_track) return;
-    need(scene_.slab, "slab", "slab");
-    need(scene_.gap_filler, "gap_filler", "slab");
-    need(scene_.mortar, "mortar", "slab");
-    const auto damped_alike = [](const Material& a, const Material& b) {
-      return a.rayleigh_beta == b.rayleigh_beta && a.high_frequency_fraction == b.high_frequency_fraction &&
-             a.damping_up_to == b.damping_up_to;
-    };
-    require(
-        damped_alike(scene_.slab, scene_.gap_filler) && damped_alike(scene_.slab, scene_.mortar),
-        {"material.slab.damping", "material.gap_filler.damping", "material.mortar.damping",
-         "material.slab.damping_up_to", "material.gap_filler.damping_up_to", "material.mortar.damping_up_to"},
-        "slab, gap filler and mortar are damped as one body; state the same damping for all three");
-    require(scene_.slab_track->gap < scene_.slab_track->pitch, {"slab.gap", "slab.pitch"},
+    std::set<std::string> missing;
+    for (const MaterialUse& use : material_uses(scene_))
+      if (!knows(use.name) && missing.insert(use.name).second) report_missing(use);
+    if (scene_.slab_track) check_slab(*scene_.slab_track);
+  }
+
+  bool knows(const std::string& material) const { return scene_.materials.contains(material); }
+
+  void report_missing(const MaterialUse& use) {
+    std::vector<std::string> names;
+    for (const auto& [name, material] : scene_.materials) names.push_back(name);
+    const std::string similar = similar_text(use.name, names);
+    require(false, {std::string(kMaterialTables) + use.name, use.key},
+            fmt::format("the {} needs [material.{}]; the scene's materials: {}{}", use.part, use.name,
+                        scene_.material_names(),
+                        similar.empty() ? "" : fmt::format(" (did you mean {}?)", similar)));
+  }
+
+  void check_slab(const SlabSpec& slab) {
+    require(slab.gap < slab.pitch, {"slab.gap", "slab.pitch"},
             "the gap is not shorter than the pitch of slab and gap together");
+    const std::vector<std::string> names = {slab.material, slab.gap_material, slab.mortar_material};
+    if (!std::all_of(names.begin(), names.end(), [&](const std::string& name) { return knows(name); }))
+      return;
+    const Material& first = scene_.material(slab.material);
+    const auto damped_as_first = [&](const std::string& name) {
+      const Material& other = scene_.material(name);
+      return first.rayleigh_beta == other.rayleigh_beta &&
+             first.high_frequency_fraction == other.high_frequency_fraction &&
+             first.damping_up_to == other.damping_up_to;
+    };
+    std::vector<std::string> keys;
+    for (const char* key : {".damping", ".damping_up_to"})
+      for (const std::string& name : names) keys.push_back(std::string(kMaterialTables) + name + key);
+    require(std::all_of(names.begin(), names.end(), damped_as_first), keys,
+            "slab, gap filler and mortar are damped as one body; state the same damping for all three");
   }
 
   void check_friction(const ContactSpec& contact) {
@@ -196,6 +212,7 @@ class Checker {
                 scene_.zone_start, zone_end, left, right));
     require(rail.origin >= kRailEndMargin, {"rail.origin"},
             fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
+    if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
     const auto require_on_rail = [&](bool holds, double x, double end) {
       require(holds, {"motion.duration", "motion.speed", "rail.length", "rail.origin"},
@@ -235,7 +252,7 @@ class Checker {
             "a wheel that stands has no creepage; state motion.speed");
     require(!scene_.forks || scene_.forks->at.value_or(0) <= motion.duration, {"forks.at", "motion.duration"},
             "the state for forks is kept after the run's end");
-    if (scene_.wheel && !scene_.steel.name.empty()) check_rim(motion, scene_.steel);
+    if (scene_.wheel && knows(scene_.wheel->material)) check_rim(motion, scene_.wheel_material());
     if (!motion.traction_mu || !scene_.contact) return;
     const double largest = scene_.contact->largest_friction();
     require(
@@ -256,16 +273,17 @@ class Checker {
   }
 
   /// A thin ring that spins strains by rho v^2 / E.
-  void check_rim(const MotionSpec& motion, const Material& steel) {
+  void check_rim(const MotionSpec& motion, const Material& material) {
     constexpr double kLargestStrain = 0.01;
-    const double fastest = std::sqrt(kLargestStrain * steel.youngs_modulus / steel.density);
+    const double fastest = std::sqrt(kLargestStrain * material.youngs_modulus / material.density);
+    const std::string table = std::string(kMaterialTables) + material.name;
     const double rim = motion.speed * std::abs(motion.spin_ratio());
     require(rim <= fastest,
-            {"motion.creepage", "motion.speed", "material.steel.youngs_modulus", "material.steel.density"},
+            {"motion.creepage", "motion.speed", table + ".youngs_modulus", table + ".density"},
             fmt::format(
                 "the wheel's rim moves at {:.4g} m/s: spinning alone strains it by {:.2g}, which is not the "
                 "small strain of linear elasticity; it must stay below {:.4g} m/s",
-                rim, rim * rim * steel.density / steel.youngs_modulus, fastest));
+                rim, rim * rim * material.density / material.youngs_modulus, fastest));
   }
 
   void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
@@ -309,6 +327,27 @@ class Checker {
 
 std::vector<SceneProblem> validate(const Scene& scene) {
   return Checker(scene).run();
+}
+
+std::vector<std::string> idle_materials(const Scene& scene) {
+  std::set<std::string> used;
+  for (const MaterialUse& use : material_uses(scene)) {
+    if (!scene.materials.contains(use.name)) return {};
+    used.insert(use.name);
+  }
+  std::vector<std::string> idle;
+  for (const auto& [name, material] : scene.materials)
+    if (!used.contains(name)) idle.push_back(name);
+  return idle;
+}
+
+std::string why_idle(const Scene& scene, const std::string& material) {
+  const std::string user = usual_user(material);
+  if (!user.empty() && !table_of(user)->exists(scene)) return fmt::format("has no effect without [{}]", user);
+  std::string uses;
+  for (const MaterialUse& use : material_uses(scene))
+    uses += fmt::format("{}{} = \"{}\"", uses.empty() ? "" : ", ", use.key, use.name);
+  return fmt::format("has no effect, because no part is of it; the parts state {}", uses);
 }
 
 }  // namespace tread

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a scene makes sense as a whole.
+// Checks that a scene makes sense as a whole.
 
 #include <string>
 #include <vector>
@@ -16,5 +16,12 @@ struct SceneProblem {
 /// Every value outside its range, every component that lacks what it needs, every part that does not fit into
 /// another. Checks across keys leave out those whose own value is already wrong.
 std::vector<SceneProblem> validate(const Scene& scene);
+
+/// Names of the materials that no part is of; none where a part names a material that the scene lacks: one of
+/// them may be meant.
+std::vector<std::string> idle_materials(const Scene& scene);
+
+/// Why a material without a part has no effect, and what would give it one.
+std::string why_idle(const Scene& scene, const std::string& material);
 
 }  // namespace tread

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/scene/field_text.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
@@ -59,8 +60,8 @@ class SceneBuilder {
     for (const std::string& text : overrides) read_override(text);
     read_library();
     choose_tables();
-    drop_idle_tables();
     assign_values();
+    drop_idle_materials();
     read_named_files();
     check_required();
     add_check_results();
@@ -120,7 +121,7 @@ class SceneBuilder {
   }
 
   void set_plain(const std::string& path, const std::string& text, const Origin& origin) {
-    const Key* key = find_key(path);
+    const std::optional<Key> key = find_key(path);
     add(path, *parse_plain_value(text, key && (key->kind == Kind::text || key->kind == Kind::quantity)),
         origin);
   }
@@ -142,7 +143,7 @@ class SceneBuilder {
       mention(path, origin);
       add_children(*node.as_table(), path + ".", origin);
     } else if (is_table(path)) {
-      const SceneTable* table = table_of(path);
+      const std::optional<SceneTable> table = table_of(path);
       const bool removable = table && table->removable() && table->name == path;
       tables_unclear_ = true;
       report(origin.place, path,
@@ -158,7 +159,7 @@ class SceneBuilder {
   }
 
   void mention(const std::string& path, const Origin& origin) {
-    const SceneTable* table = table_of(path);
+    const std::optional<SceneTable> table = table_of(path);
     if (!table) return;
     const auto [known, is_new] = mentioned_.try_emplace(table->name, origin);
     if (!is_new && origin.level > known->second.level) known->second = origin;
@@ -171,18 +172,19 @@ class SceneBuilder {
   }
 
   std::string unknown_key(const std::string& path, const toml::node& node) const {
+    const auto dot = path.rfind('.');
+    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+    if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
     const std::string what = node.is_table() ? "table" : "key";
     const std::string similar = problems_.size() < kSuggestions ? similar_path(path) : "";
     if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
-    const auto dot = path.rfind('.');
-    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
     const std::string known = names_in(is_table(parent) ? parent : "");
     return fmt::format("unknown {} (known: {})", what, known);
   }
 
   /// Creates the components that the highest level to mention them wants.
   void choose_tables() {
-    for (const SceneTable& table : scene_tables()) {
+    for (const SceneTable& table : scene_tables(mentioned_materials())) {
       const auto found = mentioned_.find(table.name);
       if (found == mentioned_.end() || !table.removable()) continue;
       if (wants(table, found->second.level)) {
@@ -193,15 +195,23 @@ class SceneBuilder {
     }
   }
 
-  /// Materials of a component that the scene lacks go with it.
-  void drop_idle_tables() {
-    for (const SceneTable& table : scene_tables()) {
-      if (table.only_with.empty() || !table.exists(scene_) || table_of(table.only_with)->exists(scene_))
-        continue;
-      table.remove(scene_);
-      const Origin& origin = mentioned_.at(table.name);
-      if (origin.level == Level::library || tables_unclear_) continue;
-      report(origin.place, table.name, fmt::format("has no effect without [{}]", table.only_with));
+  std::vector<std::string> mentioned_materials() const {
+    std::vector<std::string> names;
+    for (const auto& [table, origin] : mentioned_)
+      if (table.starts_with(kMaterialTables)) names.push_back(table.substr(kMaterialTables.size()));
+    return names;
+  }
+
+  /// Drops the materials that no part is of.
+  void drop_idle_materials() {
+    for (const MaterialUse& use : material_uses(scene_))
+      if (bad_.count(use.key)) return;
+    for (const std::string& name : idle_materials(scene_)) {
+      scene_.materials.erase(name);
+      const std::string table = std::string(kMaterialTables) + name;
+      const Origin& origin = mentioned_.at(table);
+      if (origin.level > Level::library && !tables_unclear_)
+        report(origin.place, table, why_idle(scene_, name));
     }
   }
 
@@ -218,23 +228,26 @@ class SceneBuilder {
 
   void report_unused_keys(const SceneTable& table, Level level) {
     if (level == Level::library) return;
-    for (const auto& [path, setting] : settings_) {
-      if (setting.origin.level != level || path == table.name + ".present" || table_of(path) != &table)
-        continue;
+    const std::string prefix = table.name + ".";
+    for (auto at = settings_.lower_bound(prefix); at != settings_.end(); ++at) {
+      const auto& [path, setting] = *at;
+      if (!path.starts_with(prefix)) break;
+      if (setting.origin.level != level || path == prefix + "present") continue;
       report(setting.origin.place, path,
              fmt::format("has no effect, because {}.present = false", table.name));
     }
   }
 
   void assign_values() {
-    for (const Key& key : scene_keys()) {
+    const std::vector<Key> keys = scene_keys(scene_);
+    for (const Key& key : keys) {
       const auto found = settings_.find(key.excludes);
       const auto own = settings_.find(key.path);
       if (found == settings_.end() || own == settings_.end()) continue;
       if (own->second.origin.level > found->second.origin.level) settings_.erase(found);
     }
     for (const bool conditional : {false, true}) {
-      for (const Key& key : scene_keys()) {
+      for (const Key& key : keys) {
         if (key.locate && key.only_with.key.empty() != conditional) assign(key);
       }
     }
@@ -287,7 +300,7 @@ class SceneBuilder {
 
   /// The file that the key names; empty where it names none.
   TwoColumns read_columns(const std::string& path, const TableRules& rules) {
-    const Key* key = find_key(path);
+    const std::optional<Key> key = find_key(path);
     const std::string& name = *std::get<std::string*>(key->locate(scene_));
     const bool is_name = std::find(key->allowed.begin(), key->allowed.end(), name) != key->allowed.end();
     if (name.empty() || is_name || bad_.count(path)) return {};
@@ -305,12 +318,12 @@ class SceneBuilder {
   }
 
   void check_required() {
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : scene_keys(scene_)) {
       if (!key.required || settings_.count(key.path) || !applies(key, scene_)) continue;
       if (std::holds_alternative<std::monostate>(key.locate(scene_))) continue;
       bad_.insert(key.path);
       if (tables_unclear_) continue;
-      const SceneTable* table = table_of(key.path);
+      const std::optional<SceneTable> table = table_of(key.path);
       const std::string kind = key.quantity ? fmt::format("a {}", key.quantity->name) : "a value";
       report(mentioned_.at(table->name).place, key.path,
              fmt::format("is missing; [{}] needs {}: {}", table->name, kind, key.description));
@@ -336,7 +349,7 @@ class SceneBuilder {
   void add_check_results() {
     for (const SceneProblem& problem : validate(scene_)) {
       const auto is_bad = [&](const std::string& key) { return bad_.count(key) > 0; };
-      const auto is_value = [](const std::string& key) { return find_key(key) && find_key(key)->locate; };
+      const auto is_value = [](const auto& key) { return bool(find_key(key).value_or(Key{}).locate); };
       if (std::any_of(problem.keys.begin(), problem.keys.end(), is_bad)) continue;
       if (tables_unclear_ && !std::all_of(problem.keys.begin(), problem.keys.end(), is_value)) continue;
       const std::string key = blamed(problem.keys);
@@ -347,42 +360,15 @@ class SceneBuilder {
 
   std::vector<Entry> entries() {
     std::vector<Entry> list;
-    for (const Key& key : scene_keys()) {
+    for (const Key& key : scene_keys(scene_)) {
       if (!key.locate || !applies(key, scene_)) continue;
-      const Field field = key.locate(scene_);
+      const std::optional<FieldText> text = field_text(key, key.locate(scene_));
+      if (!text) continue;
       const auto setting = settings_.find(key.path);
       const std::string source = setting == settings_.end() ? "default" : setting->second.origin.source;
-      if (std::optional<Entry> entry = make_entry(key, field)) {
-        entry->source = source;
-        list.push_back(std::move(*entry));
-      }
+      list.push_back({key.path, text->value, text->unit, source, key.description, text->shown});
     }
     return list;
-  }
-
-  /// The entry of a field, still without its source; nothing where the field is absent or not set.
-  static std::optional<Entry> make_entry(const Key& key, const Field& field) {
-    Entry entry{key.path, "", key.quantity ? std::string(key.quantity->si) : "", "", key.description, ""};
-    if (const auto* number = std::get_if<double*>(&field)) entry.value = fmt::format("{}", **number);
-    if (const auto* number = std::get_if<int*>(&field)) entry.value = fmt::format("{}", **number);
-    if (const auto* truth = std::get_if<bool*>(&field)) entry.value = **truth ? "true" : "false";
-    if (const auto* text = std::get_if<std::string*>(&field)) entry.value = **text;
-    if (const auto* damping = std::get_if<DampingField>(&field)) {
-      const bool classical = *damping->rayleigh_beta > 0;
-      entry.value =
-          fmt::format("{}", classical ? *damping->rayleigh_beta : *damping->high_frequency_fraction);
-      if (classical) entry.unit = "s";
-    }
-    if (const auto* number = std::get_if<std::optional<double>*>(&field)) {
-      if (!**number) return std::nullopt;
-      entry.value = fmt::format("{}", ***number);
-    }
-    if (std::holds_alternative<std::monostate>(field)) return std::nullopt;
-    const std::optional<double> number = number_at(field);
-    entry.shown = number && !key.unit.empty() ? format_quantity(*number, key.unit)
-                  : entry.unit.empty()        ? entry.value
-                                              : entry.value + " " + entry.unit;
-    return entry;
   }
 
   const SceneSource& source_;
@@ -394,36 +380,6 @@ class SceneBuilder {
   std::vector<Problem> problems_;
   std::map<std::string, std::string> files_;  ///< texts of those that the scene names
 };
-
-std::string toml_string(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += {'\\', c};
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      quoted += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
-}
-
-/// A comment must stay on its line.
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
-
-std::string toml_value(const Key& key, const Entry& entry) {
-  std::string with_unit = entry.unit.empty() ? entry.value : toml_string(entry.value + " " + entry.unit);
-  if (key.kind == Kind::text) return toml_string(entry.value);
-  if (key.kind != Kind::damping) return with_unit;
-  const char* kind = entry.unit.empty() ? "high_frequency_fraction" : "rayleigh_beta";
-  return fmt::format("{{ kind = \"{}\", value = {} }}", kind, with_unit);
-}
 
 }  // namespace
 
@@ -441,20 +397,6 @@ ResolvedScene resolve_scene(const fs::path& path, const std::vector<std::string>
 
 Scene read_scene(const fs::path& path, const std::vector<std::string>& overrides) {
   return resolve_scene(path, overrides).scene;
-}
-
-std::string resolved_toml(const ResolvedScene& resolved) {
-  std::string text = "# Every value of the scene in SI, each with its source.\n";
-  const SceneTable* current = nullptr;
-  for (const Entry& entry : resolved.entries) {
-    const Key* key = find_key(entry.path);
-    const SceneTable* table = table_of(entry.path);
-    if (table != current) text += fmt::format("\n[{}]\n", table->name);
-    current = table;
-    const std::string name = entry.path.substr(table->name.size() + 1);
-    text += fmt::format("{} = {}  # {}\n", name, toml_value(*key, entry), one_line(entry.source));
-  }
-  return text;
 }
 
 }  // namespace tread

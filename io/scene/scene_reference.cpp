@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
@@ -24,6 +25,8 @@ nothing.
 * **Base.** `scene.based_on` names a library entry (below). Its values hold wherever the file states none. To leave out
   a table of the base, write `present = false` in it, for example `[slab]` with `present = false`. Naming a table brings
   in the whole table.
+* **Materials.** A material is a table of any name, for example `[material.wheel_steel]`. Parts name theirs:
+  `wheel.material = "wheel_steel"`. A material that no part is of is an error, one of the base is left out.
 * **Order.** Values come from, in rising order: the defaults, the library entry, the file, and `--set key=value` on the
   command line, for example `--set "motion.speed=250 km/h"`.
 * **Files.** A file that a scene names is relative to the scene's folder. It holds two numbers a line, separated by
@@ -59,6 +62,7 @@ std::string default_of(const Key& key, Scene& scene) {
 std::string allowed_of(const Key& key) {
   if (key.kind == Kind::boolean) return "`true`, `false`";
   if (key.kind != Kind::text) return describe_range(key);
+  if (key.names_material) return "a material of the scene";
   std::string list;
   for (const std::string& value : key.allowed)
     list += fmt::format("{}`\"{}\"`", list.empty() ? "" : ", ", value);
@@ -75,11 +79,11 @@ std::string meaning_of(const Key& key) {
                      : fmt::format(" (only with `{} = {}`)", condition.key, condition.alternatives()));
 }
 
-std::string table_section(const SceneTable& table, Scene& scene) {
+std::string table_section(const SceneTable& table, const std::vector<Key>& keys, Scene& scene) {
   std::string text = fmt::format("\n### [{}]\n\n{}\n\n", table.name, table.description);
   text += "| key | default | allowed | meaning |\n|---|---|---|---|\n";
-  for (const Key& key : scene_keys()) {
-    if (table_of(key.path) != &table) continue;
+  for (const Key& key : keys) {
+    if (table_of(key.path)->name != table.name) continue;
     const std::string name = key.path.substr(table.name.size() + 1);
     const bool directive = key.kind == Kind::directive;
     if (directive && table.removable()) continue;
@@ -101,13 +105,16 @@ std::string library_section(const LibraryEntry& entry) {
 }  // namespace
 
 std::string scene_reference() {
+  const std::vector<std::string> any_material = {"NAME"};
+  const std::vector<SceneTable> tables = scene_tables(any_material);
+  const std::vector<Key> keys = scene_keys(any_material);
   Scene everything;
-  for (const SceneTable& table : scene_tables()) {
+  for (const SceneTable& table : tables) {
     if (table.removable()) table.create(everything);
   }
   std::string text = kIntroduction;
   text += "\n## Tables\n";
-  for (const SceneTable& table : scene_tables()) text += table_section(table, everything);
+  for (const SceneTable& table : tables) text += table_section(table, keys, everything);
   text += "\n## Library\n";
   for (const LibraryEntry& entry : scene_library()) text += library_section(entry);
   return text;

@@ -41,12 +41,13 @@ std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {
   return [spec, member](Scene& scene) -> Field { return &(scene.*spec.*member); };
 }
 
-/// A member of a material; a material without a name is absent.
+/// A member of the material of that name.
 template <class Member>
-std::function<Field(Scene&)> at(Material Scene::*material, Member Material::*member) {
+std::function<Field(Scene&)> at(const std::string& material, Member Material::*member) {
   return [material, member](Scene& scene) -> Field {
-    if ((scene.*material).name.empty()) return std::monostate{};
-    return &(scene.*material.*member);
+    const auto found = scene.materials.find(material);
+    if (found == scene.materials.end()) return std::monostate{};
+    return &(found->second.*member);
   };
 }
 
@@ -77,6 +78,15 @@ Key choice(std::string path, std::function<Field(Scene&)> locate, std::vector<st
           .locate = std::move(locate),
           .description = std::move(description),
           .allowed = std::move(allowed)};
+}
+
+/// A text that names the material of a part.
+Key material_name(std::string path, std::function<Field(Scene&)> locate, std::string description) {
+  return {.path = std::move(path),
+          .kind = Kind::text,
+          .locate = std::move(locate),
+          .description = std::move(description),
+          .names_material = true};
 }
 
 Key flag(std::string path, std::function<Field(Scene&)> locate, std::string description) {
@@ -147,18 +157,19 @@ void add_general(Keys& keys) {
                                               above(0, 1000), "Length of the finely divided rail")));
 }
 
-/// The keys of one material.
-void add_material(Keys& keys, const std::string& name, Material Scene::*material) {
-  const std::string table = "material." + name;
-  keys.push_back(required(quantity(table + ".youngs_modulus", at(material, &Material::youngs_modulus),
-                                   kStress, "GPa", above(0, 1e13), "Young's modulus")));
-  keys.push_back(required(number(table + ".poissons_ratio", at(material, &Material::poissons_ratio),
+/// The keys of the material of that name.
+void add_material(Keys& keys, const std::string& name) {
+  const std::string table = std::string(kMaterialTables) + name;
+  keys.push_back(required(quantity(table + ".youngs_modulus", at(name, &Material::youngs_modulus), kStress,
+                                   "GPa", above(0, 1e13), "Young's modulus")));
+  keys.push_back(required(number(table + ".poissons_ratio", at(name, &Material::poissons_ratio),
                                  {0, 0.5, false, true}, "Poisson's ratio")));
-  keys.push_back(required(quantity(table + ".density", at(material, &Material::density), kDensity, "kg/m3",
+  keys.push_back(required(quantity(table + ".density", at(name, &Material::density), kDensity, "kg/m3",
                                    above(0, 1e5), "Density")));
-  const auto damping = [material](Scene& scene) -> Field {
-    if ((scene.*material).name.empty()) return std::monostate{};
-    return DampingField{&(scene.*material).high_frequency_fraction, &(scene.*material).rayleigh_beta};
+  const auto damping = [name](Scene& scene) -> Field {
+    const auto found = scene.materials.find(name);
+    if (found == scene.materials.end()) return std::monostate{};
+    return DampingField{&found->second.high_frequency_fraction, &found->second.rayleigh_beta};
   };
   keys.push_back(
       {.path = table + ".damping",
@@ -169,11 +180,11 @@ void add_material(Keys& keys, const std::string& name, Material Scene::*material
            "damping at the highest frequency of the material's mesh; or `{ kind = \"rayleigh_beta\", value = "
            "\"1e-8 s\" }`: classical stiffness-proportional damping",
        .range = from(0, 1)});
-  keys.push_back(quantity(
-      table + ".damping_up_to", at(material, &Material::damping_up_to), kFrequency, "kHz", above(0, 1e9),
-      "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
-      "nine tenths of beta w there, above it at most 1.7 times that, and a step that a beta of "
-      "1e-4 s leaves too; none: at all frequencies"));
+  keys.push_back(
+      quantity(table + ".damping_up_to", at(name, &Material::damping_up_to), kFrequency, "kHz", above(0, 1e9),
+               "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
+               "nine tenths of beta w there, above it at most 1.7 times that, and a step that a beta of "
+               "1e-4 s leaves too; none: at all frequencies"));
 }
 
 void add_wheel(Keys& keys) {
@@ -183,6 +194,8 @@ void add_wheel(Keys& keys) {
   const auto tyre = [](Key key) { return only_with("wheel.shape", "tyre", std::move(key)); };
   keys.push_back(choice("wheel.shape", at(&Scene::wheel, &WheelSpec::shape), {"half_wheelset", "tyre"},
                         "Half a wheelset with its axle, or a plain ring"));
+  keys.push_back(material_name("wheel.material", at(&Scene::wheel, &WheelSpec::material),
+                               "Material of the wheel or wheelset"));
   keys.push_back(
       or_file(choice("wheel.profile", at(&Scene::wheel, &WheelSpec::profile), {"LMA", "arc", "cylinder"},
                      "Profile of the tread; a half wheelset takes LMA or a file of two columns (y, z), a "
@@ -216,6 +229,8 @@ void add_wheel(Keys& keys) {
 
 void add_rail(Keys& keys) {
   const auto box = [](Key key) { return only_with("rail.profile", "box", std::move(key)); };
+  keys.push_back(
+      material_name("rail.material", at(&Scene::rail, &RailSpec::material), "Material of the rail"));
   keys.push_back(or_file(choice("rail.profile", at(&Scene::rail, &RailSpec::profile), {"CN60", "box"},
                                 "Cross-section; also a file of two columns (y, z)")));
   keys.push_back(number("rail.inclination", at(&Scene::rail, &RailSpec::inclination), {0, 0.1},
@@ -274,6 +289,12 @@ void add_slab(Keys& keys) {
   length("slab.mortar_thickness", &SlabSpec::mortar_thickness, "mm", above(0, 10), "Thickness of the mortar");
   length("slab.offset", &SlabSpec::offset, "m", from(-10, 10),
          "y of the slab's middle from the rail's centre line");
+  keys.push_back(
+      material_name("slab.material", at(&Scene::slab_track, &SlabSpec::material), "Material of the slabs"));
+  keys.push_back(material_name("slab.gap_material", at(&Scene::slab_track, &SlabSpec::gap_material),
+                               "Material in the gaps between slabs"));
+  keys.push_back(material_name("slab.mortar_material", at(&Scene::slab_track, &SlabSpec::mortar_material),
+                               "Material of the layer under the slabs"));
 }
 
 void add_vehicle_and_load(Keys& keys) {
@@ -477,13 +498,17 @@ void add_impacts_and_output(Keys& keys) {
                                      "um", above(0, 1), "Penetration that ends the run")));
 }
 
-Keys make_keys() {
+Key presence_of(const SceneTable& table) {
+  return {.path = table.name + ".present",
+          .kind = Kind::directive,
+          .locate = {},
+          .description = "false leaves the table out"};
+}
+
+Keys make_keys(const std::vector<std::string>& materials) {
   Keys keys;
   add_general(keys);
-  add_material(keys, "steel", &Scene::steel);
-  add_material(keys, "slab", &Scene::slab);
-  add_material(keys, "gap_filler", &Scene::gap_filler);
-  add_material(keys, "mortar", &Scene::mortar);
+  for (const std::string& name : materials) add_material(keys, name);
   add_wheel(keys);
   add_rail(keys);
   add_fastenings(keys);
@@ -494,13 +519,8 @@ Keys make_keys() {
   add_corrugation(keys);
   add_wear(keys);
   add_impacts_and_output(keys);
-  for (const SceneTable& table : scene_tables()) {
-    if (!table.removable()) continue;
-    keys.push_back({.path = table.name + ".present",
-                    .kind = Kind::directive,
-                    .locate = {},
-                    .description = "false leaves the table out"});
-  }
+  for (const SceneTable& table : scene_tables(materials))
+    if (table.removable()) keys.push_back(presence_of(table));
   return keys;
 }
 
@@ -514,22 +534,14 @@ SceneTable component(const std::string& name, std::optional<Spec> Scene::*spec,
           .exists = [spec](const Scene& scene) { return (scene.*spec).has_value(); }};
 }
 
-SceneTable only_with(std::string other, SceneTable table) {
-  table.only_with = std::move(other);
-  return table;
-}
-
-SceneTable material(const std::string& name, Material Scene::*member, std::string description) {
-  const auto remove = [member](Scene& scene) { scene.*member = Material{}; };
-  return {.name = "material." + name,
-          .description = std::move(description),
-          .create =
-              [=](Scene& scene) {
-                remove(scene);
-                (scene.*member).name = name;
-              },
-          .remove = remove,
-          .exists = [member](const Scene& scene) { return !(scene.*member).name.empty(); }};
+SceneTable material_table(const std::string& name) {
+  return {.name = std::string(kMaterialTables) + name,
+          .description =
+              "A material of that name; parts name theirs: `wheel.material`, `rail.material`, "
+              "`slab.material`. The name is free and consists of letters, digits, _ and -.",
+          .create = [name](Scene& scene) { scene.materials[name] = {.name = name}; },
+          .remove = [name](Scene& scene) { scene.materials.erase(name); },
+          .exists = [name](const Scene& scene) { return scene.materials.contains(name); }};
 }
 
 SceneTable always(std::string name, std::string description) {
@@ -538,14 +550,12 @@ SceneTable always(std::string name, std::string description) {
           }};
 }
 
-std::vector<SceneTable> make_tables() {
-  return {
+std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
+  std::vector<SceneTable> tables = {
       always("scene", "What the scene is called, what it is based on, how fine it is."),
-      always("solution_zone", "The part of the rail that is divided finely and watched closely."),
-      material("steel", &Scene::steel, "Wheel and rail."),
-      only_with("slab", material("slab", &Scene::slab, "Slabs.")),
-      only_with("slab", material("gap_filler", &Scene::gap_filler, "What fills the gaps between slabs.")),
-      only_with("slab", material("mortar", &Scene::mortar, "The layer under the slabs.")),
+      always("solution_zone", "The part of the rail that is divided finely and watched closely.")};
+  for (const std::string& name : materials) tables.push_back(material_table(name));
+  const std::vector<SceneTable> others = {
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
       component("rail", &Scene::rail, "The flexible rail, or a block or bar in its place."),
       component("fastenings", &Scene::fastenings,
@@ -573,6 +583,29 @@ std::vector<SceneTable> make_tables() {
       always("output", "How often results are sampled, progress shown, checkpoints and frames written."),
       always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
   };
+  tables.insert(tables.end(), others.begin(), others.end());
+  return tables;
+}
+
+/// The material that the path, "material.steel" or "material.steel.density", belongs to; "" for other paths
+/// and for names that are not letters, digits, _ and -.
+std::string_view material_of(std::string_view path) {
+  if (!path.starts_with(kMaterialTables)) return "";
+  const std::string_view rest = path.substr(kMaterialTables.size());
+  const std::string_view name = rest.substr(0, rest.find('.'));
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return std::all_of(name.begin(), name.end(), allowed) ? name : "";
+}
+
+/// The keys of the material of that name, that of its presence included; none for "".
+Keys material_keys(std::string_view name) {
+  Keys keys;
+  if (name.empty()) return keys;
+  add_material(keys, std::string(name));
+  keys.push_back(presence_of(material_table(std::string(name))));
+  return keys;
 }
 
 bool starts_with_table(std::string_view path, std::string_view table) {
@@ -609,33 +642,77 @@ bool Bounds::contains(double value) const {
   return (open_low ? value > low : value >= low) && (open_high ? value < high : value <= high);
 }
 
+const std::vector<std::string>& usual_materials() {
+  static const std::vector<std::string> names = {"steel", "slab", "gap_filler", "mortar"};
+  return names;
+}
+
+std::vector<Key> scene_keys(const std::vector<std::string>& materials) {
+  return make_keys(materials);
+}
+
+std::vector<Key> scene_keys(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  return make_keys(names);
+}
+
 const std::vector<Key>& scene_keys() {
-  static const std::vector<Key> keys = make_keys();
+  static const std::vector<Key> keys = make_keys(usual_materials());
   return keys;
 }
 
+std::vector<SceneTable> scene_tables(const std::vector<std::string>& materials) {
+  return make_tables(materials);
+}
+
 const std::vector<SceneTable>& scene_tables() {
-  static const std::vector<SceneTable> tables = make_tables();
+  static const std::vector<SceneTable> tables = make_tables(usual_materials());
   return tables;
 }
 
-const Key* find_key(std::string_view path) {
-  for (const Key& key : scene_keys()) {
-    if (key.path == path) return &key;
-  }
-  return nullptr;
+std::optional<Key> find_key(std::string_view path) {
+  const std::string_view material = material_of(path);
+  const Keys own = material_keys(material);
+  const Keys& keys = material.empty() ? scene_keys() : own;
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& key) { return key.path == path; });
+  return found == keys.end() ? std::nullopt : std::optional(*found);
 }
 
-const SceneTable* table_of(std::string_view path) {
-  for (const SceneTable& table : scene_tables()) {
-    if (starts_with_table(path, table.name)) return &table;
-  }
-  return nullptr;
+std::optional<SceneTable> table_of(std::string_view path) {
+  const std::string_view material = material_of(path);
+  if (!material.empty()) return material_table(std::string(material));
+  const auto holds = [&](const SceneTable& table) { return starts_with_table(path, table.name); };
+  const auto found = std::find_if(scene_tables().begin(), scene_tables().end(), holds);
+  return found == scene_tables().end() ? std::nullopt : std::optional(*found);
 }
 
 bool is_table(std::string_view path) {
+  const std::string_view material = material_of(path);
+  if (!material.empty()) return path.size() == kMaterialTables.size() + material.size();
   const auto below = [&](const Key& key) { return key.path != path && starts_with_table(key.path, path); };
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);
+}
+
+std::vector<MaterialUse> material_uses(const Scene& scene) {
+  Scene copy = scene;
+  std::vector<MaterialUse> uses;
+  for (const Key& key : scene_keys()) {
+    if (!key.names_material) continue;
+    const Field field = key.locate(copy);
+    if (const auto* name = std::get_if<std::string*>(&field))
+      uses.push_back({key.path, key.path.substr(0, key.path.find('.')), **name});
+  }
+  return uses;
+}
+
+std::string usual_user(std::string_view material) {
+  Scene everything;
+  for (const SceneTable& table : scene_tables())
+    if (table.removable()) table.create(everything);
+  for (const MaterialUse& use : material_uses(everything))
+    if (use.name == material) return use.part;
+  return "";
 }
 
 std::string Condition::alternatives() const {
@@ -646,8 +723,7 @@ std::string Condition::alternatives() const {
 
 bool applies(const Key& key, const Scene& scene) {
   if (key.only_with.key.empty()) return true;
-  const SceneTable* table = table_of(key.only_with.key);
-  if (!table->exists(scene)) return false;
+  if (!table_of(key.only_with.key)->exists(scene)) return false;
   const std::vector<std::string>& values = key.only_with.values;
   if (values.empty()) return true;
   Scene copy = scene;
@@ -673,6 +749,8 @@ std::string similar_path(std::string_view unknown) {
   std::vector<std::string> paths;
   for (const Key& key : scene_keys()) paths.push_back(key.path);
   for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
+  const std::string_view material = material_of(unknown);
+  for (const Key& key : material_keys(material)) paths.push_back(key.path);
   std::string near = similar_text(unknown, paths);
   if (!near.empty()) return near;
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
@@ -682,7 +760,9 @@ std::string similar_path(std::string_view unknown) {
 
 std::string names_in(std::string_view table) {
   std::vector<std::string> names;
-  for (const Key& key : scene_keys()) {
+  const std::string_view material = material_of(table);
+  const Keys own = material_keys(material);
+  for (const Key& key : material.empty() ? scene_keys() : own) {
     if (!table.empty() && (key.path == table || !starts_with_table(key.path, table))) continue;
     const std::size_t start = table.empty() ? 0 : table.size() + 1;
     const std::string name = key.path.substr(start, key.path.find('.', start) - start);

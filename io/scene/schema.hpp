@@ -68,7 +68,8 @@ struct Key {
   bool takes_file = false;  ///< a text that may also name a file, relative to the scene's folder
   bool required = false;    ///< must be given where the table is present
   Condition only_with = {};
-  std::string excludes = {};  ///< a key that a later layer's value of this one replaces
+  std::string excludes = {};    ///< a key that a later layer's value of this one replaces
+  bool names_material = false;  ///< a text that names the material of the part that the key's table describes
 };
 
 /// A table of the scene; components can be absent.
@@ -78,25 +79,48 @@ struct SceneTable {
   std::function<void(Scene&)> create = {};  ///< with its defaults; empty: the table is always there
   std::function<void(Scene&)> remove = {};  ///< leaves the scene without it
   std::function<bool(const Scene&)> exists = {};
-  std::string only_with = {};  ///< the table that makes use of this one; empty: no condition
 
   bool removable() const { return static_cast<bool>(create); }
 };
 
-/// All keys, in the order of documentation, each table's keys together.
+/// Begins the path of every material's table: "material.steel".
+inline constexpr std::string_view kMaterialTables = "material.";
+
+/// Names that the parts of a scene give their materials by default: "steel", "slab", "gap_filler", "mortar".
+const std::vector<std::string>& usual_materials();
+
+/// All keys of a scene with these materials, in the order of documentation, each table's keys together.
+std::vector<Key> scene_keys(const std::vector<std::string>& materials);
+/// The same for the materials of a scene.
+std::vector<Key> scene_keys(const Scene& scene);
+/// The same for the usual materials.
 const std::vector<Key>& scene_keys();
 
-/// All tables, in the order of documentation.
+/// All tables of a scene with these materials, in the order of documentation.
+std::vector<SceneTable> scene_tables(const std::vector<std::string>& materials);
+/// The same for the usual materials.
 const std::vector<SceneTable>& scene_tables();
 
-/// The key at the path, or nullptr.
-const Key* find_key(std::string_view path);
+/// The key at the path, of a material of any name, too; nothing where there is none.
+std::optional<Key> find_key(std::string_view path);
 
-/// The table that the path names or lies in; nullptr where there is none.
-const SceneTable* table_of(std::string_view path);
+/// The table that the path names or lies in, of a material of any name, too; nothing where there is none.
+std::optional<SceneTable> table_of(std::string_view path);
 
-/// Whether keys lie below the path: "motion.traction".
+/// Returns true if keys lie below the path: "motion.traction".
 bool is_table(std::string_view path);
+
+/// The names of the materials that the scene's parts are of, each with the key that says so:
+/// {"wheel.material", "steel"}.
+struct MaterialUse {
+  std::string key;
+  std::string part;  ///< table of the part: "wheel"
+  std::string name;  ///< of the material
+};
+std::vector<MaterialUse> material_uses(const Scene& scene);
+
+/// The table of a part that is of this material by default, "wheel" of "steel"; "" where there is none.
+std::string usual_user(std::string_view material);
 
 /// Whether the key has an effect in the scene (Key::only_with).
 bool applies(const Key& key, const Scene& scene);

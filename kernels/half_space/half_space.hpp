@@ -1,24 +1,21 @@
 #pragma once
-// Contact of two elastic half-spaces of one material on a grid of cells with constant traction: the reference
-// for FE results. [Johnson, Contact Mechanics, ch. 3; Kalker, Three-Dimensional Elastic Bodies in Rolling
-// Contact, ch. 4]
+// Contact of two alike elastic half-spaces on a grid of cells with constant traction: the reference that
+// finite elements are compared with. ElasticPair::alike() stands for two bodies that are not alike. [Johnson,
+// Contact Mechanics, ch. 3; Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, ch. 4]
 //
 // x points in the rolling direction, y across, z down into the rail; the patch is at rest. All SI.
 
 #include <functional>
 #include <vector>
 
+#include "core/math/elastic_pair.hpp"
+
 namespace tread::half_space {
 
-/// Elastic constants of both bodies.
-struct Material {
-  double youngs_modulus = 0;  ///< [Pa]
-  double poissons_ratio = 0;
+/// Elastic constants of either body.
+using Material = ElasticConstants;
 
-  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-};
-
-/// Grid of nx x ny rectangular cells. Fields hold nx * ny values, x running fastest.
+/// nx x ny rectangular cells; fields hold nx * ny values, x running fastest.
 struct Grid {
   int nx = 0, ny = 0;
   double dx = 0, dy = 0;  ///< sides of a cell [m]
@@ -30,14 +27,14 @@ struct Grid {
   double y(int j) const { return y0 + j * dy; }
 };
 
-/// Square cells of side `cell` [m] that cover |x| <= half_x and |y| <= half_y [m]. The origin is a cell's
-/// centre or, with `node`, a corner of four cells.
+/// Square cells of side `cell` [m] that cover |x| <= half_x and |y| <= half_y [m]; the origin is a cell's
+/// centre, or, with `node`, a corner of four cells.
 Grid centred_grid(double half_x, double half_y, double cell, bool node = false);
 
-/// Bilinear interpolation of a cell field between the cells' centres; zero beyond the outermost centres.
+/// A cell field between the cells' centres, bilinear; zero beyond the outermost.
 double interpolated(const Grid& grid, const std::vector<double>& field, double x, double y);
 
-/// Coefficients for every offset |di| <= reach_x, |dj| <= reach_y of a target cell from a loaded cell.
+/// A coefficient for every offset |di| <= reach_x, |dj| <= reach_y of a target cell from a loaded cell.
 class OffsetTable {
  public:
   OffsetTable() = default;
@@ -48,7 +45,7 @@ class OffsetTable {
 
   double& at(int di, int dj) { return values_[middle_ + dj * width_ + di]; }
   double at(int di, int dj) const { return values_[middle_ + dj * width_ + di]; }
-  /// Coefficients of row dj. Index di of the pointer may be negative.
+  /// Coefficients of row dj; element di of the pointer may be negative.
   const double* row(int dj) const { return values_.data() + middle_ + dj * width_; }
 
  private:
@@ -65,31 +62,30 @@ struct Influence {
   Grid grid;
   Material material;
   OffsetTable normal;      ///< approach of the surfaces under pressure
-  OffsetTable xx, xy, yy;  ///< tangential differences; offsets reach one cell beyond the grid along x
+  OffsetTable xx, xy, yy;  ///< tangential; offsets reach one cell beyond the grid along x
 };
 
-/// Adds the table applied to `load` to `sum`; both hold nx * ny values.
+/// sum += table applied to `load`; both nx * ny.
 void apply(const OffsetTable& table, const Grid& grid, const std::vector<double>& load,
            std::vector<double>& sum);
 
 struct NormalContact {
-  std::vector<double> pressure;  ///< nx * ny pressures [Pa]
+  std::vector<double> pressure;  ///< nx * ny [Pa]
   double load = 0;               ///< [N]
-  double approach = 0;           ///< approach of distant points, from a gap function of value zero [m]
-  double area = 0;               ///< area of the cells under pressure [m2]
+  double approach = 0;           ///< of distant points, from a gap function of value zero [m]
+  double area = 0;               ///< of cells under pressure [m2]
   double max_pressure = 0;       ///< [Pa]
-  int cells = 0;                 ///< number of cells under pressure
+  int cells = 0;                 ///< under pressure
 };
 
 /// Undeformed distance of the surfaces [m] at x, y [m].
 using Gap = std::function<double(double x, double y)>;
 
-/// Frictionless contact under a total load [N] for any gap, by conjugate gradients on the contact set. Throws
-/// if the contact reaches the border of the grid or the iteration does not converge. [Polonsky and Keer, Wear
-/// 231 (1999) 206]
+/// Frictionless contact under a total load [N], any gap; conjugate gradients on the contact set. Throws when
+/// the contact reaches the border of the grid or does not converge. [Polonsky and Keer, Wear 231 (1999) 206]
 NormalContact press(const Influence& influence, const Gap& gap, double load);
 
-/// Gap x^2 / (2 radius_x) + y^2 / (2 radius_y) [m].
+/// x^2 / (2 radius_x) + y^2 / (2 radius_y) [m].
 Gap quadratic_gap(double radius_x, double radius_y);
 
 }  // namespace tread::half_space

@@ -48,7 +48,16 @@ TEST(SceneErrors, Names) {
       {"[rail]\nlenght = \"3 m\"", "x.toml:4:1: rail.lenght: unknown key (did you mean rail.length?)"},
       {"[rail]\n  friction = 0.4", "x.toml:4:3: rail.friction: unknown key (did you mean contact.friction?)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
-      {"[material.stel]", "x.toml:3:11: material.stel: unknown table (did you mean material.steel?)"},
+      {"[material.stel]",
+       "x.toml:3:11: material.stel: has no effect, because no part is of it; the parts state wheel.material "
+       "= "
+       "\"steel\", rail.material = \"steel\", slab.material = \"slab\", slab.gap_material = \"gap_filler\", "
+       "slab.mortar_material = \"mortar\""},
+      {"[material.\"wheel steel\"]",
+       "x.toml:3:11: material.wheel steel: a material's name consists of letters, digits, _ and -"},
+      {"[material.\"\"]", "x.toml:3:11: material.: a material's name consists of letters, digits, _ and -"},
+      {"[material.steel]\ndensty = \"1 kg/m3\"",
+       "x.toml:4:1: material.steel.densty: unknown key (did you mean material.steel.density?)"},
       {"[vehicle]\ncolour = \"red\"",
        "x.toml:4:1: vehicle.colour: unknown key (known: sprung_mass, unsprung_mass, suspension_stiffness, "
        "suspension_damping, present)"},
@@ -102,7 +111,8 @@ TEST(SceneErrors, Types) {
        "s, ms, us, "
        "min, h)"},
   });
-  expect_part(error_of("rail = \"none\""), "x.toml:1:1: rail: expected a table with keys among profile,");
+  expect_part(error_of("rail = \"none\""),
+              "x.toml:1:1: rail: expected a table with keys among material, profile,");
   expect_part(error_of("rail = \"none\""), "(to leave it out, write rail.present = false)");
   expect_part(
       error_of(kBase + "[material.slab]\ndamping = { kind = \"high_frequency_fraction\", value = 0.01 }"),
@@ -210,7 +220,10 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
       {"[rail]\nsupport = \"rigid\"",
        "x.toml:4:1: rail.support: a rail with support = \"rigid\" has no fastenings; "
        "state fastenings.present = false"},
-      {"[material.steel]\npresent = false", "x.toml:3:11: material.steel: the wheel needs [material.steel]"},
+      {"[material.steel]\npresent = false",
+       "x.toml:3:11: material.steel: the wheel needs [material.steel]; the scene's materials: gap_filler, "
+       "mortar, "
+       "slab"},
       {"[pulse]\nvelocity = \"1 m/s\"\nlength = \"1 m\"",
        "x.toml:3:2: pulse: a pulse needs [rail] and no wheel"},
       {"[hammer]\nposition = \"20 m\"\nforce = \"1 kN\"\nduration = \"1 ms\"",
@@ -241,6 +254,48 @@ TEST(SceneErrors, KeysWithoutEffect) {
        "the start and depth positive downwards, after a line such as `# x [m]  d [mm]`\n"
        "x.toml:5:1: corrugation.depth: has an effect only with corrugation.kind = \"sine\""},
   });
+}
+
+TEST(SceneErrors, Materials) {
+  const std::string own =
+      "[material.wheel_steel]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.3\ndensity = \"7790 kg/m3\"\n";
+  expect_messages({
+      {own + "[wheel]\nmaterial = \"wheel_stell\"",
+       "x.toml:8:1: wheel.material: the wheel needs [material.wheel_stell]; the scene's materials: "
+       "gap_filler, "
+       "mortar, slab, steel, wheel_steel (did you mean wheel_steel?)"},
+      {own + "[wheel]\nmaterial = 3",
+       "x.toml:8:1: wheel.material: expected a string in quotes, got the number 3"},
+      {own,
+       "x.toml:3:11: material.wheel_steel: has no effect, because no part is of it; the parts state "
+       "wheel.material "
+       "= \"steel\", rail.material = \"steel\", slab.material = \"slab\", slab.gap_material = "
+       "\"gap_filler\", "
+       "slab.mortar_material = \"mortar\""},
+      {"[material.wheel_steel]\nyoungs_modulus = \"70 GPa\"\n[wheel]\nmaterial = \"wheel_steel\"",
+       "2 problems\nx.toml:3:11: material.wheel_steel.poissons_ratio: is missing; [material.wheel_steel] "
+       "needs a "
+       "value: Poisson's ratio\nx.toml:3:11: material.wheel_steel.density: is missing; "
+       "[material.wheel_steel] needs "
+       "a density: Density"},
+      {"[slab]\nmortar_material = \"steel\"",
+       "x.toml: material.slab.damping: slab, gap filler and mortar are damped as one body; state the same "
+       "damping "
+       "for all three"},
+  });
+  EXPECT_EQ(error_of(kBase, {"rail.material=iron"}),
+            "--set: rail.material: the rail needs [material.iron]; the scene's materials: gap_filler, "
+            "mortar, slab, "
+            "steel");
+  EXPECT_EQ(
+      error_of(kBase, {"material.steel=7"}),
+      "--set: material.steel: expected a table with keys among youngs_modulus, poissons_ratio, density, "
+      "damping, damping_up_to, present; got the number 7 (to leave it out, write material.steel.present = "
+      "false)");
+  expect_part(error_of(kBase, {"material.soft.youngs_modulus=70"}), "material.soft.youngs_modulus: ");
+  // The wheel's own steel bounds the speed of its rim.
+  expect_part(error_of(kBase + own + "[wheel]\nmaterial = \"wheel_steel\"\n[motion]\ncreepage = 1.5\n"),
+              "the wheel's rim moves at 583.3 m/s");
 }
 
 TEST(SceneErrors, AllInOnePassInTheOrderOfTheFile) {
@@ -429,9 +484,13 @@ TEST(SceneErrors, ValidateChecksScenesBuiltInCode) {
   Scene scene;
   scene.rail = RailSpec{};
   scene.rail->support = "free";
-  scene.steel = {"steel", 205.9e9, 0.3, 7790, 0};
+  scene.materials["steel"] = {"steel", 205.9e9, 0.3, 7790, 0};
   EXPECT_TRUE(validate(scene).empty());
-  scene.steel.density = -1;
+  Scene misnamed = scene;
+  misnamed.materials.at("steel").name = "iron";
+  ASSERT_EQ(validate(misnamed).size(), 1u);
+  EXPECT_EQ(validate(misnamed)[0].keys.front(), "material.steel");
+  scene.materials.at("steel").density = -1;
   ASSERT_EQ(validate(scene).size(), 1u);
   EXPECT_EQ(validate(scene)[0].keys.front(), "material.steel.density");
 }

@@ -39,6 +39,23 @@ TEST_F(SceneOnATable, IsKeptAsItWas) {
   EXPECT_TRUE(samples::has(apart, "depth.txt has other contents")) << apart;
 }
 
+TEST(SceneContent, TellsMaterialsApart) {
+  const std::string text = "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n";
+  const std::string table =
+      "[material.wheel_steel]\npoissons_ratio = 0.3\ndensity = \"7790 kg/m3\"\nyoungs_modulus";
+  const std::string part = "[wheel]\nmaterial = \"wheel_steel\"\n";
+  const auto content = [&](const std::string& more) {
+    return scene_content(resolve_scene(SceneSource{"test", text + more, "."}));
+  };
+  const SceneContent of_steel = content("");
+  const SceneContent of_own = content(table + " = \"205.9 GPa\"\n" + part);
+  const SceneContent of_soft = content(table + " = \"70 GPa\"\n" + part);
+  EXPECT_EQ(difference(of_soft, content(part + table + " = \"70 GPa\"\n")), "");
+  EXPECT_NE(difference(of_steel, of_own), "");
+  EXPECT_EQ(difference(of_own, of_soft),
+            "material.wheel_steel.youngs_modulus is 205900000000 Pa here and 70000000000 Pa there");
+}
+
 TEST_F(SceneOnATable, NeedsNoChecksums) {
   // Folders without kept contents of files: the file in its present state counts.
   keep_scene(folder_.path, resolved());

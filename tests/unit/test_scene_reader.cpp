@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -43,7 +44,8 @@ const std::string kBase = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
 /// Compares field by field, bit by bit.
 void expect_same(Scene a, Scene b) {
   for (const SceneTable& table : scene_tables()) EXPECT_EQ(table.exists(a), table.exists(b)) << table.name;
-  for (const Key& key : scene_keys()) {
+  EXPECT_EQ(a.material_names(), b.material_names());
+  for (const Key& key : scene_keys(a)) {
     if (!key.locate) continue;
     const Field left = key.locate(a);
     const Field right = key.locate(b);
@@ -105,7 +107,7 @@ TEST(SceneReader, ShippedScenesContainOnlyWhatTheyName) {
   const Scene ground = read_scene(kScenes / "rigid-ground.toml");
   EXPECT_TRUE(ground.fastenings);
   EXPECT_FALSE(ground.slab_track);
-  EXPECT_TRUE(ground.mortar.name.empty());
+  EXPECT_EQ(ground.material_names(), "steel");
 
   const Scene sphere = read_scene(kScenes / "sphere-on-block.toml");
   EXPECT_TRUE(sphere.wheel && sphere.rail && sphere.load && sphere.contact);
@@ -128,26 +130,26 @@ TEST(SceneReader, LibraryHoldsTable1) {
   EXPECT_EQ(scene.vehicle->suspension_damping, 4e3);
   EXPECT_EQ(scene.fastenings->stiffness, 22e6);
   EXPECT_EQ(scene.fastenings->damping, 200e3);
-  EXPECT_EQ(scene.steel.youngs_modulus, 205.9e9);
-  EXPECT_EQ(scene.steel.poissons_ratio, 0.3);
-  EXPECT_EQ(scene.steel.density, 7790);
-  EXPECT_EQ(scene.steel.high_frequency_fraction, 1e-4);
-  EXPECT_EQ(scene.steel.rayleigh_beta, 0);
-  EXPECT_EQ(scene.slab.youngs_modulus, 34.5e9);
-  EXPECT_EQ(scene.slab.poissons_ratio, 0.25);
-  EXPECT_EQ(scene.slab.density, 2400);
-  EXPECT_EQ(scene.gap_filler.youngs_modulus, 29.5e9);
-  EXPECT_EQ(scene.gap_filler.poissons_ratio, 0.25);
-  EXPECT_EQ(scene.gap_filler.density, 2400);
-  EXPECT_EQ(scene.mortar.youngs_modulus, 8e9);
-  EXPECT_EQ(scene.mortar.poissons_ratio, 0.2);
-  EXPECT_EQ(scene.mortar.density, 1600);
+  EXPECT_EQ(scene.material("steel").youngs_modulus, 205.9e9);
+  EXPECT_EQ(scene.material("steel").poissons_ratio, 0.3);
+  EXPECT_EQ(scene.material("steel").density, 7790);
+  EXPECT_EQ(scene.material("steel").high_frequency_fraction, 1e-4);
+  EXPECT_EQ(scene.material("steel").rayleigh_beta, 0);
+  EXPECT_EQ(scene.material("slab").youngs_modulus, 34.5e9);
+  EXPECT_EQ(scene.material("slab").poissons_ratio, 0.25);
+  EXPECT_EQ(scene.material("slab").density, 2400);
+  EXPECT_EQ(scene.material("gap_filler").youngs_modulus, 29.5e9);
+  EXPECT_EQ(scene.material("gap_filler").poissons_ratio, 0.25);
+  EXPECT_EQ(scene.material("gap_filler").density, 2400);
+  EXPECT_EQ(scene.material("mortar").youngs_modulus, 8e9);
+  EXPECT_EQ(scene.material("mortar").poissons_ratio, 0.2);
+  EXPECT_EQ(scene.material("mortar").density, 1600);
 }
 
 TEST(SceneReader, LibraryNamesKnownKeysOnly) {
   for (const LibraryEntry& entry : scene_library()) {
     for (const LibraryValue& value : entry.values) {
-      EXPECT_NE(find_key(value.path), nullptr) << value.path;
+      EXPECT_TRUE(find_key(value.path)) << value.path;
       EXPECT_FALSE(value.source.empty()) << value.path;
     }
   }
@@ -192,9 +194,63 @@ TEST(SceneReader, DampingHasTwoNames) {
   const std::string text =
       kBase + "[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }\n";
   const ResolvedScene resolved = resolve(text);
-  EXPECT_EQ(resolved.scene.steel.rayleigh_beta, 1e-8);
-  EXPECT_EQ(resolved.scene.steel.high_frequency_fraction, 0);
+  EXPECT_EQ(resolved.scene.material("steel").rayleigh_beta, 1e-8);
+  EXPECT_EQ(resolved.scene.material("steel").high_frequency_fraction, 0);
   expect_round_trip(resolved);
+}
+
+const std::string kWheelSteel =
+    "[material.wheel_steel]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\ndensity = \"2700 kg/m3\"\n"
+    "damping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }\n";
+
+TEST(SceneReader, EveryPartNamesItsMaterial) {
+  const ResolvedScene resolved = resolve(
+      kBase + kWheelSteel +
+      "[material.rail-2]\nyoungs_modulus = \"210 GPa\"\npoissons_ratio = 0.29\ndensity = \"7850 kg/m3\"\n"
+      "[wheel]\nmaterial = \"wheel_steel\"\n[rail]\nmaterial = \"rail-2\"\n[slab]\nmortar_material = "
+      "\"slab\"\n");
+  const Scene& scene = resolved.scene;
+  EXPECT_EQ(scene.wheel_material().youngs_modulus, 70e9);
+  EXPECT_EQ(scene.wheel_material().rayleigh_beta, 1e-8);
+  EXPECT_EQ(scene.wheel_material().name, "wheel_steel");
+  EXPECT_EQ(scene.rail_material().density, 7850);
+  EXPECT_EQ(scene.material(scene.slab_track->mortar_material).youngs_modulus, 34.5e9);
+  // Steel and mortar of the base, which no part is of, have gone.
+  EXPECT_EQ(scene.material_names(), "gap_filler, rail-2, slab, wheel_steel");
+  EXPECT_EQ(source_of(resolved, "material.wheel_steel.density"), "scene.toml:6");
+  EXPECT_EQ(source_of(resolved, "wheel.material"), "scene.toml:13");
+  expect_round_trip(resolved);
+}
+
+TEST(SceneReader, MaterialsAreNamedOnTheCommandLine) {
+  const ResolvedScene resolved =
+      resolve(kBase, {"material.soft.youngs_modulus=70 GPa", "material.soft.poissons_ratio=0.33",
+                      "material.soft.density=2700 kg/m3", "wheel.material=soft"});
+  EXPECT_EQ(resolved.scene.wheel_material().youngs_modulus, 70e9);
+  EXPECT_EQ(resolved.scene.rail_material().youngs_modulus, 205.9e9);
+  EXPECT_EQ(source_of(resolved, "material.soft.density"), "--set");
+  expect_round_trip(resolved);
+}
+
+TEST(SceneReader, ScenesKeptByFinishedRunsStayReadable) {
+  const fs::path kept = fs::path(TREAD_SOURCE_DIR) / "docs/performance/paper-passage/scene.resolved.toml";
+  const Scene scene = read_scene(kept);
+  EXPECT_EQ(scene.wheel_material().youngs_modulus, 205.9e9);
+  EXPECT_EQ(scene.rail_material().name, "steel");
+  EXPECT_EQ(scene.material(scene.slab_track->mortar_material).density, 1600);
+}
+
+TEST(SceneReader, MaterialsOfBodiesThatAreNotThereAreErrors) {
+  const Scene rail = read_scene(kScenes / "bar-wave.toml");
+  EXPECT_EQ(rail.rail_material().name, "steel");
+  EXPECT_THROW(rail.wheel_material(), InputError);
+  EXPECT_THROW(rail.elastic_pair(), InputError);
+  try {
+    rail.material("stel");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "the scene has no material \"stel\"; it has steel");
+  }
 }
 
 TEST(SceneReader, CorrugationTableIsReadBesideTheScene) {
@@ -228,6 +284,26 @@ TEST(SceneReader, ReferencePageIsUpToDate) {
   EXPECT_EQ(page.str(), scene_reference()) << "docs/scene.md differs from scene_reference(); write it anew";
 }
 
+TEST(Schema, KnowsTheKeysOfMaterialsOfAnyName) {
+  const std::optional<Key> key = find_key("material.wheel_steel.density");
+  ASSERT_TRUE(key);
+  EXPECT_EQ(key->path, "material.wheel_steel.density");
+  EXPECT_TRUE(is_table("material.wheel_steel"));
+  EXPECT_EQ(table_of("material.wheel_steel.density")->name, "material.wheel_steel");
+  EXPECT_FALSE(find_key("material.wheel_steel"));
+  EXPECT_FALSE(find_key("material.wheel_steel.colour"));
+  EXPECT_FALSE(find_key("material.wheel steel.density"));
+  EXPECT_FALSE(is_table("material.wheel steel"));
+  EXPECT_FALSE(is_table("material."));
+  Scene scene;
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(key->locate(scene)));
+  scene.materials["wheel_steel"].density = 7800;
+  EXPECT_EQ(number_at(key->locate(scene)), 7800);
+  EXPECT_EQ(usual_user("steel"), "wheel");
+  EXPECT_EQ(usual_user("mortar"), "slab");
+  EXPECT_EQ(usual_user("wheel_steel"), "");
+}
+
 TEST(Schema, EveryKeyIsWellFormed) {
   Scene everything;
   for (const SceneTable& table : scene_tables()) {
@@ -238,13 +314,13 @@ TEST(Schema, EveryKeyIsWellFormed) {
     SCOPED_TRACE(key.path);
     EXPECT_TRUE(paths.insert(key.path).second);
     EXPECT_FALSE(key.description.empty());
-    EXPECT_NE(table_of(key.path), nullptr);
+    EXPECT_TRUE(table_of(key.path));
     if (key.quantity) {
       EXPECT_EQ(parse_unit(key.unit).dimension, key.quantity->dimension);
       EXPECT_EQ(parse_unit(key.quantity->si).dimension, key.quantity->dimension);
     }
     if (!key.only_with.key.empty()) {
-      EXPECT_NE(table_of(key.only_with.key), nullptr);
+      EXPECT_TRUE(table_of(key.only_with.key));
     }
     if (!key.locate || key.required) continue;
     const std::optional<double> value = number_at(key.locate(everything));

@@ -47,7 +47,7 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   Simulation simulation(model, preload, dt);
   simulation.set_sampling_interval(1);
   const SweptBlock& bar = model.mesh.blocks[0];
-  const double sound = std::sqrt(scene.steel.youngs_modulus / scene.steel.density);
+  const double sound = std::sqrt(scene.rail_material().youngs_modulus / scene.rail_material().density);
   // The step of velocity splits into two of half the size. A wave has arrived when two stations have a
   // quarter of the step.
   const auto station_at = [&](double x) {
@@ -94,14 +94,14 @@ TEST(BarWave, SceneRunsAtTheSpeedOfSoundAndKeepsItsEnergy) {
   // The first 20 of 200 elements move, the station at 0.1 m does not: 0.1 m less half an element of the bar's
   // cross-section.
   const double h = bar.stations[1] - bar.stations[0];
-  const double mass = scene.steel.density * 0.01 * 0.01 * (0.1 - 0.5 * h);
+  const double mass = scene.rail_material().density * 0.01 * 0.01 * (0.1 - 0.5 * h);
   EXPECT_NEAR(momentum, mass * scene.pulse->velocity, 1e-9 * momentum);
 }
 
 /// Largest error of the velocity of a smooth pulse that ran through the bar, relative to its height. The step
 /// is a fixed share of the stable one.
 double pulse_error(double element_size) {
-  const Material material = bar_scene().steel;
+  const Material material = bar_scene().rail_material();
   constexpr double length = 0.5;
   const int count = static_cast<int>(std::lround(length / element_size));
   Mesh mesh;

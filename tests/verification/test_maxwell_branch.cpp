@@ -28,8 +28,8 @@ const auto kSilent = [](const std::string&) {};
 
 Scene bar_scene() {
   Scene scene = BarScene{.element_size = kElement, .poissons_ratio = 0}.scene();
-  scene.steel.rayleigh_beta = kBeta;
-  scene.steel.damping_up_to = kFrequency;
+  scene.materials.at("steel").rayleigh_beta = kBeta;
+  scene.materials.at("steel").damping_up_to = kFrequency;
   return scene;
 }
 
@@ -65,7 +65,7 @@ class Mode {
     length_ = block_->stations.back() - block_->stations.front();
   }
   double omega() const {
-    const Material& steel = model_->scene.steel;
+    const Material& steel = model_->scene.rail_material();
     const double sound = std::sqrt(steel.youngs_modulus / steel.density);
     return 2 * sound / kElement * std::sin(0.5 * std::numbers::pi * waves_ * kElement / length_);
   }
@@ -104,7 +104,7 @@ std::vector<double> errors_of_modes(const Scene& scene, const std::vector<int>& 
   for (const int w : waves) {
     modes.emplace_back(model, w);
     const double speed = modes.back().amplitude(simulation.velocity());
-    theory.push_back({modes.back().omega(), *scene.steel.branch(), {0, speed, 0}});
+    theory.push_back({modes.back().omega(), *scene.rail_material().branch(), {0, speed, 0}});
     scale.push_back(std::abs(speed) / modes.back().omega());
   }
   std::vector<double> errors(waves.size());
@@ -120,7 +120,7 @@ std::vector<double> errors_of_modes(const Scene& scene, const std::vector<int>& 
 }
 
 TEST(MaxwellBranch, LossIsNineTenthsOfBetaOmegaAtTheStatedFrequency) {
-  const MaxwellBranch branch = *bar_scene().steel.branch();
+  const MaxwellBranch branch = *bar_scene().rail_material().branch();
   const auto modulus = [&](double omega) {
     const std::complex<double> lag(0, omega * branch.time);
     return 1.0 + branch.strength * lag / (1.0 + lag);
@@ -140,7 +140,7 @@ TEST(MaxwellBranch, ModesOfABarMoveAsInTheory) {
   const std::vector<double> coarse = errors_of_modes(scene, waves, dt);
   const std::vector<double> fine = errors_of_modes(scene, waves, 0.5 * dt);
   for (std::size_t k = 0; k < waves.size(); ++k) {
-    const double tau = scene.steel.branch()->time;
+    const double tau = scene.rail_material().branch()->time;
     measured(fmt::format("mode {}: w tau", waves[k]), Mode(Model(scene), waves[k]).omega() * tau);
     measured(fmt::format("mode {}: largest error / amplitude", waves[k]), fine[k]);
     measured(fmt::format("mode {}: order in time", waves[k]), std::log2(coarse[k] / fine[k]));
@@ -152,12 +152,12 @@ TEST(MaxwellBranch, ModesOfABarMoveAsInTheory) {
 TEST(MaxwellBranch, StepIsThatOfTheStifferBodies) {
   const Scene scene = bar_scene();
   Scene free = scene;
-  free.steel.rayleigh_beta = 0;
-  free.steel.damping_up_to.reset();
+  free.materials.at("steel").rayleigh_beta = 0;
+  free.materials.at("steel").damping_up_to.reset();
   const double free_step = step_limit(Model(free)).stable_step;
   Model model(scene);
   const double step = step_limit(model).stable_step;
-  const MaxwellBranch branch = *scene.steel.branch();
+  const MaxwellBranch branch = *scene.rail_material().branch();
   EXPECT_NEAR(step / free_step, 1 / std::sqrt(1 + branch.strength), 1e-3);
   const Preload preload = solve_preload(model, {}, kSilent);
   EXPECT_FALSE(run_small(scene, preload, step, 3000).stopped);

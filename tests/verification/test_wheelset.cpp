@@ -86,7 +86,7 @@ duration = "0.1 ms"
 )");
   Model model(scene);
   const Preload preload = solve_preload(model, {}, [](const std::string&) {});
-  const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.steel);
+  const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.rail_material());
   const TrackBeam rail = rail_beam(scene, properties);
   const FasteningSpec& f = *scene.fastenings;
   const double weight = properties.mass * scene.gravity * f.spacing / f.stiffness;  // sinks the rail evenly

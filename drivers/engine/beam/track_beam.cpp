@@ -195,7 +195,7 @@ std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
 
 double head_spread(const Scene& scene, const BeamProperties& properties) {
   if (!scene.fastenings || properties.depth == 0) return 0;
-  return head_spread(properties.depth, scene.steel.poissons_ratio,
+  return head_spread(properties.depth, scene.rail_material().poissons_ratio,
                      2 * std::numbers::pi / scene.fastenings->spacing);
 }
 

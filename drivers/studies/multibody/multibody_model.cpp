@@ -86,7 +86,8 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.scene = scene;
   model.theory = theory;
   const BeamSection section = rail_beam_section(scene);
-  model.rail = theory == BeamTheory::euler ? euler(section, scene.steel) : timoshenko(section, scene.steel);
+  const Material& material = scene.rail_material();
+  model.rail = theory == BeamTheory::euler ? euler(section, material) : timoshenko(section, material);
   if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
   model.supports = rail_supports(scene);
   model.vehicle = lumped_vehicle(scene);
@@ -99,9 +100,7 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   const LateralGap gap = lateral_gap(SurfaceProfile(rail), SurfaceProfile(tread));
   model.contact_y = gap.lowest;
   model.radius_y = gap.radius;
-  model.patch =
-      hertz(radius, gap.radius, contact_modulus(scene.steel.youngs_modulus, scene.steel.poissons_ratio),
-            model.vehicle.load());
+  model.patch = hertz(radius, gap.radius, scene.elastic_pair().contact_modulus(), model.vehicle.load());
   model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
 
   model.corrugation = stated_corrugation(model);
@@ -185,7 +184,7 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength) {
   const double half_length =
       std::max(2.0 * patch.semi_axis_x, bridged ? 0.5 * wavelength + patch.semi_axis_x : 0.0);
   const Influence influence(centred_grid(half_length, 2 * patch.semi_axis_y, cell),
-                            {model.scene.steel.youngs_modulus, model.scene.steel.poissons_ratio});
+                            model.scene.elastic_pair().alike());
   const Gap smooth = quadratic_gap(0.5 * model.scene.wheel->diameter, model.radius_y);
   const auto approach = [&](double phase) {
     return press(

@@ -19,7 +19,7 @@ namespace {
 
 /// Value in the key's unit; nullopt if it is not a number.
 std::optional<double> number_of(const PlannedPoint& point, const std::string& path) {
-  const Key* key = find_key(path);
+  const std::optional<Key> key = find_key(path);
   if (!key || !key->locate) return std::nullopt;
   Scene scene = point.resolved.scene;
   const std::optional<double> si = number_at(key->locate(scene));
@@ -28,7 +28,7 @@ std::optional<double> number_of(const PlannedPoint& point, const std::string& pa
 }
 
 std::string unit_of(const std::string& path) {
-  const Key* key = find_key(path);
+  const std::optional<Key> key = find_key(path);
   return key && !key->unit.empty() ? key->unit : "-";
 }
 

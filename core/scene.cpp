@@ -1,0 +1,39 @@
+#include "core/scene.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+const Material& Scene::material(std::string_view name) const {
+  const auto found = materials.find(name);
+  if (found == materials.end())
+    throw InputError(fmt::format("the scene has no material \"{}\"; it has {}", name, material_names()));
+  return found->second;
+}
+
+const Material& Scene::wheel_material() const {
+  if (!wheel) throw InputError("the scene has no wheel, and so no material of it; add [wheel]");
+  return material(wheel->material);
+}
+
+const Material& Scene::rail_material() const {
+  if (!rail) throw InputError("the scene has no rail, and so no material of it; add [rail]");
+  return material(rail->material);
+}
+
+ElasticPair Scene::elastic_pair() const {
+  const Material& of_wheel = wheel_material();
+  const Material& of_rail = rail_material();
+  return {{of_wheel.youngs_modulus, of_wheel.poissons_ratio},
+          {of_rail.youngs_modulus, of_rail.poissons_ratio}};
+}
+
+std::string Scene::material_names() const {
+  std::string names;
+  for (const auto& [name, material] : materials) names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace tread
