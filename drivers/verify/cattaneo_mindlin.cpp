@@ -24,10 +24,10 @@ struct Mindlin {
   double force = 0;   ///< f F_N [N]
 
   Mindlin(const TyreOnBlock& bodies) {
-    const double shear_modulus = bodies.youngs_modulus / (2 * (1 + bodies.poissons_ratio));
+    const ElasticConstants alike = bodies.elastic.alike();
     radius = bodies.hertz_patch().semi_axis_x;
     force = bodies.friction * bodies.load;
-    limit = 3 * force * (2 - bodies.poissons_ratio) / (8 * radius * shear_modulus);
+    limit = 3 * force * (2 - alike.poissons_ratio) / (8 * radius * alike.shear_modulus());
   }
   double stick_radius(double q) const { return radius * std::cbrt(1 - q); }
   double first_shift(double q) const { return limit * (1 - std::pow(1 - q, 2.0 / 3)); }
@@ -42,10 +42,10 @@ struct Mindlin {
   }
 };
 
-/// Forward displacement on the axis of the wheel, a half-space, at depth z under the patch's tractions [m].
-/// The rail's displacement is the opposite. [Cerruti; Johnson, sect. 3.6]
-double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoint>& points, double z) {
-  const double nu = bodies.poissons_ratio;
+/// Forward displacement on the axis at depth z of a body, a half-space, under the patch's tractions on the
+/// wheel; those on the rail are the opposite. [Cerruti; Johnson, sect. 3.6] [m]
+double deep_displacement(const ElasticConstants& body, const std::vector<ContactPoint>& points, double z) {
+  const double nu = body.poissons_ratio;
   double sum = 0;
   for (const ContactPoint& point : points) {
     const double x = point.position.x;
@@ -54,7 +54,7 @@ double deep_displacement(const TyreOnBlock& bodies, const std::vector<ContactPoi
         1 / r + x * x / (r * r * r) + (1 - 2 * nu) * (1 / (r + z) - x * x / (r * (r + z) * (r + z)));
     sum -= point.area * point.shear.along * kernel;
   }
-  return (1 + nu) / (2 * std::numbers::pi * bodies.youngs_modulus) * sum;
+  return (1 + nu) / (2 * std::numbers::pi * body.youngs_modulus) * sum;
 }
 
 struct Moment {
@@ -74,7 +74,9 @@ double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulatio
   const double wheel = -displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).x -
                        turned * (bodies.radius - depth);
   const double carrier = (simulation.wheel().angle + turned) * bodies.radius;
-  return carrier + wheel + rail + 2 * deep_displacement(bodies, model.contact->points(), depth);
+  const std::vector<ContactPoint>& points = model.contact->points();
+  return carrier + wheel + rail + deep_displacement(bodies.elastic.wheel, points, depth) +
+         deep_displacement(bodies.elastic.rail, points, depth);
 }
 
 /// Shift of distant points [m]. Finite bodies under tangential forces turn a little as a whole, half-spaces
@@ -185,6 +187,7 @@ CaseResult cattaneo_mindlin(const VerifyInputs& inputs, const ProgressText& prog
       {"work of the loop", "J", second->work - first->work, theory.loop_work(turn), 0.03},
       {"energy residual / frictional work", "-", std::abs(moments.back().residual) / moments.back().work, 0,
        0.01, true}};
+  add_dundurs(bodies, result);
   result.figures.push_back(loop_figure(theory, moments, turn));
   return result;
 }

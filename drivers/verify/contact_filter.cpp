@@ -52,7 +52,7 @@ Rest half_space_rest(const TyreOnBlock& bodies, const Waves& waves, bool trough)
   const HertzPatch patch = bodies.hertz_patch();
   const double cell = std::min(patch.semi_axis_x, patch.semi_axis_y) / 10;
   const Influence influence(centred_grid(2 * patch.semi_axis_x, 2 * patch.semi_axis_y, cell),
-                            {bodies.youngs_modulus, bodies.poissons_ratio});
+                            bodies.elastic.alike());
   const Gap smooth = quadratic_gap(bodies.radius, bodies.crown_radius);
   const NormalContact contact = press(
       influence,

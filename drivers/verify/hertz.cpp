@@ -21,12 +21,12 @@ struct StaticContact {
   std::vector<ContactPoint> points;
 };
 
-/// Displacement of the axis at depth z of a half-space under a Hertz pressure [m]: Boussinesq's point force,
-/// integrated over the ellipse. [Johnson, eq. 3.19]
-double axis_displacement(const TyreOnBlock& bodies, const HertzPatch& patch, double z) {
+/// Displacement of the axis at depth z of a half-space under a Hertz pressure: Boussinesq's point force,
+/// integrated over the ellipse. [Johnson, eq. 3.19] [m]
+double axis_displacement(const ElasticConstants& body, const HertzPatch& patch, double z) {
   constexpr int kRings = 60;
   constexpr int kSectors = 60;
-  const double nu = bodies.poissons_ratio;
+  const double nu = body.poissons_ratio;
   double sum = 0;
   for (int i = 0; i < kRings; ++i) {
     const double r = (i + 0.5) / kRings;
@@ -38,7 +38,7 @@ double axis_displacement(const TyreOnBlock& bodies, const HertzPatch& patch, dou
     }
   }
   const double cell = 2 * std::numbers::pi / (kRings * kSectors) * patch.semi_axis_x * patch.semi_axis_y;
-  return (1 + nu) / (2 * std::numbers::pi * bodies.youngs_modulus) * patch.max_pressure * sum * cell;
+  return (1 + nu) / (2 * std::numbers::pi * body.youngs_modulus) * patch.max_pressure * sum * cell;
 }
 
 StaticContact press(const TyreOnBlock& bodies, const ProgressText& progress) {
@@ -59,7 +59,8 @@ StaticContact press(const TyreOnBlock& bodies, const ProgressText& progress) {
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).z;
   const double wheel =
       displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).z + preload.wheel.origin.z;
-  contact.approach = bodies.radius - wheel + rail + 2 * axis_displacement(bodies, patch, depth);
+  contact.approach = bodies.radius - wheel + rail + axis_displacement(bodies.elastic.wheel, patch, depth) +
+                     axis_displacement(bodies.elastic.rail, patch, depth);
   return contact;
 }
 

@@ -34,7 +34,7 @@ struct HalfSpace {
         influence(
             half_space::centred_grid(1.3 * bodies.hertz_patch().semi_axis_x,
                                      1.3 * bodies.hertz_patch().semi_axis_y, bodies.element_size / per_box),
-            {bodies.youngs_modulus, bodies.poissons_ratio}),
+            bodies.elastic.alike()),
         contact(half_space::press(influence, half_space::quadratic_gap(bodies.radius, bodies.crown_radius),
                                   bodies.load)),
         state(half_space::RollingContact(influence, contact, bodies.friction).steady(force)) {}
@@ -106,10 +106,11 @@ Reference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, d
   reference.work = half_space::centre_element_work(half_space.grid(), half_space.state, h) / (h * h);
   const Peak box = largest_shear(half_space, h, row_aside(bodies));
   reference.max_shear = box.shear;
-  // Elements stand beside the axis if nodes stand on it; the largest stress is near the largest shear.
-  reference.von_mises = half_space::largest_box_stress(
-      {half_space.grid(), half_space.contact.pressure, half_space.state.tractions, bodies.poissons_ratio},
-      {box.x, 0.5 * h, 0, h, h, h}, 0.5 * patch.semi_axis_x);
+  // Elements stand beside the axis when nodes stand on it; the largest stress is near the largest shear.
+  reference.von_mises =
+      half_space::largest_box_stress({half_space.grid(), half_space.contact.pressure,
+                                      half_space.state.tractions, bodies.elastic.rail.poissons_ratio},
+                                     {box.x, 0.5 * h, 0, h, h, h}, 0.5 * patch.semi_axis_x);
   return reference;
 }
 
@@ -170,6 +171,7 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
        1e-6 * reference.von_mises, 0.05},
       {"lost by the lead of the contact forces / frictional work", "-", rolled.lead_loss, 0, {}, true},
       {"energy residual / frictional work", "-", rolled.energy_residual, 0, 0.01, true}};
+  add_dundurs(bodies, result);
   result.figures = {shear_figure(bodies, rolled, half_space), creepage_figure(rolled, reference.creepage)};
   return result;
 }

@@ -42,8 +42,8 @@ Reference reference_of(const TyreOnBlock& bodies, double force, double way) {
   using namespace half_space;
   const HertzPatch patch = bodies.hertz_patch();
   const double semi = std::min(patch.semi_axis_x, patch.semi_axis_y);
-  const half_space::Material material{bodies.youngs_modulus, bodies.poissons_ratio};
-  constexpr double kCells = 11;  // cells in the smaller semi-axis
+  const half_space::Material material = bodies.elastic.alike();
+  constexpr double kCells = 11;  // in the smaller semi-axis
   const double cell = semi / kCells;
   const Influence influence(centred_grid(patch.semi_axis_x + 3 * cell, patch.semi_axis_y + 3 * cell, cell),
                             material);
@@ -124,9 +124,9 @@ Curve creepage_curve(const Transient& transient, double period) {
 /// compliance.
 double turning_period(const TyreOnBlock& bodies) {
   const HertzPatch patch = bodies.hertz_patch();
-  const double shear_modulus = bodies.youngs_modulus / (2 * (1 + bodies.poissons_ratio));
+  const ElasticConstants alike = bodies.elastic.alike();
   const double radius = std::sqrt(patch.semi_axis_x * patch.semi_axis_y);
-  const double compliance = 1.15 * (2 - bodies.poissons_ratio) / (4 * radius * shear_modulus);
+  const double compliance = 1.15 * (2 - alike.poissons_ratio) / (4 * radius * alike.shear_modulus());
   const Model model(bodies.scene());
   const double mass = model.wheelset->inertia() / (bodies.radius * bodies.radius);
   return 2 * std::numbers::pi * std::sqrt(mass * compliance);
@@ -225,6 +225,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
                      {"smallest F_L / F_N under the full torque", "-", full.min, mu, 0.05},
                      {"largest F_L / F_N under the full torque", "-", full.max, mu, 0.05},
                      {"energy residual / frictional work", "-", transient.residual, 0, 0.01, true}};
+  add_dundurs(bodies, result);
   result.figures.push_back(transient_figure(transient, ours, reference, from));
   return result;
 }

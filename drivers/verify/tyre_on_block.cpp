@@ -12,8 +12,19 @@
 
 namespace tread {
 
+namespace {
+
+/// The table of a wheel's own material.
+std::string wheel_material(const ElasticConstants& wheel) {
+  return fmt::format(
+      "[material.wheel_steel]\nyoungs_modulus = \"{} Pa\"\npoissons_ratio = {}\ndensity = \"7790 kg/m3\"",
+      wheel.youngs_modulus, wheel.poissons_ratio);
+}
+
+}  // namespace
+
 HertzPatch TyreOnBlock::hertz_patch() const {
-  const double modulus = contact_modulus(youngs_modulus, poissons_ratio);
+  const double modulus = elastic.contact_modulus();
   if (crown_radius > 0) return hertz(radius, crown_radius, modulus, load);
   const double per_width = load / element_size;
   const double a = std::sqrt(4 * per_width * radius / (std::numbers::pi * modulus));
@@ -42,6 +53,8 @@ Scene TyreOnBlock::scene() const {
   const double left = end + std::max(0.0, -zone.first);
   const bool slice = crown_radius == 0;
   const double width = slice ? element_size : std::min(16 * a, 1.9 * crown_radius);
+  const bool one_material = elastic.wheel.youngs_modulus == elastic.rail.youngs_modulus &&
+                            elastic.wheel.poissons_ratio == elastic.rail.poissons_ratio;
   const std::string text = fmt::format(
       R"([scene]
 element_size = "{h} m"
@@ -54,7 +67,9 @@ length = "{zone} m"
 youngs_modulus = "{E} Pa"
 poissons_ratio = {nu}
 density = "7790 kg/m3"
+{wheel_material}
 [wheel]
+material = "{wheel_name}"
 shape = "tyre"
 {profile}
 diameter = "{diameter} m"
@@ -79,7 +94,10 @@ surface = "{surface}"
 {penetration}
 )",
       fmt::arg("h", element_size), fmt::arg("start", zone.first + shift),
-      fmt::arg("zone", zone.last - zone.first), fmt::arg("E", youngs_modulus), fmt::arg("nu", poissons_ratio),
+      fmt::arg("zone", zone.last - zone.first), fmt::arg("E", elastic.rail.youngs_modulus),
+      fmt::arg("nu", elastic.rail.poissons_ratio),
+      fmt::arg("wheel_name", one_material ? "steel" : "wheel_steel"),
+      fmt::arg("wheel_material", one_material ? "" : wheel_material(elastic.wheel)),
       fmt::arg("diameter", 2 * radius), fmt::arg("slice", slice),
       fmt::arg("profile", slice ? std::string("profile = \"cylinder\"")
                                 : fmt::format("profile = \"arc\"\ncrown_radius = \"{} m\"", crown_radius)),
@@ -96,8 +114,15 @@ std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size) {
   std::vector<VerifyInput> inputs = {
       {"radius", &kLength, "m", 0.43, {0.05, 5}, "the radius of the rolling circle"},
       {"load", &kForce, "kN", 8926 * 9.81, {10, 1e6}, "the contact force F_N"},
-      {"youngs_modulus", &kStress, "GPa", 205.9e9, {1e6, 1e13}, "Young's modulus of both bodies"},
-      {"poissons_ratio", nullptr, "", 0.3, {0, 0.49}, "Poisson's ratio of both bodies"},
+      {"youngs_modulus", &kStress, "GPa", 205.9e9, {1e6, 1e13}, "Young's modulus of the block"},
+      {"poissons_ratio", nullptr, "", 0.3, {0, 0.49}, "Poisson's ratio of the block"},
+      {"wheel_youngs_modulus", &kStress, "GPa", 0, {0, 1e13}, "Young's modulus of the wheel; 0: the block's"},
+      {"wheel_poissons_ratio",
+       nullptr,
+       "",
+       -1,
+       {-1, 0.49},
+       "Poisson's ratio of the wheel; below 0: the block's"},
       {"element_size", &kLength, "mm", element_size, {1e-5, 0.02}, "the elements' size in the contact"},
       {"grid_offset", nullptr, "", 0, {-0.5, 0.5}, "the meshes' shift in elements, along and across"},
       {"points", nullptr, "", 3, {1, 4}, "contact's integration points per face and direction"},
@@ -109,13 +134,23 @@ std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size) {
   return inputs;
 }
 
+namespace {
+
+ElasticPair elastic_of(const VerifyInputs& inputs) {
+  const ElasticConstants block{inputs["youngs_modulus"], inputs["poissons_ratio"]};
+  const double modulus = inputs["wheel_youngs_modulus"];
+  const double ratio = inputs["wheel_poissons_ratio"];
+  return {{modulus > 0 ? modulus : block.youngs_modulus, ratio >= 0 ? ratio : block.poissons_ratio}, block};
+}
+
+}  // namespace
+
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
   TyreOnBlock bodies;
   bodies.radius = inputs["radius"];
   bodies.crown_radius = sphere ? bodies.radius : inputs["crown_radius"];
   bodies.load = inputs["load"];
-  bodies.youngs_modulus = inputs["youngs_modulus"];
-  bodies.poissons_ratio = inputs["poissons_ratio"];
+  bodies.elastic = elastic_of(inputs);
   bodies.element_size = inputs["element_size"];
   bodies.grid_offset = inputs["grid_offset"];
   bodies.points = static_cast<int>(std::lround(inputs["points"]));
@@ -137,16 +172,23 @@ TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere) {
   return bodies;
 }
 
+void add_dundurs(const TyreOnBlock& bodies, CaseResult& result) {
+  const double constant = bodies.elastic.dundurs_constant();
+  if (constant == 0) return;
+  result.findings.push_back(
+      {"Dundurs' constant of the bodies, zero in the reference", "-", constant, 0, {}, true});
+}
+
 TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits) {
   TyreOnBlock bodies;
   bodies.radius = inputs["radius"];
   bodies.crown_radius = 0;
-  bodies.youngs_modulus = inputs["youngs_modulus"];
-  bodies.poissons_ratio = inputs["poissons_ratio"];
+  const ElasticConstants both{inputs["youngs_modulus"], inputs["poissons_ratio"]};
+  bodies.elastic = {both, both};
   bodies.element_size = inputs["element_size"];
   bodies.friction = inputs["friction"];
   const double a = inputs["semi_axis"];
-  const double modulus = contact_modulus(bodies.youngs_modulus, bodies.poissons_ratio);
+  const double modulus = bodies.elastic.contact_modulus();
   bodies.load = line_load(bodies.radius, modulus, a) * bodies.element_size;
   if (a > limits.semi_axis * bodies.radius || bodies.element_size > limits.element_size * a)
     throw InputError(fmt::format(

@@ -11,21 +11,23 @@
 
 namespace tread {
 
+/// The half-space that theory means has the pair's contact modulus and, under friction, ElasticPair::alike().
+/// Friction between unequal bodies depends on Dundurs' constant too, which these references leave out;
+/// without friction they hold for any pair.
 struct TyreOnBlock {
   double radius = 0.43;  ///< radius of the rolling circle [m]
   double crown_radius =
-      0.3;                 ///< radius across; 0: a slice, one element wide, of a cylinder in plane strain [m]
-  double load = 87564.06;  ///< F_N [N]
-  double youngs_modulus = 0;  ///< [Pa]
-  double poissons_ratio = 0;  ///< [-]
-  double friction = 0;        ///< coefficient of friction f [-]
-  double element_size = 0;    ///< element size in the contact [m]
-  double grid_offset = 0;     ///< shift of the meshes, along and across, in elements [-]
-  double roll = 0;            ///< distance that the wheel rolls [m]
-  Span fine{};                ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
-  double thickness = 0;       ///< thickness of the ring; 0: 12 semi-axes, as the block [m]
-  /// True if the bore is led forward. The model then holds only the part of the ring that rolls, with ten
-  /// semi-axes of tread before and behind it.
+      0.3;                  ///< across; 0: a slice, one element wide, of a wide cylinder in plane strain [m]
+  double load = 87564.06;   ///< F_N [N]
+  ElasticPair elastic{};    ///< of wheel and block
+  double friction = 0;      ///< coefficient f [-]
+  double element_size = 0;  ///< in the contact [m]
+  double grid_offset = 0;   ///< by which the meshes are shifted, along and across, in elements [-]
+  double roll = 0;          ///< way that the wheel rolls [m]
+  Span fine{};              ///< stretch of fine elements; empty: two semi-axes on either side of x = 0 [m]
+  double thickness = 0;     ///< of the ring; 0: 12 semi-axes, as the block [m]
+  /// The bore is led forward, and only the part of the ring that rolls is there, with ten semi-axes of tread
+  /// before and behind it.
   bool guided = false;
   int points = 3;                      ///< points of contact per face and direction
   bool facets = false;                 ///< true for contact on facets in place of exact profiles
@@ -46,10 +48,14 @@ struct TyreOnBlock {
   Scene scene() const;
 };
 
-/// Inputs: radius, crown_radius (unless `sphere`), load, youngs_modulus, poissons_ratio, element_size
-/// (default given in [m]), grid_offset, points, facets, penetration.
+/// Inputs: radius, crown_radius (where `sphere` is false), load, youngs_modulus, poissons_ratio,
+/// wheel_youngs_modulus, wheel_poissons_ratio, element_size (its default is given, [m]), grid_offset, points,
+/// facets, penetration.
 std::vector<VerifyInput> tyre_inputs(bool sphere, double element_size = 1.1e-3);
 TyreOnBlock tyre_of(const VerifyInputs& inputs, bool sphere);
+
+/// States Dundurs' constant where the bodies are not alike: the reference leaves it out.
+void add_dundurs(const TyreOnBlock& bodies, CaseResult& result);
 
 /// Largest sizes that a case of plane strain allows.
 struct SliceLimits {

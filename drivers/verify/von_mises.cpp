@@ -21,7 +21,7 @@ struct HalfSpace {
   half_space::NormalContact contact;
 
   HalfSpace(const TyreOnBlock& bodies, double load)
-      : influence(grid_of(bodies), {bodies.youngs_modulus, bodies.poissons_ratio}),
+      : influence(grid_of(bodies), bodies.elastic.alike()),
         contact(press(influence, half_space::quadratic_gap(bodies.radius, bodies.crown_radius), load)) {}
 
   static half_space::Grid grid_of(const TyreOnBlock& bodies) {
@@ -63,7 +63,7 @@ Pressed press_wheel(const TyreOnBlock& bodies, const ProgressText& progress) {
   const std::vector<double> zero(static_cast<std::size_t>(half_space.influence.grid.size()), 0.0);
   const half_space::Tractions none{zero, zero};
   const half_space::SurfaceLoad load{half_space.influence.grid, half_space.contact.pressure, none,
-                                     bodies.poissons_ratio};
+                                     bodies.elastic.rail.poissons_ratio};
   const double across = grid.y[row + 1] - grid.y[row];
   const double y = 0.5 * (grid.y[row] + grid.y[row + 1]) - preload.contact.centre.y;
   Pressed pressed;
@@ -101,7 +101,7 @@ double rolling_reference(const TyreOnBlock& bodies, const Rolled& rolled) {
   const double h = bodies.element_size;
   const double aside = (0.5 - std::abs(bodies.grid_offset)) * h;
   return half_space::largest_box_stress(
-      {grid, half_space.contact.pressure, state.tractions, bodies.poissons_ratio},
+      {grid, half_space.contact.pressure, state.tractions, bodies.elastic.rail.poissons_ratio},
       {grid.x(strongest), aside, 0, h, h, h}, 0.5 * bodies.hertz_patch().semi_axis_x);
 }
 
@@ -159,6 +159,7 @@ CaseResult von_mises_of_elements(const VerifyInputs& inputs, const ProgressText&
   passage.x_label = "x [mm]";
   passage.panels = {
       {"Von Mises stress [MPa]", {along}, {{1e-6 * rolling, "half-space, steady"}}, 240, std::nullopt}};
+  add_dundurs(bodies, result);
   result.figures = {at_rest, passage};
   return result;
 }
