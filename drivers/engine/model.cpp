@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -16,6 +15,7 @@
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
 #include "core/travel.hpp"
+#include "drivers/engine/attachments.hpp"
 #include "drivers/engine/lateral_gap.hpp"
 #include "drivers/engine/sections.hpp"
 #include "kernels/element/front_plan.hpp"
@@ -38,31 +38,6 @@ std::vector<int> BlockIndex::rail() const {
 
 namespace {
 
-/// On the line `nodes` of the section, called `path` in messages.
-Attachment attach_to_line(const SweptBlock& block, const std::vector<int>& nodes, const std::string& path,
-                          const std::array<double, 2>& at_xy) {
-  const auto [x, y] = at_xy;
-  const auto p = [&](std::size_t i) { return block.section.p[static_cast<std::size_t>(nodes[i])]; };
-  if (y < p(0) - 1e-9 || y > p(nodes.size() - 1) + 1e-9)
-    throw InputError(
-        fmt::format("attachment at y = {:.4f} m lies beyond '{}' of block '{}' ({:.4f} ... {:.4f} m)", y,
-                    path, block.name, p(0), p(nodes.size() - 1)));
-  std::size_t i = 0;
-  while (i + 2 < nodes.size() && p(i + 1) < y) ++i;
-  const double across = std::clamp((y - p(i)) / (p(i + 1) - p(i)), 0.0, 1.0);
-  const auto cell = StationFinder(block).find(x);
-  if (cell.station < 0)
-    throw InputError(fmt::format("attachment at x = {:.4f} m lies beyond block '{}' ({:.4f} ... {:.4f} m)", x,
-                                 block.name, block.stations.front(), block.stations.back()));
-  const double along = cell.distance / cell.pitch;
-  Attachment at;
-  for (std::size_t k = 0; k < 4; ++k) {
-    at.slot[k] = block.base + block.slot(nodes[i + k % 2], k / 2 == 0 ? cell.station : cell.next);
-    at.weight[k] = (k % 2 == 0 ? 1 - across : across) * (k / 2 == 0 ? 1 - along : along);
-  }
-  return at;
-}
-
 /// The law of the scene; that of a table views the spec's arrays.
 FrictionLaw friction_of(const ContactSpec& spec) {
   if (spec.friction_law == "table")
@@ -75,41 +50,39 @@ FrictionLaw friction_of(const ContactSpec& spec) {
 
 }  // namespace
 
-Attachment attach(const SweptBlock& block, const std::string& path, double x, double y) {
-  const auto found = block.section.paths.find(path);
-  if (found == block.section.paths.end())
-    throw InputError(fmt::format("block '{}' has no line '{}' to attach to", block.name, path));
-  return attach_to_line(block, found->second, path, {x, y});
+Model::Model(const Scene& source, std::optional<double> corrugation_centre)
+    : scene(source), sizes(mesh_sizes(source)) {
+  build_bodies();
+  const Corrugation shape = corrugation_centre ? corrugate(*corrugation_centre) : Corrugation();
+  build_operators();
+  restrain();
+  build_connectors();
+  if (scene.wheel) build_wheel_parts();
+  if (scene.contact && scene.rail && scene.wheel) build_contact(shape);
 }
 
-Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
-  std::vector<int> nodes;
-  for (const SurfaceEdge& edge : block.section.surface) {
-    if (nodes.empty()) nodes.push_back(edge.node[0]);
-    nodes.push_back(edge.node[1]);
-  }
-  return attach_to_line(block, nodes, "running surface", {x, y});
-}
-
-Model::Model(const Scene& source) : scene(source), sizes(mesh_sizes(source)) {
+void Model::build_bodies() {
   if (scene.rail) build_rail();
   if (scene.slab_track) build_slab();
   if (scene.wheel) build_wheel();
   if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
-  if (!tie_specs.empty()) {
-    for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
-    ties.emplace(mesh, tie_specs);
-  }
+  if (tie_specs.empty()) return;
+  for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
+  ties.emplace(mesh, tie_specs);
+}
+
+void Model::build_operators() {
   build_internal();
-  restrain();
   build_mass();
   set_damping();
-  if (scene.fastenings && scene.rail) build_fastenings();
+}
+
+void Model::build_connectors() {
+  const auto block = [&](int b) { return b >= 0 ? &mesh.blocks[static_cast<std::size_t>(b)] : nullptr; };
+  if (scene.fastenings && scene.rail)
+    fastenings.emplace(fastening_elements(scene, *block(index.rail_foot()), block(index.slab)));
   if (scene.hammer && scene.rail)
-    hammer =
-        attach_to_surface(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], scene.hammer->position, 0);
-  if (scene.wheel) build_wheel_parts();
-  if (scene.contact && scene.rail && scene.wheel) build_contact();
+    hammer = attach_to_surface(*block(index.rail_cap), scene.hammer->position, 0);
 }
 
 int Model::add(SweptBlock block) {
@@ -292,29 +265,6 @@ bool Model::has_branches() const {
   return std::any_of(branches.begin(), branches.end(), [](const auto& branch) { return branch.has_value(); });
 }
 
-void Model::build_fastenings() {
-  const FasteningSpec& f = *scene.fastenings;
-  const SweptBlock& rail = mesh.blocks[static_cast<std::size_t>(index.rail_foot())];
-  const auto& foot = rail.section.paths.at("foot");
-  const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
-                               rail.section.p[static_cast<std::size_t>(foot.back())]);
-  std::vector<SpringDampers::Element> elements;
-  const int groups = f.columns * f.rows;
-  for (int i = 0; i < f.count; ++i)
-    for (int column = 0; column < f.columns; ++column)
-      for (int row = 0; row < f.rows; ++row) {
-        const double x =
-            -scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5);
-        const double y = middle + f.pad_width * ((row + 0.5) / f.rows - 0.5);
-        SpringDampers::Element element{
-            attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
-        if (index.slab >= 0)
-          element.lower = attach(mesh.blocks[static_cast<std::size_t>(index.slab)], "top", x, y);
-        elements.push_back(element);
-      }
-  fastenings.emplace(std::move(elements));
-}
-
 void Model::build_wheel_parts() {
   wheelset.emplace(mesh, index.wheel(), mass.data());
   const bool tyre = index.axle < 0;
@@ -364,7 +314,7 @@ double Model::penalty_stiffness(const ContactSpec& spec) const {
   return stated;
 }
 
-void Model::build_contact() {
+void Model::build_contact(const Corrugation& shape) {
   const ContactSpec& spec = *scene.contact;
   const SurfaceProfile rail(mesh.blocks[static_cast<std::size_t>(index.rail_cap)].section);
   const SurfaceProfile wheel(mesh.blocks[static_cast<std::size_t>(index.tread)].section);
@@ -387,22 +337,23 @@ void Model::build_contact() {
   const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   options.depth_room = depth_room(scene);
-  contact = std::make_unique<Contact>(mesh, options, Corrugation{});
+  contact = std::make_unique<Contact>(mesh, options, shape);
+}
+
+Corrugation Model::corrugate(double centre) {
+  if (!scene.corrugation) return {};
+  const CorrugationSpec& spec = *scene.corrugation;
+  const Corrugation shape = corrugation_of(spec, centre);
+  if (spec.apply == "nodes")
+    shift_top_layers(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], shape, 3 * sizes.contact);
+  return shape;
 }
 
 void Model::apply_corrugation(double centre) {
   if (!scene.corrugation) return;
-  const CorrugationSpec& spec = *scene.corrugation;
-  const Corrugation shape = corrugation_of(spec, centre);
-  if (spec.apply == "nodes") {
-    SweptBlock& cap = mesh.blocks[static_cast<std::size_t>(index.rail_cap)];
-    shift_top_layers(cap, shape, 3 * sizes.contact);
-    build_internal();
-    build_mass();
-    set_damping();
-  }
-  const ContactOptions options = contact->options();
-  contact = std::make_unique<Contact>(mesh, options, shape);
+  const Corrugation shape = corrugate(centre);
+  if (scene.corrugation->apply == "nodes") build_operators();
+  contact->set_corrugation(shape);
 }
 
 std::vector<std::int64_t> Model::loaded_slots() const {

@@ -1,6 +1,6 @@
 #pragma once
-// The model of a scene: meshed bodies, their operators and what joins and loads them. Everything that a scene
-// lacks is absent here too.
+// The model of a scene: meshed bodies, their operators, connectors and loads. A part that the scene lacks is
+// absent here too.
 
 #include <cstdint>
 #include <memory>
@@ -38,7 +38,9 @@ struct BlockIndex {
 };
 
 struct Model {
-  explicit Model(const Scene& scene);
+  /// The smooth rail without `corrugation_centre`; with it the rail as apply_corrugation() leaves it [m].
+  /// InputError where the scene cannot be meshed.
+  explicit Model(const Scene& scene, std::optional<double> corrugation_centre = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -77,12 +79,16 @@ struct Model {
   /// Nodes to or from whose force a step adds more than their elements do.
   std::vector<std::int64_t> loaded_slots() const;
 
-  /// Moves the surface nodes to the corrugated shape, or hands it to the contact gap; `centre` is the y of
-  /// its deepest line. Rebuilds the coefficients where nodes moved.
+  /// Moves the surface nodes to the corrugated shape, or adds its depth to the contact gap. Coefficients,
+  /// mass and damping are built again where nodes moved. `centre`: y of the deepest line [m].
   void apply_corrugation(double centre);
 
  private:
   int add(SweptBlock block);
+  void build_bodies();
+  void build_operators();
+  void build_connectors();
+  Corrugation corrugate(double centre);
   void build_rail();
   void build_wheel();
   void build_slab();
@@ -90,17 +96,9 @@ struct Model {
   void restrain();
   void build_mass();
   void set_damping();
-  void build_fastenings();
   void build_wheel_parts();
-  void build_contact();
+  void build_contact(const Corrugation& shape);
   double penalty_stiffness(const ContactSpec& spec) const;  ///< per area [Pa/m]
 };
-
-/// Attachment at (x, y) on the line `path` of an extruded block's section. InputError if it lies beyond the
-/// block.
-Attachment attach(const SweptBlock& block, const std::string& path, double x, double y);
-
-/// The same on the running surface.
-Attachment attach_to_surface(const SweptBlock& block, double x, double y);
 
 }  // namespace tread

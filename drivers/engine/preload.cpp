@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel/chunks.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/attachments.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/mesh/structured.hpp"
+#include "drivers/engine/attachments.hpp"
 #include "drivers/engine/model.hpp"
 #include "kernels/blocks/time_update.hpp"
 #include "kernels/connectors/connectors.hpp"
