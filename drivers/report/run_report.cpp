@@ -158,7 +158,7 @@ Chapter patch_chapter(const Run& run) {
   const RunResults& r = run.results;
   Chapter chapter{"Patch", {}};
   if (!r.instants.empty()) {
-    chapter.blocks.emplace_back(instants_figure(run.model, r));
+    chapter.blocks.emplace_back(snapshots_figure(run.model, r));
     chapter.blocks.emplace_back(stick_slip_drawings(run.model, r));
     chapter.blocks.emplace_back(
         Text{"Seen from above, rolling to the right; a cell for each surface node that touches."});

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "drivers/report/figure_parts.hpp"
-#include "drivers/report/instants.hpp"
+#include "drivers/report/patch_snapshots.hpp"
 
 namespace tread {
 
@@ -91,9 +91,9 @@ Figure surface_figure(const Model& model, const RunResults& r) {
   return figure;
 }
 
-Figure instants_figure(const Model& model, const RunResults& r) {
-  return instants_figure({axes(model), r.surface.axis_row, model.scene.contact->largest_friction(),
-                          model.contact->corrugation(), r.instants});
+Figure snapshots_figure(const Model& model, const RunResults& r) {
+  return snapshots_figure({axes(model), r.surface.axis_row, model.scene.contact->largest_friction(),
+                           model.contact->corrugation(), r.instants});
 }
 
 Drawings stick_slip_drawings(const Model& model, const RunResults& r) {

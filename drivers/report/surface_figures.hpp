@@ -11,7 +11,7 @@ namespace tread {
 Figure surface_figure(const Model& model, const RunResults& results);
 
 /// Pressure and surface shear stress on the axis at the results' instants. [paper, Fig. 16]
-Figure instants_figure(const Model& model, const RunResults& results);
+Figure snapshots_figure(const Model& model, const RunResults& results);
 
 /// Where the patch sticks and slips at these instants.
 Drawings stick_slip_drawings(const Model& model, const RunResults& results);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/report/instants.hpp"
+#include "drivers/report/patch_snapshots.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/surface_map.hpp"
 #include "drivers/results/surface_results.hpp"
@@ -158,14 +158,14 @@ TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
   patch.average(2, 5, {point_on({3, 1}, 4e8)});
   file.append(0, 6e-3, patch);
   file.close();
-  const Instants instants{
+  const PatchSnapshots snapshots{
       read_patch_axes(folder_ / "patch.h5"), 1, 0.5, {}, read_patch(folder_ / "patch.h5", {6e-3})};
-  const std::string csv = instants_csv(instants);
+  const std::string csv = snapshots_csv(snapshots);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "instant,wheel_x [m],x [m],pressure [Pa],shear [Pa],friction_limit [Pa]");
   EXPECT_NE(csv.find("\nt1,0.006,0.006,1e+08,3.1623e+07,5e+07\n"), std::string::npos) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);  // two nodes, one beside each
-  EXPECT_EQ(instants_figure(instants).panels.size(), 2U);
+  EXPECT_EQ(snapshots_figure(snapshots).panels.size(), 2U);
 }
 
 TEST_F(SurfaceFiles, MapShowsWhatWasInContact) {

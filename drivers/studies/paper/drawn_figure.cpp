@@ -11,7 +11,7 @@
 #include "core/math/interpolation.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/report/figure_parts.hpp"
-#include "drivers/report/instants.hpp"
+#include "drivers/report/patch_snapshots.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "drivers/studies/paper/curve_measures.hpp"
@@ -122,16 +122,16 @@ std::vector<double> places_of(const FinishedRun& run) {
                         pressure.y);
 }
 
-DrawnFigure drawn_instants(const std::string& title, const FinishedRun& run) {
+DrawnFigure drawn_snapshots(const std::string& title, const FinishedRun& run) {
   const std::filesystem::path path = run.folder / kPatchFile;
   const PatchAxes axes = read_patch_axes(path);
   const std::size_t axis = nearest(axes.y, run.number("surface.axis_y_m").value_or(0));
-  const Instants instants{axes, static_cast<int>(axis), run.scene.contact->largest_friction(),
-                          run.corrugation(), read_patch(path, places_of(run))};
-  if (instants.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
-  Figure figure = instants_figure(instants);
+  const PatchSnapshots snapshots{axes, static_cast<int>(axis), run.scene.contact->largest_friction(), run.corrugation(),
+                                 read_patch(path, places_of(run))};
+  if (snapshots.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
+  Figure figure = snapshots_figure(snapshots);
   figure.title = title;
-  return {figure, instants_csv(instants), figure_svg(figure)};
+  return {figure, snapshots_csv(snapshots), figure_svg(figure)};
 }
 
 DrawnFigure drawn_surface(const std::string& title, const PaperFigure& wanted, const FinishedRun& run) {
@@ -153,7 +153,7 @@ DrawnFigure draw(const PaperFigure& wanted, const PassageRuns& runs) {
   if (wanted.instants || !wanted.surface.empty()) {
     const FinishedRun* run = runs.find(wanted.passages.front());
     if (!run) return {Text{title + "."}, "", ""};
-    return wanted.instants ? drawn_instants(title, *run) : drawn_surface(title, wanted, *run);
+    return wanted.instants ? drawn_snapshots(title, *run) : drawn_surface(title, wanted, *run);
   }
   const Figure figure =
       wanted.trends.empty() ? drawn_curves(title, wanted, runs) : drawn_trend(title, wanted, runs);

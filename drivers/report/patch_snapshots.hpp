@@ -30,7 +30,7 @@ std::vector<double> typical_places(const Scene& scene, const Span& stretch, doub
                                    const std::vector<double>& x, const std::vector<double>& pressure);
 
 /// Samples of the patch and what their figure needs beside them.
-struct Instants {
+struct PatchSnapshots {
   PatchAxes axes;
   int axis_row = 0;     ///< the patch's longitudinal axis, of axes.y
   double friction = 0;  ///< largest f of the law [-]
@@ -41,10 +41,10 @@ struct Instants {
 /// "t1" for the first.
 std::string instant_name(std::size_t instant);
 
-/// Pressure and surface shear stress along the rail; Instants must hold a sample.
-Figure instants_figure(const Instants& instants);
+/// Pressure and surface shear stress along the rail; PatchSnapshots must hold a sample.
+Figure snapshots_figure(const PatchSnapshots& instants);
 
 /// A row per instant and node of the axis about the patch.
-std::string instants_csv(const Instants& instants);
+std::string snapshots_csv(const PatchSnapshots& instants);
 
 }  // namespace tread

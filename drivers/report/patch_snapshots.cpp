@@ -1,4 +1,4 @@
-#include "drivers/report/instants.hpp"
+#include "drivers/report/patch_snapshots.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ bool near_patch(const PatchWindow& window, int i, int row) {
 
 /// Values on the axis at every second instant, from 0 or 1, each from node to node of its patch.
 template <class Value>
-Series every_second(const std::string& label, const Instants& instants, std::size_t start,
+Series every_second(const std::string& label, const PatchSnapshots& instants, std::size_t start,
                     const Value& value) {
   Series series{fmt::format("{} at {}, {}, ...", label, instant_name(start), instant_name(start + 2)),
                 {},
@@ -93,7 +93,7 @@ std::string instant_name(std::size_t instant) {
   return fmt::format("t{}", instant + 1);
 }
 
-Figure instants_figure(const Instants& instants) {
+Figure snapshots_figure(const PatchSnapshots& instants) {
   Figure figure;
   figure.title = "Pressure and surface shear stress on the patch's longitudinal axis, by instant";
   figure.x_label = "Position on the rail [m]";
@@ -126,7 +126,7 @@ Figure instants_figure(const Instants& instants) {
   return figure;
 }
 
-std::string instants_csv(const Instants& instants) {
+std::string snapshots_csv(const PatchSnapshots& instants) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "instant,wheel_x [m],x [m],pressure [Pa],shear [Pa],friction_limit [Pa]\n");
