@@ -25,7 +25,7 @@ std::vector<std::string> unpack_texts(const SealedContent& content, const std::s
   return texts;
 }
 
-/// Numbers that agree for two meshes if all nodes agree, except for the last digits on another machine.
+/// Numbers in which two meshes agree if they agree in every node, but for the last digits of another machine.
 std::vector<double> fingerprint(const Model& model) {
   double sum = 0;
   double moment = 0;
@@ -49,11 +49,32 @@ void check_mesh(const SealedContent& content, const Model& model) {
 }
 
 const std::string kSamples = "samples";
+const std::string kFormat = "made/format";
+const std::string kVersion = "made/version";
+
+/// InputError where the content has another format than kCheckpointFormat, or states none.
+void require_format(const SealedContent& content) {
+  const bool stated = content.contains(kFormat);
+  const std::int64_t format = stated ? sealed_value<std::int64_t>(content, kFormat) : 0;
+  const bool named = content.contains(kVersion);
+  if (stated && named && format == kCheckpointFormat) {
+    sealed_entry<std::string>(content, kVersion);
+    return;
+  }
+  const std::string writer = named ? sealed_entry<std::string>(content, kVersion) : "of an unknown version";
+  throw InputError(fmt::format(
+      "the checkpoint has {}, and tread {} wrote it; this is tread {}, which reads format {}; go on with the "
+      "program that wrote it, or start the run anew with `tread run ... --overwrite`",
+      stated ? fmt::format("format {}", format) : "no format number", writer, TREAD_VERSION,
+      kCheckpointFormat));
+}
 
 }  // namespace
 
 SealedContent pack_order(const RunOrder& order) {
   SealedContent content;
+  content[kFormat] = std::vector<std::int64_t>{kCheckpointFormat};
+  content[kVersion] = std::string(TREAD_VERSION);
   content["order/scene/name"] = order.scene.name;
   content["order/scene/text"] = order.scene.text;
   content["order/scene/folder"] = order.scene.folder.string();
@@ -77,6 +98,7 @@ SealedContent pack_order(const RunOrder& order) {
 }
 
 RunOrder unpack_order(const SealedContent& content) {
+  require_format(content);
   const auto text = [&](const char* name) { return sealed_entry<std::string>(content, name); };
   RunOrder order;
   order.scene.name = text("order/scene/name");
@@ -137,7 +159,6 @@ void unpack(const SealedContent& content, const std::string& group, const StateL
 SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model, Simulation& simulation,
                        std::string patch) {
   SealedContent content = pack_order(order);
-  content["made/version"] = std::string(TREAD_VERSION);
   content["made/instruction_set"] = std::string(model.internal->instruction_set());
   content["made/lanes"] = std::vector<std::int64_t>{kLanes};
   content["made/mesh"] = fingerprint(model);
@@ -181,7 +202,7 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
 }
 
 std::string other_origin(const SealedContent& content, const Model& model) {
-  const std::string& version = sealed_entry<std::string>(content, "made/version");
+  const std::string& version = sealed_entry<std::string>(content, kVersion);
   const std::string& set = sealed_entry<std::string>(content, "made/instruction_set");
   if (version != TREAD_VERSION) return fmt::format("version {} wrote it, this is {}", version, TREAD_VERSION);
   if (set != model.internal->instruction_set())

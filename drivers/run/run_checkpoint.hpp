@@ -1,6 +1,7 @@
 #pragma once
-// Content of a run's checkpoint, packed and unpacked.
+// Contents of a run's checkpoint: packing and unpacking.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,7 +15,11 @@
 
 namespace tread {
 
-/// Order of a run.
+/// Number of the names and meanings in a checkpoint. It rises whenever one of them changes; checkpoints of
+/// another format are refused.
+inline constexpr std::int64_t kCheckpointFormat = 1;
+
+/// Everything that a run was asked for.
 struct RunOrder {
   SceneSource scene;                   ///< scene with all files that it names
   std::vector<std::string> overrides;  ///< overrides of `tread run`, with which the model was made
@@ -25,7 +30,7 @@ struct RunOrder {
 };
 
 SealedContent pack_order(const RunOrder& order);
-/// Unpacks an order. Throws InputError if an entry is missing.
+/// InputError where something is missing or the format is not kCheckpointFormat.
 RunOrder unpack_order(const SealedContent& content);
 
 /// Scene of which the model is made. Throws InputError if this program reads other values from it than the

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-/// Version of the checkpoint's form. Raise it whenever a name or meaning in a checkpoint changes.
+/// Number of the files' layout; the contents have one of their own.
 constexpr int kVersion = 3;
 constexpr std::size_t kKept = 2;
 constexpr std::string_view kSuffix = ".h5";

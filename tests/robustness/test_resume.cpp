@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/run/run_checkpoint.hpp"
 #include "drivers/run/run_scene.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
@@ -163,6 +164,31 @@ TEST_F(Resume, ADamagedCheckpointIsReplacedByThePreviousOne) {
   for (const fs::path& state : left) fs::resize_file(state, 100);
   EXPECT_EQ(call(resume()), 2);
   EXPECT_TRUE(has(errors(), "no checkpoint is of use")) << errors();
+}
+
+TEST_F(Resume, ACheckpointOfAnotherFormatIsRefusedByName) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=40 --set motion.duration=\"0.1 ms\"")), 4) << errors();
+  const CheckpointFolder checkpoints(folder_ / "checkpoint");
+  std::vector<std::string> refused;
+  const std::optional<CheckpointFolder::Found> found = checkpoints.newest(refused);
+  ASSERT_TRUE(found);
+  SealedContent content = found->content;
+  content["made/version"] = std::string("9.8.7");
+  content["made/format"] = std::vector<std::int64_t>{kCheckpointFormat + 41};
+  checkpoints.write(found->steps, content);
+  EXPECT_EQ(call(resume()), 2);
+  EXPECT_TRUE(has(errors(), fmt::format("the checkpoint has format {}, and tread 9.8.7 wrote it",
+                                        kCheckpointFormat + 41)))
+      << errors();
+  EXPECT_TRUE(has(errors(), "go on with the program that wrote it")) << errors();
+  content.erase("made/format");
+  checkpoints.write(found->steps, content);
+  EXPECT_EQ(call(resume()), 2);
+  EXPECT_TRUE(has(errors(), "the checkpoint has no format number, and tread 9.8.7 wrote it")) << errors();
+  content["made/format"] = std::vector<std::int64_t>{kCheckpointFormat};
+  checkpoints.write(found->steps, content);
+  EXPECT_EQ(call(resume("--set stop.steps=60")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "[resume] from")) << errors();
 }
 
 TEST_F(Resume, NeedsNeitherTheSceneNorTheFilesThatItNames) {
