@@ -47,8 +47,7 @@ std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, st
                                  Limits& limits) {
   std::vector<Hotspot> spots;
   Hotspot whole{"whole step", 0, 0, 0, {}, {}, {}};
-  for (std::size_t i = 0; i < kStepPhases; ++i) {
-    const auto phase = static_cast<StepPhase>(i);
+  for (const StepPhase phase : clock.phases()) {
     const PhaseTimes& times = clock.times(phase);
     Hotspot spot{name_of(phase),
                  times.seconds / static_cast<double>(steps),

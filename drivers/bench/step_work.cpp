@@ -34,7 +34,7 @@ Load phase_load(const Model& model, StepPhase phase) {
   Load load;
   const ValueBytes bytes = value_bytes(model.scene);
   const std::int64_t tied = model.ties ? model.ties->secondary_count() : 0;
-  if (phase == StepPhase::deform) load = force_and_motion(model);
+  if (phase == StepPhase::internal_force) load = force_and_motion(model);
   if (phase == StepPhase::tied_forces) add(load, tie_hand_over_work(bytes), tied);
   if (phase == StepPhase::tied_motion) add(load, tie_follow_work(bytes), tied);
   load.working_set = static_cast<std::int64_t>(load.bytes);

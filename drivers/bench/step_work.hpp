@@ -1,5 +1,5 @@
 #pragma once
-// Operations and bytes of the phases of a model's step, as far as they are counted.
+// Arithmetic and memory traffic of a step's phases.
 
 #include "drivers/bench/limits.hpp"
 #include "drivers/engine/model.hpp"

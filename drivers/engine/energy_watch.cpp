@@ -27,7 +27,7 @@ void EnergyWatch::start(const EnergyLedger& energy, double excess, double elasti
   stored_ = elastic_kinetic + energy.strain + energy.connectors + energy.penalty;
 }
 
-bool EnergyWatch::sound(const EnergyLedger& energy, double excess) {
+bool EnergyWatch::balanced(const EnergyLedger& energy, double excess) {
   slowed_ = std::max(slowed_, kinetic_ - energy.kinetic - excess);
   fallen_ = std::max(fallen_, gravity_ - energy.gravity);
   driven_ = std::max(

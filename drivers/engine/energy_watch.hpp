@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "core/state_list.hpp"
-#include "drivers/engine/energy_ledger.hpp"
+#include "drivers/engine/features/energy_ledger.hpp"
 
 namespace tread {
 
@@ -20,7 +20,7 @@ class EnergyWatch {
   void start(const EnergyLedger& energy, double excess, double elastic_kinetic);
 
   /// A later sample; false where share() exceeds 1 for the second time in a row or a value is not finite.
-  bool sound(const EnergyLedger& energy, double excess);
+  bool balanced(const EnergyLedger& energy, double excess);
 
   bool started() const { return started_ != 0; }
   double start_energy() const { return total_; }  ///< EnergyLedger::total() of the first sample [J]

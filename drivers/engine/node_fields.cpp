@@ -68,8 +68,8 @@ class PreciseFields final : public NodeFields {
     std::copy(velocity.begin(), velocity.end(), v_.begin());
   }
 
-  void deform() override { parts_.internal().internal_force(u_.data(), v_.data(), f_.data(), lag()); }
-  void deform_and_move(const StepLoads& loads) override {
+  void internal_force() override { parts_.internal().internal_force(u_.data(), v_.data(), f_.data(), lag()); }
+  void internal_force_and_move(const StepLoads& loads) override {
     parts_.internal().move(update_, loads, {u_.data(), v_.data(), f_.data(), lag()});
   }
   void move_all(const StepLoads& loads) override {
@@ -79,7 +79,7 @@ class PreciseFields final : public NodeFields {
     update_.move_rest(loads, {u_.data(), v_.data(), f_.data()}, parts_.internal().unmoved_tiles());
   }
 
-  void follow(double dt) override {
+  void advance_lag(double dt) override {
     if (q_) q_->advance(v_.data(), dt);
   }
 

@@ -38,21 +38,21 @@ class NodeFields {
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
 
   /// Internal forces of all blocks.
-  virtual void deform() = 0;
+  virtual void internal_force() = 0;
   /// The same, and nodes on which nothing else acts move.
-  virtual void deform_and_move(const StepLoads& loads) = 0;
-  /// Moves all nodes, after deform().
+  virtual void internal_force_and_move(const StepLoads& loads) = 0;
+  /// Moves all nodes, after internal_force().
   virtual void move_all(const StepLoads& loads) = 0;
-  /// Moves those that deform_and_move() left.
+  /// Moves those that internal_force_and_move() left.
   virtual void move_rest(const StepLoads& loads) = 0;
 
   /// The lag follows the motion of a step of dt [s].
-  virtual void follow(double dt) = 0;
+  virtual void advance_lag(double dt) = 0;
 
   /// Energy in a block's elements, Maxwell branches aside [J].
   virtual DeformationEnergy energy(int block) const = 0;
-  /// The same in all blocks; cheaper than element by element where forces that deform() has left are precise
-  /// enough for it [J].
+  /// The same in all blocks; cheaper than element by element where forces that internal_force() has left are
+  /// precise enough for it [J].
   virtual double strain_energy() const = 0;
   virtual BranchEnergy branch_energy() const = 0;
 

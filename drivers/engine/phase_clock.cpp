@@ -1,16 +1,13 @@
 #include "drivers/engine/phase_clock.hpp"
 
-namespace tread {
+#include <algorithm>
 
-const char* name_of(StepPhase phase) {
-  static constexpr std::array<const char*, kStepPhases> kNames = {
-      "contact search", "force and motion", "energies and samples", "tied forces",    "connectors", "loads",
-      "other motion",   "contact",          "tied motion",          "surface fields", "anchor"};
-  return kNames[static_cast<std::size_t>(phase)];
-}
+namespace tread {
 
 void PhaseClock::enter(StepPhase phase) {
   close();
+  if (std::find(entered_phases_.begin(), entered_phases_.end(), phase) == entered_phases_.end())
+    entered_phases_.push_back(phase);
   current_ = &times_[static_cast<std::size_t>(phase)];
   measure_parallel(&current_->parallel);
   if (counters_) counted_ = counters_();

@@ -1,35 +1,17 @@
 #pragma once
-// Where the time of steps goes, phase by phase.
+// Time of steps by phase.
 
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/features/step_phase.hpp"
 
 namespace tread {
-
-/// Parts of Simulation::step in the order in which they run.
-enum class StepPhase {
-  contact_search,
-  deform,    ///< internal force, and the motion of nodes on which nothing else acts
-  measured,  ///< energies and samples, in some steps only
-  tied_forces,
-  connectors,
-  loads,
-  update,  ///< motion of the other nodes
-  contact,
-  tied_motion,
-  surface_fields,
-  anchor,
-};
-inline constexpr std::size_t kStepPhases = 11;
-
-/// "internal force".
-const char* name_of(StepPhase phase);
 
 /// Values that the processor counts while a phase runs.
 struct CounterValues {
@@ -46,7 +28,9 @@ struct PhaseTimes {
 class PhaseClock {
  public:
   /// `counters` reads the processor's counters; empty: there are none.
-  explicit PhaseClock(std::function<CounterValues()> counters = {}) : counters_(std::move(counters)) {}
+  explicit PhaseClock(std::function<CounterValues()> counters = {}) : counters_(std::move(counters)) {
+    entered_phases_.reserve(kStepPhases);
+  }
   ~PhaseClock() { stop(); }
   PhaseClock(const PhaseClock&) = delete;
   PhaseClock& operator=(const PhaseClock&) = delete;
@@ -54,12 +38,15 @@ class PhaseClock {
   void enter(StepPhase phase);
   void stop();
 
+  /// Phases that were entered, in the order of their first time.
+  const std::vector<StepPhase>& phases() const { return entered_phases_; }
   const PhaseTimes& times(StepPhase phase) const { return times_[static_cast<std::size_t>(phase)]; }
 
  private:
   void close();
 
   std::function<CounterValues()> counters_;
+  std::vector<StepPhase> entered_phases_;
   std::array<PhaseTimes, kStepPhases> times_;
   PhaseTimes* current_ = nullptr;
   std::chrono::steady_clock::time_point entered_;

@@ -100,18 +100,21 @@ void roll_freely(const Model& model, const StartFields& fields) {
 
 }  // namespace
 
-void place_run_in(const Model& model, const RunIn& run_in, const StartFields& fields) {
+void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
+  if (!run_in) return;
   add_to_rail(
       model,
       [&](double x) {
-        const RunIn::Section section = run_in.at(x);
+        const RunIn::Section section = run_in->at(x);
         return std::pair(section.deflection, section.rotation);
       },
       fields.displacement);
-  fields.wheel.origin.z -= run_in.at(0).deflection;
+  fields.wheel.origin.z -= run_in->at(0).deflection;
 }
 
-void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
+namespace {
+
+void start_wheel(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
   const MotionSpec* motion = model.scene.motion ? &*model.scene.motion : nullptr;
   const double speed = motion ? motion->speed : 0.0;
   fields.wheel.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
@@ -135,6 +138,28 @@ void start_velocities(const Model& model, const std::optional<RunIn>& run_in, co
     for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
       fields.velocity[static_cast<std::size_t>(i)] *= motion->spin_ratio();
   }
+}
+
+void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& fields) {
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (int station = 0; station < block.station_count(); ++station) {
+      if (block.stations[static_cast<std::size_t>(station)] >= block.stations.front() + pulse.length)
+        continue;
+      for (int node = 0; node < block.section.nodes(); ++node)
+        fields.velocity[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 0))] =
+            pulse.velocity;
+    }
+}
+
+}  // namespace
+
+void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
+  if (model.wheelset) start_wheel(model, run_in, fields);
+  if (model.scene.pulse) start_pulse(model, *model.scene.pulse, fields);
+}
+
+SprungStart sprung_start(const std::optional<RunIn>& run_in) {
+  return run_in ? SprungStart{run_in->stretch, -run_in->sprung_speed} : SprungStart{};
 }
 
 }  // namespace tread

@@ -5,6 +5,7 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "drivers/engine/features/feature.hpp"
 #include "drivers/engine/model.hpp"
 #include "drivers/engine/run_in.hpp"
 
@@ -17,10 +18,13 @@ struct StartFields {
   BodyFrame& wheel;
 };
 
-/// Brings rail and wheel to where rolling has brought them; before contact is found.
-void place_run_in(const Model& model, const RunIn& run_in, const StartFields& fields);
+/// Brings rail and wheel to where rolling has brought them, if there is a run-in; before contact is found.
+void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
 
-/// Velocities of rail, wheel and its frame; after contact has been found.
+/// Velocities of rail, wheel and its frame, and the pulse of a bar; after contact has been found.
 void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
+
+/// Motion of the sprung mass at t = 0 against its place at rest.
+SprungStart sprung_start(const std::optional<RunIn>& run_in);
 
 }  // namespace tread

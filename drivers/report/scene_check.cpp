@@ -74,10 +74,10 @@ Json check_json(const Model& model, const Estimate& e) {
   json["preload_s"] = e.preload_seconds;
   json["rolling_s"] = e.rolling_seconds;
   json["phases"] = Json::array();
-  for (const PhaseInfo& phase : phases(model))
+  for (const PhaseRow& phase : phases(model))
     json["phases"].push_back({{"name", phase.name}, {"reads", phase.reads}, {"writes", phase.writes}});
   json["fields"] = Json::array();
-  for (const FieldInfo& field : fields(model))
+  for (const FieldRow& field : fields(model))
     json["fields"].push_back(
         {{"name", field.name}, {"unit", field.unit}, {"entity", field.entity}, {"bytes", field.bytes}});
   return json;

@@ -94,8 +94,8 @@ void Rolling::look() {
   if (simulation_->steps() % kLookInterval != 0) return;
   const double now = session_->progress.seconds();
   if (!writer_.running()) wait_for_writer();
-  const bool sound = simulation_->energy_watch().share() <= 1;
-  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && sound)
+  const bool balanced = simulation_->energy_watch().share() <= 1;
+  if (now - checkpoint_at_ >= model_->scene.output.checkpoint_interval && !writer_.running() && balanced)
     write_checkpoint();
   if (session_->progress.due(model_->scene.output.progress_interval)) {
     session_->progress.say(progress_line());
@@ -184,7 +184,7 @@ void Rolling::leave(const std::string& why) {
   files_->close();
   const std::string text =
       fmt::format("stopped at {} by {}; nothing is lost: {} goes on",
-                  instant(simulation_->time(), simulation_->steps()), why, session_->way_on());
+                  instant(simulation_->time(), simulation_->steps()), why, session_->resume_command());
   session_->enter("stopped", text);
   throw Interrupted(text);
 }
@@ -198,10 +198,11 @@ void Rolling::end(const std::string& why) {
 
 /// Sentence on how the run can go on after an error of type E.
 template <class E>
-std::string Rolling::way_on() const {
-  if (!written_) return fmt::format("there is no checkpoint yet: {} starts again", session_->way_on());
+std::string Rolling::how_to_go_on() const {
+  if (!written_)
+    return fmt::format("there is no checkpoint yet: {} starts again", session_->resume_command());
   std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
-                                 instant(written_->time, written_->steps), session_->way_on());
+                                 instant(written_->time, written_->steps), session_->resume_command());
   if (!std::is_same_v<E, NumericalError>) return last;
   return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
 }
@@ -217,7 +218,7 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   close_quietly();
   text +=
       fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
-  text += "; " + way_on<E>();
+  text += "; " + how_to_go_on<E>();
   session_->show("failed", text);
   throw E(text);
 }
@@ -281,8 +282,8 @@ void Rolling::fill_results() {
   results_->steps = simulation_->steps();
   results_->state_hash = simulation_->state_hash();
   results_->momentum = simulation_->momentum_check();
-  results_->surface_fields = simulation_->surface();
-  results_->rail_line = simulation_->rail_line();
+  if (const SurfaceFields* surface = simulation_->surface()) results_->surface_fields = *surface;
+  if (const RailLine* line = simulation_->rail_line()) results_->rail_line = *line;
   for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
     results_->block_energy.push_back(simulation_->fields().energy(b));
 }

@@ -48,7 +48,7 @@ class Rolling {
   template <class E>
   [[noreturn]] void end_with_what_is_left(const std::string& why);
   template <class E>
-  std::string way_on() const;
+  std::string how_to_go_on() const;
   void close_quietly();
   std::string progress_line() const;
   std::string status() const;

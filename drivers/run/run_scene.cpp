@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "drivers/process/machine.hpp"
-#include "drivers/report/instants.hpp"
+#include "drivers/report/patch_snapshots.hpp"
 #include "drivers/report/run_report.hpp"
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
@@ -29,8 +29,8 @@ namespace {
 
 constexpr int kMovieFrames = 200;
 
-/// The fields of the rail's surface, and what of the patch the report shows: instants of a wave,
-/// or of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
+/// Writes the fields of the rail's surface, and reads the parts of patch.h5 that the report shows: instants
+/// of a wave, or of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
 void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
   if (!results.surface_fields) return;
   write_surface(directory / "surface.h5", *results.surface_fields);
@@ -64,7 +64,8 @@ void adopt_later_values(Model& model, const Scene& later) {
 
 void obey_before_first_step(const RunSession& session) {
   if (session.folder.take_stop())
-    throw Interrupted(fmt::format("stopped before the first step; {} starts again", session.way_on()));
+    throw Interrupted(
+        fmt::format("stopped before the first step; {} starts again", session.resume_command()));
 }
 
 void solve_statics(const RunSession& session, Model& model, RunResults& results) {
@@ -97,6 +98,12 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
     if (cache) keep_preload(*cache, key, results.preload, say);
   }
   results.seconds_preload = session.progress.seconds() - started;
+}
+
+/// y of the corrugation's deepest line; without corrugation it matters to nothing [m].
+double deepest_line(const Scene& scene, const RunResults& results) {
+  const double peak = results.preload.contact.pressure_peak.y;
+  return scene.corrugation ? scene.corrugation->centre.value_or(peak) : peak;
 }
 
 void require_disk(const Model& model, const RunResults& results) {
@@ -146,23 +153,23 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
   const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
-  Model model(made.scene);
-  adopt_later_values(model, session.resolved.scene);
   RunResults results;
   results.origin = session.order.origin;
-  results.seconds_mesh = session.progress.seconds();
+  if (checkpoint) unpack_results(*checkpoint, results);
+  Model model = checkpoint ? Model(made.scene, deepest_line(made.scene, results)) : Model(made.scene);
+  adopt_later_values(model, session.resolved.scene);
+  const double seconds_mesh = session.progress.seconds();
+  if (!checkpoint) results.seconds_mesh = seconds_mesh;
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
-                                    model.mesh.blocks.size(), duration_text(results.seconds_mesh)));
+                                    model.mesh.blocks.size(), duration_text(seconds_mesh)));
   const Scene& scene = model.scene;
   if (checkpoint) {
-    unpack_results(*checkpoint, results);
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
   } else {
     find_statics(session, made, model, results);
+    model.apply_corrugation(deepest_line(scene, results));
   }
-  if (scene.corrugation)
-    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
   if (fork) begin_fork(session, *fork, model, results);
   if (scene.motion) {
     if (!checkpoint) choose_step(session, model, results);
@@ -177,7 +184,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     leave_results(session, model, results);
   } catch (const ResourceError& error) {
     throw ResourceError(
-        fmt::format("{}; with more room {} leaves the results", error.what(), session.way_on()));
+        fmt::format("{}; with more room {} leaves the results", error.what(), session.resume_command()));
   }
   session.checkpoints.clear();
   session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
@@ -199,7 +206,7 @@ void refuse_unfinished(const RunSession& session) {
   throw InputError(
       fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
                   "away, or choose another folder",
-                  session.folder.path().string(), session.way_on()));
+                  session.folder.path().string(), session.resume_command()));
 }
 
 /// Anything else would make it another run.

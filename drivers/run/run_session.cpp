@@ -34,7 +34,7 @@ RunSession::RunSession(const RunOptions& given)
                    fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
                                resumption(given.output))) {}
 
-std::string RunSession::way_on() const {
+std::string RunSession::resume_command() const {
   return resumption(folder.path());
 }
 

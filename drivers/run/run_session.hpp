@@ -26,7 +26,7 @@ struct RunSession {
   ResolvedScene resolved;
 
   /// Command that goes on with the run: "`tread resume out`".
-  std::string way_on() const;
+  std::string resume_command() const;
 
   /// The beginning of status.json: stage, process and machine.
   Json status(const std::string& stage) const;

@@ -70,7 +70,7 @@ struct Moment {
 double shift_seen(const TyreOnBlock& bodies, const Model& model, const Simulation& simulation, double depth) {
   const ConstNodeField u = simulation.displacement();
   const double rail = displacement_at(model, model.index.rail_cap, 0, -depth, 0, u).x;
-  const double turned = model.guide->motion().rotation;
+  const double turned = simulation.wheel_motion().rotation;
   const double wheel = -displacement_at(model, model.index.tread, 0, bodies.radius - depth, 0, u).x -
                        turned * (bodies.radius - depth);
   const double carrier = (simulation.wheel().angle + turned) * bodies.radius;

@@ -31,7 +31,7 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   }
   results.steps = simulation.steps();
   results.momentum = simulation.momentum_check();
-  results.surface_fields = simulation.surface();
+  if (simulation.surface()) results.surface_fields = *simulation.surface();
   evaluate(model, results);
   return results;
 }

@@ -89,7 +89,7 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
     const Sample& sample = simulation.sample();
     if (transient.places.empty()) transient.free_creepage = sample.creepage_mean;
     const double way = simulation.wheel().origin.x;
-    const double angle = simulation.wheel().angle + model.guide->motion().rotation;
+    const double angle = simulation.wheel().angle + simulation.wheel_motion().rotation;
     transient.places.push_back(
         {way, angle * bodies.radius - way, sample.longitudinal_force / sample.vertical_force});
     transient.residual = std::abs(sample.energy.residual) / sample.energy.frictional_work;

@@ -51,6 +51,7 @@ class SpringDampers {
   std::vector<Spring> springs() const;
   double energy(ConstNodeField u) const;             ///< [J]
   double dissipated() const { return dissipated_; }  ///< [J]
+  std::int64_t bytes() const { return static_cast<std::int64_t>(elements_.size() * sizeof(Element)); }
 
   void list_state(StateList& list) { list.add("dissipated", dissipated_); }
 

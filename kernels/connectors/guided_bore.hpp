@@ -13,7 +13,7 @@
 
 namespace tread {
 
-/// What acts on the carrier.
+/// Loads on the carrier.
 struct CarrierLoad {
   double up = 0;      ///< vertical force [N]
   double torque = 0;  ///< about +y [N m]
@@ -60,6 +60,8 @@ class GuidedBore {
   MeanMotion motion() const;
   /// Impulse with which the guide held the forward speed in the last step [N s].
   double guide_impulse() const { return guide_impulse_; }
+
+  std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }
 
   void list_state(StateList& list) {
     list.add("rise", rise_);

@@ -1,4 +1,4 @@
-// A scene pays only for its own parts.
+// The inventory lists what a scene contains and nothing else, in the order of the step.
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "drivers/engine/simulation.hpp"
 #include "drivers/results/inventory.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/tyre_scene.hpp"
@@ -72,19 +73,19 @@ Scene small_track(std::vector<std::string> more = {}) {
 
 std::set<std::string> phase_names(const Model& model) {
   std::set<std::string> names;
-  for (const PhaseInfo& phase : phases(model)) names.insert(phase.name);
+  for (const PhaseRow& phase : phases(model)) names.insert(phase.name);
   return names;
 }
 
 std::set<std::string> field_names(const Model& model) {
   std::set<std::string> names;
-  for (const FieldInfo& field : fields(model)) names.insert(field.name);
+  for (const FieldRow& field : fields(model)) names.insert(field.name);
   return names;
 }
 
 std::int64_t bytes_of(const Model& model, const std::string& name) {
   std::int64_t sum = 0;
-  for (const FieldInfo& field : fields(model))
+  for (const FieldRow& field : fields(model))
     if (field.name == name) sum += field.bytes;
   return sum;
 }
@@ -98,15 +99,22 @@ std::set<std::string> missing(const std::set<std::string>& all, const std::set<s
 
 using Names = std::set<std::string>;
 
+/// Part of the model that a phase works on.
+std::string body_of(const Model& model, const std::string& name) {
+  for (const PhaseRow& phase : phases(model))
+    if (phase.name == name) return phase.body;
+  return "";
+}
+
 void expect_consistent(const Model& model) {
   const Names known = field_names(model);
   Names used;
-  for (const PhaseInfo& phase : phases(model)) {
+  for (const PhaseRow& phase : phases(model)) {
     used.insert(phase.reads.begin(), phase.reads.end());
     used.insert(phase.writes.begin(), phase.writes.end());
   }
   EXPECT_EQ(used, known);
-  for (const FieldInfo& field : fields(model)) EXPECT_GT(field.bytes, 0) << field.name;
+  for (const FieldRow& field : fields(model)) EXPECT_GT(field.bytes, 0) << field.name;
 }
 
 TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
@@ -114,6 +122,48 @@ TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
   expect_consistent(track);
   expect_consistent(Model(static_tyre()));
   expect_consistent(Model(scene_of(kBar)));
+}
+
+/// Names of the phases that a simulation enters in a step in which energies are looked at.
+std::vector<std::string> entered_phases(const Model& model) {
+  Preload preload;
+  preload.displacement.assign(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+  if (model.contact) preload.wheel.origin.z = model.contact->touching_height() - 5e-5;
+  Simulation simulation(model, preload, 1e-9);
+  PhaseClock clock;
+  simulation.observe(&clock);
+  simulation.step();
+  simulation.observe(nullptr);
+  clock.stop();
+  std::vector<std::string> names;
+  for (const StepPhase phase : clock.phases()) names.emplace_back(name_of(phase));
+  return names;
+}
+
+/// Names of the inventory's phases that belong to a step.
+std::vector<std::string> listed_phases(const Model& model) {
+  std::vector<std::string> names;
+  for (const PhaseRow& phase : phases(model))
+    if (phase.name != "preload" && phase.name != "checkpoint" && phase.name != "frames")
+      names.push_back(phase.name);
+  return names;
+}
+
+TEST(Inventory, ListsThePhasesThatASimulationEntersInTheirOrder) {
+  const std::string hammer = std::string(TREAD_SOURCE_DIR) + "/scenes/hammer.toml";
+  const std::vector<Scene> scenes = {
+      small_track(), read_scene(hammer), samples::tyre_with_maxwell_branches({"scene.element_size=8 mm"}),
+      samples::tyre_scene({"scene.element_size=8 mm", "wheel.bore=guided", "motion.traction.torque=5 kN m",
+                           "scene.precision=mixed"})};
+  std::set<std::string> met;
+  for (const Scene& scene : scenes) {
+    const Model model(scene);
+    expect_consistent(model);
+    const std::vector<std::string> entered = entered_phases(model);
+    EXPECT_EQ(entered, listed_phases(model)) << scene.title;
+    met.insert(entered.begin(), entered.end());
+  }
+  EXPECT_EQ(met.size(), kStepPhases);  // every feature is in one of the scenes
 }
 
 TEST(Inventory, BranchLagIsThereWithABranchOnly) {
@@ -132,7 +182,9 @@ TEST(Inventory, BranchLagIsThereWithABranchOnly) {
 TEST(Inventory, WithoutSlabThereIsNoVerticalUpdate) {
   const Model with(small_track());
   const Model without(small_track({"slab.present=false"}));
-  EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"vertical update"});
+  EXPECT_EQ(phase_names(with), phase_names(without));
+  EXPECT_EQ(body_of(with, "update"), "rail, slab (vertically), wheel");
+  EXPECT_EQ(body_of(without, "update"), "rail, wheel");
   EXPECT_EQ(field_names(with), field_names(without));
   EXPECT_EQ(with.mesh.blocks.size(), without.mesh.blocks.size() + 1);
   // Every node field has one block less: no part of the slab is left.
@@ -177,7 +229,8 @@ TEST(Inventory, StaticTyreHasNoStep) {
 
 TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
   const Model model(scene_of(kBar));
-  const Names expected = {"preload", "internal force", "update", "samples", "checkpoint", "frames"};
+  const Names expected = {"preload", "internal force", "energies", "update",
+                          "samples", "checkpoint",     "frames"};
   EXPECT_EQ(phase_names(model), expected);
   EXPECT_EQ(missing(expected, phase_names(Model(scene_of(kBar, {"output.frames=0"})))), Names{"frames"});
   const Names names = field_names(model);

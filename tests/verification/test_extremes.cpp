@@ -27,20 +27,20 @@ EnergyLedger stored(double kinetic, double strain) {
 TEST(EnergyWatch, LetsEnergyChangeItsKind) {
   EnergyWatch watch;
   watch.start(stored(100, 10), 0, 0);
-  EXPECT_TRUE(watch.sound(stored(60, 50), 0));
+  EXPECT_TRUE(watch.balanced(stored(60, 50), 0));
   EXPECT_NEAR(watch.missed(), 0, 1e-12);
   EXPECT_NEAR(watch.supplied(), 50, 1e-3);  // 10 stored, 40 from the motion
   EnergyLedger rubbed = stored(30, 10);
   rubbed.frictional_work = 70;
-  EXPECT_TRUE(watch.sound(rubbed, 0));
+  EXPECT_TRUE(watch.balanced(rubbed, 0));
 }
 
 TEST(EnergyWatch, StopsWhereMoreAppearsOrVanishesThanWasSupplied) {
   for (const double change : {-15.0, 15.0}) {
     EnergyWatch watch;
     watch.start(stored(100, 10), 0, 0);
-    EXPECT_TRUE(watch.sound(stored(100, 10 + change), 0));
-    EXPECT_FALSE(watch.sound(stored(100, 10 + change), 0));
+    EXPECT_TRUE(watch.balanced(stored(100, 10 + change), 0));
+    EXPECT_FALSE(watch.balanced(stored(100, 10 + change), 0));
     EXPECT_NEAR(watch.missed(), change, 1e-12);
     EXPECT_GT(watch.share(), 1);
   }
@@ -49,19 +49,19 @@ TEST(EnergyWatch, StopsWhereMoreAppearsOrVanishesThanWasSupplied) {
 TEST(EnergyWatch, SeesOscillationsBeyondTheStepWhoseBalanceCloses) {
   EnergyWatch watch;
   watch.start(stored(0, 10), 0, 0);
-  EXPECT_TRUE(watch.sound(stored(-100, 110), 220));
-  EXPECT_TRUE(watch.sound(stored(-1000, 1010), 2020));
-  EXPECT_FALSE(watch.sound(stored(-1000, 1010), 2020));
+  EXPECT_TRUE(watch.balanced(stored(-100, 110), 220));
+  EXPECT_TRUE(watch.balanced(stored(-1000, 1010), 2020));
+  EXPECT_FALSE(watch.balanced(stored(-1000, 1010), 2020));
 }
 
 TEST(EnergyWatch, StopsAtWhatIsNotFinite) {
   for (const double value : {std::numeric_limits<double>::infinity(), std::nan("")}) {
     EnergyWatch watch;
     watch.start(stored(1, 1), 0, 0);
-    EXPECT_FALSE(watch.sound(stored(1, value), 0));
+    EXPECT_FALSE(watch.balanced(stored(1, value), 0));
     EnergyWatch other;
     other.start(stored(1, 1), 0, 0);
-    EXPECT_FALSE(other.sound(stored(1, 1), value));
+    EXPECT_FALSE(other.balanced(stored(1, 1), value));
   }
 }
 

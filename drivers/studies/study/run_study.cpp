@@ -101,7 +101,7 @@ void leave_scene(const Study& study) {
 
 /// The error that reports points without an end.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
-                               const std::string& way_on) {
+                               const std::string& resume_command) {
   std::string failures;
   int failed = 0;
   int left = 0;
@@ -112,13 +112,14 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
       ++left;
   }
   if (!stopped_by.empty())
-    return Interrupted(
-        fmt::format("stopped by {}; nothing is lost: {} goes on with {} points", stopped_by, way_on, left));
+    return Interrupted(fmt::format("stopped by {}; nothing is lost: {} goes on with {} points", stopped_by,
+                                   resume_command, left));
   if (failed > 0)
     return Error(plan.failure_code(), fmt::format("{} of {} points failed:{}\n{} --retry tries them again",
-                                                  failed, plan.points.size(), failures, way_on));
+                                                  failed, plan.points.size(), failures, resume_command));
   if (left > 0)
-    return Interrupted(fmt::format("{} points are not done (see the log above); {} goes on", left, way_on));
+    return Interrupted(
+        fmt::format("{} points are not done (see the log above); {} goes on", left, resume_command));
   return std::nullopt;
 }
 
@@ -153,12 +154,12 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   choose_processes(plan, options);
   if (options.output.empty() && !options.list)
     throw InputError("-o is missing: the folder for the runs; --list shows them without it");
-  const std::string way_on = fmt::format("`{}`", options.command);
+  const std::string resume_command = fmt::format("`{}`", options.command);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first run", fmt::format("tread: stopped at once; the "
                                                                                "runs go on from their last "
                                                                                "checkpoints with {}",
-                                                                               way_on));
+                                                                               resume_command));
   std::optional<RunFolder> folder;
   if (!options.list) {
     require_no_run(plan.folder);
@@ -180,7 +181,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress).run(options.retry);
   leave(plan);
-  return shortfall(plan, stopped_by, way_on);
+  return shortfall(plan, stopped_by, resume_command);
 }
 
 }  // namespace tread

@@ -1,0 +1,125 @@
+#include "drivers/engine/bodies.hpp"
+
+#include <algorithm>
+
+#include "drivers/engine/energy_sums.hpp"
+
+namespace tread {
+
+namespace {
+
+// A node of std::map: key, value, colour and three links.
+constexpr std::int64_t kMapNode = 64;
+
+/// Restrained unknowns less those that the update leaves alone.
+std::vector<std::int64_t> held_unknowns(const Model& model) {
+  std::vector<std::int64_t> held = model.restrained;
+  for (const SweptBlock& block : model.mesh.blocks) {
+    if (!block.vertical_only) continue;
+    std::erase_if(held, [&](std::int64_t unknown) {
+      return unknown >= 3 * block.base && unknown < 3 * (block.base + block.slots()) &&
+             unknown / kLanes % 3 != 2;
+    });
+  }
+  return held;
+}
+
+/// The run's fields are copies of the static state's, in another precision.
+bool rounded(const Model& model) {
+  return model.scene.precision != "double";
+}
+
+std::int64_t moved_nodes(const Model& model) {
+  std::int64_t count = 0;
+  for (const SweptBlock& block : model.mesh.blocks)
+    count += static_cast<std::int64_t>(block.node_shift.size());
+  return count;
+}
+
+template <class T>
+std::int64_t bytes_of(const T& array) {
+  return static_cast<std::int64_t>(array.size() * sizeof(array[0]));
+}
+
+const char* updated_blocks(const Model& model) {
+  const bool wheel = model.wheelset.has_value();
+  if (model.index.slab >= 0) return wheel ? "rail, slab (vertically), wheel" : "rail, slab (vertically)";
+  if (model.index.rail_cap < 0) return "wheel";
+  return wheel ? "rail, wheel" : "rail";
+}
+
+}  // namespace
+
+Bodies::Bodies(const Model& model) : model_(&model), held_(held_unknowns(model)) {}
+
+std::vector<PhaseInfo> Bodies::phases() const {
+  std::vector<RunField> reads = {RunField::coefficients, RunField::displacement, RunField::velocity};
+  std::vector<RunField> moved = {RunField::velocity, RunField::displacement};
+  if (model_->has_branches()) reads.push_back(RunField::branch_lag);
+  if (rounded(*model_)) {
+    reads.push_back(RunField::rounded_coefficients);
+    moved.push_back(RunField::displacement_in_motion);
+  }
+  std::vector<RunField> forced = moved;
+  forced.insert(forced.begin(), RunField::force);
+  std::vector<RunField> updates = {RunField::force, RunField::mass};
+  if (!model_->restrained.empty()) updates.push_back(RunField::restrained);
+  if (model_->wheelset) updates.push_back(RunField::wheel_frame);
+  return {{StepPhase::internal_force, "all blocks; nodes on which nothing else acts move", reads, forced},
+          {StepPhase::update, updated_blocks(*model_), updates, moved}};
+}
+
+std::vector<FieldBytes> Bodies::fields() const {
+  const ValueBytes bytes = value_bytes(model_->scene);
+  const std::int64_t components = 3 * model_->mesh.slots;
+  const bool copied = rounded(*model_);
+  std::vector<FieldBytes> list = {
+      {RunField::coefficients, model_->internal->bytes()},
+      {RunField::mass, bytes_of(model_->mass) + bytes_of(model_->inverse_mass)},
+      {RunField::displacement, components * static_cast<std::int64_t>(sizeof(double)), !copied},
+      {RunField::velocity, components * bytes.other, true},
+      {RunField::force, components * bytes.other}};
+  if (moved_nodes(*model_) > 0) list.push_back({RunField::moved_nodes, kMapNode * moved_nodes(*model_)});
+  if (!model_->restrained.empty()) list.push_back({RunField::restrained, bytes_of(model_->restrained)});
+  if (copied) {
+    list.push_back({RunField::displacement_in_motion, components * bytes.displacement, true});
+    list.push_back(
+        {RunField::rounded_coefficients, model_->internal->bytes() / 2 + model_->mesh.slots * bytes.other});
+  }
+  return list;
+}
+
+void Bodies::apply(StepPhase phase, StepState& step) {
+  if (phase == StepPhase::internal_force)
+    internal_force(step);
+  else
+    update(step);
+}
+
+/// Energies want the forces of all nodes.
+void Bodies::internal_force(StepState& step) const {
+  if (step.measured)
+    step.fields.internal_force();
+  else
+    step.fields.internal_force_and_move(loads(step));
+}
+
+void Bodies::update(StepState& step) const {
+  if (step.measured)
+    step.fields.move_all(loads(step));
+  else
+    step.fields.move_rest(loads(step));
+  // Contact must not see restrained nodes move.
+  for (const std::int64_t unknown : held_) step.displacement[unknown] = step.velocity[unknown] = 0;
+}
+
+void Bodies::begin_sample(const StepState& step, Sample& sample) {
+  sample.energy.strain += step.fields.strain_energy();
+  sample.energy.gravity += fixed_gravity_potential(*model_, step.displacement);
+}
+
+void Bodies::add_kinetic_energy(const Motion& motion, double& sum) const {
+  sum += fixed_kinetic_energy(*model_, motion.velocity);
+}
+
+}  // namespace tread

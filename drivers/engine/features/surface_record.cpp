@@ -1,0 +1,38 @@
+#include "drivers/engine/features/surface_record.hpp"
+
+namespace tread {
+
+SurfaceRecord::SurfaceRecord(const Contact& contact, const InternalForce& internal, const SweptBlock& rail,
+                             const Place& place)
+    : contact_(&contact),
+      internal_(&internal),
+      surface_(contact.nodes().grid()),
+      line_(rail, place.patch_y),
+      last_x_(place.last_x) {}
+
+std::vector<PhaseInfo> SurfaceRecord::phases() const {
+  return {{StepPhase::surface_fields,
+           "rail surface near the patch",
+           {RunField::contact_points, RunField::displacement},
+           {RunField::surface_fields}}};
+}
+
+std::vector<FieldBytes> SurfaceRecord::fields() const {
+  return {{RunField::surface_fields, SurfaceFields::bytes(surface_.grid()), true}};
+}
+
+void SurfaceRecord::apply(StepPhase /*phase*/, StepState& step) {
+  const PatchNodes& patch = contact_->nodes();
+  surface_.add_step(patch);
+  if (!step.sampled) return;
+  surface_.add_sample(patch, static_cast<double>(step.sampling) * step.dt);
+  surface_.add_stress(patch, *internal_, contact_->options().rail_block, step.displacement, step.lag);
+  if (step.wheel.origin.x <= last_x_) line_.note_rolling(step.displacement, step.wheel.origin.x);
+}
+
+void SurfaceRecord::list_state(StateList& list) {
+  list.add_part("fields", surface_);
+  list.add_part("line", line_);
+}
+
+}  // namespace tread

@@ -1,0 +1,120 @@
+#include "drivers/engine/features/wheel_motion.hpp"
+
+#include <cmath>
+
+#include "kernels/contact/contact_surface.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the wheel's mean motion
+constexpr int kCreepageNodes = 28;             ///< [paper, section 4.2]
+
+/// Creepage of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed
+/// there is none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper, eq. (3)]
+double creepage_of(double rim, double speed) {
+  constexpr double kLeastSpeed = 1e-3;  // [m/s]
+  const double rolling = 0.5 * (rim + speed);
+  return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
+}
+
+}  // namespace
+
+WheelMotion::WheelMotion(const WheelParts& parts, double patch_y, double gravity)
+    : parts_(parts), gravity_(gravity) {
+  choose_creepage_nodes(patch_y);
+}
+
+/// Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
+void WheelMotion::choose_creepage_nodes(double patch_y) {
+  const SweptBlock& block = parts_.tread;
+  int nearest = block.section.surface.front().node[0];
+  for (const SurfaceEdge& edge : block.section.surface)
+    for (const int node : edge.node)
+      if (std::abs(block.section.p[static_cast<std::size_t>(node)] - patch_y) <
+          std::abs(block.section.p[static_cast<std::size_t>(nearest)] - patch_y))
+        nearest = node;
+  const StationFinder finder(block);
+  for (int k = 0; k < (parts_.bore ? 1 : kCreepageNodes); ++k) {
+    const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
+    creepage_nodes_.push_back({block.base + block.slot(nearest, station),
+                               block.stations[static_cast<std::size_t>(station)],
+                               block.section.q[static_cast<std::size_t>(nearest)]});
+  }
+}
+
+std::vector<PhaseInfo> WheelMotion::phases() const {
+  return {{StepPhase::frame, "frame of the wheel", {RunField::wheel_frame}, {RunField::wheel_frame}},
+          {StepPhase::anchor,
+           "mean motion of the wheel",
+           {RunField::mass, RunField::displacement, RunField::velocity, RunField::wheel_frame},
+           {RunField::wheel_frame, RunField::displacement, RunField::velocity}}};
+}
+
+std::vector<FieldBytes> WheelMotion::fields() const {
+  return {{RunField::wheel_frame, static_cast<std::int64_t>(sizeof(BodyFrame))}};
+}
+
+void WheelMotion::apply(StepPhase phase, StepState& step) {
+  if (phase == StepPhase::frame)
+    step.wheel.advance(step.dt);
+  else if ((step.steps + 1) % kAnchorInterval == 0)
+    anchor({step.displacement, step.velocity, step.wheel, step.dt});
+}
+
+/// At rest the wheel spins about its own displaced axis from the first instant on.
+void WheelMotion::meet(const StaticStart& start) {
+  anchor(start);
+}
+
+void WheelMotion::anchor(const StaticStart& at) const {
+  const MeanMotion mean = relative_to_frame({at.displacement, at.velocity, at.wheel, at.dt});
+  parts_.body.anchor(mean, at.displacement, at.velocity, at.wheel, at.dt);
+  if (parts_.bore) parts_.bore->anchored();
+  if (parts_.ties) parts_.ties->follow({at.displacement, at.velocity});
+}
+
+MeanMotion WheelMotion::relative_to_frame(const Motion& motion) const {
+  return parts_.bore ? parts_.bore->motion()
+                     : parts_.body.mean_motion(motion.displacement, motion.velocity, motion.wheel);
+}
+
+double WheelMotion::creepage(const CreepageNode& node, const Motion& motion, const MeanMotion& mean) const {
+  const BodyFrame& frame = motion.wheel;
+  const double carried = cartesian_to_cylindrical(node.angle + frame.angle, mean.velocity).x;
+  const double rise = motion.displacement[dof(node.slot, 2)];
+  const double speed = motion.velocity[dof(node.slot, 0)] - carried + frame.spin * (node.radius + rise);
+  return creepage_of(speed, frame.velocity.x + mean.velocity.x);
+}
+
+void WheelMotion::begin_sample(const StepState& step, Sample& sample) {
+  const MeanMotion mean = parts_.body.mean_motion(step.displacement, step.velocity, step.wheel);
+  const double height = step.wheel.origin.z + mean.displacement.z;
+  sample.energy.gravity += gravity_ * parts_.body.mass() * height;
+  sample.wheel_x = step.wheel.origin.x;
+  sample.wheel_z = step.wheel.origin.z;
+}
+
+void WheelMotion::end_sample(const StepState& step, Sample& sample) const {
+  const Motion motion = step.motion();
+  const MeanMotion mean = relative_to_frame(motion);
+  sample.wheel_speed = motion.wheel.velocity.x + mean.velocity.x;
+  sample.wheel_spin = motion.wheel.spin + mean.spin;
+  sample.creepage_node = creepage(creepage_nodes_.front(), motion, mean);
+  double sum = 0;
+  for (const CreepageNode& node : creepage_nodes_) sum += creepage(node, motion, mean);
+  sample.creepage_mean =
+      parts_.bore ? creepage_of(sample.wheel_spin * creepage_nodes_.front().radius, sample.wheel_speed)
+                  : sum / static_cast<double>(creepage_nodes_.size());
+}
+
+void WheelMotion::add_kinetic_energy(const Motion& motion, double& sum) const {
+  sum += parts_.body.kinetic_energy(motion.displacement, motion.velocity, motion.half_step_frame());
+}
+
+void WheelMotion::add_momentum(const Motion& motion, Vec3& sum) const {
+  sum += parts_.body.momentum(motion.displacement, motion.velocity, motion.half_step_frame());
+}
+
+}  // namespace tread

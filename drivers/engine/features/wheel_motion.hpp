@@ -1,0 +1,56 @@
+#pragma once
+// The wheel as a whole: the motion of its frame, its creepage. [theory.md, Body frames]
+
+#include <vector>
+
+#include "drivers/engine/features/feature.hpp"
+#include "kernels/connectors/guided_bore.hpp"
+#include "kernels/ties/tie.hpp"
+#include "kernels/update/body_motion.hpp"
+
+namespace tread {
+
+/// Parts of the model that carry the wheel; absent ones are null.
+struct WheelParts {
+  const SpinningBody& body;
+  const SweptBlock& tread;
+  GuidedBore* bore = nullptr;
+  const Ties* ties = nullptr;
+};
+
+class WheelMotion final : public Feature {
+ public:
+  /// Keeps references. `patch_y`: centre of the preload's patch [m]; `gravity` [m/s2]
+  WheelMotion(const WheelParts& parts, double patch_y, double gravity);
+
+  /// Motion relative to the frame: of the guided bore, or else in the mean over the mass.
+  MeanMotion relative_to_frame(const Motion& motion) const;
+
+  const char* name() const override { return "wheel"; }
+  std::vector<PhaseInfo> phases() const override;
+  std::vector<FieldBytes> fields() const override;
+  void apply(StepPhase phase, StepState& step) override;
+  void meet(const StaticStart& start) override;
+  void begin_sample(const StepState& step, Sample& sample) override;
+  void end_sample(const StepState& step, Sample& sample) const override;
+  void add_kinetic_energy(const Motion& motion, double& sum) const override;
+  void add_momentum(const Motion& motion, Vec3& sum) const override;
+
+ private:
+  /// A node of the tread whose speed makes the creepage.
+  struct CreepageNode {
+    std::int64_t slot;
+    double angle;   ///< in the wheel [rad]
+    double radius;  ///< [m]
+  };
+  void choose_creepage_nodes(double patch_y);
+  void anchor(const StaticStart& at) const;
+  /// `mean`: relative_to_frame().
+  double creepage(const CreepageNode& node, const Motion& motion, const MeanMotion& mean) const;
+
+  WheelParts parts_;
+  double gravity_;  ///< [m/s2]
+  std::vector<CreepageNode> creepage_nodes_;
+};
+
+}  // namespace tread

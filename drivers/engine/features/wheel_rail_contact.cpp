@@ -1,0 +1,68 @@
+#include "drivers/engine/features/wheel_rail_contact.hpp"
+
+#include <cmath>
+
+namespace tread {
+
+std::vector<PhaseInfo> WheelRailContact::phases() const {
+  return {{StepPhase::contact_search,
+           "rail faces near the wheel",
+           {RunField::displacement, RunField::velocity, RunField::wheel_frame},
+           {RunField::contact_points}},
+          {StepPhase::contact_tractions,
+           "points of the patch",
+           {RunField::mass, RunField::wheel_frame, RunField::contact_points},
+           {RunField::contact_points, RunField::velocity, RunField::displacement}}};
+}
+
+std::vector<FieldBytes> WheelRailContact::fields() const {
+  return {{RunField::contact_points, contact_->bytes(), true}};
+}
+
+void WheelRailContact::apply(StepPhase phase, StepState& step) {
+  if (phase == StepPhase::contact_search)
+    search(step);
+  else
+    add_tractions(step);
+}
+
+void WheelRailContact::search(const StepState& step) {
+  if (!std::isfinite(step.wheel.origin.x)) step.end.stop();
+  contact_->search({step.displacement, step.velocity, &step.wheel}, step.time, step.dt);
+}
+
+void WheelRailContact::add_tractions(StepState& step) {
+  contact_->resolve({step.displacement, step.velocity, inverse_mass_}, step.wheel, step.dt);
+  if (contact_->point_at_the_end(step.wheel)) {
+    step.end.stop_if_unstable();
+    contact_->require_room(step.wheel);
+  }
+  if (step.measured) contact_->add_forces(step.force);
+  const Vec3 on_wheel = -contact_->totals().force_on_rail;
+  step.impulse.total += step.dt * on_wheel;
+  step.impulse.contact += step.dt * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};
+}
+
+void WheelRailContact::meet(const StaticStart& start) {
+  contact_->find_static({start.displacement, nullptr, &start.wheel});
+  contact_->begin();
+}
+
+void WheelRailContact::end_sample(const StepState& /*step*/, Sample& sample) const {
+  const ContactTotals& totals = contact_->totals();
+  sample.energy.penalty = totals.penalty_energy;
+  sample.energy.frictional_work = contact_->frictional_work();
+  sample.energy.damping_loss = contact_->damping_work();
+  sample.vertical_force = -totals.force_on_rail.z;
+  sample.longitudinal_force = -totals.force_on_rail.x;
+  sample.lateral_force = -totals.force_on_rail.y;
+  sample.patch_area = totals.area;
+  sample.slip_area = totals.slip_area;
+  sample.max_pressure = contact_->nodes().max_pressure();
+  sample.max_shear = contact_->nodes().max_shear();
+  sample.max_penetration = totals.max_penetration;
+  const Corrugation& corrugation = contact_->corrugation();
+  sample.corrugation_depth = corrugation.depth(sample.wheel_x, corrugation.centre());
+}
+
+}  // namespace tread

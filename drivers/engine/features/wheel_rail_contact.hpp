@@ -1,0 +1,32 @@
+#pragma once
+// Contact of wheel and rail in a step: search, then tractions of the middle of the step.
+// [theory.md, Contact]
+
+#include "drivers/engine/features/feature.hpp"
+#include "kernels/contact/contact.hpp"
+
+namespace tread {
+
+class WheelRailContact final : public Feature {
+ public:
+  /// Keeps references. `inverse_mass`: scalar node field [1/kg]
+  WheelRailContact(Contact& contact, const double* inverse_mass)
+      : contact_(&contact), inverse_mass_(inverse_mass) {}
+
+  const char* name() const override { return "contact"; }
+  std::vector<PhaseInfo> phases() const override;
+  std::vector<FieldBytes> fields() const override;
+  void apply(StepPhase phase, StepState& step) override;
+  void list_state(StateList& list) override { contact_->list_state(list); }
+  void meet(const StaticStart& start) override;
+  void end_sample(const StepState& step, Sample& sample) const override;
+
+ private:
+  void search(const StepState& step);
+  void add_tractions(StepState& step);
+
+  Contact* contact_;
+  const double* inverse_mass_;
+};
+
+}  // namespace tread

@@ -1,0 +1,59 @@
+#include "drivers/engine/sampling.hpp"
+
+#include <cmath>
+
+#include "drivers/engine/energy_sums.hpp"
+
+namespace tread {
+
+std::vector<PhaseInfo> Sampling::phases() const {
+  const std::vector<RunField> reads = {RunField::displacement, RunField::velocity, RunField::force};
+  return {{StepPhase::energies, "all features, at samples and every few steps", reads, {RunField::samples}},
+          {StepPhase::samples, "all features, at samples and every few steps", reads, {RunField::samples}}};
+}
+
+std::vector<FieldBytes> Sampling::fields() const {
+  if (!model_->scene.motion) return {};
+  const double samples = model_->scene.motion->duration / model_->scene.output.history_interval;
+  const std::int64_t count = static_cast<std::int64_t>(std::ceil(samples)) + 1;
+  return {{RunField::samples, count * static_cast<std::int64_t>(sizeof(Sample))}};
+}
+
+void Sampling::apply(StepPhase phase, StepState& step) {
+  if (!step.measured) return;
+  if (phase == StepPhase::energies)
+    begin(step);
+  else
+    end(step);
+}
+
+void Sampling::list_state(StateList& list) {
+  list.add_records("sample", std::span(&sample_, 1));
+  list.add_part("energy_watch", energy_watch_);
+}
+
+void Sampling::begin(const StepState& step) {
+  sample_ = {};
+  sample_.time = step.time;
+  kinetic_before_ = kinetic_energy(step.motion());
+  for (Feature* feature : features_) feature->begin_sample(step, sample_);
+}
+
+void Sampling::end(const StepState& step) {
+  EnergyLedger& energy = sample_.energy;
+  const double excess = half_step_excess(*model_, *held_, step.force, step.dt);
+  energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy(step.motion())) - excess;
+  for (const Feature* feature : features_) feature->end_sample(step, sample_);
+  if (!energy_watch_.started())
+    energy_watch_.start(energy, excess, fixed_kinetic_energy(*model_, step.velocity));
+  if (!energy_watch_.balanced(energy, excess)) step.end.stop();
+  energy.residual = energy.total() - energy_watch_.start_energy();
+}
+
+double Sampling::kinetic_energy(const Motion& motion) const {
+  double sum = 0;
+  for (const Feature* feature : features_) feature->add_kinetic_energy(motion, sum);
+  return sum;
+}
+
+}  // namespace tread

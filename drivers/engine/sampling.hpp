@@ -1,0 +1,40 @@
+#pragma once
+// Samples of the histories and the energy balance, gathered from all features. [theory.md, Energy stop]
+
+#include <vector>
+
+#include "drivers/engine/energy_watch.hpp"
+#include "drivers/engine/features/feature.hpp"
+#include "drivers/engine/model.hpp"
+
+namespace tread {
+
+class Sampling final : public Feature {
+ public:
+  /// Keeps references. `features`: whose values make a sample; `held`: restrained unknowns that would move.
+  Sampling(const Model& model, std::vector<Feature*> features, const std::vector<std::int64_t>& held)
+      : model_(&model), features_(std::move(features)), held_(&held) {}
+
+  const Sample& sample() const { return sample_; }
+  const EnergyWatch& energy_watch() const { return energy_watch_; }
+
+  const char* name() const override { return "sampling"; }
+  std::vector<PhaseInfo> phases() const override;
+  std::vector<FieldBytes> fields() const override;
+  void apply(StepPhase phase, StepState& step) override;
+  void list_state(StateList& list) override;
+
+ private:
+  void begin(const StepState& step);
+  void end(const StepState& step);
+  double kinetic_energy(const Motion& motion) const;
+
+  const Model* model_;
+  std::vector<Feature*> features_;
+  const std::vector<std::int64_t>* held_;
+  Sample sample_;
+  double kinetic_before_ = 0;
+  EnergyWatch energy_watch_;
+};
+
+}  // namespace tread
