@@ -1,0 +1,34 @@
+# Installs the program, and the engine as a library: `find_package(tread)`, `target_link_libraries(x tread::engine)`.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tread)
+set(header_folder ${CMAKE_INSTALL_INCLUDEDIR}/tread)
+foreach(floor core kernels engine)
+  set_target_properties(tread_${floor} PROPERTIES EXPORT_NAME ${floor})
+  target_include_directories(tread_${floor} INTERFACE $<INSTALL_INTERFACE:${header_folder}>)
+  add_library(tread::${floor} ALIAS tread_${floor})
+endforeach()
+target_compile_features(tread_core INTERFACE cxx_std_20)
+target_compile_options(tread_core INTERFACE $<INSTALL_INTERFACE:-Wno-psabi>)
+
+install(TARGETS tread RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+# Data files that the program finds beside itself or, while it is not installed, in the source tree.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tread COMPONENT program)
+# One path to the libraries, built and installed.
+set_target_properties(tread PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH_USE_LINK_PATH ON)
+
+install(TARGETS tread_core tread_kernels tread_engine EXPORT tread ARCHIVE
+  DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT engine)
+# Headers keep the paths by which they include one another.
+foreach(folder core kernels drivers/engine)
+  get_filename_component(parent ${folder} DIRECTORY)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_folder}/${parent}
+    COMPONENT engine FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(EXPORT tread FILE tread-targets.cmake NAMESPACE tread:: DESTINATION ${package_folder} COMPONENT engine)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tread-config.cmake.in
+  ${PROJECT_BINARY_DIR}/tread-config.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tread-config-version.cmake COMPATIBILITY ExactVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tread-config.cmake ${PROJECT_BINARY_DIR}/tread-config-version.cmake
+  DESTINATION ${package_folder} COMPONENT engine)
