@@ -1,5 +1,5 @@
 #pragma once
-// Linear elastic isotropic material.
+// Isotropic materials.
 
 #include <numbers>
 #include <optional>
@@ -25,6 +25,7 @@ struct Material {
                                        ///< material (LS-DYNA's positive COEF) [-]
   /// rayleigh_beta holds below this frequency, by a Maxwell branch; none: at all frequencies. [Hz]
   std::optional<double> damping_up_to = {};
+  std::string law = "elastic";     ///< name of one of kernels/material/laws.hpp
 
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
   double lame_lambda() const {

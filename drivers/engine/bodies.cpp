@@ -62,6 +62,10 @@ std::vector<PhaseInfo> Bodies::phases() const {
   }
   std::vector<RunField> forced = moved;
   forced.insert(forced.begin(), RunField::force);
+  if (has_laws(model_->mesh)) {
+    reads.push_back(RunField::law_state);
+    forced.push_back(RunField::law_state);
+  }
   std::vector<RunField> updates = {RunField::force, RunField::mass};
   if (!model_->restrained.empty()) updates.push_back(RunField::restrained);
   if (model_->wheelset) updates.push_back(RunField::wheel_frame);
@@ -79,6 +83,8 @@ std::vector<FieldBytes> Bodies::fields() const {
       {RunField::displacement, components * static_cast<std::int64_t>(sizeof(double)), !copied},
       {RunField::velocity, components * bytes.other, true},
       {RunField::force, components * bytes.other}};
+  if (has_laws(model_->mesh))
+    list.push_back({RunField::law_state, law_state_values(model_->mesh) * bytes.other, true});
   if (moved_nodes(*model_) > 0) list.push_back({RunField::moved_nodes, kMapNode * moved_nodes(*model_)});
   if (!model_->restrained.empty()) list.push_back({RunField::restrained, bytes_of(model_->restrained)});
   if (copied) {
@@ -114,7 +120,9 @@ void Bodies::update(StepState& step) const {
 }
 
 void Bodies::begin_sample(const StepState& step, Sample& sample) {
-  sample.energy.strain += step.fields.strain_energy();
+  const ElementEnergy elements = step.fields.element_energy();
+  sample.energy.strain += elements.stored;
+  sample.energy.plastic_work += elements.dissipated;
   sample.energy.gravity += fixed_gravity_potential(*model_, step.displacement);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/parallel/chunks.hpp"
 #include "kernels/material/branch_lag.hpp"
+#include "kernels/material/laws.hpp"
 
 namespace tread {
 
@@ -60,6 +61,7 @@ class PreciseFields final : public NodeFields {
       q_.emplace(model.mesh, model.branches);
       lag_ = q_->data();
     }
+    if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
     update_.defer(model.loaded_slots());
   }
 
@@ -68,9 +70,9 @@ class PreciseFields final : public NodeFields {
     std::copy(velocity.begin(), velocity.end(), v_.begin());
   }
 
-  void internal_force() override { parts_.internal().internal_force(u_.data(), v_.data(), f_.data(), lag()); }
+  void internal_force() override { parts_.internal().internal_force(force_fields()); }
   void internal_force_and_move(const StepLoads& loads) override {
-    parts_.internal().move(update_, loads, {u_.data(), v_.data(), f_.data(), lag()});
+    parts_.internal().move(update_, loads, force_fields());
   }
   void move_all(const StepLoads& loads) override {
     update_.move_all(loads, {u_.data(), v_.data(), f_.data()});
@@ -83,11 +85,17 @@ class PreciseFields final : public NodeFields {
     if (q_) q_->advance(v_.data(), dt);
   }
 
-  DeformationEnergy energy(int block) const override { return parts_.internal().energy(block, u_.data()); }
+  DeformationEnergy energy(int block) const override {
+    return parts_.internal().energy(block, u_.data(), state());
+  }
 
-  double strain_energy() const override {
-    double sum = 0;
-    for (int b = 0; b < static_cast<int>(mesh_->blocks.size()); ++b) sum += strain_energy(b);
+  ElementEnergy element_energy() const override {
+    ElementEnergy sum;
+    for (int b = 0; b < static_cast<int>(mesh_->blocks.size()); ++b) {
+      const ElementEnergy part = element_energy(b);
+      sum.stored += part.stored;
+      sum.dissipated += part.dissipated;
+    }
     return sum;
   }
 
@@ -114,19 +122,24 @@ class PreciseFields final : public NodeFields {
     list.add("displacement", std::span(u_));
     list.add("velocity", std::span(v_));
     if (q_) list.add("lag", std::span(q_->values()));
+    if (state_) list.add_part("law_state", *state_);
   }
 
  private:
   const Real* lag() const { return q_ ? q_->data() : nullptr; }
-  double strain_energy(int b) const {
+  const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
+  ForceFields<Real, U> force_fields() {
+    return {u_.data(), v_.data(), f_.data(), lag(), state_ ? &*state_ : nullptr};
+  }
+  ElementEnergy element_energy(int b) const {
     if constexpr (std::is_same_v<Real, double>) {
       // In the linear blocks u . K u / 2; the force still holds K (u + beta v) alone.
       const SweptBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
-      if (block.sweep == Sweep::extruded && !(q_ && q_->branch(b)))
-        return 0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base);
+      if (block.sweep == Sweep::extruded && !(q_ && q_->branch(b)) && is_linear(parts_.internal().law(b)))
+        return {0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base), 0};
     }
     const DeformationEnergy part = energy(b);
-    return part.strain + part.hourglass;
+    return {part.strain + part.hourglass, part.dissipated};
   }
 
   const Mesh* mesh_;
@@ -135,6 +148,7 @@ class PreciseFields final : public NodeFields {
   AlignedVector<U> u_;
   AlignedVector<Real> v_, f_;
   std::optional<BranchLag<Real>> q_;
+  std::optional<LawState<Real>> state_;
 };
 
 }  // namespace

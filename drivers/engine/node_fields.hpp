@@ -12,7 +12,13 @@
 
 namespace tread {
 
-/// Of all Maxwell branches.
+/// Energy of all elements, Maxwell branches aside.
+struct ElementEnergy {
+  double stored = 0;      ///< by the laws and the hourglass stiffness [J]
+  double dissipated = 0;  ///< by the laws so far [J]
+};
+
+/// Energy of all Maxwell branches.
 struct BranchEnergy {
   double stored = 0;  ///< in their springs [J]
   double power = 0;   ///< dissipated in their dashpots [W]
@@ -33,13 +39,15 @@ class NodeFields {
   ConstNodeField force() const { return force_; }
   /// Lag of the Maxwell branches, where there are any [m].
   ConstNodeField lag() const { return lag_; }
+  /// State of the laws that are not linear, where there are any.
+  ConstLawState laws() const { return laws_; }
 
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
 
-  /// Internal forces of all blocks.
+  /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step.
   virtual void internal_force() = 0;
-  /// The same, and nodes on which nothing else acts move.
+  /// The same in place of internal_force(), and nodes on which nothing else acts move.
   virtual void internal_force_and_move(const StepLoads& loads) = 0;
   /// Moves all nodes, after internal_force().
   virtual void move_all(const StepLoads& loads) = 0;
@@ -53,7 +61,7 @@ class NodeFields {
   virtual DeformationEnergy energy(int block) const = 0;
   /// The same in all blocks; cheaper than element by element where forces that internal_force() has left are
   /// precise enough for it [J].
-  virtual double strain_energy() const = 0;
+  virtual ElementEnergy element_energy() const = 0;
   virtual BranchEnergy branch_energy() const = 0;
 
   virtual bool finite() const = 0;
@@ -62,6 +70,7 @@ class NodeFields {
  protected:
   NodeField displacement_, velocity_, force_;
   ConstNodeField lag_;
+  ConstLawState laws_;
 };
 
 /// At rest, undeformed. Keeps a reference to the model, whose coefficients must stay what they are.

@@ -182,6 +182,8 @@ Figure energy_figure(const Model& model, const RunResults& r) {
     small.push_back(kind("dampers", &EnergyLedger::connector_loss, Stroke::dashed));
   }
   if (model.has_branches()) small.push_back(kind("material", &EnergyLedger::material_loss, Stroke::dashed));
+  if (has_laws(model.mesh))
+    small.push_back(kind("plastic work", &EnergyLedger::plastic_work, Stroke::dashed));
   if (!large.empty()) figure.panels.push_back(panel("Energy [J]", std::move(large), {}, 150));
   figure.panels.push_back(panel("Energy [J]", std::move(small), {}, 200));
   figure.panels.push_back(

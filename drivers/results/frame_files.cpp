@@ -125,6 +125,10 @@ void FrameFiles::copy(const Simulation& simulation) {
   copy_field(simulation.displacement(), slots, at_.displacement);
   copy_field(simulation.velocity(), slots, at_.velocity);
   if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, slots, at_.lag);
+  if (const ConstLawState laws = simulation.fields().laws()) {
+    if (!at_.laws) at_.laws.emplace(model_->mesh);
+    at_.laws->copy(laws);
+  }
   at_.wheel = simulation.wheel();
   if (model_->contact) at_.patch = model_->contact->nodes();
 }
@@ -217,9 +221,10 @@ VtkArray FrameFiles::von_mises_stress() const {
   VtkArray array{"von Mises stress [Pa]", "Pa", "at the element's centre", 1, true, {}};
   array.values.reserve(grid_.cells.size());
   const ConstNodeField lag = at_.lag.empty() ? nullptr : at_.lag.data();
+  const ConstLawState laws = at_.laws ? ConstLawState(*at_.laws) : nullptr;
   for (const VtkGrid::Cell& cell : grid_.cells)
     array.values.push_back(static_cast<float>(von_mises(
-        model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data(), lag))));
+        model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data(), lag, laws))));
   return array;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "drivers/engine/simulation.hpp"
@@ -46,6 +47,7 @@ class FrameFiles {
     AlignedVector<double> displacement;
     AlignedVector<float> velocity;
     AlignedVector<double> lag;  ///< empty without Maxwell branches
+    std::optional<LawState<double>> laws;
     BodyFrame wheel;
     PatchNodes patch;  ///< empty without contact
   };

@@ -21,7 +21,9 @@ std::int64_t frame_memory(const Model& model) {
   const FrameBytes bytes = frame_bytes(make_vtk_grid(model.mesh, frame_cells(model.scene)));
   constexpr int kTimes = 3;
   const std::size_t component = (model.has_branches() ? 2 : 1) * sizeof(double) + sizeof(float);
-  return 3 * model.mesh.slots * static_cast<std::int64_t>(component) + bytes.mesh + kTimes * bytes.frame;
+  const auto laws = static_cast<std::int64_t>(sizeof(double)) * law_state_values(model.mesh);
+  return 3 * model.mesh.slots * static_cast<std::int64_t>(component) + laws + bytes.mesh +
+         kTimes * bytes.frame;
 }
 
 std::vector<std::string> names(const std::vector<RunField>& fields) {

@@ -101,6 +101,9 @@ std::vector<Column> columns_of(const Model& model) {
   if (model.has_branches())
     columns.push_back({{"material_loss", "J", "dissipated in the material's Maxwell branches"},
                        [](const Sample& s) { return s.energy.material_loss; }});
+  if (has_laws(model.mesh))
+    columns.push_back({{"plastic_work", "J", "dissipated by material laws"},
+                       [](const Sample& s) { return s.energy.plastic_work; }});
   return columns;
 }
 
@@ -194,8 +197,8 @@ void evaluate(const Model& model, RunResults& r) {
           std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
   }
   const EnergyLedger& last = r.samples.back().energy;
-  const double scale =
-      last.frictional_work + last.connector_loss + last.material_loss + strain_high - strain_low;
+  const double scale = last.frictional_work + last.connector_loss + last.material_loss + last.plastic_work +
+                       strain_high - strain_low;
   r.energy_error = scale > 0 ? worst / scale : 0;
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
   if (r.momentum.contact_impulse.z > 0)

@@ -1,7 +1,7 @@
 #pragma once
-// Internal force of the blocks of a mesh: elasticity of total form at small strain, linear or with finite
-// rotation, Rayleigh damping in the same evaluation, and what follows from the same elements (mass, energies,
-// stresses, frequencies).
+// Internal force of the blocks of a mesh: a material law at small strain, with or without finite rotation,
+// damping in the same evaluation, and what follows from the same elements (mass, energies, stresses,
+// frequencies).
 
 #include <array>
 #include <cstdint>
@@ -10,21 +10,13 @@
 #include "core/aligned.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/blocks/block_elements.hpp"
+#include "kernels/blocks/element_matrices.hpp"
 #include "kernels/blocks/time_update.hpp"
 #include "kernels/lanes/tile_force.hpp"
+#include "kernels/material/law_state.hpp"
 
 namespace tread {
-
-/// Rows and columns [3 node + component]: element nodes as in kernels/element/element.hpp, components in the
-/// nodes' local bases. [N/m]
-using ElementStiffness = std::array<std::array<double, 24>, 24>;
-
-/// The element of a block with the largest natural frequency.
-struct ElementFrequency {
-  double omega = 0;  ///< [rad/s]
-  int quad = -1;
-  int station = -1;  ///< where the element starts
-};
 
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
@@ -32,10 +24,11 @@ double von_mises(const std::array<double, 6>& stress);
 /// What the elements' loop reads and moves.
 template <class Real, class U>
 struct ForceFields {
-  U* displacement;            ///< [m]
-  Real* velocity;             ///< at the half step [m/s]
-  Real* force;                ///< [N]
-  const Real* lag = nullptr;  ///< of Maxwell branches, where there are any [m]
+  U* displacement;                 ///< [m]
+  Real* velocity;                  ///< at the half step [m/s]
+  Real* force;                     ///< [N]
+  const Real* lag = nullptr;       ///< of Maxwell branches, where there are any [m]
+  LawState<Real>* laws = nullptr;  ///< advanced; null: all blocks have the linear law
 };
 
 /// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
@@ -62,16 +55,22 @@ class BasicInternalForce {
   void set_finite_rotation(int block, bool on) {
     blocks_[static_cast<std::size_t>(block)].finite_rotation = on;
   }
+  /// Number of the block's law in Laws.
+  int law(int block) const { return blocks_[static_cast<std::size_t>(block)].elements.law(); }
   bool finite_rotation(int block) const { return blocks_[static_cast<std::size_t>(block)].finite_rotation; }
 
   /// f = K u, overwritten: the linear operator of all blocks, without damping. [N]
   void apply(const U* u, Real* f) const { evaluate(0, items_.size(), {u, nullptr, nullptr, f, true}); }
-  /// f = F(u + beta v), or F(u + strength q), overwritten, with F(u) the law that the block has; v and q may
-  /// be null. [N]
+  /// f = F(u + beta v), or F(u + strength q), overwritten, with F(u) the linear law; v and q may be null. [N]
   void internal_force(const U* u, const Real* v, Real* f, const Real* q = nullptr) const {
     evaluate(0, items_.size(), {u, v, q, f, false});
   }
-  /// internal_force(u, v, f, q), and nodes whose force is complete move by a step while they are at hand:
+  /// The same with the laws that the blocks have, F(u) + beta K v or F(u) + strength K q where they are not
+  /// linear; advances their state to the displacement, once.
+  void internal_force(const ForceFields<Real, U>& at) const {
+    evaluate(0, items_.size(), {at.displacement, at.velocity, at.lag, at.force, false, {}, at.laws});
+  }
+  /// internal_force(at), and nodes whose force is complete move by a step while they are at hand:
   /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force
   /// in f.
   void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
@@ -82,23 +81,26 @@ class BasicInternalForce {
               at.lag,
               at.force,
               false,
-              {&update, &loads, at.displacement, at.velocity}});
+              {&update, &loads, at.displacement, at.velocity},
+              at.laws});
   }
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
   /// internal_force for the slots of one block. Pointers are those of the whole fields.
   void internal_force(int block, const U* u, const Real* v, Real* f) const;
 
-  /// Energy of u by the law that the block has: F is its gradient. [J]
-  DeformationEnergy energy(int block, const U* u) const;
+  /// Energy of u by the law that the block has; without `laws` by the linear one, whose gradient F is. Reads
+  /// the state. [J]
+  DeformationEnergy energy(int block, const U* u, const LawState<Real>* laws = nullptr) const;
   /// q . K q / 2 of the block's linear law. [J]
   double linear_energy(int block, const Real* q) const;
 
   /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
   /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
-  /// the material and at small strain is the true one. With the lag q, that of u + strength q. [Pa]
-  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u,
-                               ConstNodeField q = nullptr) const;
+  /// the material and at small strain is the true one. With the lag q, that of u + strength q; without `laws`
+  /// that of the linear law. Reads the state. [Pa]
+  std::array<double, 6> stress(int block, int quad, int station, ConstNodeField u, ConstNodeField q = nullptr,
+                               ConstLawState laws = nullptr) const;
 
   /// Row sums of the mass matrix, rho times the integral of N_I: mesh.slots values. [kg]
   void lumped_mass(double* mass) const;
@@ -107,17 +109,21 @@ class BasicInternalForce {
   void diagonal(double* d) const;
 
   /// Of the linear K.
-  ElementStiffness element_stiffness(int block, int quad, int station) const;
+  ElementStiffness element_stiffness(int block, int quad, int station) const {
+    return tread::element_stiffness(elements(block), elements(block).locate(quad, station));
+  }
 
   /// Largest natural frequency of the element alone with its own lumped mass. [rad/s]
-  double element_frequency(int block, int quad, int station) const;
+  double element_frequency(int block, int quad, int station) const {
+    return tread::element_frequency(elements(block), elements(block).locate(quad, station));
+  }
 
   /// Maximum over the elements of a block: a bound from above on its frequencies when assembled.
-  ElementFrequency max_frequency(int block) const;
+  ElementFrequency max_frequency(int block) const { return tread::max_frequency(elements(block)); }
 
   /// Elements whose shape is their own (whole lanes of a tile's quad), of all blocks or of one.
   std::int64_t perturbed_elements() const;
-  std::int64_t perturbed_elements(int block) const;
+  std::int64_t perturbed_elements(int block) const { return elements(block).perturbed_elements(); }
 
   /// Bytes of coefficients and buffers.
   std::int64_t bytes() const;
@@ -132,36 +138,18 @@ class BasicInternalForce {
     int block = 0;
     int tile = 0;
   };
-  /// Elements of one pitch class, in the order of the plan's quads.
-  struct ClassData {
-    double cosine = 1;  ///< of half the pitch
-    double sine = 0;
-    std::vector<ElementGeometry> geometry;
-    AlignedVector<SweptConstants<Real>> constants;
-  };
   struct BlockData {
-    FrontPlan plan;
-    std::vector<int> place;  ///< of each quad in the plan's order
-    std::vector<ClassData> classes;
-    std::vector<int> previous;              ///< tile whose last element ends in this tile, or -1
-    std::vector<unsigned char> joins_next;  ///< by tile: the loop takes the tile behind it along if it can
-    std::vector<int> row;                   ///< by tile: of what follows, or -1: no moved node near
-    std::vector<unsigned char> perturbed;   ///< [row][place]: elements touch moved nodes
-    std::vector<int> shifted;               ///< [row][section node]: index into `shifts`, or -1
-    AlignedVector<LaneShifts<Real>> shifts;
+    BlockData(const Mesh& mesh, int block) : elements(mesh, block) {}
+
+    BlockElements<Real> elements;
     std::size_t carry_stride = 0;  ///< padding of one load and [section node][3]
     std::size_t first_item = 0;
     double beta = 0;    ///< [s]
     double branch = 0;  ///< strength of the Maxwell branch [-]
     bool finite_rotation = false;
-  };
-  /// An element and where its coefficients are.
-  struct Place {
-    int quad = 0;
-    int station = 0;
-    int place = 0;
-    int pitch_class = 0;
-    bool perturbed = false;
+
+    /// Factor of the branch's lag [-], or of the velocity [s].
+    double damping() const { return branch != 0 ? branch : beta; }
   };
   struct Moved {
     const BasicTimeUpdate<Real, U>* update = nullptr;  ///< null: nothing moves
@@ -176,34 +164,19 @@ class BasicInternalForce {
     Real* f;
     bool linear;  ///< in blocks of finite rotation too
     Moved moved = {};
+    LawState<Real>* laws = nullptr;
   };
 
-  void build_swept(int block);
-  void build_perturbed(int block);
-  void mark_perturbed(int block);
-  void store_shifts(int block);
-  void join_tiles(int block);
-  bool perturbed(const BlockData& data, int tile, int place) const;
-  int shift_entry(int block, int section_node, int station) const;
-  Real shift(int block, int section_node, int station, int component) const;
+  const BlockElements<Real>& elements(int block) const {
+    return blocks_[static_cast<std::size_t>(block)].elements;
+  }
   template <class Value>
-  void spread(int block, const Place& at, const Value& value, Real (&s)[4][3], Real (&d)[4][3]) const;
-  template <class Visit>
-  void with_element(int block, const Place& at, const Visit& visit) const;
-  Place locate(int block, int quad, int station) const;
-  HexNodes element_nodes(int block, const Place& at) const;
-  ElementGeometry geometry(int block, const Place& at) const;
-  void gather(int block, const Place& at, ConstNodeField u, Real (&values)[8][3]) const;
-  template <class Value>
-  DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation) const;
-  ElementStiffness stiffness(int block, const Place& at) const;
-  double frequency(int block, const Place& at) const;
-  template <class Visit>
-  void for_each_element(int block, const Visit& visit) const;
+  DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation,
+                               const LawState<Real>* laws) const;
 
   bool joined(std::size_t item) const {
     const Item& at = items_[item];
-    return blocks_[static_cast<std::size_t>(at.block)].joins_next[static_cast<std::size_t>(at.tile)] != 0;
+    return elements(at.block).joins_next(at.tile);
   }
   /// Force of a tile's last element on the station behind it: [section node][3].
   Real* carry(const Item& item) const;
@@ -212,7 +185,6 @@ class BasicInternalForce {
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
-  TileElements<Real> tile_elements(const Item& item, int tiles) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;

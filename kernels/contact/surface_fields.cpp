@@ -52,13 +52,13 @@ void SurfaceFields::add_sample(const PatchNodes& patch, double interval) {
 }
 
 void SurfaceFields::add_stress(const PatchNodes& patch, const InternalForce& force, int block,
-                               ConstNodeField displacement, ConstNodeField lag) {
+                               const Deformation& of) {
   for (int station = patch.first(); station < patch.last(); ++station)
     for (int row = 0; row + 1 < grid_.rows(); ++row)
       if (pressed(patch, station, row))
         raise(max_von_mises_[grid_.cell(station, row)],
-              von_mises(force.stress(block, grid_.quad[static_cast<std::size_t>(row)], station, displacement,
-                                     lag)));
+              von_mises(force.stress(block, grid_.quad[static_cast<std::size_t>(row)], station,
+                                     of.displacement, of.lag, of.laws)));
 }
 
 double SurfaceFields::sum(const std::vector<double>& per_area) const {

@@ -22,10 +22,16 @@ class SurfaceFields {
   /// A sample that stands for `interval` [s]: frictional work as the paper sums it. [paper, eq. (5)]
   void add_sample(const PatchNodes& patch, double interval);
 
-  /// The stress of the surface elements about the nodes under pressure; `block` is the rail's, `lag` that of
-  /// its Maxwell branch.
-  void add_stress(const PatchNodes& patch, const InternalForce& force, int block, ConstNodeField displacement,
-                  ConstNodeField lag = nullptr);
+  /// Displacement [m] of the nodes, the lag of their Maxwell branches [m] and the state of the laws, where
+  /// there are any.
+  struct Deformation {
+    ConstNodeField displacement;
+    ConstNodeField lag = nullptr;
+    ConstLawState laws = nullptr;
+  };
+
+  /// The stress of the surface elements about the nodes under pressure; `block` is the rail's.
+  void add_stress(const PatchNodes& patch, const InternalForce& force, int block, const Deformation& of);
 
   const SurfaceGrid& grid() const { return grid_; }
   const std::vector<double>& max_pressure() const { return max_pressure_; }        ///< by node [Pa]

@@ -6,6 +6,8 @@
 #include "kernels/contact/friction/falling.hpp"
 #include "kernels/contact/friction/table.hpp"
 #include "kernels/element/element_body.hpp"
+#include "kernels/element/law_body.hpp"
+#include "kernels/material/laws.hpp"
 #include "kernels/update/node_motion_body.hpp"
 
 namespace tread {
@@ -51,6 +53,20 @@ __global__ void vertical_swept_forces(const SweptConstants<Real>* constants, Ele
   element_forces<false, 2>(constants[i], SweptElement<Sweep::extruded, Real>{constants[i]}, values[i]);
 }
 
+/// Stress, energy and forces of a law; `strain`: of displacements and of what adds for damping.
+template <template <class> class Law, Sweep sweep, class Real>
+__global__ void law_elements(const SweptConstants<Real>* constants, const ElementLaw<Law<Real>, Real>* laws,
+                             const Strain<Real> (*strain)[2], typename Law<Real>::template State<Real>* state,
+                             Strain<Real>* force, Real (*energy)[2]) {
+  const int i = thread_index();
+  law_forces<sweep == Sweep::revolved>(constants[i], laws[i], SweptElement<sweep, Real>{constants[i]},
+                                       strain[i][0], &strain[i][1], state[i], force[i]);
+  Real e[6];
+  point_strain<sweep == Sweep::revolved, Real>(strain[i][0].g, e);
+  energy[i][0] = laws[i].law.energy(e, state[i]);
+  energy[i][1] = laws[i].law.dissipated(state[i]);
+}
+
 /// shift: [element][component][mode] [m]
 template <bool finite_rotation, class Real>
 __global__ void perturbed_forces(const SweptConstants<Real>* constants, const Real (*shift)[3][kModes],
@@ -86,6 +102,15 @@ __global__ void frictions(Law law, ElasticStick stick, const Sliding* sliding, c
   const double friction = law.advance(state[i], sliding[i]);
   traction[i] = stick.advance(traction[i], slip, friction * pressure[i], 0).traction;
 }
+/// Instantiates the kernels of all laws.
+template <class Real, template <class> class... Law>
+int law_kernels(LawList<Law...> /*laws*/) {
+  const void* const kernels[] = {reinterpret_cast<const void*>(&law_elements<Law, Sweep::extruded, Real>)...,
+                                 reinterpret_cast<const void*>(&law_elements<Law, Sweep::revolved, Real>)...};
+  return kernels[0] != nullptr ? static_cast<int>(sizeof kernels) : 0;
+}
+extern const int kLawKernels;
+const int kLawKernels = law_kernels<double>(Laws{}) + law_kernels<float>(Laws{});
 
 #define TREAD_ELEMENT_KERNELS(Real, finite_rotation)                                                   \
   template __global__ void swept_forces<Sweep::extruded, finite_rotation>(const SweptConstants<Real>*, \

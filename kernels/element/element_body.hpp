@@ -6,9 +6,9 @@
 // A quad's eight nodal values enter as s_j = left + right and d_j = right - left at its four corners j, which
 // is the first stage of the butterfly to the modal amplitudes.
 
+#include "core/inline.hpp"
 #include "kernels/element/element.hpp"
-
-#define TREAD_INLINE [[gnu::always_inline]] constexpr inline
+#include "kernels/material/linear_elastic.hpp"
 
 namespace tread {
 
@@ -209,16 +209,6 @@ TREAD_INLINE void point_strain(const V (&g)[3][3], V (&e)[6]) {
   }
 }
 
-/// Stress (xx, yy, zz, yz, zx, xy) of a strain, times volume as Lame's constants are.
-template <class V, class Real>
-TREAD_INLINE void point_stress(Real lambda, Real mu, const V (&e)[6], V (&s)[6]) {
-  const V pressure = lambda * (e[0] + e[1] + e[2]);
-  for (int i = 0; i < 3; ++i) {
-    s[i] = pressure + (mu + mu) * e[i];
-    s[3 + i] = mu * e[3 + i];
-  }
-}
-
 /// Forces conjugate to the displacement gradient: the stress s, or (1 + g) s.
 template <bool finite_rotation, class V>
 TREAD_INLINE void gradient_forces(const V (&g)[3][3], const V (&s)[6], V (&p)[3][3]) {
@@ -236,13 +226,13 @@ TREAD_INLINE void gradient_forces(const V (&g)[3][3], const V (&s)[6], V (&p)[3]
     }
 }
 
-/// Forces of the one-point stress in a swept element's volume. [theory.md, eqs. 2 and 5]
+/// Forces of the linear law's one-point stress in a swept element's volume. [theory.md, eqs. 2 and 5]
 template <bool finite_rotation, class V, class Real>
 TREAD_INLINE void stress_forces(const SweptConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
   V strain[6];
   V stress[6];
   point_strain<finite_rotation, Real>(e.g, strain);
-  point_stress(c.lambda, c.mu, strain, stress);
+  LinearElastic<Real>{c.lambda, c.mu}.stress(strain, stress);
   gradient_forces<finite_rotation>(e.g, stress, f.g);
 }
 
@@ -282,7 +272,8 @@ TREAD_INLINE void vertical_forces(const SweptConstants<Real>& c, const Strain<V>
   f.q[2][3] = h.z4 * e.q[2][3];
 }
 
-/// Forces of an element conjugate to its strain. Components before `first`, 0 or 2, do not move.
+/// Forces of an element of the linear law, conjugate to its strain. Components before `first`, 0 or 2, do not
+/// move.
 template <bool finite_rotation, int first = 0, class Element, class V, class Real>
 TREAD_INLINE void strain_forces(const SweptConstants<Real>& c, const Element& element, const Strain<V>& e,
                                 Strain<V>& f) {

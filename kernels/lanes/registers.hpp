@@ -2,8 +2,8 @@
 // Registers of the instruction set that the including source is compiled for. Internal linkage keeps the
 // versions apart.
 
+#include "core/inline.hpp"
 #include "core/mesh/swept_block.hpp"
-#include "kernels/element/element_body.hpp"
 
 namespace tread {
 namespace {

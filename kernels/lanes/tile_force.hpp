@@ -54,6 +54,10 @@ struct TileView {
   int elements = 0;           ///< of the last tile, 1 ... kLanes; another one has kLanes
   int tiles = 1;
   std::ptrdiff_t stride = 0;  ///< from a tile's vector fields to those of the tile behind it in memory
+  /// State of the tiles' elements, [tile][quad in the plan's order][value][lane]; null where the law has
+  /// none.
+  const Real* state = nullptr;
+  Real* advanced_state = nullptr;  ///< where `force` writes the state that the strain leads to
 };
 
 /// How far the stations of a node lie from their swept places, in their own bases; unused lanes hold zeros.
@@ -72,6 +76,7 @@ struct TileElements {
   int quad_count = 0;
   int slots = 0;  ///< of the front
   const SweptConstants<Real>* swept = nullptr;
+  const void* laws = nullptr;  ///< of a law that is not linear: ElementLaw by quad
   /// Whether elements touch moved nodes, the same in all tiles; null if none does.
   const unsigned char* perturbed = nullptr;
   /// By tile and section node: index into `shifts`, or -1 if no such element is at the node.
@@ -88,18 +93,22 @@ struct TileElements {
 inline constexpr int kFrontValues = 12 * kLanes;
 inline constexpr int kShiftValues = 6 * kLanes;
 
+/// And of what adds to the displacements for damping, where a law is not linear.
+inline constexpr int kRateValues = 6 * kLanes;
+
 /// `front` is scratch of plan.slots * kTilesAbreast * (kFrontValues + kShiftValues) values aligned to 64
-/// bytes.
+/// bytes; for a law that is not linear with kRateValues more.
 template <class Real, class U>
 using TileForce = void (*)(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front);
 
 /// Strain and hourglass energy. [J]
 struct DeformationEnergy {
-  double strain = 0;  ///< of the one-point stress
+  double strain = 0;  ///< stored by the law of the one-point stress
   double hourglass = 0;
+  double dissipated = 0;  ///< by the law so far
 };
 
-/// Energy of a tile's elements by the law that the variant has; reads `u` and `u_next` of the view.
+/// Energy of a tile's elements by the law that the variant has; reads `u`, `u_next` and `state` of the view.
 template <class Real, class U>
 using TileEnergy = DeformationEnergy (*)(const TileElements<Real>& elements, const TileView<Real, U>& view,
                                          Real* front);
@@ -113,6 +122,9 @@ struct TileVariant {
   bool damped = false;
   bool finite_rotation = false;
   bool vertical_only = false;  ///< components 0 and 1 are zero: extruded and linear only
+  /// Number in Laws. One that is not linear has loops for extruded blocks at small strain and for revolved
+  /// ones with finite rotation, whatever the other members say.
+  int law = 0;
 };
 
 /// The loops of one precision.

@@ -6,7 +6,7 @@
 
 #include <type_traits>
 
-#include "kernels/element/element_body.hpp"
+#include "core/inline.hpp"
 
 namespace tread {
 

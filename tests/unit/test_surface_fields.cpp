@@ -173,7 +173,7 @@ TEST_F(SurfaceFieldsTest, StressIsThatOfTheElementsUnderPressure) {
   PatchNodes patch(grid_, 6);
   patch.average(3, 5, points(3, 4, [](ContactPoint& p) { p.pressure = 1e8; }));
   SurfaceFields fields(grid_);
-  fields.add_stress(patch, force, block, u.data());
+  fields.add_stress(patch, force, block, {u.data()});
   const double expected = 2 * samples::steel().shear_modulus() * 1e-3;
   for (int row = 0; row < 3; ++row) {
     EXPECT_NEAR(fields.max_von_mises()[grid_.cell(3, row)], expected, 1e-6 * expected);

@@ -10,6 +10,7 @@
 #include "drivers/engine/features/run_field.hpp"
 #include "drivers/engine/features/sample.hpp"
 #include "drivers/engine/features/step_phase.hpp"
+#include "kernels/material/law_state.hpp"
 
 namespace tread {
 
@@ -55,6 +56,7 @@ struct StepState {
   NodeField velocity;      ///< at the half step [m/s]
   NodeField force;         ///< internal minus external [N]
   ConstNodeField lag;      ///< of Maxwell branches, where there are any [m]
+  ConstLawState laws;      ///< state of laws that are not linear, where there are any
   BodyFrame& wheel;
   ImpulseAccount& impulse;
   const RunEnd& end;

@@ -25,6 +25,7 @@ const RunFieldInfo& info_of(RunField field) {
       {"velocity", "m/s", "node", motion},
       {"force", "N", "node", motion},
       {"branch lag", "m", "node", motion},
+      {"law state", "of the law", "element", motion},
       {"surface fields", "Pa, J/m2", "rail surface node", motion},
       {"samples", "all", "sample", motion},
       {"checkpoint", "all", "copy that is being written, and read back", motion},

@@ -25,6 +25,7 @@ enum class RunField {
   velocity,
   force,
   branch_lag,
+  law_state,
   surface_fields,
   samples,
   checkpoint,

@@ -26,7 +26,8 @@ void SurfaceRecord::apply(StepPhase /*phase*/, StepState& step) {
   surface_.add_step(patch);
   if (!step.sampled) return;
   surface_.add_sample(patch, static_cast<double>(step.sampling) * step.dt);
-  surface_.add_stress(patch, *internal_, contact_->options().rail_block, step.displacement, step.lag);
+  surface_.add_stress(patch, *internal_, contact_->options().rail_block,
+                      {step.displacement, step.lag, step.laws});
   if (step.wheel.origin.x <= last_x_) line_.note_rolling(step.displacement, step.wheel.origin.x);
 }
 
