@@ -26,6 +26,9 @@ struct Material {
   /// rayleigh_beta holds below this frequency, by a Maxwell branch; none: at all frequencies. [Hz]
   std::optional<double> damping_up_to = {};
   std::string law = "elastic";     ///< name of one of kernels/material/laws.hpp
+  double yield_stress = 0;         ///< initial, in uniaxial tension (law "j2") [Pa]
+  double isotropic_hardening = 0;  ///< slope of the yield stress over the equivalent plastic strain [Pa]
+  double kinematic_hardening = 0;  ///< slope of the backstress over the uniaxial plastic strain [Pa]
 
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
   double lame_lambda() const {

@@ -166,6 +166,19 @@ void add_material(Keys& keys, const std::string& name) {
                                  {0, 0.5, false, true}, "Poisson's ratio")));
   keys.push_back(required(quantity(table + ".density", at(name, &Material::density), kDensity, "kg/m3",
                                    above(0, 1e5), "Density")));
+  keys.push_back(
+      choice(table + ".law", at(name, &Material::law), {"elastic", "j2"},
+             "Law that gives the stress: `elastic` is linear and isotropic; `j2` yields after von Mises "
+             "with linear isotropic and kinematic hardening. The static state is elastic"));
+  const auto j2 = [&](Key key) { return only_with(table + ".law", "j2", std::move(key)); };
+  keys.push_back(required(j2(quantity(table + ".yield_stress", at(name, &Material::yield_stress), kStress,
+                                      "MPa", above(0, 1e13), "Initial yield stress in uniaxial tension"))));
+  keys.push_back(
+      j2(quantity(table + ".isotropic_hardening", at(name, &Material::isotropic_hardening), kStress, "GPa",
+                  from(0, 1e13), "Growth of the yield stress with the equivalent plastic strain")));
+  keys.push_back(
+      j2(quantity(table + ".kinematic_hardening", at(name, &Material::kinematic_hardening), kStress, "GPa",
+                  from(0, 1e13), "Growth of the backstress with the uniaxial plastic strain")));
   const auto damping = [name](Scene& scene) -> Field {
     const auto found = scene.materials.find(name);
     if (found == scene.materials.end()) return std::monostate{};

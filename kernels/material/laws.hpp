@@ -24,6 +24,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "kernels/material/j2_plasticity.hpp"
 #include "kernels/material/linear_elastic.hpp"
 
 namespace tread {
@@ -49,7 +50,8 @@ struct LawList {
 };
 
 using Laws = LawList<  // the linear law is number 0
-    LinearElastic      //
+    LinearElastic,     //
+    J2Plasticity       //
     >;
 
 /// Values of a law's state at an element.
