@@ -370,7 +370,7 @@ void add_contact(Keys& keys) {
   keys.push_back(
       number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
              "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "
-             "size, but at most 2 %"));
+             "size, E the harmonic mean of wheel and rail, but at most 2 %"));
   keys.push_back(quantity("contact.depth_room", at(&Scene::contact, &ContactSpec::depth_room), kLength, "mm",
                           from(0, 0.01),
                           "Corrugation depth that the searched surface has room for: the deepest that a fork "
