@@ -327,6 +327,15 @@ Chapter scene_chapter(const Run& run) {
   return {"Scene", {table}};
 }
 
+/// A file of references that does not read must not cost a finished run its report.
+void find_references(Run& run) {
+  try {
+    run.references = library_references(run.scene());
+  } catch (const InputError& error) {
+    run.without_references = fmt::format("Without values from the literature: {}", error.what());
+  }
+}
+
 std::string friction_text(const ContactSpec& contact) {
   if (contact.friction_law == "table")
     return fmt::format("f of a table, up to {:g}", contact.largest_friction());
