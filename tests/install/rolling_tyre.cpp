@@ -22,7 +22,7 @@ tread::Scene tyre_on_block() {
   scene.zone_start = 0.02;
   scene.zone_length = 0.05;
   scene.gravity = 0;
-  scene.steel = {"steel", 205.9e9, 0.3, 7790};
+  scene.materials["steel"] = {"steel", 205.9e9, 0.3, 7790};
   tread::WheelSpec& wheel = scene.wheel.emplace();
   wheel.shape = "tyre";
   wheel.profile = "arc";

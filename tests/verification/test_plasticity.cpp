@@ -202,8 +202,8 @@ Scene bar_scene(double speed) {
   Scene scene;
   scene.element_size = 2.5e-3;
   scene.gravity = 0;
-  scene.steel = yielding();
-  scene.steel.poissons_ratio = 0.3;
+  scene.materials["steel"] = yielding();
+  scene.materials["steel"].poissons_ratio = 0.3;
   scene.rail.emplace();
   scene.rail->profile = "box";
   scene.rail->support = "free";
@@ -272,7 +272,7 @@ Scene wheel_on_block(double element_size) {
   scene.zone_start = -0.02;
   scene.zone_length = 0.04;
   scene.gravity = 0;
-  scene.steel = yielding();
+  scene.materials["steel"] = yielding();
   scene.wheel.emplace();
   scene.wheel->shape = "tyre";
   scene.wheel->profile = "arc";
@@ -379,7 +379,7 @@ void copy(const StateList& from, const StateList& to) {
 Scene rolling_scene(const std::string& precision) {
   Scene scene = wheel_on_block(6e-3);
   scene.precision = precision;
-  scene.steel = yielding(300e6);
+  scene.materials["steel"] = yielding(300e6);
   scene.motion.emplace();
   scene.motion->speed = 30;
   scene.motion->duration = 0.5e-3;
