@@ -30,9 +30,9 @@ bool same(const Field& a, const Field& b) {
 /// Returns true if the scene has the value that the node states for the key, or for a table's name its
 /// presence.
 bool holds(const std::string& path, const toml::node& node, Scene& scene) {
-  const SceneTable* table = table_of(path);
+  const std::optional<SceneTable> table = table_of(path);
   if (table && table->name == path && table->removable()) return table->exists(scene) == to_boolean(node);
-  const Key* key = find_key(path);
+  const std::optional<Key> key = find_key(path);
   if (!key || !key->locate) throw InputError("no such key in a scene");
   const Field here = key->locate(scene);
   if (std::holds_alternative<std::monostate>(here)) return false;
