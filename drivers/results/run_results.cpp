@@ -129,61 +129,67 @@ std::int64_t sampling_interval(const Scene& scene, double dt) {
   return std::max<std::int64_t>(1, std::llround(scene.output.history_interval / dt));
 }
 
-void evaluate(const Model& model, RunResults& r) {
-  if (r.samples.empty()) return;
+namespace {
+
+/// Returns a test for samples with the wheel between two places [m]. The first sample lies at x = 0 but for
+/// rounding.
+auto between(double first, double last) {
+  constexpr double kRounding = 1e-9;  // [m]
+  return [first, last](const Sample& s) {
+    return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
+  };
+}
+
+/// Fills forces, creepage and sliding over the evaluated stretch.
+void evaluate_stretch(const Model& model, double reached, RunResults& r) {
+  const Corrugation& corrugation = model.contact->corrugation();
+  const Span stretch = evaluated_stretch(model.scene, corrugation);
+  r.evaluated_first = stretch.first;
+  r.evaluated_last = std::min(reached, stretch.last);
+  if (r.evaluated_first > reached) r.evaluated_first = 0;
+  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
+  r.longitudinal_force =
+      statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
+  const Statistics creepage =
+      statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
+  r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
+  constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
+  r.full_slip_share = statistics(
+                          r.samples, [&](const Sample& s) { return evaluated(s) && s.patch_area > 0; },
+                          [](const Sample& s) { return s.slip_area > kWhole * s.patch_area ? 1.0 : 0.0; })
+                          .mean;
+}
+
+/// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
+/// corrugation.
+void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const Scene& scene = model.scene;
-  const double reached = r.samples.back().wheel_x;
+  const Corrugation& corrugation = model.contact->corrugation();
+  const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
+  const double end = std::min(
+      reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
+  r.steady_last = end;
+  r.steady_first = std::max(0.0, end - span);
+  const auto mean = [&](auto value) {
+    return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
+  };
+  r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
+  const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
+  r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
+  r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
+  r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
+  r.max_shear = mean([](const Sample& s) { return s.max_shear; });
+  r.patch_area = mean([](const Sample& s) { return s.patch_area; });
+  // The patch has passed what lies behind its search window.
+  const double reach = model.contact->reach();
+  if (r.surface_fields)
+    r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, reach),
+                                std::min(r.evaluated_last, reached - reach));
+}
 
-  if (model.contact) {
-    const Corrugation& corrugation = model.contact->corrugation();
-    const Span stretch = evaluated_stretch(scene, corrugation);
-    r.evaluated_first = stretch.first;
-    r.evaluated_last = std::min(reached, stretch.last);
-    if (r.evaluated_first > reached) r.evaluated_first = 0;
-    // The first sample lies at x = 0 but for rounding: whether it counts must not hang on that.
-    constexpr double kRounding = 1e-9;  // [m]
-    const auto between = [](double first, double last) {
-      return [first, last](const Sample& s) {
-        return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
-      };
-    };
-    const auto evaluated = between(r.evaluated_first, r.evaluated_last);
-    r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
-    r.longitudinal_force =
-        statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
-    const Statistics creepage =
-        statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
-    r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
-    constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
-    r.full_slip_share = statistics(
-                            r.samples, [&](const Sample& s) { return evaluated(s) && s.patch_area > 0; },
-                            [](const Sample& s) { return s.slip_area > kWhole * s.patch_area ? 1.0 : 0.0; })
-                            .mean;
-
-    // Steady values: the last whole fastening span in the solution zone, or before the patch meets the
-    // corrugation.
-    const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
-    const double end = std::min(
-        reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
-    r.steady_last = end;
-    r.steady_first = std::max(0.0, end - span);
-    const auto mean = [&](auto value) {
-      return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
-    };
-    r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
-    const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
-    r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
-    r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
-    r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
-    r.max_shear = mean([](const Sample& s) { return s.max_shear; });
-    r.patch_area = mean([](const Sample& s) { return s.patch_area; });
-    // The patch has passed what lies behind its search window.
-    const double reach = model.contact->reach();
-    if (r.surface_fields)
-      r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, reach),
-                                  std::min(r.evaluated_last, reached - reach));
-  }
-
+/// Fills the errors of energy and momentum.
+void evaluate_balance(RunResults& r) {
   double worst = 0;
   double strain_low = r.samples.front().energy.strain;
   double strain_high = strain_low;
@@ -203,6 +209,18 @@ void evaluate(const Model& model, RunResults& r) {
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
   if (r.momentum.contact_impulse.z > 0)
     r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
+}
+
+}  // namespace
+
+void evaluate(const Model& model, RunResults& r) {
+  if (r.samples.empty()) return;
+  if (model.contact) {
+    const double reached = r.samples.back().wheel_x;
+    evaluate_stretch(model, reached, r);
+    evaluate_steady(model, reached, r);
+  }
+  evaluate_balance(r);
 }
 
 namespace {
