@@ -93,7 +93,8 @@ void read_scene_text(const std::string& bytes) {
 void read_table(const std::string& bytes) {
   const fs::path path = written("table.txt", bytes);
   for (const TableRules& rules :
-       {TableRules{}, TableRules{true, true, {}}, TableRules{false, true, {{"m", "um"}}}})
+       {TableRules{}, TableRules{true, true}, TableRules{.increasing = true, .pure_second = true},
+        TableRules{.increasing = true, .units = {{"m", "um"}}}})
     try {
       const TwoColumns table = read_two_columns(path, rules);
       require(table.first.size() == table.second.size() && table.first.size() >= 2, "columns of a table");
