@@ -52,7 +52,7 @@ class Checker {
   void check_values() {
     Scene copy = scene_;
     for (const Key& key : scene_keys(scene_)) {
-      if (!key.locate) continue;
+      if (!key.locate || !applies(key, scene_)) continue;
       const std::optional<double> value = number_at(key.locate(copy));
       if (!value || key.range.contains(*value)) continue;
       const std::string text =
