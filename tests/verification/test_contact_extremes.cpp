@@ -78,8 +78,7 @@ TEST(Extremes, LineContactOnASmallWheelIsSearchedForFarEnough) {
   TyreOnBlock bodies;
   bodies.radius = 0.1;
   bodies.crown_radius = 0;
-  bodies.youngs_modulus = 205.9e9;
-  bodies.poissons_ratio = 0.3;
+  bodies.elastic = {{205.9e9, 0.3}, {205.9e9, 0.3}};
   bodies.element_size = 2e-3;
   bodies.load = 113.7e3;
   bodies.thickness = 0.05;
