@@ -144,13 +144,14 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
     EXPECT_EQ(number(row, "repetitions"), 2);
     EXPECT_GT(number(row, "seconds_per_step"), 0) << text(row, "phase");
     if (text(row, "phase") != "whole step") shares += number(row, "share");
-    if (text(row, "phase") != "force and motion") continue;
+    if (text(row, "phase") != "internal force") continue;
     EXPECT_GT(number(row, "bytes_per_step"), 0);
     EXPECT_GE(number(row, "imbalance"), 1);
     EXPECT_LE(number(row, "imbalance"), 2);
   }
   EXPECT_NEAR(shares, 1, 1e-9);
-  EXPECT_EQ(phases.count("contact"), 1U);
+  EXPECT_EQ(phases.count("internal force"), 1U);
+  EXPECT_EQ(phases.count("contact tractions"), 1U);
   EXPECT_EQ(phases.count("whole step"), 1U);
 }
 
