@@ -290,7 +290,8 @@ TEST(SceneErrors, Materials) {
   EXPECT_EQ(
       error_of(kBase, {"material.steel=7"}),
       "--set: material.steel: expected a table with keys among youngs_modulus, poissons_ratio, density, "
-      "damping, damping_up_to, present; got the number 7 (to leave it out, write material.steel.present = "
+      "law, yield_stress, isotropic_hardening, kinematic_hardening, damping, damping_up_to, present; got the "
+      "number 7 (to leave it out, write material.steel.present = "
       "false)");
   expect_part(error_of(kBase, {"material.soft.youngs_modulus=70"}), "material.soft.youngs_modulus: ");
   // The wheel's own steel bounds the speed of its rim.
