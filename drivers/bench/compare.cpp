@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/bench_row.hpp"
+#include "drivers/bench/benchmarks.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/bench_row.hpp"
+#include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/kernel_cases.hpp"
 #include "io/report/plain_text.hpp"

@@ -50,8 +50,9 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
   }
   if (model.scene.rail) {
     BodyMass rail = sum_of("rail", model.index.rail(), blocks);
-    rail.remark = fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
-                              1e4 * rail.mass / model.scene.rail->length / model.scene.rail_material().density);
+    rail.remark =
+        fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
+                    1e4 * rail.mass / model.scene.rail->length / model.scene.rail_material().density);
     bodies.push_back(rail);
   }
   if (model.index.slab >= 0) {
