@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
 
 std::string file(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
+  static const samples::TemporaryFolder folder;
+  std::string path = (folder.path / name).string();
   std::ofstream(path) << text;
   return path;
 }

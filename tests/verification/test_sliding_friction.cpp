@@ -20,6 +20,7 @@
 #include "drivers/engine/static_system.hpp"
 #include "kernels/contact/patch_solver.hpp"
 #include "tests/measured.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -65,7 +66,8 @@ class Slide {
 };
 
 std::string table_file(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
+  static const samples::TemporaryFolder folder;
+  std::string path = (folder.path / name).string();
   std::ofstream(path) << text;
   return path;
 }
