@@ -2,8 +2,8 @@
 // Small-strain plasticity of von Mises with linear isotropic and linear kinematic hardening. [theory.md,
 // Plasticity; Simo and Hughes 1998, box 3.1]
 
+#include "core/elementary.hpp"
 #include "core/inline.hpp"
-#include "core/lane_math.hpp"
 #include "core/material.hpp"
 
 namespace tread {

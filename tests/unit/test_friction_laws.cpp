@@ -11,7 +11,7 @@ namespace {
 
 // Laws in constant expressions: what a compiler can evaluate, a device can run.
 
-static_assert(square_root(2.25) == 1.5 && square_root(0) == 0);
+static_assert(square_root(2.25) == 1.5 && square_root(0.0) == 0);
 static_assert(exponential(0) == 1 && exponential(-1e4) == 0);
 
 constexpr Sliding slide(double speed, double x = 0, double dt = 1e-7) {

@@ -1,7 +1,7 @@
 #pragma once
 // Elastic stick under a limit of the shear stress, the same for every friction law. [theory.md, Friction]
 
-#include "kernels/contact/friction/constant_math.hpp"
+#include "core/elementary.hpp"
 
 namespace tread {
 
