@@ -30,7 +30,7 @@ struct WheelSpec {
   double width = 0.060;            ///< width of the ring [m] (tyre)
   double thickness = 0.060;        ///< radial thickness of the ring [m] (tyre)
   std::string bore = "free";       ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
-  /// Of a guided tyre: tread beyond the run, before and behind it; absent: the whole ring. [m]
+  /// Tread of a guided tyre beyond the run, before and behind it; absent: the whole ring. [m]
   std::optional<double> overhang;
   std::vector<double> profile_y;  ///< first column of the profile's file, in its order [m]
   std::vector<double> profile_z;  ///< second column [m]

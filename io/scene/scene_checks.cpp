@@ -52,9 +52,9 @@ class Checker {
   void check_values() {
     Scene copy = scene_;
     for (const Key& key : scene_keys(scene_)) {
-      if (!key.locate || !applies(key, scene_)) continue;
+      if (!key.locate) continue;
       const std::optional<double> value = number_at(key.locate(copy));
-      if (!value || key.range.contains(*value)) continue;
+      if (!value || key.range.contains(*value) || !applies(key, scene_)) continue;
       const std::string text =
           key.unit.empty() ? fmt::format("{:.6g}", *value) : format_quantity(*value, key.unit);
       require(false, {key.path}, fmt::format("{} is not allowed; it must be {}", text, describe_range(key)));

@@ -395,8 +395,4 @@ ResolvedScene resolve_scene(const fs::path& path, const std::vector<std::string>
   return resolve_scene(load_scene_source(path), overrides);
 }
 
-Scene read_scene(const fs::path& path, const std::vector<std::string>& overrides) {
-  return resolve_scene(path, overrides).scene;
-}
-
 }  // namespace tread

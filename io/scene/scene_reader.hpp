@@ -48,7 +48,9 @@ ResolvedScene resolve_scene(const SceneSource& source, const std::vector<std::st
 ResolvedScene resolve_scene(const std::filesystem::path& path,
                             const std::vector<std::string>& overrides = {});
 
-Scene read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+inline Scene read_scene(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}) {
+  return resolve_scene(path, overrides).scene;
+}
 
 /// The scene as a file that stands alone: every value in SI with its source. Reading it gives the same Scene.
 std::string resolved_toml(const ResolvedScene& resolved);

@@ -45,8 +45,8 @@ inline constexpr std::size_t kMostPoints = 1000;
 /// resolve_scene().
 Study read_study(const std::filesystem::path& path);
 
-/// Whether the text is that of a study rather than of a scene: it has a table [study]. Throws ProblemsError
-/// where it is not TOML; messages call it `name`.
+/// Returns true if the text is that of a study rather than of a scene: it has a table [study]. Throws
+/// ProblemsError where it is not TOML; messages call it `name`.
 bool is_study(const std::string& text, const std::string& name);
 
 /// "speed=300km_h,mu=0.3": the last parts of the keys, or as much of the keys as tells them apart, with their

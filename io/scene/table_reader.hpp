@@ -11,7 +11,7 @@
 
 namespace tread {
 
-/// What a two-column file must be like. Both columns are lengths.
+/// Rules of a two-column file. Both columns are lengths.
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row

@@ -120,7 +120,7 @@ int faulty_line(const std::string& text) {
   return static_cast<int>(first - ends.begin()) + 1;
 }
 
-/// Of texts whose characters all are ASCII, or free text of what is TOML.
+/// Parses a text of ASCII characters alone, or one whose ASCII form is valid TOML.
 toml::table parse_harmless(const std::string& text, const std::string& file) {
   try {
     return toml::parse(text, file);

@@ -6,7 +6,7 @@
 
 namespace tread {
 
-/// What toml++'s assertions throw.
+/// Exception that toml++'s assertions throw.
 struct TomlFault {};
 [[noreturn]] void throw_toml_fault();
 

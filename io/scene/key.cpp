@@ -1,0 +1,41 @@
+#include "io/scene/key.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread {
+
+bool Bounds::contains(double value) const {
+  return (open_low ? value > low : value >= low) && (open_high ? value < high : value <= high);
+}
+
+std::string Condition::alternatives() const {
+  std::string text;
+  for (const std::string& value : values) text += fmt::format("{}\"{}\"", text.empty() ? "" : " or ", value);
+  return text;
+}
+
+std::optional<double> number_at(const Field& field) {
+  if (const auto* value = std::get_if<double*>(&field)) return **value;
+  if (const auto* value = std::get_if<int*>(&field)) return **value;
+  if (const auto* value = std::get_if<std::optional<double>*>(&field)) return **value;
+  if (const auto* value = std::get_if<DampingField>(&field)) {
+    return std::max(*value->high_frequency_fraction, *value->rayleigh_beta);
+  }
+  return std::nullopt;
+}
+
+std::string describe_range(const Key& key) {
+  const auto text = [&](double value) {
+    return key.unit.empty() ? fmt::format("{:.6g}", value) : format_quantity(value, key.unit);
+  };
+  const Bounds& range = key.range;
+  std::string low, high;
+  if (std::isfinite(range.low)) low = (range.open_low ? "above " : "at least ") + text(range.low);
+  if (std::isfinite(range.high)) high = (range.open_high ? "below " : "at most ") + text(range.high);
+  return low + (low.empty() || high.empty() ? "" : " and ") + high;
+}
+
+}  // namespace tread

@@ -1,0 +1,79 @@
+#include "io/scene/key_builders.hpp"
+
+#include <utility>
+
+namespace tread::keys {
+
+Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quantity& of, std::string unit,
+             Bounds range, std::string description) {
+  return {.path = std::move(path),
+          .kind = Kind::quantity,
+          .locate = std::move(locate),
+          .description = std::move(description),
+          .quantity = &of,
+          .unit = std::move(unit),
+          .range = range};
+}
+
+Key number(std::string path, std::function<Field(Scene&)> locate, Bounds range, std::string description,
+           Kind kind) {
+  return {.path = std::move(path),
+          .kind = kind,
+          .locate = std::move(locate),
+          .description = std::move(description),
+          .range = range};
+}
+
+Key choice(std::string path, std::function<Field(Scene&)> locate, std::vector<std::string> allowed,
+           std::string description) {
+  return {.path = std::move(path),
+          .kind = Kind::text,
+          .locate = std::move(locate),
+          .description = std::move(description),
+          .allowed = std::move(allowed)};
+}
+
+Key material_name(std::string path, std::function<Field(Scene&)> locate, std::string description) {
+  return {.path = std::move(path),
+          .kind = Kind::text,
+          .locate = std::move(locate),
+          .description = std::move(description),
+          .names_material = true};
+}
+
+Key flag(std::string path, std::function<Field(Scene&)> locate, std::string description) {
+  return {.path = std::move(path),
+          .kind = Kind::boolean,
+          .locate = std::move(locate),
+          .description = std::move(description)};
+}
+
+Key required(Key key) {
+  key.required = true;
+  return key;
+}
+
+Key or_file(Key key) {
+  key.takes_file = true;
+  return key;
+}
+
+Key only_with(std::string condition, std::vector<std::string> values, Key key) {
+  key.only_with = {std::move(condition), std::move(values)};
+  return key;
+}
+
+Key with_table(std::string table, Key key) {
+  return only_with(std::move(table), std::vector<std::string>{}, std::move(key));
+}
+
+Key only_with(std::string condition, std::string value, Key key) {
+  return only_with(std::move(condition), std::vector<std::string>{std::move(value)}, std::move(key));
+}
+
+Key instead_of(std::string other, Key key) {
+  key.excludes = std::move(other);
+  return key;
+}
+
+}  // namespace tread::keys

@@ -1,0 +1,72 @@
+#pragma once
+// Builders of the schema's keys: what a key measures, where it lives, when it has an effect. Private to the
+// schema.
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/scene/key.hpp"
+
+namespace tread::keys {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+inline Bounds above(double low, double high = kInfinity) {
+  return {low, high, true, false};
+}
+inline Bounds from(double low, double high = kInfinity) {
+  return {low, high, false, false};
+}
+
+/// A member of the scene itself.
+template <class Member>
+std::function<Field(Scene&)> at(Member Scene::*member) {
+  return [member](Scene& scene) -> Field { return &(scene.*member); };
+}
+
+/// A member of a component.
+template <class Spec, class Member>
+std::function<Field(Scene&)> at(std::optional<Spec> Scene::*spec, Member Spec::*member) {
+  return [spec, member](Scene& scene) -> Field {
+    if (!(scene.*spec)) return std::monostate{};
+    return &(*(scene.*spec).*member);
+  };
+}
+
+/// A member of a part that is always there.
+template <class Spec, class Member>
+std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {
+  return [spec, member](Scene& scene) -> Field { return &(scene.*spec.*member); };
+}
+
+/// A member of the material of that name.
+template <class Member>
+std::function<Field(Scene&)> at(const std::string& material, Member Material::*member) {
+  return [material, member](Scene& scene) -> Field {
+    const auto found = scene.materials.find(material);
+    if (found == scene.materials.end()) return std::monostate{};
+    return &(found->second.*member);
+  };
+}
+
+Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quantity& of, std::string unit,
+             Bounds range, std::string description);
+Key number(std::string path, std::function<Field(Scene&)> locate, Bounds range, std::string description,
+           Kind kind = Kind::number);
+Key choice(std::string path, std::function<Field(Scene&)> locate, std::vector<std::string> allowed,
+           std::string description);
+/// A text that names the material of a part.
+Key material_name(std::string path, std::function<Field(Scene&)> locate, std::string description);
+Key flag(std::string path, std::function<Field(Scene&)> locate, std::string description);
+
+Key required(Key key);
+Key or_file(Key key);
+Key only_with(std::string condition, std::vector<std::string> values, Key key);
+Key only_with(std::string condition, std::string value, Key key);
+Key with_table(std::string table, Key key);
+Key instead_of(std::string other, Key key);
+
+}  // namespace tread::keys

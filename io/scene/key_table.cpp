@@ -1,0 +1,153 @@
+#include "io/scene/key_table.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "io/scene/key_builders.hpp"
+
+namespace tread::keys {
+
+namespace {
+
+void add_general(Keys& keys) {
+  keys.push_back({.path = "scene.title",
+                  .kind = Kind::text,
+                  .locate = at(&Scene::title),
+                  .description = "Name of the scene in reports"});
+  keys.push_back({.path = "scene.based_on",
+                  .kind = Kind::directive,
+                  .locate = {},
+                  .description = "Library entry whose values hold where the file states none"});
+  keys.push_back(choice("scene.quality", at(&Scene::quality), {"draft", "standard", "paper"},
+                        "Fineness of the generated mesh: elements of 2.2, 1.6 or 1.1 mm in the contact "
+                        "surface; `paper` has 1.48 million in the paper's scene, where the paper had 1.46"));
+  keys.push_back(
+      choice("scene.precision", at(&Scene::precision), {"double", "mixed", "single"},
+             "Of nodes and elements while they move: `mixed` keeps displacements in double and the "
+             "rest in "
+             "single precision, `single` keeps them in single too. The static state, contact, "
+             "frames, time and sums are in double always"));
+  keys.push_back(quantity("scene.element_size", at(&Scene::element_size), kLength, "mm", above(0, 0.1),
+                          "Element size in the contact surface, in place of the quality's"));
+  keys.push_back(quantity("scene.gravity", at(&Scene::gravity), kAcceleration, "m/s2", from(0, 100),
+                          "Acceleration of gravity"));
+  keys.push_back(only_with("wheel.shape", "tyre",
+                           flag("scene.plane_strain", at(&Scene::plane_strain),
+                                "Nothing moves across: a slice of a wide tyre on a wide block")));
+  keys.push_back(with_table("wheel", quantity("solution_zone.start", at(&Scene::zone_start), kLength, "m",
+                                              from(-1000, 1000), "x where the finely divided rail starts")));
+  keys.push_back(with_table("wheel", quantity("solution_zone.length", at(&Scene::zone_length), kLength, "m",
+                                              above(0, 1000), "Length of the finely divided rail")));
+}
+
+Key presence_of(const SceneTable& table) {
+  return {.path = table.name + ".present",
+          .kind = Kind::directive,
+          .locate = {},
+          .description = "false leaves the table out"};
+}
+
+template <class Spec>
+SceneTable component(const std::string& name, std::optional<Spec> Scene::*spec,
+                     const std::string& description) {
+  return {.name = name,
+          .description = description,
+          .create = [spec](Scene& scene) { (scene.*spec).emplace(); },
+          .remove = [spec](Scene& scene) { (scene.*spec).reset(); },
+          .exists = [spec](const Scene& scene) { return (scene.*spec).has_value(); }};
+}
+
+SceneTable always(std::string name, std::string description) {
+  return {.name = std::move(name), .description = std::move(description), .exists = [](const Scene&) {
+            return true;
+          }};
+}
+
+}  // namespace
+
+Keys make_keys(const std::vector<std::string>& materials) {
+  Keys keys;
+  add_general(keys);
+  for (const std::string& name : materials) add_material(keys, name);
+  add_wheel(keys);
+  add_rail(keys);
+  add_fastenings(keys);
+  add_slab(keys);
+  add_vehicle_and_load(keys);
+  add_contact(keys);
+  add_motion(keys);
+  add_corrugation(keys);
+  add_wear(keys);
+  add_impacts_and_output(keys);
+  for (const SceneTable& table : make_tables(materials))
+    if (table.removable()) keys.push_back(presence_of(table));
+  return keys;
+}
+
+SceneTable material_table(const std::string& name) {
+  return {.name = std::string(kMaterialTables) + name,
+          .description =
+              "A material of that name; parts name theirs: `wheel.material`, `rail.material`, "
+              "`slab.material`. The name is free and consists of letters, digits, _ and -.",
+          .create = [name](Scene& scene) { scene.materials[name] = {.name = name}; },
+          .remove = [name](Scene& scene) { scene.materials.erase(name); },
+          .exists = [name](const Scene& scene) { return scene.materials.contains(name); }};
+}
+
+std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
+  std::vector<SceneTable> tables = {
+      always("scene", "What the scene is called, what it is based on, how fine it is."),
+      always("solution_zone", "The part of the rail that is divided finely and watched closely.")};
+  for (const std::string& name : materials) tables.push_back(material_table(name));
+  const std::vector<SceneTable> others = {
+      component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
+      component("rail", &Scene::rail, "The flexible rail, or a block or bar in its place."),
+      component("fastenings", &Scene::fastenings,
+                "Groups of spring-dampers under the rail; they stand on the slab, or on rigid ground where "
+                "there is "
+                "none."),
+      component("slab", &Scene::slab_track, "Slabs with filled gaps on mortar, moving vertically."),
+      component("vehicle", &Scene::vehicle, "Masses and primary suspension on the wheelset."),
+      component("load", &Scene::load, "A force on the wheel in place of a vehicle."),
+      component("contact", &Scene::contact, "Contact and friction between wheel and rail."),
+      component("motion", &Scene::motion,
+                "The transient run; a scene without it ends with its static state."),
+      component("corrugation", &Scene::corrugation,
+                "Periodic or measured depth of the rail's running surface."),
+      component("wear", &Scene::wear,
+                "How the frictional work of passages changes the profile: of `tread develop` alone. "
+                "[develop.md](develop.md)"),
+      component("pulse", &Scene::pulse, "An initial velocity at one end of a bar: a rail without a wheel."),
+      component("hammer", &Scene::hammer,
+                "A blow on the rail head; the histories hold its force and the struck point's "
+                "displacement."),
+      component("forks", &Scene::forks,
+                "A state that the run keeps for good, from which runs over other corrugations begin. "
+                "[reliability.md](reliability.md)"),
+      always("output", "How often results are sampled, progress shown, checkpoints and frames written."),
+      always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
+  };
+  tables.insert(tables.end(), others.begin(), others.end());
+  return tables;
+}
+
+std::string_view material_of(std::string_view path) {
+  if (!path.starts_with(kMaterialTables)) return "";
+  const std::string_view rest = path.substr(kMaterialTables.size());
+  const std::string_view name = rest.substr(0, rest.find('.'));
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  return std::all_of(name.begin(), name.end(), allowed) ? name : "";
+}
+
+Keys material_keys(std::string_view name) {
+  Keys keys;
+  if (name.empty()) return keys;
+  add_material(keys, std::string(name));
+  keys.push_back(presence_of(material_table(std::string(name))));
+  return keys;
+}
+
+}  // namespace tread::keys

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cstddef>
+
+#include "io/scene/key_table.hpp"
+#include "io/scene/schema.hpp"
+
+namespace tread {
+
+namespace {
+
+std::string_view leaf_of(std::string_view path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+/// Edits up to which a word still counts as a misspelling.
+std::size_t tolerance(std::string_view word) {
+  return std::clamp<std::size_t>(word.size() / 3, 1, 3);
+}
+
+}  // namespace
+
+std::string similar_text(std::string_view text, const std::vector<std::string>& options) {
+  constexpr std::size_t kLongestWord = 100;
+  if (text.size() > kLongestWord) return "";
+  std::string best;
+  std::size_t least = tolerance(leaf_of(text)) + 1;
+  for (const std::string& option : options) {
+    const std::size_t distance = edit_distance(text, option);
+    if (distance >= least) continue;
+    least = distance;
+    best = option;
+  }
+  return best;
+}
+
+std::string similar_path(std::string_view unknown) {
+  std::vector<std::string> paths;
+  for (const Key& key : scene_keys()) paths.push_back(key.path);
+  for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
+  const std::string_view material = keys::material_of(unknown);
+  for (const Key& key : keys::material_keys(material)) paths.push_back(key.path);
+  std::string near = similar_text(unknown, paths);
+  if (!near.empty()) return near;
+  const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
+  const auto elsewhere = std::find_if(paths.begin(), paths.end(), same_leaf);
+  return elsewhere == paths.end() ? "" : *elsewhere;
+}
+
+}  // namespace tread
