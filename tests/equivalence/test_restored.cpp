@@ -15,44 +15,11 @@
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/results/run_results.hpp"
+#include "tests/state_copies.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
-
-/// The bytes of a field.
-std::string bytes(const StateList::Field& field) {
-  return std::visit(
-      [](auto values) {
-        return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-      },
-      field.values);
-}
-
-void copy(const StateList& from, const StateList& to) {
-  ASSERT_EQ(from.fields().size(), to.fields().size());
-  for (std::size_t i = 0; i < from.fields().size(); ++i) {
-    const StateList::Field& source = from.fields()[i];
-    const StateList::Field& target = to.fields()[i];
-    ASSERT_EQ(source.name, target.name);
-    ASSERT_EQ(source.values.index(), target.values.index()) << source.name;
-    std::visit(
-        [&](auto values) {
-          const auto given = std::get<decltype(values)>(source.values);
-          ASSERT_EQ(given.size(), values.size()) << source.name;
-          std::copy(given.begin(), given.end(), values.begin());
-        },
-        target.values);
-  }
-}
-
-/// Names of the fields that differ in a bit.
-std::string differences(const StateList& a, const StateList& b) {
-  std::string names;
-  for (std::size_t i = 0; i < a.fields().size(); ++i)
-    if (bytes(a.fields()[i]) != bytes(b.fields()[i])) names += a.fields()[i].name + " ";
-  return names;
-}
 
 struct Run {
   Model model;
@@ -84,14 +51,14 @@ void expect_same_bits(const Scene& scene, std::int64_t steps) {
   corrugate(resumed.model);
   resumed.simulation = std::make_unique<Simulation>(resumed.model, preload.contact.centre.y, dt);
   resumed.simulation->set_sampling_interval(50);
-  copy(whole.simulation->state(), resumed.simulation->state());
+  samples::copy(whole.simulation->state(), resumed.simulation->state());
   if (testing::Test::HasFatalFailure()) return;
 
   whole.roll(steps);
   set_threads(2);
   resumed.roll(steps);
   set_threads(1);
-  EXPECT_EQ(differences(whole.simulation->state(), resumed.simulation->state()), "");
+  EXPECT_EQ(samples::differences(whole.simulation->state(), resumed.simulation->state()), "");
   EXPECT_EQ(whole.simulation->state_hash(), resumed.simulation->state_hash());
   const std::vector<double> row = history_row(whole.model, whole.simulation->sample());
   EXPECT_EQ(row, history_row(resumed.model, resumed.simulation->sample()));

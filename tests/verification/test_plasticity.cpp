@@ -16,6 +16,7 @@
 #include "drivers/engine/static_system.hpp"
 #include "kernels/material/laws.hpp"
 #include "tests/measured.hpp"
+#include "tests/state_copies.hpp"
 #include "tests/swept_samples.hpp"
 
 namespace tread {
@@ -358,24 +359,6 @@ TEST(PlasticContact, FirstYieldLiesBelowTheSurface) {
   EXPECT_NEAR(first.depth / a, 0.48, 0.75e-3 / a);
 }
 
-std::string bytes(const StateList::Field& field) {
-  return std::visit(
-      [](auto values) {
-        return std::string(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-      },
-      field.values);
-}
-
-void copy(const StateList& from, const StateList& to) {
-  for (std::size_t i = 0; i < from.fields().size(); ++i)
-    std::visit(
-        [&](auto values) {
-          const auto given = std::get<decltype(values)>(from.fields()[i].values);
-          std::copy(given.begin(), given.end(), values.begin());
-        },
-        to.fields()[i].values);
-}
-
 Scene rolling_scene(const std::string& precision) {
   Scene scene = wheel_on_block(6e-3);
   scene.precision = precision;
@@ -418,14 +401,15 @@ TEST_P(RollingPlasticity, DissipatesAndGoesOnWithTheSameBits) {
   for (int step = 0; step < kHalf; ++step) first.step();
   Simulation resumed(rest, preload.contact.centre.y, dt);
   resumed.set_sampling_interval(50);
-  copy(first.state(), resumed.state());
+  samples::copy(first.state(), resumed.state());
   for (int step = 0; step < kHalf; ++step) resumed.step();
   const StateList expected = whole.state();
   const StateList state = resumed.state();
   ASSERT_EQ(expected.fields().size(), state.fields().size());
   bool laws = false;
   for (std::size_t i = 0; i < state.fields().size(); ++i) {
-    EXPECT_EQ(bytes(state.fields()[i]), bytes(expected.fields()[i])) << state.fields()[i].name;
+    EXPECT_EQ(samples::bytes(state.fields()[i]), samples::bytes(expected.fields()[i]))
+        << state.fields()[i].name;
     laws = laws || state.fields()[i].name.rfind("law_state/", 0) == 0;
   }
   EXPECT_TRUE(laws);
