@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -15,18 +15,12 @@ namespace tread {
 
 namespace {
 
-std::string joined(const std::vector<const char*>& names) {
-  std::string text;
-  for (const char* name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
-
 /// Version, compiler, instruction sets and packages on stdout.
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   if (!json) {
     fmt::print("tread {}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n",
-               TREAD_VERSION, TREAD_COMPILER, TREAD_BUILD, joined(sets), TREAD_PACKAGES);
+               TREAD_VERSION, TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
     return;
   }
   Json packages = Json::object();

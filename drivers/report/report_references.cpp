@@ -9,7 +9,6 @@
 #include "io/files/share_folder.hpp"
 #include "io/report/markup.hpp"
 #include "io/scene/scene_library.hpp"
-#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -70,10 +69,9 @@ std::vector<References> library_references(const Scene& scene) {
 }
 
 std::vector<Comparison> comparisons(const References& references, bool theory, const Model& model,
-                                    const ResolvedScene& resolved, const RunResults& r) {
+                                    const RunResults& r, const JsonRecord& summary) {
   std::vector<Comparison> rows;
   if (!model.contact) return rows;
-  const JsonRecord summary = parse_json(summary_json(model, resolved, r), "summary");
   for (const Reference& reference : references.rows) {
     if (reference.theory != theory || !within(reference, summary)) continue;
     std::optional<double> ours = value_of(reference, summary);

@@ -7,6 +7,7 @@
 #include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
 #include "io/scene/references.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -14,9 +15,10 @@ namespace tread {
 /// missing are left out. Throws InputError where a file does not read.
 std::vector<References> library_references(const Scene& scene);
 
-/// The run beside the references, or with `theory` beside those that belong to theory.
+/// The run beside the references, or with `theory` beside those that belong to theory. `summary`: record of
+/// the run's summary.json.
 std::vector<Comparison> comparisons(const References& references, bool theory, const Model& model,
-                                    const ResolvedScene& resolved, const RunResults& results);
+                                    const RunResults& results, const JsonRecord& summary);
 
 /// Hertz for the static patch; empty without contact.
 std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& results);

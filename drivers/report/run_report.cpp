@@ -20,6 +20,7 @@
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
+#include "io/text/json.hpp"
 
 namespace tread {
 
@@ -121,12 +122,12 @@ Chapter result_chapter(const Run& run) {
                                            {"Steps", grouped(r.steps), ""}});
   }
   std::vector<Comparison> theory = hertz_comparisons(run.model, r);
+  const JsonRecord summary = parse_json(summary_json(run.model, run.resolved, r), "summary");
   for (const References& references : run.references) {
-    const std::vector<Comparison> rows = comparisons(references, false, run.model, run.resolved, r);
+    const std::vector<Comparison> rows = comparisons(references, false, run.model, r, summary);
     if (!rows.empty())
       chapter.blocks.emplace_back(comparison_table(references.title, references.column, rows));
-    for (const Comparison& row : comparisons(references, true, run.model, run.resolved, r))
-      theory.push_back(row);
+    for (const Comparison& row : comparisons(references, true, run.model, r, summary)) theory.push_back(row);
   }
   if (!theory.empty()) chapter.blocks.emplace_back(comparison_table("Beside theory", "Theory", theory));
   if (!run.without_references.empty()) chapter.blocks.emplace_back(Text{run.without_references});

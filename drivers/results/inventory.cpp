@@ -1,5 +1,7 @@
 #include "drivers/results/inventory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "drivers/engine/node_fields.hpp"
@@ -75,9 +77,7 @@ std::vector<FieldBytes> all_fields(const Model& model) {
 }
 
 std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
