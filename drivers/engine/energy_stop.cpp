@@ -16,7 +16,7 @@ struct Place {
   double speed = -1;  ///< against its body's frame [m/s]
 };
 
-/// What is not finite is faster than all else.
+/// Returns the fastest node. A speed that is not finite exceeds all others.
 Place fastest_node(const Model& model, ConstNodeField velocity) {
   Place fastest;
   for (const SweptBlock& block : model.mesh.blocks)

@@ -9,10 +9,10 @@
 
 namespace tread {
 
-/// Of the bodies that do not travel: v^T M v / 2. `v`: vector field [m/s]; result [J].
+/// Kinetic energy of the bodies that do not travel: v^T M v / 2. `v`: vector field [m/s]; result [J].
 double fixed_kinetic_energy(const Model& model, ConstNodeField v);
 
-/// Of the bodies that do not travel: g sum(m u_z). `u`: vector field [m]; result [J].
+/// Gravity potential of the bodies that do not travel: g sum(m u_z). `u`: vector field [m]; result [J].
 double fixed_gravity_potential(const Model& model, ConstNodeField u);
 
 /// The mean of both half steps' kinetic energies exceeds v- . M v+ / 2, which central difference conserves

@@ -76,7 +76,7 @@ class NodeFields {
 /// At rest, undeformed. Keeps a reference to the model, whose coefficients must stay what they are.
 std::unique_ptr<NodeFields> make_node_fields(const Model& model);
 
-/// Of one component of one node [B].
+/// Size of one component of one node [B].
 struct ValueBytes {
   int displacement, other;  ///< other: velocity, force and mass
 };

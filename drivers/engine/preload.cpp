@@ -121,7 +121,7 @@ class WithCarrier : public Preconditioner {
   double stiffness_;  ///< [N/m]
 };
 
-/// Of the wheel's elements against the carrier's unknown alone [N/m].
+/// Stiffness of the wheel's elements against the carrier's unknown alone [N/m].
 double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::int64_t unknown) {
   AlignedVector<double> unit(static_cast<std::size_t>(values), 0.0);
   AlignedVector<double> force(unit.size());
@@ -152,7 +152,7 @@ std::vector<TiedSlot> tied_slots(const Model& model) {
   return model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{};
 }
 
-/// What the static state shows.
+/// Fills the figures of the static state.
 void describe(const Model& model, Preload& out) {
   if (model.contact) {
     model.contact->require_room(out.wheel);
@@ -220,7 +220,7 @@ class Equilibrium {
   /// and tangent at the displacement, whose secondary nodes are filled. [N]
   void residual(Preload& state, double* r);
 
-  /// Of the last residual().
+  /// Product with the tangent at the last residual(). [N]
   void apply_tangent(double* x, double* y) const {
     system_.apply(x, y);
     add_springs(springs_, x, y);

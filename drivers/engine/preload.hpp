@@ -37,7 +37,7 @@ struct Preload {
   ContactTotals contact;
   double max_pressure = 0;  ///< nodal average [Pa]
 
-  /// What is of use once rolling has begun.
+  /// Lists the values that are of use once rolling has begun.
   void list_state(StateList& list) {
     list.add("wheel_frame", wheel);
     list.add("residual", residual);
@@ -55,7 +55,8 @@ struct Preload {
 
 using ProgressText = std::function<void(const std::string&)>;
 
-/// That the scene starts with: speed / radius by its creepage, as far as it wants them in the static state.
+/// Motion that the scene starts with: speed / radius by its creepage, as far as it wants them in the static
+/// state.
 SteadyMotion steady_motion(const Model& model);
 
 /// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its

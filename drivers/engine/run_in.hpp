@@ -12,7 +12,7 @@
 
 namespace tread {
 
-/// How the wheelset bends under the load on its journal.
+/// Bending of the wheelset under the load on its journal.
 struct AxleBending {
   double journal = 0;  ///< deflection of the journal beyond the rim's, downwards [m]
   double wheelset_share =
@@ -51,7 +51,7 @@ struct RunIn {
   double stretch = 0;        ///< of the sprung mass towards the journal, more than under its weight [m]
   double sprung_speed = 0;   ///< [m/s]
 
-  /// What a section of the beam does more than in the static state; rates as seen from the wheel.
+  /// Motion of a section of the beam beyond the static state; rates as seen from the wheel.
   struct Section {
     double deflection = 0, rotation = 0;            ///< [m], [rad]
     double deflection_rate = 0, rotation_rate = 0;  ///< [m/s], [rad/s]

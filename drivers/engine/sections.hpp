@@ -35,7 +35,7 @@ double depth_room(const Scene& scene);
 /// The same of the scene with [forks] [m].
 double forks_room(const Scene& scene);
 
-/// How deep the scene's corrugation is; 0 without one [m].
+/// Depth of the scene's corrugation; 0 without one [m].
 double corrugation_depth(const Scene& scene);
 
 /// Lowers the nodes of the running surface by the corrugation's depth and those below it by a share that

@@ -68,7 +68,7 @@ void refuse_heavy_damping(double beta, double omega) {
       100 * kLeastShare, largest, 0.5 * largest * omega));
 }
 
-/// What damping adds to the bodies' stiffness at the limit of the step dt: 1 + g + 2 beta / dt, with the
+/// Factor by which damping stiffens the bodies at the limit of the step dt: 1 + g + 2 beta / dt, with the
 /// largest of all blocks. [theory.md, eqs. 12, 12f]
 struct Stiffening {
   double branch = 1;  ///< 1 + g [-]
@@ -80,7 +80,7 @@ struct Stiffening {
       if (of_block) branch = std::max(branch, 1 + of_block->strength);
   }
   double at(double dt) const { return branch + 2 * beta / dt; }
-  /// Of bodies of the frequency omega [s].
+  /// Stable step of bodies of the frequency omega [s].
   double stable_step(double omega) const {
     return tread::stable_step(omega * std::sqrt(branch), beta / branch);
   }
@@ -132,7 +132,7 @@ class AssembledBodies {
   std::vector<double> damping_;  ///< of each spring [N s/m]
 };
 
-/// Of the sprung mass on the journal [s].
+/// Stable step of the sprung mass on the journal [s].
 double suspension_step(const Model& model) {
   if (!model.scene.vehicle) return std::numeric_limits<double>::infinity();
   const VehicleSpec& vehicle = *model.scene.vehicle;

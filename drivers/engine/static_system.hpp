@@ -36,7 +36,7 @@ struct StiffestElement {
   Vec3 at;          ///< a corner of it (wheel blocks: relative to the axis) [m]
 };
 
-/// What limits the time step, for the report.
+/// Limit of the time step, for the report.
 struct StepLimit {
   double stable_step = 0;                 ///< largest of the assembled bodies, damping included [s]
   std::vector<StiffestElement> stiffest;  ///< by block

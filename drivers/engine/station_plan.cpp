@@ -91,7 +91,8 @@ std::vector<Segment> graded(double length, double pitch, double far) {
   return segments;
 }
 
-/// What is left of the run beside the zone is an element or nothing: a shorter one would take the time step.
+/// Widens the zone to the ends of the run where less than `shortest` [m] would be left: a short element would
+/// limit the time step.
 void absorb_slivers(Span& zone, const Span& run, double shortest) {
   if (zone.empty()) return;
   if (zone.first - run.first < shortest) zone.first = run.first;

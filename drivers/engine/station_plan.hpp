@@ -21,7 +21,7 @@ struct MeshSizes {
   double band_half_width = 0;  ///< of the fine running band [m]
 };
 
-/// Of the scene's quality, or scaled to its element size.
+/// Sizes of the scene's quality, or scaled to its element size.
 MeshSizes mesh_sizes(const Scene& scene);
 
 /// An interval of x.
@@ -30,12 +30,12 @@ struct Span {
   bool empty() const { return !(last > first); }
 };
 
-/// Of the track that the wheel can touch, with a margin of 20 mm beyond speed times duration, which the way
-/// that traction adds uses first; empty without [wheel].
+/// Stretch of the track that the wheel can touch, with a margin of 20 mm beyond speed times duration, which
+/// the way that traction adds uses first; empty without [wheel].
 Span run_span(const Scene& scene);
 
-/// Of the finely divided track: the solution zone and half a patch about it, or what the wheel can touch
-/// where it stands elsewhere.
+/// Stretch of the finely divided track: the solution zone and half a patch about it, or what the wheel can
+/// touch where it stands elsewhere.
 Span zone_span(const Scene& scene);
 
 /// Segments of the fine block and of the coarse block tied to it; they cover the same length and nest.

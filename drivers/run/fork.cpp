@@ -50,7 +50,7 @@ std::int64_t steps_until(double time, double dt) {
 
 using Found = CheckpointFolder::Found;
 
-/// Of those that the run keeps for good and the last two of a run that is not finished.
+/// Newest of the states that the run keeps for good and of the last two of a run that is not finished.
 std::optional<Found> newest(const fs::path& folder, std::int64_t last, std::vector<std::string>& refused) {
   std::optional<Found> found = CheckpointFolder(folder / kForkFolder).newest(refused, last);
   std::optional<Found> other = CheckpointFolder(folder / kCheckpointFolder).newest(refused, last);

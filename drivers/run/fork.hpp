@@ -31,7 +31,7 @@ Fork fork_from(const std::string& from, const RunOrder& wanted, const Progress& 
 /// that begins, corrugated.
 void require_same_past(const Fork& fork, const Model& model);
 
-/// What tells when the wheel of a run with [forks] comes near a place.
+/// Values that tell when the wheel of a run with [forks] comes near a place.
 struct Approach {
   double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
   DrivenWheel wheel;

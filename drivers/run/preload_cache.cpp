@@ -51,7 +51,7 @@ std::int64_t limit() {
   }
 }
 
-/// Of the running program's own bytes: another build may find other bits.
+/// Hash of the running program's own bytes: another build may find other bits.
 std::uint64_t program_hash() {
   const std::string program = read_bytes("/proc/self/exe", std::numeric_limits<std::size_t>::max());
   Hash hash;

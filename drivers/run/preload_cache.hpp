@@ -17,8 +17,8 @@ namespace tread {
 /// off. Throws InputError.
 std::optional<ContentCache> preload_cache(const std::string& place);
 
-/// Whether the key of a scene has no effect on the preload, which is frictionless and smooth and rolls
-/// nothing, but by the stretch of track that the mesh is fine over (run_span()).
+/// Returns true if the key of a scene has no effect on the preload, which is frictionless and smooth and
+/// rolls nothing, but by the stretch of track that the mesh is fine over (run_span()).
 bool acts_on_rolling_alone(std::string_view path);
 
 /// Everything that the preload's bits depend on: the program, the instruction set, and all values of the

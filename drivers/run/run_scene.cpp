@@ -191,7 +191,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
                                     duration_text(session.progress.seconds())));
 }
 
-/// Of an earlier run: what only a finished run has must not stand beside one that is not.
+/// Removes results of an earlier run: files of a finished run must not stand beside one that is not.
 void remove_results(const std::filesystem::path& directory) {
   CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
@@ -257,7 +257,7 @@ Fork read_other(const RunOptions& options, const RunOrder& wanted) {
   return fork;
 }
 
-/// What the run was asked for, and what is asked now.
+/// Reads the order of the run and the values that are asked for later.
 void read_order(RunSession& session, const std::optional<CheckpointFolder::Found>& found) {
   RunOrder& order = session.order;
   order = unpack_order(found ? found->content : session.checkpoints.read_order());

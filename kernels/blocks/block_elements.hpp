@@ -56,10 +56,11 @@ class BlockElements {
   int law() const { return law_; }
   /// Tile whose last element ends in this tile, or -1.
   int previous(int tile) const { return previous_[static_cast<std::size_t>(tile)]; }
-  /// Whether the loop takes the tile behind this one along if it can.
+  /// Returns true if the loop takes the tile behind this one along where it can.
   bool joins_next(int tile) const { return joins_next_[static_cast<std::size_t>(tile)] != 0; }
 
-  /// What the loop reads of `tiles` tiles; `damping`: factor of the velocity [s] or of the lag [-].
+  /// Elements of `tiles` tiles as the loop reads them; `damping`: factor of the velocity [s] or of the lag
+  /// [-].
   TileElements<Real> tile_elements(int tile, int tiles, double damping) const;
   /// First value of a tile in the block's LawState.
   std::int64_t state_place(int tile) const;

@@ -21,7 +21,7 @@ namespace tread {
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
 
-/// What the elements' loop reads and moves.
+/// Fields that the elements' loop reads and moves.
 template <class Real, class U>
 struct ForceFields {
   U* displacement;                 ///< [m]
@@ -108,7 +108,7 @@ class BasicInternalForce {
   /// Diagonal of the linear K: 3 * mesh.slots values. [N/m]
   void diagonal(double* d) const;
 
-  /// Of the linear K.
+  /// Stiffness of an element by the linear law [N/m].
   ElementStiffness element_stiffness(int block, int quad, int station) const {
     return tread::element_stiffness(elements(block), elements(block).locate(quad, station));
   }

@@ -20,7 +20,7 @@ struct BasicUpdateFields {
 };
 using UpdateFields = BasicUpdateFields<double>;
 
-/// What acts on all nodes besides their forces.
+/// Loads on all nodes besides their forces.
 struct StepLoads {
   double dt = 0;       ///< length of the step [s]
   double gravity = 0;  ///< downwards [m/s2]
@@ -41,7 +41,7 @@ class BasicTimeUpdate {
   /// These nodes get forces besides those of the elements.
   void defer(const std::vector<std::int64_t>& slots);
 
-  /// How the nodes of a tile move.
+  /// Motion of the nodes of a tile.
   TileMotion<Real, U> motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const;
 
   /// Moves all nodes.

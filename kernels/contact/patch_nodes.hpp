@@ -34,7 +34,7 @@ struct SurfaceGrid {
   std::size_t cell(int station, int row) const {
     return static_cast<std::size_t>(station) * quad.size() + static_cast<std::size_t>(row);
   }
-  /// That a node stands for [m2].
+  /// Area that a node stands for [m2].
   double area(int station, int row) const {
     return length[static_cast<std::size_t>(station)] * width[static_cast<std::size_t>(row)];
   }

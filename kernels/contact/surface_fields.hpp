@@ -41,7 +41,7 @@ class SurfaceFields {
   /// By samples; by node [J/m2].
   const std::vector<double>& sampled_frictional_work() const { return sampled_work_; }
 
-  /// Of a node's work per area over the whole surface [J].
+  /// Integral of a work per area, given by node, over the whole surface [J].
   double sum(const std::vector<double>& per_area) const;
 
   static std::int64_t bytes(const SurfaceGrid& grid);

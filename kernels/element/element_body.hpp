@@ -103,7 +103,7 @@ struct SweptElement {
   template <int first>
   TREAD_INLINE void scale_by_volume(auto& /*f*/) const {}
 
-  /// Of the work in the swept volume.
+  /// Energy in the element's volume from that in the swept volume.
   template <class V>
   TREAD_INLINE V energy_in_volume(const V& work) const {
     return work;

@@ -18,7 +18,7 @@ struct HexahedronShape {
   bool finite_rotation = false;  ///< Green-Lagrange strain in the one-point stress
 };
 
-/// What the force of an element is made of.
+/// Coefficients of the force of an element.
 struct HexahedronCoefficients {
   double volume = 0;             ///< [m3]
   std::array<Vec3, 8> gradient;  ///< mean gradients of the shape functions [1/m]

@@ -20,7 +20,7 @@
 
 namespace tread {
 
-/// How the nodes of a tile move over a step; pointers are to the tile's section node 0.
+/// Motion of the nodes of a tile over a step; pointers are to the tile's section node 0.
 template <class Real, class U>
 struct TileMotion {
   StepConstants<Real> step;
@@ -60,14 +60,14 @@ struct TileView {
   Real* advanced_state = nullptr;  ///< where `force` writes the state that the strain leads to
 };
 
-/// How far the stations of a node lie from their swept places, in their own bases; unused lanes hold zeros.
+/// Shifts of the stations of a node from their swept places, in their own bases; unused lanes hold zeros.
 /// [m]
 template <class Real>
 struct LaneShifts {
   Real shift[3][kLanes];
 };
 
-/// What the elements of a tile are made of, in the order of the plan's quads.
+/// Coefficients of the elements of a tile, in the order of the plan's quads.
 template <class Real>
 struct TileElements {
   const FrontPlan::Quad* quads = nullptr;
@@ -77,7 +77,7 @@ struct TileElements {
   int slots = 0;  ///< of the front
   const SweptConstants<Real>* swept = nullptr;
   const void* laws = nullptr;  ///< of a law that is not linear: ElementLaw by quad
-  /// Whether elements touch moved nodes, the same in all tiles; null if none does.
+  /// Nonzero for elements that touch moved nodes, the same in all tiles; null if none does.
   const unsigned char* perturbed = nullptr;
   /// By tile and section node: index into `shifts`, or -1 if no such element is at the node.
   const int* shifted[kTilesAbreast] = {};

@@ -87,7 +87,7 @@ class TileFront {
       return abreast(load<Half>(at), view_.tiles > 1 ? load<Half>(at + view_.stride) : Half{});
   }
 
-  /// Of displacements' component i, plus beta times velocity.
+  /// Component i of the displacements, plus beta times velocity.
   TREAD_INLINE Register displacement(std::ptrdiff_t at, int i, int part) const {
     Register u;
     if constexpr (!kRelative)
@@ -128,7 +128,7 @@ class TileFront {
     if (elements_.perturbed != nullptr && elements_.shifted[0][node.node] >= 0) open_shift(node);
   }
 
-  /// What adds to a node's displacement for damping, in rows of its own.
+  /// Opens the addition to a node's displacement for damping, in rows of its own.
   TREAD_INLINE void open_rate(Real* slot, std::ptrdiff_t at) const {
     if (view_.v == nullptr) return;
     const Real beta = static_cast<Real>(elements_.beta);

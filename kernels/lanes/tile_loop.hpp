@@ -26,7 +26,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
   TileLoop(const TileElements<Real>& elements, const TileView<Real, U>& view, Real* front)
       : Front(elements, view, front) {}
 
-  /// Of all elements.
+  /// Energy of all elements.
   DeformationEnergy energy() const {
     const FrontPlan::Node* open = elements_.open;
     Sums strain{};
@@ -37,10 +37,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
       for (; open != elements_.open + quad.opened; ++open) open_node(*open);
       with_elements(i, [&](int lane, const auto& element) {
         const Strain<Register> e = deformation(quad, lane, element);
-        if constexpr (kLinear)
-          add_energy(e, elements_.swept[i], element, strain);
-        else
-          add_law_energy(e, i, lane, element, strain, dissipated);
+        add_energy(e, i, lane, element, strain, dissipated);
         add_hourglass_energy(e, elements_.swept[i], hourglass);
       });
     }
@@ -92,7 +89,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     }
   }
 
-  /// Of all corners of a quad: found once, not for every value that is added to them.
+  /// Values of all corners of a quad: found once, not for every value that is added to them.
   TREAD_INLINE std::array<Real*, 4> corners(const FrontPlan::Quad& quad, int lane) const {
     return {corner(quad.slot[0], lane), corner(quad.slot[1], lane), corner(quad.slot[2], lane),
             corner(quad.slot[3], lane)};
@@ -111,7 +108,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     to_modes(s, d, a);
   }
 
-  /// Of the displacements, or of the nodes' values from another row on.
+  /// Deformation by the displacements, or by the nodes' values from another row on.
   template <int row = 0, class Element>
   TREAD_INLINE Strain<Register> deformation(const FrontPlan::Quad& quad, int lane,
                                             const Element& element) const {
@@ -158,33 +155,27 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     }
   }
 
+  /// Adds what the law stores and has dissipated in the state that the strain leads to; the elements keep
+  /// theirs.
   template <class Element>
-  TREAD_INLINE void add_energy(const Strain<Register>& deformation, const SweptConstants<Real>& constants,
-                               const Element& element, Sums& strain) const {
+  TREAD_INLINE void add_energy(const Strain<Register>& deformation, int index, int lane,
+                               const Element& element, Sums& strain, Sums& dissipated) const {
     Register e[6];
-    Register s[6];
     point_strain<finite_rotation, Real>(deformation.g, e);
-    LinearElastic<Real>{constants.lambda, constants.mu}.stress(e, s);
-    Register work = e[0] * s[0];
-    for (int i = 1; i < 6; ++i) work += e[i] * s[i];
-    strain += 0.5 * __builtin_convertvector(element.energy_in_volume(work), Sums);
-  }
-
-  /// By the state that the strain leads to; the elements keep theirs.
-  template <class Element>
-  TREAD_INLINE void add_law_energy(const Strain<Register>& deformation, int index, int lane,
-                                   const Element& element, Sums& strain, Sums& dissipated) const {
-    const auto& at = law(index);
-    State state = load_state(index, lane);
-    Register e[6];
-    Register s[6];
-    point_strain<finite_rotation, Real>(deformation.g, e);
-    at.law.stress(e, state, s);
-    const auto in_element = [&](const Register& density) {
-      return __builtin_convertvector(element.energy_in_volume(Register(at.volume * density)), Sums);
+    const auto in_element = [&](const Register& energy) {
+      return __builtin_convertvector(element.energy_in_volume(energy), Sums);
     };
-    strain += in_element(at.law.energy(e, state));
-    dissipated += in_element(at.law.dissipated(state));
+    if constexpr (kLinear) {
+      const SweptConstants<Real>& c = elements_.swept[index];
+      strain += in_element(LinearElastic<Real>{c.lambda, c.mu}.energy(e, {}));
+    } else {
+      const auto& at = law(index);
+      State state = load_state(index, lane);
+      Register s[6];
+      at.law.stress(e, state, s);
+      strain += in_element(at.volume * at.law.energy(e, state));
+      dissipated += in_element(at.volume * at.law.dissipated(state));
+    }
   }
 
   TREAD_INLINE void add_hourglass_energy(const Strain<Register>& deformation,

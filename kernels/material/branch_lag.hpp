@@ -11,7 +11,7 @@
 
 namespace tread {
 
-/// How far a node has moved beyond the dashpots of its branches, dq/dt = v - q / tau [m]; zero in blocks
+/// Lag: the way of a node beyond the dashpots of its branches, dq/dt = v - q / tau [m]; zero in blocks
 /// without branches. Precision as that of velocities.
 template <class Real>
 class BranchLag {

@@ -16,7 +16,7 @@ namespace tread {
 /// have their law.
 int law_of(const SweptBlock& block);
 
-/// Whether a block of the mesh has a law that is not linear.
+/// Returns true if a block of the mesh has a law that is not linear.
 bool has_laws(const Mesh& mesh);
 
 class ConstLawState;

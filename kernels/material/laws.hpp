@@ -66,7 +66,7 @@ inline int state_values(int law) {
   return Laws::with(law, [&]<template <class> class Law>() { return kStateValues<Law>; });
 }
 
-/// Whether the law with this number is linear.
+/// Returns true if the law with this number is linear.
 inline bool is_linear(int law) {
   return Laws::with(law, [&]<template <class> class Law>() { return Law<double>::kLinear; });
 }

@@ -60,7 +60,7 @@ void for_points(const std::vector<const Section*>& parts, const Visit& visit) {
       for (const QuadPoint& point : quad_points(*parts[part], quad)) visit(part, quad, point);
 }
 
-/// What a node's value is made of: unknowns and weights.
+/// A node's value as a sum: unknowns and weights.
 using Mixture = std::vector<std::pair<int, double>>;
 
 /// Nodes of the first part on the tie take the values of the second part's, linear between two.

@@ -17,15 +17,15 @@ struct BeamSection {
   double shear_coefficient = 0;  ///< kappa, vertical bending [-]
 };
 
-/// Of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The section
-/// has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
+/// Section of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The
+/// section has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
 /// [theory.md, eq. B3]
 BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
 
 /// The same quads, each cut into n x n.
 Section refined(const Section& section, int n);
 
-/// What bends: stiffnesses and masses per length.
+/// Stiffnesses and masses per length of a beam.
 struct BeamProperties {
   double bending_stiffness = 0;  ///< E I [N m2]
   double shear_stiffness = 0;    ///< kappa G A [N]; 0: rigid in shear (Euler)

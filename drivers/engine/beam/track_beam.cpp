@@ -286,7 +286,7 @@ Three times(const std::array<Three, 3>& matrix, const Three& x) {
   return y;
 }
 
-/// Of a symmetric positive definite system.
+/// Solution of a symmetric positive definite system.
 Three solve(std::array<Three, 3> a, Three b) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = k + 1; i < 3; ++i) {

@@ -58,7 +58,7 @@ class TrackBeam {
   const BandMatrix<double>& mass() const { return mass_; }
 
  private:
-  /// What the nodal values make of w at x, and a force at x of the nodal loads.
+  /// Weights of the nodal values in w at x, and of a force at x in the nodal loads.
   struct Shape {
     int first = 0;  ///< unknown of the first of four values
     std::array<double, 4> value{};
@@ -85,7 +85,7 @@ struct BeamSupport {
 /// [fastenings]. InputError without rail.
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans = 0);
 
-/// How far forces on the head spread before the fastenings see them: at the wave number of a span; 0 for a
+/// Spread of forces on the head before the fastenings see them: at the wave number of a span; 0 for a
 /// line or without [fastenings]. [m]
 double head_spread(const Scene& scene, const BeamProperties& properties);
 
@@ -93,12 +93,12 @@ double head_spread(const Scene& scene, const BeamProperties& properties);
 /// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
-/// What a wheel is in the beam's world.
+/// A wheel in the model of the beam.
 struct BeamVehicle {
   double unsprung_mass = 0;  ///< wheelset and what is fixed to it [kg]
-  /// Of the wheelset by the journal's deflection b beyond the rim's, in the shape of statics; a rigid
-  /// wheelset has none. With the rim's deflection w: kinetic energy m w'^2 / 2 + coupling w' b' + mass b'^2
-  /// / 2.
+  /// Bending of the wheelset by the journal's deflection b beyond the rim's, in the shape of statics; a
+  /// rigid wheelset has none. With the rim's deflection w: kinetic energy m w'^2 / 2 + coupling w' b' + mass
+  /// b'^2 / 2.
   struct Bending {
     double coupling = 0;   ///< [kg]
     double mass = 0;       ///< [kg]
@@ -113,7 +113,7 @@ struct BeamVehicle {
   double gravity = 9.81;   ///< [m/s2]
 
   double load() const { return (unsprung_mass + sprung_mass) * gravity + pressed; }
-  /// Of the sprung mass below its place over the journal without load [m].
+  /// Drop of the sprung mass below its place over the journal without load [m].
   double static_stretch() const { return stiffness > 0 ? sprung_mass * gravity / stiffness : 0; }
 };
 
