@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether two builds compute the same bits: state hashes of short runs, portable lanes.
+# Compares the bits of two builds: state hashes of short runs, portable lanes.
 #
 #   perf/state_hashes.sh PROGRAM [OTHER]      PROGRAM: for example build/release/tread, OTHER: that of another build
 #
