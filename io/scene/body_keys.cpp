@@ -7,25 +7,28 @@ namespace tread::keys {
 
 void add_material(Keys& keys, const std::string& name) {
   const std::string table = std::string(kMaterialTables) + name;
-  keys.push_back(required(quantity(table + ".youngs_modulus", at(name, &Material::youngs_modulus), kStress,
-                                   "GPa", above(0, 1e13), "Young's modulus")));
-  keys.push_back(required(number(table + ".poissons_ratio", at(name, &Material::poissons_ratio),
-                                 {0, 0.5, false, true}, "Poisson's ratio")));
-  keys.push_back(required(quantity(table + ".density", at(name, &Material::density), kDensity, "kg/m3",
-                                   above(0, 1e5), "Density")));
+  keys.push_back(required(quantity(table + ".youngs_modulus", {Effect::preload, Effect::cost},
+                                   at(name, &Material::youngs_modulus), kStress, "GPa", above(0, 1e13),
+                                   "Young's modulus")));
   keys.push_back(
-      choice(table + ".law", at(name, &Material::law), {"elastic", "j2"},
+      required(number(table + ".poissons_ratio", {Effect::preload, Effect::cost},
+                      at(name, &Material::poissons_ratio), {0, 0.5, false, true}, "Poisson's ratio")));
+  keys.push_back(required(quantity(table + ".density", {Effect::mesh}, at(name, &Material::density), kDensity,
+                                   "kg/m3", above(0, 1e5), "Density")));
+  keys.push_back(
+      choice(table + ".law", {Effect::motion, Effect::cost}, at(name, &Material::law), {"elastic", "j2"},
              "Law that gives the stress: `elastic` is linear and isotropic; `j2` yields after von Mises "
              "with linear isotropic and kinematic hardening. The static state is elastic"));
   const auto j2 = [&](Key key) { return only_with(table + ".law", "j2", std::move(key)); };
-  keys.push_back(required(j2(quantity(table + ".yield_stress", at(name, &Material::yield_stress), kStress,
-                                      "MPa", above(0, 1e13), "Initial yield stress in uniaxial tension"))));
   keys.push_back(
-      j2(quantity(table + ".isotropic_hardening", at(name, &Material::isotropic_hardening), kStress, "GPa",
-                  from(0, 1e13), "Growth of the yield stress with the equivalent plastic strain")));
-  keys.push_back(
-      j2(quantity(table + ".kinematic_hardening", at(name, &Material::kinematic_hardening), kStress, "GPa",
-                  from(0, 1e13), "Growth of the backstress with the uniaxial plastic strain")));
+      required(j2(quantity(table + ".yield_stress", {Effect::motion}, at(name, &Material::yield_stress),
+                           kStress, "MPa", above(0, 1e13), "Initial yield stress in uniaxial tension"))));
+  keys.push_back(j2(quantity(table + ".isotropic_hardening", {Effect::motion},
+                             at(name, &Material::isotropic_hardening), kStress, "GPa", from(0, 1e13),
+                             "Growth of the yield stress with the equivalent plastic strain")));
+  keys.push_back(j2(quantity(table + ".kinematic_hardening", {Effect::motion},
+                             at(name, &Material::kinematic_hardening), kStress, "GPa", from(0, 1e13),
+                             "Growth of the backstress with the uniaxial plastic strain")));
   const auto damping = [name](Scene& scene) -> Field {
     const auto found = scene.materials.find(name);
     if (found == scene.materials.end()) return std::monostate{};
@@ -33,6 +36,7 @@ void add_material(Keys& keys, const std::string& name) {
   };
   keys.push_back(
       {.path = table + ".damping",
+       .effects = {Effect::motion, Effect::cost},
        .kind = Kind::damping,
        .locate = damping,
        .description =
@@ -41,7 +45,8 @@ void add_material(Keys& keys, const std::string& name) {
            "\"1e-8 s\" }`: classical stiffness-proportional damping",
        .range = from(0, 1)});
   keys.push_back(
-      quantity(table + ".damping_up_to", at(name, &Material::damping_up_to), kFrequency, "kHz", above(0, 1e9),
+      quantity(table + ".damping_up_to", {Effect::motion, Effect::cost}, at(name, &Material::damping_up_to),
+               kFrequency, "kHz", above(0, 1e9),
                "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
                "nine tenths of beta w there, above it at most 1.7 times that, and a step that a beta of "
                "1e-4 s leaves too; none: at all frequencies"));
@@ -52,124 +57,143 @@ void add_wheel(Keys& keys) {
     return only_with("wheel.shape", "half_wheelset", std::move(key));
   };
   const auto tyre = [](Key key) { return only_with("wheel.shape", "tyre", std::move(key)); };
-  keys.push_back(choice("wheel.shape", at(&Scene::wheel, &WheelSpec::shape), {"half_wheelset", "tyre"},
-                        "Half a wheelset with its axle, or a plain ring"));
-  keys.push_back(material_name("wheel.material", at(&Scene::wheel, &WheelSpec::material),
+  keys.push_back(choice("wheel.shape", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::shape),
+                        {"half_wheelset", "tyre"}, "Half a wheelset with its axle, or a plain ring"));
+  keys.push_back(material_name("wheel.material", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::material),
                                "Material of the wheel or wheelset"));
-  keys.push_back(
-      or_file(choice("wheel.profile", at(&Scene::wheel, &WheelSpec::profile), {"LMA", "arc", "cylinder"},
-                     "Profile of the tread; a half wheelset takes LMA or a file of two columns (y, z), a "
-                     "tyre takes arc or cylinder")));
-  keys.push_back(quantity("wheel.diameter", at(&Scene::wheel, &WheelSpec::diameter), kLength, "m", {0.1, 3},
-                          "Diameter at the nominal rolling circle"));
-  keys.push_back(quantity("wheel.lateral_offset", at(&Scene::wheel, &WheelSpec::lateral_offset), kLength,
-                          "mm", {-0.05, 0.05},
+  keys.push_back(or_file(choice(
+      "wheel.profile", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::profile), {"LMA", "arc", "cylinder"},
+      "Profile of the tread; a half wheelset takes LMA or a file of two columns (y, z), a "
+      "tyre takes arc or cylinder")));
+  keys.push_back(quantity("wheel.diameter", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::diameter), kLength,
+                          "m", {0.1, 3}, "Diameter at the nominal rolling circle"));
+  keys.push_back(quantity("wheel.lateral_offset", {Effect::mesh},
+                          at(&Scene::wheel, &WheelSpec::lateral_offset), kLength, "mm", {-0.05, 0.05},
                           "Rail centre line in wheel coordinates, positive to the field side"));
-  keys.push_back(half_wheelset(quantity("wheel.mass", at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
-                                        above(0, 1e4), "Mass that the brake disc ring is sized to reach")));
-  keys.push_back(half_wheelset(quantity("wheel.axle_bore", at(&Scene::wheel, &WheelSpec::axle_bore), kLength,
-                                        "mm", above(0, 0.15), "Bore of the hollow axle")));
-  keys.push_back(only_with("wheel.profile", "arc",
-                           quantity("wheel.crown_radius", at(&Scene::wheel, &WheelSpec::crown_radius),
-                                    kLength, "m", above(0, 1000), "Radius of the profile across the tread")));
-  keys.push_back(tyre(quantity("wheel.width", at(&Scene::wheel, &WheelSpec::width), kLength, "mm",
-                               above(0, 1), "Width of the ring")));
-  keys.push_back(tyre(quantity("wheel.thickness", at(&Scene::wheel, &WheelSpec::thickness), kLength, "mm",
-                               above(0, 1), "Radial thickness of the ring")));
   keys.push_back(
-      tyre(choice("wheel.bore", at(&Scene::wheel, &WheelSpec::bore), {"free", "guided"},
-                  "The ring's bore: elastic and free, or on a rigid carrier that moves forward with "
-                  "motion.speed and is free to rise and to turn")));
-  keys.push_back(only_with(
-      "wheel.bore", "guided",
-      quantity("wheel.overhang", at(&Scene::wheel, &WheelSpec::overhang), kLength, "mm", above(0, 10),
-               "Tread before and behind the part that rolls on the rail; absent: the "
-               "whole ring")));
+      half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
+                             above(0, 1e4), "Mass that the brake disc ring is sized to reach")));
+  keys.push_back(
+      half_wheelset(quantity("wheel.axle_bore", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::axle_bore),
+                             kLength, "mm", above(0, 0.15), "Bore of the hollow axle")));
+  keys.push_back(
+      only_with("wheel.profile", "arc",
+                quantity("wheel.crown_radius", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::crown_radius),
+                         kLength, "m", above(0, 1000), "Radius of the profile across the tread")));
+  keys.push_back(tyre(quantity("wheel.width", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::width), kLength,
+                               "mm", above(0, 1), "Width of the ring")));
+  keys.push_back(tyre(quantity("wheel.thickness", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::thickness),
+                               kLength, "mm", above(0, 1), "Radial thickness of the ring")));
+  keys.push_back(tyre(choice(
+      "wheel.bore", {Effect::preload, Effect::cost}, at(&Scene::wheel, &WheelSpec::bore), {"free", "guided"},
+      "The ring's bore: elastic and free, or on a rigid carrier that moves forward with "
+      "motion.speed and is free to rise and to turn")));
+  keys.push_back(only_with("wheel.bore", "guided",
+                           quantity("wheel.overhang", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::overhang),
+                                    kLength, "mm", above(0, 10),
+                                    "Tread before and behind the part that rolls on the rail; absent: the "
+                                    "whole ring")));
 }
 
 void add_rail(Keys& keys) {
   const auto box = [](Key key) { return only_with("rail.profile", "box", std::move(key)); };
-  keys.push_back(
-      material_name("rail.material", at(&Scene::rail, &RailSpec::material), "Material of the rail"));
-  keys.push_back(or_file(choice("rail.profile", at(&Scene::rail, &RailSpec::profile), {"CN60", "box"},
-                                "Cross-section; also a file of two columns (y, z)")));
-  keys.push_back(number("rail.inclination", at(&Scene::rail, &RailSpec::inclination), {0, 0.1},
-                        "Slope of the rail towards the track's middle", Kind::ratio));
-  keys.push_back(quantity("rail.length", at(&Scene::rail, &RailSpec::length), kLength, "m", above(0, 1000),
-                          "Length of the rail"));
-  keys.push_back(quantity("rail.origin", at(&Scene::rail, &RailSpec::origin), kLength, "m", from(0, 1000),
+  keys.push_back(material_name("rail.material", {Effect::preload, Effect::cost},
+                               at(&Scene::rail, &RailSpec::material), "Material of the rail"));
+  keys.push_back(or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
+                                {"CN60", "box"}, "Cross-section; also a file of two columns (y, z)")));
+  keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
+                        {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio));
+  keys.push_back(quantity("rail.length", {Effect::mesh}, at(&Scene::rail, &RailSpec::length), kLength, "m",
+                          above(0, 1000), "Length of the rail"));
+  keys.push_back(quantity("rail.origin", {Effect::mesh}, at(&Scene::rail, &RailSpec::origin), kLength, "m",
+                          from(0, 1000),
                           "Distance of x = 0, the wheel's first position, from the rail's left end"));
-  keys.push_back(choice("rail.support", at(&Scene::rail, &RailSpec::support), {"fastenings", "rigid", "free"},
+  keys.push_back(choice("rail.support", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::support),
+                        {"fastenings", "rigid", "free"},
                         "What the rail stands on: fastenings, a fixed bottom, or nothing"));
-  keys.push_back(box(quantity("rail.width", at(&Scene::rail, &RailSpec::width), kLength, "mm", above(0, 1),
-                              "Width of the box")));
-  keys.push_back(box(quantity("rail.height", at(&Scene::rail, &RailSpec::height), kLength, "mm", above(0, 1),
-                              "Height of the box")));
+  keys.push_back(box(quantity("rail.width", {Effect::mesh}, at(&Scene::rail, &RailSpec::width), kLength, "mm",
+                              above(0, 1), "Width of the box")));
+  keys.push_back(box(quantity("rail.height", {Effect::mesh}, at(&Scene::rail, &RailSpec::height), kLength,
+                              "mm", above(0, 1), "Height of the box")));
   keys.push_back(
-      box(quantity("rail.crown_radius", at(&Scene::rail, &RailSpec::crown_radius), kLength, "m",
-                   from(0, 1000), "Radius of the box's running surface across the rail, 0: flat")));
+      box(quantity("rail.crown_radius", {Effect::mesh}, at(&Scene::rail, &RailSpec::crown_radius), kLength,
+                   "m", from(0, 1000), "Radius of the box's running surface across the rail, 0: flat")));
 }
 
 void add_fastenings(Keys& keys) {
-  const auto length = [&](const char* name, double FasteningSpec::*member, Bounds range,
+  const auto length = [&](const char* name, Effects effects, double FasteningSpec::*member, Bounds range,
                           const char* description) {
-    keys.push_back(quantity(name, at(&Scene::fastenings, member), kLength, "m", range, description));
+    keys.push_back(quantity(name, effects, at(&Scene::fastenings, member), kLength, "m", range, description));
   };
-  const auto count = [&](const char* name, int FasteningSpec::*member, Bounds range,
+  const auto count = [&](const char* name, Effects effects, int FasteningSpec::*member, Bounds range,
                          const char* description) {
-    keys.push_back(number(name, at(&Scene::fastenings, member), range, description, Kind::integer));
+    keys.push_back(number(name, effects, at(&Scene::fastenings, member), range, description, Kind::integer));
   };
-  count("fastenings.count", &FasteningSpec::count, {1, 10000}, "Number of fastenings");
-  length("fastenings.spacing", &FasteningSpec::spacing, above(0, 10), "Distance between neighbours");
-  length("fastenings.first", &FasteningSpec::first, from(0, 1000),
+  count("fastenings.count", {Effect::preload, Effect::cost}, &FasteningSpec::count, {1, 10000},
+        "Number of fastenings");
+  length("fastenings.spacing", {Effect::preload, Effect::cost}, &FasteningSpec::spacing, above(0, 10),
+         "Distance between neighbours");
+  length("fastenings.first", {Effect::preload, Effect::cost}, &FasteningSpec::first, from(0, 1000),
          "Distance of the first from the rail's left end");
-  keys.push_back(quantity("fastenings.stiffness", at(&Scene::fastenings, &FasteningSpec::stiffness),
-                          kStiffness, "MN/m", above(0, 1e10), "Vertical stiffness of one fastening"));
-  keys.push_back(quantity("fastenings.damping", at(&Scene::fastenings, &FasteningSpec::damping),
-                          kViscousDamping, "kN s/m", from(0, 1e7), "Vertical damping of one fastening"));
-  length("fastenings.pad_length", &FasteningSpec::pad_length, above(0, 1),
+  keys.push_back(quantity("fastenings.stiffness", {Effect::preload, Effect::cost},
+                          at(&Scene::fastenings, &FasteningSpec::stiffness), kStiffness, "MN/m",
+                          above(0, 1e10), "Vertical stiffness of one fastening"));
+  keys.push_back(quantity("fastenings.damping", {Effect::preload, Effect::cost},
+                          at(&Scene::fastenings, &FasteningSpec::damping), kViscousDamping, "kN s/m",
+                          from(0, 1e7), "Vertical damping of one fastening"));
+  length("fastenings.pad_length", {Effect::preload, Effect::cost}, &FasteningSpec::pad_length, above(0, 1),
          "Length of the pad along x: its columns of spring-dampers stand in the middle of equal parts");
-  length("fastenings.pad_width", &FasteningSpec::pad_width, above(0, 1),
+  length("fastenings.pad_width", {Effect::preload, Effect::cost}, &FasteningSpec::pad_width, above(0, 1),
          "Width of the pad: its rows of spring-dampers stand in the middle of equal parts");
-  count("fastenings.columns", &FasteningSpec::columns, {1, 20}, "Spring-dampers along x");
-  count("fastenings.rows", &FasteningSpec::rows, {1, 20}, "Spring-dampers across the rail");
+  count("fastenings.columns", {Effect::preload, Effect::cost}, &FasteningSpec::columns, {1, 20},
+        "Spring-dampers along x");
+  count("fastenings.rows", {Effect::preload, Effect::cost}, &FasteningSpec::rows, {1, 20},
+        "Spring-dampers across the rail");
 }
 
 void add_slab(Keys& keys) {
-  const auto length = [&](const char* name, double SlabSpec::*member, const char* unit, Bounds range,
-                          const char* description) {
-    keys.push_back(quantity(name, at(&Scene::slab_track, member), kLength, unit, range, description));
+  const auto length = [&](const char* name, Effects effects, double SlabSpec::*member, const char* unit,
+                          Bounds range, const char* description) {
+    keys.push_back(
+        quantity(name, effects, at(&Scene::slab_track, member), kLength, unit, range, description));
   };
-  length("slab.pitch", &SlabSpec::pitch, "m", above(0, 1000), "Length of a slab and a gap together");
-  length("slab.gap", &SlabSpec::gap, "mm", above(0, 10), "Length of the gap between slabs");
-  length("slab.first_gap", &SlabSpec::first_gap, "m", from(-1000, 1000),
+  length("slab.pitch", {Effect::mesh}, &SlabSpec::pitch, "m", above(0, 1000),
+         "Length of a slab and a gap together");
+  length("slab.gap", {Effect::mesh}, &SlabSpec::gap, "mm", above(0, 10), "Length of the gap between slabs");
+  length("slab.first_gap", {Effect::mesh}, &SlabSpec::first_gap, "m", from(-1000, 1000),
          "Distance of the first gap's centre from the rail's left end");
-  length("slab.width", &SlabSpec::width, "m", above(0, 10), "Width under one rail");
-  length("slab.thickness", &SlabSpec::thickness, "m", above(0, 10), "Thickness of the slab");
-  length("slab.mortar_thickness", &SlabSpec::mortar_thickness, "mm", above(0, 10), "Thickness of the mortar");
-  length("slab.offset", &SlabSpec::offset, "m", from(-10, 10),
+  length("slab.width", {Effect::mesh}, &SlabSpec::width, "m", above(0, 10), "Width under one rail");
+  length("slab.thickness", {Effect::mesh}, &SlabSpec::thickness, "m", above(0, 10), "Thickness of the slab");
+  length("slab.mortar_thickness", {Effect::mesh}, &SlabSpec::mortar_thickness, "mm", above(0, 10),
+         "Thickness of the mortar");
+  length("slab.offset", {Effect::mesh}, &SlabSpec::offset, "m", from(-10, 10),
          "y of the slab's middle from the rail's centre line");
-  keys.push_back(
-      material_name("slab.material", at(&Scene::slab_track, &SlabSpec::material), "Material of the slabs"));
-  keys.push_back(material_name("slab.gap_material", at(&Scene::slab_track, &SlabSpec::gap_material),
+  keys.push_back(material_name("slab.material", {Effect::preload, Effect::cost},
+                               at(&Scene::slab_track, &SlabSpec::material), "Material of the slabs"));
+  keys.push_back(material_name("slab.gap_material", {Effect::preload, Effect::cost},
+                               at(&Scene::slab_track, &SlabSpec::gap_material),
                                "Material in the gaps between slabs"));
-  keys.push_back(material_name("slab.mortar_material", at(&Scene::slab_track, &SlabSpec::mortar_material),
+  keys.push_back(material_name("slab.mortar_material", {Effect::preload, Effect::cost},
+                               at(&Scene::slab_track, &SlabSpec::mortar_material),
                                "Material of the layer under the slabs"));
 }
 
 void add_vehicle_and_load(Keys& keys) {
-  keys.push_back(quantity("vehicle.sprung_mass", at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg",
-                          above(0, 1e5), "Sprung mass M_c on this wheel"));
-  keys.push_back(quantity("vehicle.unsprung_mass", at(&Scene::vehicle, &VehicleSpec::unsprung_mass), kMass,
-                          "kg", from(0, 1e5), "Unsprung mass M_a attached to the wheelset"));
-  keys.push_back(quantity("vehicle.suspension_stiffness",
+  keys.push_back(quantity("vehicle.sprung_mass", {Effect::preload},
+                          at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg", above(0, 1e5),
+                          "Sprung mass M_c on this wheel"));
+  keys.push_back(quantity("vehicle.unsprung_mass", {Effect::preload},
+                          at(&Scene::vehicle, &VehicleSpec::unsprung_mass), kMass, "kg", from(0, 1e5),
+                          "Unsprung mass M_a attached to the wheelset"));
+  keys.push_back(quantity("vehicle.suspension_stiffness", {Effect::preload},
                           at(&Scene::vehicle, &VehicleSpec::suspension_stiffness), kStiffness, "kN/m",
                           above(0, 1e9), "Vertical stiffness K of the primary suspension"));
-  keys.push_back(quantity("vehicle.suspension_damping", at(&Scene::vehicle, &VehicleSpec::suspension_damping),
-                          kViscousDamping, "kN s/m", from(0, 1e7),
-                          "Vertical damping C of the primary suspension"));
-  keys.push_back(required(quantity("load.wheel_load", at(&Scene::load, &LoadSpec::wheel_load), kForce, "kN",
-                                   above(0, 1e7), "Downward force on the wheel")));
+  keys.push_back(quantity("vehicle.suspension_damping", {Effect::preload},
+                          at(&Scene::vehicle, &VehicleSpec::suspension_damping), kViscousDamping, "kN s/m",
+                          from(0, 1e7), "Vertical damping C of the primary suspension"));
+  keys.push_back(
+      required(quantity("load.wheel_load", {Effect::preload}, at(&Scene::load, &LoadSpec::wheel_load), kForce,
+                        "kN", above(0, 1e7), "Downward force on the wheel")));
 }
 
 }  // namespace tread::keys

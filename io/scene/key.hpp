@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
+#include "io/scene/effects.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -57,6 +58,7 @@ struct Condition {
 
 struct Key {
   std::string path;  ///< "rail.inclination"
+  Effects effects;
   Kind kind = Kind::number;
   std::function<Field(Scene&)> locate;  ///< empty for directives
   std::string description;

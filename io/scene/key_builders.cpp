@@ -4,9 +4,10 @@
 
 namespace tread::keys {
 
-Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quantity& of, std::string unit,
-             Bounds range, std::string description) {
+Key quantity(std::string path, Effects effects, std::function<Field(Scene&)> locate, const Quantity& of,
+             std::string unit, Bounds range, std::string description) {
   return {.path = std::move(path),
+          .effects = effects,
           .kind = Kind::quantity,
           .locate = std::move(locate),
           .description = std::move(description),
@@ -15,34 +16,39 @@ Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quanti
           .range = range};
 }
 
-Key number(std::string path, std::function<Field(Scene&)> locate, Bounds range, std::string description,
-           Kind kind) {
+Key number(std::string path, Effects effects, std::function<Field(Scene&)> locate, Bounds range,
+           std::string description, Kind kind) {
   return {.path = std::move(path),
+          .effects = effects,
           .kind = kind,
           .locate = std::move(locate),
           .description = std::move(description),
           .range = range};
 }
 
-Key choice(std::string path, std::function<Field(Scene&)> locate, std::vector<std::string> allowed,
-           std::string description) {
+Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locate,
+           std::vector<std::string> allowed, std::string description) {
   return {.path = std::move(path),
+          .effects = effects,
           .kind = Kind::text,
           .locate = std::move(locate),
           .description = std::move(description),
           .allowed = std::move(allowed)};
 }
 
-Key material_name(std::string path, std::function<Field(Scene&)> locate, std::string description) {
+Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,
+                  std::string description) {
   return {.path = std::move(path),
+          .effects = effects,
           .kind = Kind::text,
           .locate = std::move(locate),
           .description = std::move(description),
           .names_material = true};
 }
 
-Key flag(std::string path, std::function<Field(Scene&)> locate, std::string description) {
+Key flag(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description) {
   return {.path = std::move(path),
+          .effects = effects,
           .kind = Kind::boolean,
           .locate = std::move(locate),
           .description = std::move(description)};

@@ -1,6 +1,6 @@
 #pragma once
-// Builders of the schema's keys: what a key measures, where it lives, when it has an effect. Private to the
-// schema.
+// Builders of the schema's keys: what a key measures, where it lives, what it affects, when it has an effect.
+// Private to the schema.
 
 #include <functional>
 #include <limits>
@@ -52,15 +52,16 @@ std::function<Field(Scene&)> at(const std::string& material, Member Material::*m
   };
 }
 
-Key quantity(std::string path, std::function<Field(Scene&)> locate, const Quantity& of, std::string unit,
-             Bounds range, std::string description);
-Key number(std::string path, std::function<Field(Scene&)> locate, Bounds range, std::string description,
-           Kind kind = Kind::number);
-Key choice(std::string path, std::function<Field(Scene&)> locate, std::vector<std::string> allowed,
-           std::string description);
+Key quantity(std::string path, Effects effects, std::function<Field(Scene&)> locate, const Quantity& of,
+             std::string unit, Bounds range, std::string description);
+Key number(std::string path, Effects effects, std::function<Field(Scene&)> locate, Bounds range,
+           std::string description, Kind kind = Kind::number);
+Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locate,
+           std::vector<std::string> allowed, std::string description);
 /// A text that names the material of a part.
-Key material_name(std::string path, std::function<Field(Scene&)> locate, std::string description);
-Key flag(std::string path, std::function<Field(Scene&)> locate, std::string description);
+Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,
+                  std::string description);
+Key flag(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description);
 
 Key required(Key key);
 Key or_file(Key key);

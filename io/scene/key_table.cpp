@@ -12,37 +12,46 @@ namespace {
 
 void add_general(Keys& keys) {
   keys.push_back({.path = "scene.title",
+                  .effects = {Effect::text},
                   .kind = Kind::text,
                   .locate = at(&Scene::title),
                   .description = "Name of the scene in reports"});
   keys.push_back({.path = "scene.based_on",
+                  .effects = Effects::none(),
                   .kind = Kind::directive,
                   .locate = {},
                   .description = "Library entry whose values hold where the file states none"});
-  keys.push_back(choice("scene.quality", at(&Scene::quality), {"draft", "standard", "paper"},
+  keys.push_back(choice("scene.quality", {Effect::fineness, Effect::mesh}, at(&Scene::quality),
+                        {"draft", "standard", "paper"},
                         "Fineness of the generated mesh: elements of 2.2, 1.6 or 1.1 mm in the contact "
                         "surface; `paper` has 1.48 million in the paper's scene, where the paper had 1.46"));
   keys.push_back(
-      choice("scene.precision", at(&Scene::precision), {"double", "mixed", "single"},
+      choice("scene.precision", {Effect::fineness, Effect::motion, Effect::cost}, at(&Scene::precision),
+             {"double", "mixed", "single"},
              "Of nodes and elements while they move: `mixed` keeps displacements in double and the "
              "rest in "
              "single precision, `single` keeps them in single too. The static state, contact, "
              "frames, time and sums are in double always"));
-  keys.push_back(quantity("scene.element_size", at(&Scene::element_size), kLength, "mm", above(0, 0.1),
+  keys.push_back(quantity("scene.element_size", {Effect::fineness, Effect::mesh}, at(&Scene::element_size),
+                          kLength, "mm", above(0, 0.1),
                           "Element size in the contact surface, in place of the quality's"));
-  keys.push_back(quantity("scene.gravity", at(&Scene::gravity), kAcceleration, "m/s2", from(0, 100),
-                          "Acceleration of gravity"));
-  keys.push_back(only_with("wheel.shape", "tyre",
-                           flag("scene.plane_strain", at(&Scene::plane_strain),
-                                "Nothing moves across: a slice of a wide tyre on a wide block")));
-  keys.push_back(with_table("wheel", quantity("solution_zone.start", at(&Scene::zone_start), kLength, "m",
-                                              from(-1000, 1000), "x where the finely divided rail starts")));
-  keys.push_back(with_table("wheel", quantity("solution_zone.length", at(&Scene::zone_length), kLength, "m",
-                                              above(0, 1000), "Length of the finely divided rail")));
+  keys.push_back(quantity("scene.gravity", {Effect::preload}, at(&Scene::gravity), kAcceleration, "m/s2",
+                          from(0, 100), "Acceleration of gravity"));
+  keys.push_back(
+      only_with("wheel.shape", "tyre",
+                flag("scene.plane_strain", {Effect::preload, Effect::cost}, at(&Scene::plane_strain),
+                     "Nothing moves across: a slice of a wide tyre on a wide block")));
+  keys.push_back(
+      with_table("wheel", quantity("solution_zone.start", {Effect::mesh}, at(&Scene::zone_start), kLength,
+                                   "m", from(-1000, 1000), "x where the finely divided rail starts")));
+  keys.push_back(
+      with_table("wheel", quantity("solution_zone.length", {Effect::mesh}, at(&Scene::zone_length), kLength,
+                                   "m", above(0, 1000), "Length of the finely divided rail")));
 }
 
 Key presence_of(const SceneTable& table) {
   return {.path = table.name + ".present",
+          .effects = Effects::none(),
           .kind = Kind::directive,
           .locate = {},
           .description = "false leaves the table out"};

@@ -11,29 +11,31 @@ void add_friction(Keys& keys) {
   const auto with = [](std::vector<std::string> laws, Key key) {
     return only_with("contact.friction_law", std::move(laws), std::move(key));
   };
-  keys.push_back(choice("contact.friction_law", at(&Scene::contact, &ContactSpec::friction_law),
-                        {"coulomb", "table", "falling"},
+  keys.push_back(choice("contact.friction_law", {Effect::motion, Effect::cost},
+                        at(&Scene::contact, &ContactSpec::friction_law), {"coulomb", "table", "falling"},
                         "Coefficient of friction: one for all, along the rail by a file, or falling with "
                         "the slip speed"));
-  keys.push_back(with({"coulomb", "falling"},
-                      number("contact.friction", at(&Scene::contact, &ContactSpec::friction), {0, 2},
-                             "Coefficient of friction f; of falling friction without slip")));
-  keys.push_back(with(
-      {"falling"}, number("contact.friction_fast", at(&Scene::contact, &ContactSpec::friction_fast), {0, 2},
-                          "Coefficient of friction of fast slip; dry rails: 0.4 f after "
-                          "Polach (2005)")));
   keys.push_back(
-      with({"falling"}, quantity("contact.friction_speed", at(&Scene::contact, &ContactSpec::friction_speed),
-                                 kSpeed, "m/s", above(0, 1000),
-                                 "Slip speed that leaves 1/e of the fall; dry rails: 1.67 m/s after Polach "
-                                 "(2005), wet ones 5 m/s")));
+      with({"coulomb", "falling"},
+           number("contact.friction", {Effect::motion}, at(&Scene::contact, &ContactSpec::friction), {0, 2},
+                  "Coefficient of friction f; of falling friction without slip")));
+  keys.push_back(with({"falling"}, number("contact.friction_fast", {Effect::motion},
+                                          at(&Scene::contact, &ContactSpec::friction_fast), {0, 2},
+                                          "Coefficient of friction of fast slip; dry rails: 0.4 f after "
+                                          "Polach (2005)")));
+  keys.push_back(with(
+      {"falling"}, quantity("contact.friction_speed", {Effect::motion},
+                            at(&Scene::contact, &ContactSpec::friction_speed), kSpeed, "m/s", above(0, 1000),
+                            "Slip speed that leaves 1/e of the fall; dry rails: 1.67 m/s after Polach "
+                            "(2005), wet ones 5 m/s")));
   keys.push_back(
       with({"falling"},
-           required(quantity("contact.friction_memory", at(&Scene::contact, &ContactSpec::friction_memory),
-                             kLength, "um", from(0, 1),
+           required(quantity("contact.friction_memory", {Effect::motion},
+                             at(&Scene::contact, &ContactSpec::friction_memory), kLength, "um", from(0, 1),
                              "Sliding length over which the coefficient follows the slip speed; "
                              "above zero"))));
   Key file{.path = "contact.friction_file",
+           .effects = {Effect::motion},
            .kind = Kind::text,
            .locate = at(&Scene::contact, &ContactSpec::friction_file),
            .description =
@@ -42,9 +44,9 @@ void add_friction(Keys& keys) {
   file.takes_file = true;
   // A table of a later layer takes the place of an earlier coefficient.
   keys.push_back(with({"table"}, required(instead_of("contact.friction", std::move(file)))));
-  keys.push_back(
-      with({"table"}, quantity("contact.friction_start", at(&Scene::contact, &ContactSpec::friction_start),
-                               kLength, "m", from(-1000, 1000), "x on the rail where the file's x is zero")));
+  keys.push_back(with({"table"}, quantity("contact.friction_start", {Effect::motion},
+                                          at(&Scene::contact, &ContactSpec::friction_start), kLength, "m",
+                                          from(-1000, 1000), "x on the rail where the file's x is zero")));
 }
 
 }  // namespace
@@ -52,88 +54,100 @@ void add_friction(Keys& keys) {
 void add_contact(Keys& keys) {
   add_friction(keys);
   keys.push_back(
-      number("contact.penetration_ratio", at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
+      number("contact.penetration_ratio", {Effect::preload},
+             at(&Scene::contact, &ContactSpec::penetration_ratio), above(0, 0.5),
              "Penetration divided by the Hertz approach: sets the penalty stiffness; absent: 10 E / element "
              "size, E the harmonic mean of wheel and rail, but at most 2 %"));
-  keys.push_back(quantity("contact.depth_room", at(&Scene::contact, &ContactSpec::depth_room), kLength, "mm",
-                          from(0, 0.01),
+  keys.push_back(quantity("contact.depth_room", {Effect::room, Effect::cost},
+                          at(&Scene::contact, &ContactSpec::depth_room), kLength, "mm", from(0, 0.01),
                           "Corrugation depth that the searched surface has room for: the deepest that a fork "
                           "of the run may have; absent: the scene's own, with [forks] at least 0.2 mm"));
-  keys.push_back(choice("contact.surface", at(&Scene::contact, &ContactSpec::surface), {"exact", "facets"},
+  keys.push_back(choice("contact.surface", {Effect::preload}, at(&Scene::contact, &ContactSpec::surface),
+                        {"exact", "facets"},
                         "Surface that the gap is measured to: the profile's curves or the element faces"));
-  keys.push_back(number("contact.points", at(&Scene::contact, &ContactSpec::points), {1, 4},
+  keys.push_back(number("contact.points", {Effect::preload, Effect::cost},
+                        at(&Scene::contact, &ContactSpec::points), {1, 4},
                         "Integration points per face and direction", Kind::integer));
 }
 
 void add_motion(Keys& keys) {
   const auto rolling = [](Key key) { return with_table("wheel", std::move(key)); };
-  keys.push_back(rolling(quantity("motion.speed", at(&Scene::motion, &MotionSpec::speed), kSpeed, "km/h",
-                                  from(0, 300), "Forward speed at the start")));
-  keys.push_back(quantity("motion.duration", at(&Scene::motion, &MotionSpec::duration), kTime, "s",
-                          above(0, 100), "Simulated time"));
-  keys.push_back(rolling(instead_of("motion.traction.torque",
-                                    number("motion.traction.mu", at(&Scene::motion, &MotionSpec::traction_mu),
-                                           {-2, 2}, "Target traction coefficient; negative brakes"))));
+  keys.push_back(rolling(quantity("motion.speed", {Effect::preload}, at(&Scene::motion, &MotionSpec::speed),
+                                  kSpeed, "km/h", from(0, 300), "Forward speed at the start")));
+  keys.push_back(quantity("motion.duration", {Effect::duration}, at(&Scene::motion, &MotionSpec::duration),
+                          kTime, "s", above(0, 100), "Simulated time"));
   keys.push_back(rolling(
-      instead_of("motion.traction.mu",
-                 quantity("motion.traction.torque", at(&Scene::motion, &MotionSpec::traction_torque), kTorque,
-                          "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
-  keys.push_back(rolling(quantity("motion.traction.ramp", at(&Scene::motion, &MotionSpec::ramp), kTime, "ms",
-                                  from(0, 100), "Time T1 in which the torque grows from zero")));
+      instead_of("motion.traction.torque",
+                 number("motion.traction.mu", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_mu),
+                        {-2, 2}, "Target traction coefficient; negative brakes"))));
+  keys.push_back(rolling(instead_of(
+      "motion.traction.mu",
+      quantity("motion.traction.torque", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_torque),
+               kTorque, "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
   keys.push_back(
-      rolling(choice("motion.traction.shape", at(&Scene::motion, &MotionSpec::ramp_shape),
+      rolling(quantity("motion.traction.ramp", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp), kTime,
+                       "ms", from(0, 100), "Time T1 in which the torque grows from zero")));
+  keys.push_back(
+      rolling(choice("motion.traction.shape", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp_shape),
                      {"linear", "smooth"}, "How it grows and reverses: evenly, or as half a cosine")));
-  keys.push_back(rolling(
-      number("motion.traction.reversals", at(&Scene::motion, &MotionSpec::reversals), {0, 1000},
-             "How often the full torque then turns into its opposite, each time in 2 T1", Kind::integer)));
-  keys.push_back(rolling(flag("motion.spin_in_preload", at(&Scene::motion, &MotionSpec::spin_in_preload),
+  keys.push_back(rolling(number(
+      "motion.traction.reversals", {Effect::motion}, at(&Scene::motion, &MotionSpec::reversals), {0, 1000},
+      "How often the full torque then turns into its opposite, each time in 2 T1", Kind::integer)));
+  keys.push_back(rolling(flag("motion.spin_in_preload", {Effect::preload},
+                              at(&Scene::motion, &MotionSpec::spin_in_preload),
                               "Whether the static state carries the spin's body force")));
-  keys.push_back(
-      rolling(number("motion.creepage", at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
-                     "Creepage at the start, relative to free rolling; -2: a locked wheel")));
+  keys.push_back(rolling(number("motion.creepage", {Effect::preload},
+                                at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
+                                "Creepage at the start, relative to free rolling; -2: a locked wheel")));
   keys.push_back(rolling(
-      choice("motion.start", at(&Scene::motion, &MotionSpec::start), {"auto", "rigid", "moving", "rolling"},
+      choice("motion.start", {Effect::preload}, at(&Scene::motion, &MotionSpec::start),
+             {"auto", "rigid", "moving", "rolling"},
              "Motion at t = 0: of rigid bodies, with the static deflection moving along, or that of a "
              "wheel that has been rolling over the fastenings; auto: rolling on [fastenings], else moving")));
-  keys.push_back(number("motion.step_safety", at(&Scene::motion, &MotionSpec::step_safety), above(0, 1),
+  keys.push_back(number("motion.step_safety", {Effect::motion, Effect::cost},
+                        at(&Scene::motion, &MotionSpec::step_safety), above(0, 1),
                         "Time step divided by the stable step"));
 }
 
 void add_corrugation(Keys& keys) {
   const auto sine = [](Key key) { return only_with("corrugation.kind", "sine", std::move(key)); };
-  const auto length = [](const char* name, auto member, const char* unit, Bounds range,
+  const auto length = [](const char* name, Effects effects, auto member, const char* unit, Bounds range,
                          const char* description) {
-    return quantity(name, at(&Scene::corrugation, member), kLength, unit, range, description);
+    return quantity(name, effects, at(&Scene::corrugation, member), kLength, unit, range, description);
   };
   const auto random = [](Key key) { return only_with("corrugation.kind", "random", std::move(key)); };
-  keys.push_back(choice("corrugation.kind", at(&Scene::corrugation, &CorrugationSpec::kind),
-                        {"sine", "table", "random"}, "Sine waves, measured depths, or random roughness"));
-  keys.push_back(sine(
-      length("corrugation.wavelength", &CorrugationSpec::wavelength, "mm", above(0, 10), "Wavelength L")));
-  keys.push_back(sine(length("corrugation.depth", &CorrugationSpec::depth, "mm", above(0, 0.01),
-                             "Depth d_m from crest to trough")));
-  keys.push_back(length("corrugation.width", &CorrugationSpec::width, "mm", above(0, 0.1),
+  keys.push_back(choice("corrugation.kind", {Effect::surface},
+                        at(&Scene::corrugation, &CorrugationSpec::kind), {"sine", "table", "random"},
+                        "Sine waves, measured depths, or random roughness"));
+  keys.push_back(sine(length("corrugation.wavelength", {Effect::surface}, &CorrugationSpec::wavelength, "mm",
+                             above(0, 10), "Wavelength L")));
+  keys.push_back(sine(length("corrugation.depth", {Effect::surface}, &CorrugationSpec::depth, "mm",
+                             above(0, 0.01), "Depth d_m from crest to trough")));
+  keys.push_back(length("corrugation.width", {Effect::surface}, &CorrugationSpec::width, "mm", above(0, 0.1),
                         "Half width W across the rail, where the depth has fallen to zero"));
-  keys.push_back(length("corrugation.start", &CorrugationSpec::start, "m", from(-1000, 1000),
-                        "x_s where it starts, a sine at a crest"));
+  keys.push_back(length("corrugation.start", {Effect::surface}, &CorrugationSpec::start, "m",
+                        from(-1000, 1000), "x_s where it starts, a sine at a crest"));
   keys.push_back(
       only_with("corrugation.kind", std::vector<std::string>{"sine", "random"},
-                length("corrugation.length", &CorrugationSpec::length, "m", above(0, 1000),
+                length("corrugation.length", {Effect::surface}, &CorrugationSpec::length, "m", above(0, 1000),
                        "Length that the whole waves must fit into; of the roughness, which fades over half "
                        "the longest wave at either end")));
-  keys.push_back(random(length("corrugation.rms", &CorrugationSpec::rms, "um", above(0, 0.01),
-                               "Root mean square of the roughness")));
-  keys.push_back(random(length("corrugation.shortest", &CorrugationSpec::shortest, "mm", above(0, 10),
-                               "Shortest wave of the roughness")));
-  keys.push_back(random(length("corrugation.longest", &CorrugationSpec::longest, "mm", above(0, 10),
-                               "Longest wave of the roughness")));
-  keys.push_back(random(number("corrugation.seed", at(&Scene::corrugation, &CorrugationSpec::seed), {0, 2e9},
-                               "Draws the phases of the roughness' waves", Kind::integer)));
-  keys.push_back(length("corrugation.centre", &CorrugationSpec::centre, "mm", {-0.1, 0.1},
+  keys.push_back(random(length("corrugation.rms", {Effect::surface}, &CorrugationSpec::rms, "um",
+                               above(0, 0.01), "Root mean square of the roughness")));
+  keys.push_back(random(length("corrugation.shortest", {Effect::surface}, &CorrugationSpec::shortest, "mm",
+                               above(0, 10), "Shortest wave of the roughness")));
+  keys.push_back(random(length("corrugation.longest", {Effect::surface}, &CorrugationSpec::longest, "mm",
+                               above(0, 10), "Longest wave of the roughness")));
+  keys.push_back(
+      random(number("corrugation.seed", {Effect::surface}, at(&Scene::corrugation, &CorrugationSpec::seed),
+                    {0, 2e9}, "Draws the phases of the roughness' waves", Kind::integer)));
+  keys.push_back(length("corrugation.centre", {Effect::surface}, &CorrugationSpec::centre, "mm", {-0.1, 0.1},
                         "y of the deepest line; absent: at the preload's largest pressure"));
-  keys.push_back(choice("corrugation.apply", at(&Scene::corrugation, &CorrugationSpec::apply),
-                        {"nodes", "gap"}, "By moved nodes, or added to the contact gap"));
+  keys.push_back(choice("corrugation.apply", {Effect::surface},
+                        at(&Scene::corrugation, &CorrugationSpec::apply), {"nodes", "gap"},
+                        "By moved nodes, or added to the contact gap"));
   Key file{.path = "corrugation.file",
+           .effects = {Effect::surface},
            .kind = Kind::text,
            .locate = at(&Scene::corrugation, &CorrugationSpec::file),
            .description =
@@ -144,55 +158,64 @@ void add_corrugation(Keys& keys) {
 }
 
 void add_wear(Keys& keys) {
-  keys.push_back(quantity("wear.coefficient", at(&Scene::wear, &WearSpec::coefficient), kWear, "ug/N/m",
-                          above(0, 1e-3),
+  keys.push_back(quantity("wear.coefficient", {Effect::wear}, at(&Scene::wear, &WearSpec::coefficient), kWear,
+                          "ug/N/m", above(0, 1e-3),
                           "Mass worn off per frictional work: 2.5e-9 kg/(N m) is usual for mild wear, after "
                           "Krause and Poll (1984)"));
-  keys.push_back(number("wear.change", at(&Scene::wear, &WearSpec::change), above(0, 1),
+  keys.push_back(number("wear.change", {Effect::wear}, at(&Scene::wear, &WearSpec::change), above(0, 1),
                         "Change of the depth by one simulated passage over the depth, at the most: how many "
                         "passages it stands for"));
-  keys.push_back(quantity("wear.shortest", at(&Scene::wear, &WearSpec::shortest), kLength, "mm", above(0, 10),
+  keys.push_back(quantity("wear.shortest", {Effect::wear}, at(&Scene::wear, &WearSpec::shortest), kLength,
+                          "mm", above(0, 10),
                           "Shortest wave that wear changes; what is shorter is taken for the mesh's noise"));
-  keys.push_back(quantity("wear.longest", at(&Scene::wear, &WearSpec::longest), kLength, "mm", above(0, 10),
-                          "Longest wave that wear changes"));
+  keys.push_back(quantity("wear.longest", {Effect::wear}, at(&Scene::wear, &WearSpec::longest), kLength, "mm",
+                          above(0, 10), "Longest wave that wear changes"));
 }
 
 void add_impacts_and_output(Keys& keys) {
-  keys.push_back(required(quantity("pulse.velocity", at(&Scene::pulse, &PulseSpec::velocity), kSpeed, "m/s",
-                                   {-1000, 1000}, "Initial velocity along x of the bar's left end")));
-  keys.push_back(required(quantity("pulse.length", at(&Scene::pulse, &PulseSpec::length), kLength, "m",
-                                   above(0, 1000), "Length of the part that has it")));
-  keys.push_back(quantity("hammer.position", at(&Scene::hammer, &HammerSpec::position), kLength, "m",
-                          from(-1000, 1000), "x of the struck point on the rail's crown"));
-  keys.push_back(required(quantity("hammer.force", at(&Scene::hammer, &HammerSpec::force), kForce, "kN",
-                                   {-1e6, 1e6}, "Largest force of the blow, downwards")));
-  keys.push_back(required(quantity("hammer.duration", at(&Scene::hammer, &HammerSpec::duration), kTime, "ms",
-                                   above(0, 1), "Duration of the blow, a half sine from t = 0 on")));
-  keys.push_back(quantity("forks.at", at(&Scene::forks, &ForkSpec::at), kTime, "ms", from(0, 100),
+  keys.push_back(
+      required(quantity("pulse.velocity", {Effect::motion}, at(&Scene::pulse, &PulseSpec::velocity), kSpeed,
+                        "m/s", {-1000, 1000}, "Initial velocity along x of the bar's left end")));
+  keys.push_back(required(quantity("pulse.length", {Effect::motion}, at(&Scene::pulse, &PulseSpec::length),
+                                   kLength, "m", above(0, 1000), "Length of the part that has it")));
+  keys.push_back(quantity("hammer.position", {Effect::motion}, at(&Scene::hammer, &HammerSpec::position),
+                          kLength, "m", from(-1000, 1000), "x of the struck point on the rail's crown"));
+  keys.push_back(required(quantity("hammer.force", {Effect::motion}, at(&Scene::hammer, &HammerSpec::force),
+                                   kForce, "kN", {-1e6, 1e6}, "Largest force of the blow, downwards")));
+  keys.push_back(
+      required(quantity("hammer.duration", {Effect::motion}, at(&Scene::hammer, &HammerSpec::duration), kTime,
+                        "ms", above(0, 1), "Duration of the blow, a half sine from t = 0 on")));
+  keys.push_back(quantity("forks.at", {Effect::forks}, at(&Scene::forks, &ForkSpec::at), kTime, "ms",
+                          from(0, 100),
                           "Time of the state; absent: 20 mm before the patch meets the corrugation, or the "
                           "solution zone of a smooth rail"));
-  keys.push_back(quantity("output.history_interval", at(&Scene::output, &OutputSpec::history_interval), kTime,
-                          "s", above(0, 100), "Simulated time between samples of the histories"));
-  keys.push_back(quantity("output.progress_interval", at(&Scene::output, &OutputSpec::progress_interval),
-                          kTime, "s", above(0, 1e5), "Wall-clock time between progress lines"));
-  keys.push_back(quantity("output.checkpoint_interval", at(&Scene::output, &OutputSpec::checkpoint_interval),
-                          kTime, "min", above(0, 1e7), "Wall-clock time between checkpoints"));
+  keys.push_back(quantity("output.history_interval", {Effect::output},
+                          at(&Scene::output, &OutputSpec::history_interval), kTime, "s", above(0, 100),
+                          "Simulated time between samples of the histories"));
+  keys.push_back(quantity("output.progress_interval", {Effect::process},
+                          at(&Scene::output, &OutputSpec::progress_interval), kTime, "s", above(0, 1e5),
+                          "Wall-clock time between progress lines"));
+  keys.push_back(quantity("output.checkpoint_interval", {Effect::process},
+                          at(&Scene::output, &OutputSpec::checkpoint_interval), kTime, "min", above(0, 1e7),
+                          "Wall-clock time between checkpoints"));
   keys.push_back(
-      number("output.frames", at(&Scene::output, &OutputSpec::frames), {0, 1e6},
+      number("output.frames", {Effect::output}, at(&Scene::output, &OutputSpec::frames), {0, 1e6},
              "Frames for ParaView, evenly over the duration from the first step to the last; 0: none",
              Kind::integer));
-  keys.push_back(choice("output.frame_cells", at(&Scene::output, &OutputSpec::frame_cells),
+  keys.push_back(choice("output.frame_cells", {Effect::output}, at(&Scene::output, &OutputSpec::frame_cells),
                         {"faces", "elements"},
                         "What frames show: the outer faces of the bodies, or all elements"));
-  keys.push_back(quantity("output.disk_limit", at(&Scene::output, &OutputSpec::disk_limit), kData, "GB",
-                          above(0, 1e15), "What the run's folder may take; more than that ends the run"));
-  keys.push_back(number("stop.steps", at(&Scene::stop, &StopSpec::steps), {0, 2e9},
+  keys.push_back(quantity("output.disk_limit", {Effect::process}, at(&Scene::output, &OutputSpec::disk_limit),
+                          kData, "GB", above(0, 1e15),
+                          "What the run's folder may take; more than that ends the run"));
+  keys.push_back(number("stop.steps", {Effect::stop}, at(&Scene::stop, &StopSpec::steps), {0, 2e9},
                         "Steps after which the run ends; 0: any number", Kind::integer));
-  keys.push_back(quantity("stop.wall_time", at(&Scene::stop, &StopSpec::wall_time), kTime, "h", above(0, 1e8),
+  keys.push_back(quantity("stop.wall_time", {Effect::stop}, at(&Scene::stop, &StopSpec::wall_time), kTime,
+                          "h", above(0, 1e8),
                           "Time of the process after which it leaves a checkpoint and ends"));
-  keys.push_back(
-      with_table("contact", quantity("stop.penetration", at(&Scene::stop, &StopSpec::penetration), kLength,
-                                     "um", above(0, 1), "Penetration that ends the run")));
+  keys.push_back(with_table(
+      "contact", quantity("stop.penetration", {Effect::stop}, at(&Scene::stop, &StopSpec::penetration),
+                          kLength, "um", above(0, 1), "Penetration that ends the run")));
 }
 
 }  // namespace tread::keys

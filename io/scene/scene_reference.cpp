@@ -36,6 +36,27 @@ nothing.
   errors; all are reported at once with file, line and column.
 
 "required" means that the key must be given where its table is present.
+
+"affects" names the first thing that another value changes; the rest follows from it. A new *mesh* means a new static
+state, a new static state (*preload*) another *motion*. Runs with equal mesh and preload share that from the preload cache;
+a fork (`tread run --from`) may differ in all that affects none of mesh, preload and motion.
+
+| affects | which means |
+|---|---|
+| text | what reports call the scene |
+| fineness | how finely the same passage is computed |
+| mesh | nodes, elements and ties of the smooth bodies |
+| preload | the static state on the same mesh |
+| motion | the motion from the same static state |
+| cost | step, memory or disk of the same mesh |
+| surface | the depth of the corrugation |
+| room | the depth that the searched surface has room for |
+| duration | how long the motion is followed, and the stretch of track for that |
+| output | what the run's folder tells of the motion |
+| process | how the process shows progress and saves its state |
+| stop | what ends the process before the duration |
+| forks | the state that is kept for other runs |
+| wear | how `tread develop` goes from a passage to the next |
 )";
 
 /// A cell of a Markdown table.
@@ -81,14 +102,15 @@ std::string meaning_of(const Key& key) {
 
 std::string table_section(const SceneTable& table, const std::vector<Key>& keys, Scene& scene) {
   std::string text = fmt::format("\n### [{}]\n\n{}\n\n", table.name, table.description);
-  text += "| key | default | allowed | meaning |\n|---|---|---|---|\n";
+  text += "| key | default | allowed | affects | meaning |\n|---|---|---|---|---|\n";
   for (const Key& key : keys) {
     if (table_of(key.path)->name != table.name) continue;
     const std::string name = key.path.substr(table.name.size() + 1);
     const bool directive = key.kind == Kind::directive;
     if (directive && table.removable()) continue;
-    text += fmt::format("| `{}` | {} | {} | {} |\n", name, directive ? "none" : default_of(key, scene),
-                        directive ? "a library entry" : cell(allowed_of(key)), cell(meaning_of(key)));
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, directive ? "none" : default_of(key, scene),
+                        directive ? "a library entry" : cell(allowed_of(key)),
+                        directive ? "what it brings" : key.effects.names(), cell(meaning_of(key)));
   }
   return text;
 }

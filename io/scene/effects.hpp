@@ -1,0 +1,64 @@
+#pragma once
+// What the value of a key has an effect on. Each key of the schema states its effects; caches, forks, studies
+// and the dial ask them.
+
+#include <initializer_list>
+#include <string>
+
+namespace tread {
+
+/// An effect includes those that follow from it: another mesh is another static state, another static state
+/// is another motion. A key states the first of them alone.
+enum class Effect : unsigned {
+  text,      ///< what reports call the scene
+  fineness,  ///< how finely the same passage is computed
+  mesh,      ///< nodes, elements and ties of the smooth bodies
+  preload,   ///< static state on the same mesh
+  motion,    ///< motion from the same static state
+  cost,      ///< step, memory or disk of the same mesh
+  surface,   ///< depth of the corrugation, by moved nodes or in the contact gap
+  room,      ///< depth that the searched surface has room for
+  duration,  ///< how long the motion is followed
+  output,    ///< what the run's folder tells of the motion
+  process,   ///< how the process shows progress and saves its state
+  stop,      ///< what ends the process before the duration
+  forks,     ///< the state that is kept for other runs
+  wear       ///< how `tread develop` goes from a passage to the next
+};
+
+class Effects {
+ public:
+  constexpr Effects(std::initializer_list<Effect> effects) {
+    for (const Effect effect : effects) bits_ |= bit(effect);
+  }
+  /// Of keys that say how a scene is read; those of a table's presence: the table's values come and go.
+  static constexpr Effects none() { return Effects({}); }
+
+  constexpr bool has(Effect effect) const { return (bits_ & bit(effect)) != 0; }
+  constexpr bool any_of(Effects others) const { return (bits_ & others.bits_) != 0; }
+  constexpr bool only(Effects others) const { return (bits_ & ~others.bits_) == 0; }
+
+  /// Whether the value enters the static state of a run over the same stretch of track. Many keys act on that
+  /// stretch together: compare it by itself (run_span).
+  constexpr bool on_preload() const { return any_of({Effect::mesh, Effect::preload}); }
+  /// Whether the value enters the motion of a run over a smooth rail.
+  constexpr bool on_smooth_motion() const { return any_of({Effect::mesh, Effect::preload, Effect::motion}); }
+  /// Whether runs that differ in the value differ in their results.
+  constexpr bool on_results() const {
+    return on_smooth_motion() || any_of({Effect::surface, Effect::duration, Effect::output, Effect::wear});
+  }
+  /// Whether the value enters the mesh, step, memory or disk of a run over a smooth rail of the same
+  /// duration.
+  constexpr bool on_cost() const { return any_of({Effect::mesh, Effect::cost, Effect::output}); }
+
+  /// "mesh, cost"; "" of none.
+  std::string names() const;
+
+  constexpr bool operator==(const Effects&) const = default;
+
+ private:
+  static constexpr unsigned bit(Effect effect) { return 1U << static_cast<unsigned>(effect); }
+  unsigned bits_ = 0;
+};
+
+}  // namespace tread

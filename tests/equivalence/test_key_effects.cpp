@@ -1,0 +1,478 @@
+// Every key of a scene, changed in turn: what changes in the bits is what the key states (Effects), no less
+// and no more.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/math/hash.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/disk_use.hpp"
+#include "drivers/results/inventory.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/scene/schema.hpp"
+#include "tests/state_copies.hpp"
+
+namespace tread {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+/// A tyre that rolls over a bar on two fastenings and a slab: every part but a half wheelset, in seconds.
+constexpr const char* kTrack = R"(
+[scene]
+title = "tyre on a short track"
+element_size = "14 mm"
+[solution_zone]
+start = "0 mm"
+length = "200 mm"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0.3
+density = "7790 kg/m3"
+damping = { kind = "rayleigh_beta", value = "1e-8 s" }
+[material.hard]
+youngs_modulus = "300 GPa"
+poissons_ratio = 0.25
+density = "9000 kg/m3"
+[material.slab]
+youngs_modulus = "34.5 GPa"
+poissons_ratio = 0.2
+density = "2400 kg/m3"
+[material.gap_filler]
+youngs_modulus = "0.1 GPa"
+poissons_ratio = 0.3
+density = "1200 kg/m3"
+[wheel]
+shape = "tyre"
+profile = "arc"
+lateral_offset = "0 mm"
+[rail]
+profile = "box"
+inclination = 0
+length = "1.2 m"
+origin = "0.6 m"
+[fastenings]
+count = 2
+spacing = "0.6 m"
+first = "0.3 m"
+pad_length = "60 mm"
+pad_width = "40 mm"
+damping = "20 kN s/m"
+columns = 2
+rows = 2
+[slab]
+pitch = "0.6 m"
+gap = "50 mm"
+width = "0.4 m"
+mortar_material = "hard"
+[load]
+wheel_load = "40 kN"
+[contact]
+penetration_ratio = 0.05
+[motion]
+speed = "40 km/h"
+duration = "1 ms"
+creepage = 0.01
+start = "rolling"
+[motion.traction]
+mu = 0.1
+ramp = "5 us"
+reversals = 1
+[wear]
+[forks]
+at = "0.1 ms"
+[output]
+frames = 4
+)";
+
+struct BaseScene {
+  const char* text;
+  Overrides overrides;
+};
+
+/// Scenes that have the keys which the track lacks.
+const BaseScene& base_scene(const std::string& name) {
+  static const Overrides kSines = {"corrugation.apply=gap", "corrugation.start=0 mm",
+                                   "corrugation.length=170 mm"};
+  static const std::string kBar = R"(
+[scene]
+title = "bar"
+element_size = "10 mm"
+gravity = "0 m/s2"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0
+density = "7790 kg/m3"
+[rail]
+profile = "box"
+support = "free"
+inclination = 0
+length = "1 m"
+origin = "0 m"
+width = "20 mm"
+height = "20 mm"
+[pulse]
+velocity = "1 m/s"
+length = "0.1 m"
+[motion]
+duration = "0.1 ms"
+)";
+  static const std::map<std::string, BaseScene> kScenes = {
+      {"track", {kTrack, kSines}},
+      {"sprung",
+       {kTrack,
+        {"load.present=false", "vehicle.sprung_mass=500 kg", "vehicle.unsprung_mass=3500 kg",
+         "fastenings.spacing=0.3 m", "fastenings.first=0.45 m"}}},
+      {"guided", {kTrack, {"wear.present=false", "wheel.bore=guided", "motion.start=moving"}}},
+      {"yielding",
+       {kTrack,
+        {"material.steel.law=j2", "material.steel.yield_stress=100 MPa",
+         "material.steel.isotropic_hardening=1 GPa", "motion.start=moving"}}},
+      {"random",
+       {kTrack,
+        {"corrugation.kind=random", "corrugation.apply=gap", "corrugation.start=0 mm",
+         "corrugation.length=170 mm", "corrugation.shortest=40 mm", "corrugation.longest=80 mm"}}},
+      {"measured",
+       {kTrack,
+        {"corrugation.kind=table", "corrugation.apply=gap", "corrugation.start=0 mm",
+         "corrugation.file=depth.txt"}}},
+      {"falling", {kTrack, {"contact.friction_law=falling", "contact.friction_memory=100 um"}}},
+      {"spotted", {kTrack, {"contact.friction_law=table", "contact.friction_file=friction.txt"}}},
+      {"wheelset",
+       {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
+        {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
+         "solution_zone.start=0 m", "solution_zone.length=10 mm", "motion.duration=0.1 ms"}}},
+      {"bar", {kBar.c_str(), {}}},
+      {"hammer",
+       {kBar.c_str(),
+        {"pulse.present=false", "rail.support=rigid", "hammer.position=0.3 m", "hammer.force=1 kN",
+         "hammer.duration=20 us"}}},
+  };
+  return kScenes.at(name);
+}
+
+Scene resolve(const std::string& name, const Overrides& more) {
+  const BaseScene& base = base_scene(name);
+  Overrides overrides = base.overrides;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  SceneSource source{name, base.text, "/nowhere"};
+  source.files = {{"/nowhere/depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.02\n100 0\n"},
+                  {"/nowhere/other_depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.03\n100 0\n"},
+                  {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
+                  {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"}};
+  return resolve_scene(source, overrides).scene;
+}
+
+/// Hashes of what a scene leads to on a given mesh.
+struct Bits {
+  std::uint64_t cost = 0;
+  std::uint64_t preload = 0;
+  std::uint64_t surface = 0;
+  std::uint64_t motion = 0;
+};
+
+void add(Hash& hash, const Vec3& v) {
+  for (const double value : {v.x, v.y, v.z}) hash.add(value);
+}
+
+std::uint64_t mesh_bits(const Model& model) {
+  Hash hash;
+  for (const SweptBlock& block : model.mesh.blocks) {
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        add(hash, position(block, node, station));
+        hash.add(static_cast<std::uint64_t>(block.base + block.slot(node, station)));
+      }
+    for (const Tile& tile : block.tiles)
+      hash.add(static_cast<std::uint64_t>(
+          block.classes[static_cast<std::size_t>(tile.pitch_class)].material_offset));
+  }
+  return hash.value();
+}
+
+/// Memory, step and disk over the same time.
+std::uint64_t cost_bits(const Model& model, double dt) {
+  constexpr double kSteps = 1000;
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(model.elements()));
+  hash.add(static_cast<std::uint64_t>(peak_bytes(model)));
+  hash.add(dt);
+  hash.add(model.contact ? model.contact->reach() : 0.0);
+  const DiskUse disk = disk_use(model, model.scene.motion->duration / kSteps);
+  for (const std::int64_t bytes : {disk.rows, disk.results, disk.frames, disk.checkpoints})
+    hash.add(static_cast<std::uint64_t>(bytes));
+  return hash.value();
+}
+
+std::uint64_t preload_bits(Preload& preload) {
+  StateList list;
+  list.add("displacement", std::span<double>(preload.displacement));
+  list.add("wheel", preload.wheel);
+  if (preload.run_in) list.add_part("run_in", *preload.run_in);
+  Hash hash;
+  for (const StateList::Field& field : list.fields()) {
+    const std::string bytes = samples::bytes(field);
+    hash.add(std::as_bytes(std::span(bytes)));
+  }
+  return hash.value();
+}
+
+std::uint64_t surface_bits(Model& model) {
+  if (!model.scene.corrugation) return 0;
+  model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
+  Hash hash;
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (const auto& [slot, shift] : block.node_shift) add(hash, shift);
+  for (double x = -0.2; x < 0.3; x += 0.0037)
+    for (const double y : {-0.01, 0.0, 0.013}) hash.add(model.contact->corrugation().depth(x, y));
+  return hash.value();
+}
+
+Bits bits_of(const Scene& scene) {
+  constexpr int kSteps = 12;
+  Model model(scene);
+  Bits bits;
+  const double dt = scene.motion->step_safety * step_limit(model).stable_step;
+  bits.cost = cost_bits(model, dt);
+  Preload preload = solve_preload(model, steady_motion(model), [](const std::string&) {});
+  bits.preload = preload_bits(preload);
+  {
+    Simulation simulation(model, preload, dt);
+    for (int step = 0; step < kSteps; ++step) simulation.step();
+    bits.motion = simulation.state_hash();
+  }
+  bits.surface = surface_bits(model);
+  return bits;
+}
+
+/// Another value of a key in a scene; `with`: what the key needs besides, before and after; `then`: after
+/// alone.
+struct Change {
+  std::string key;
+  std::string value;
+  std::string scene = "track";
+  Overrides with = {};
+  Overrides then = {};
+};
+
+const std::vector<Change>& changes() {
+  static const Overrides kSliding = {"motion.speed=300 km/h", "motion.creepage=-1", "motion.start=moving"};
+  static const std::vector<Change> kChanges = {
+      {"scene.title", "another"},
+      {"scene.quality", "standard", "wheelset"},
+      {"scene.precision", "mixed"},
+      {"scene.element_size", "13 mm"},
+      {"scene.gravity", "9.8 m/s2"},
+      {"scene.plane_strain", "true"},
+      {"solution_zone.start", "-20 mm"},
+      {"solution_zone.length", "220 mm"},
+      {"material.steel.youngs_modulus", "206 GPa"},
+      {"material.steel.poissons_ratio", "0.29"},
+      {"material.steel.density", "7800 kg/m3", "wheelset"},
+      {"material.steel.law", "j2", "track", {"motion.start=moving"}, {"material.steel.yield_stress=100 MPa"}},
+      {"material.steel.yield_stress", "120 MPa", "yielding"},
+      {"material.steel.isotropic_hardening", "2 GPa", "yielding"},
+      {"material.steel.kinematic_hardening", "2 GPa", "yielding"},
+      {"material.steel.damping", "{ kind = \"rayleigh_beta\", value = \"2e-8 s\" }"},
+      {"material.steel.damping_up_to", "20 kHz"},
+      {"wheel.shape", "tyre", "wheelset", {}, {"wheel.profile=cylinder"}},
+      {"wheel.material",
+       "light",
+       "wheelset",
+       {"material.light.youngs_modulus=205.9 GPa", "material.light.poissons_ratio=0.3",
+        "material.light.density=7600 kg/m3", "rail.material=light"}},
+      {"wheel.profile", "cylinder"},
+      {"wheel.diameter", "0.87 m"},
+      {"wheel.lateral_offset", "1 mm"},
+      {"wheel.mass", "600 kg", "wheelset"},
+      {"wheel.axle_bore", "58 mm", "wheelset"},
+      {"wheel.crown_radius", "0.31 m"},
+      {"wheel.width", "62 mm"},
+      {"wheel.thickness", "61 mm"},
+      {"wheel.bore", "guided", "track", {"motion.start=moving"}},
+      {"wheel.overhang", "0.2 m", "guided", {"scene.gravity=0 m/s2"}},
+      {"rail.material", "hard", "track", {"motion.start=moving"}},
+      {"rail.profile", "CN60", "track", {"scene.element_size=11 mm"}},
+      {"rail.inclination", "0.01", "wheelset"},
+      {"rail.length", "1.3 m"},
+      {"rail.origin", "0.62 m"},
+      {"rail.support",
+       "fastenings",
+       "hammer",
+       {"scene.gravity=9.81 m/s2"},
+       {"fastenings.count=2", "fastenings.spacing=0.5 m", "fastenings.first=0.2 m",
+        "fastenings.pad_width=10 mm"}},
+      {"rail.width", "62 mm"},
+      {"rail.height", "62 mm"},
+      {"rail.crown_radius", "0.5 m"},
+      {"fastenings.count", "1", "track", {"motion.start=moving"}},
+      {"fastenings.spacing", "0.59 m", "track", {"motion.start=moving"}},
+      {"fastenings.first", "0.28 m", "track", {"motion.start=moving"}},
+      {"fastenings.stiffness", "23 MN/m"},
+      {"fastenings.damping", "210 kN s/m", "track", {"fastenings.damping=200 kN s/m"}},
+      {"fastenings.pad_length", "50 mm"},
+      {"fastenings.pad_width", "30 mm"},
+      {"fastenings.columns", "3"},
+      {"fastenings.rows", "3"},
+      {"slab.pitch", "0.5 m"},
+      {"slab.gap", "80 mm"},
+      {"slab.first_gap", "0.1 m"},
+      {"slab.width", "0.42 m"},
+      {"slab.thickness", "0.21 m"},
+      {"slab.mortar_thickness", "35 mm"},
+      {"slab.offset", "10 mm"},
+      {"slab.material", "hard", "track", {}, {"material.slab.present=false"}},
+      {"slab.gap_material", "slab", "track", {}, {"material.gap_filler.present=false"}},
+      {"slab.mortar_material", "slab", "track", {}, {"material.hard.present=false"}},
+      {"vehicle.sprung_mass", "510 kg", "sprung", {"motion.start=moving"}},
+      {"vehicle.unsprung_mass", "3600 kg", "sprung", {"motion.start=moving"}},
+      {"vehicle.suspension_stiffness", "900 MN/m", "sprung"},
+      {"vehicle.suspension_damping", "9000 kN s/m", "sprung"},
+      {"load.wheel_load", "41 kN"},
+      {"contact.friction_law", "falling", "track", kSliding, {"contact.friction_memory=1 um"}},
+      {"contact.friction", "0.3", "track", kSliding},
+      {"contact.friction_fast", "0.3", "falling", kSliding},
+      {"contact.friction_speed", "0.5 m/s", "falling", kSliding},
+      {"contact.friction_memory", "200 um", "falling", kSliding},
+      {"contact.friction_file", "other_friction.txt", "spotted", kSliding},
+      {"contact.friction_start", "5 mm", "spotted", kSliding},
+      {"contact.penetration_ratio", "0.04"},
+      {"contact.depth_room", "0.5 mm"},
+      {"contact.surface", "facets"},
+      {"contact.points", "2"},
+      {"motion.speed", "41 km/h"},
+      {"motion.duration", "1.0001 ms"},
+      {"motion.traction.mu", "0.12"},
+      {"motion.traction.torque", "2 kN m"},
+      {"motion.traction.ramp", "6 us"},
+      {"motion.traction.shape", "smooth"},
+      {"motion.traction.reversals", "0"},
+      {"motion.spin_in_preload", "false"},
+      {"motion.creepage", "0.02"},
+      {"motion.start", "moving"},
+      {"motion.step_safety", "0.9"},
+      {"corrugation.kind",
+       "random",
+       "track",
+       {},
+       {"corrugation.shortest=40 mm", "corrugation.longest=80 mm"}},
+      {"corrugation.wavelength", "40 mm"},
+      {"corrugation.depth", "0.1 mm"},
+      {"corrugation.width", "20 mm"},
+      {"corrugation.start", "20 mm"},
+      {"corrugation.length", "100 mm"},
+      {"corrugation.rms", "3 um", "random"},
+      {"corrugation.shortest", "50 mm", "random"},
+      {"corrugation.longest", "90 mm", "random"},
+      {"corrugation.seed", "2", "random"},
+      {"corrugation.centre", "1 mm"},
+      {"corrugation.apply", "nodes"},
+      {"corrugation.file", "other_depth.txt", "measured"},
+      {"wear.coefficient", "3e-9 kg/N/m"},
+      {"wear.change", "0.1"},
+      {"wear.shortest", "40 mm"},
+      {"wear.longest", "120 mm"},
+      {"pulse.velocity", "2 m/s", "bar"},
+      {"pulse.length", "0.2 m", "bar"},
+      {"hammer.position", "0.4 m", "hammer"},
+      {"hammer.force", "2 kN", "hammer"},
+      {"hammer.duration", "30 us", "hammer"},
+      {"forks.at", "0.2 ms"},
+      {"output.history_interval", "20 us"},
+      {"output.progress_interval", "3 s"},
+      {"output.checkpoint_interval", "5 min"},
+      {"output.frames", "5"},
+      {"output.frame_cells", "elements"},
+      {"output.disk_limit", "1 GB"},
+      {"stop.steps", "100000"},
+      {"stop.wall_time", "2 h"},
+      {"stop.penetration", "900 um"},
+  };
+  return kChanges;
+}
+
+std::string table_in(const std::string& key) {
+  return key.substr(0, key.find('.'));
+}
+
+/// Bits of each scene before the change, found once.
+const Bits& bits_before(const Change& change) {
+  static std::map<std::pair<std::string, Overrides>, Bits> known;
+  const auto [found, is_new] = known.try_emplace({change.scene, change.with});
+  if (is_new) found->second = bits_of(resolve(change.scene, change.with));
+  return found->second;
+}
+
+bool same_run(const Scene& a, const Scene& b) {
+  const Span one = run_span(a);
+  const Span other = run_span(b);
+  return one.first == other.first && one.last == other.last;
+}
+
+class KeysOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(KeysOf, AffectWhatTheyState) {
+  for (const Change& change : changes()) {
+    if (table_in(change.key) != GetParam()) continue;
+    SCOPED_TRACE(change.key + " in " + change.scene);
+    const Effects effects = find_key(change.key)->effects;
+    Overrides with = change.with;
+    with.insert(with.end(), change.then.begin(), change.then.end());
+    with.push_back(change.key + "=" + change.value);
+    const Scene scene = resolve(change.scene, with);
+    const Scene unchanged = resolve(change.scene, change.with);
+    const bool same_mesh = mesh_bits(Model(scene)) == mesh_bits(Model(unchanged));
+    if (same_run(scene, unchanged)) {
+      EXPECT_EQ(!same_mesh, effects.has(Effect::mesh)) << "mesh";
+    }
+    if (!same_mesh) continue;
+    const Bits& before = bits_before(change);
+    const Bits after = bits_of(scene);
+    EXPECT_EQ(before.preload != after.preload, effects.has(Effect::preload)) << "preload";
+    if (before.preload == after.preload) {
+      EXPECT_EQ(before.motion != after.motion, effects.has(Effect::motion)) << "motion";
+    }
+    EXPECT_EQ(before.surface != after.surface, effects.has(Effect::surface)) << "surface";
+    if (!effects.has(Effect::duration)) {
+      EXPECT_EQ(before.cost != after.cost, effects.any_of({Effect::cost, Effect::output})) << "cost";
+    }
+  }
+}
+
+std::vector<std::string> tables() {
+  std::vector<std::string> names;
+  for (const Change& change : changes())
+    if (std::find(names.begin(), names.end(), table_in(change.key)) == names.end())
+      names.push_back(table_in(change.key));
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, KeysOf, testing::ValuesIn(tables()),
+                         [](const auto& table) { return table.param; });
+
+TEST(KeyEffects, EveryKeyIsChanged) {
+  for (const Key& key : scene_keys(std::vector<std::string>{"steel"})) {
+    const auto is_of_key = [&](const Change& change) { return change.key == key.path; };
+    const auto count = std::count_if(changes().begin(), changes().end(), is_of_key);
+    EXPECT_EQ(count, key.kind == Kind::directive ? 0 : 1) << key.path;
+  }
+}
+
+TEST(KeyEffects, DirectivesHaveNone) {
+  for (const Key& key : scene_keys())
+    EXPECT_EQ(key.effects == Effects::none(), key.kind == Kind::directive) << key.path;
+}
+
+}  // namespace
+}  // namespace tread
