@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,7 +16,7 @@
 #include "drivers/engine/sections.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
-#include "io/text/text.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -76,15 +75,7 @@ Found find_state(const Place& place, const Progress& progress) {
                   place.folder.string(), place.time ? fmt::format(" up to {:g} ms", 1e3 * *place.time) : ""));
 }
 
-/// Values that may differ: what acts later than the state, or on nothing that moves.
-bool is_free(std::string_view path) {
-  constexpr std::array<std::string_view, 8> kBeginnings = {
-      "scene.title", "corrugation.", "wear.",           "output.",
-      "stop.",       "forks.",       "motion.duration", "contact.depth_room"};
-  return begins_with_any(path, kBeginnings);
-}
-
-/// "motion.speed (300 km/h there, 250 km/h here)" for each value that `counts` and differs.
+/// "motion.speed (300 km/h there, 250 km/h here)" for each value whose effects `counts` and that differs.
 template <class Counts>
 std::vector<std::string> differences(const ResolvedScene& there, const ResolvedScene& here,
                                      const Counts& counts) {
@@ -92,7 +83,7 @@ std::vector<std::string> differences(const ResolvedScene& there, const ResolvedS
   std::map<std::string, std::array<std::string, 2>> exact;
   for (std::size_t side = 0; side < 2; ++side)
     for (const Entry& entry : (side == 0 ? there : here).entries) {
-      if (!counts(entry.path)) continue;
+      if (!counts(find_key(entry.path)->effects)) continue;
       values[entry.path][side] = entry.shown;
       exact[entry.path][side] = entry.value + " " + entry.unit;
     }
@@ -126,7 +117,7 @@ std::vector<std::string> mesh_differences(const ResolvedScene& there, const Reso
   };
   if (!by_nodes(there.scene) && !by_nodes(here.scene)) return {};
   std::vector<std::string> texts =
-      differences(there, here, [](const std::string& path) { return path.starts_with("corrugation."); });
+      differences(there, here, [](Effects effects) { return effects.has(Effect::surface); });
   if (texts.empty() && there.scene.corrugation->table_depth != here.scene.corrugation->table_depth)
     texts.emplace_back("corrugation.file (other depths)");
   if (!texts.empty()) texts.emplace_back("which state corrugation.apply = \"gap\" in both would allow");
@@ -135,7 +126,7 @@ std::vector<std::string> mesh_differences(const ResolvedScene& there, const Reso
 
 void require_same_start(const std::string& from, const ResolvedScene& there, const ResolvedScene& here) {
   std::vector<std::string> texts =
-      differences(there, here, [](const std::string& path) { return !is_free(path); });
+      differences(there, here, [](Effects effects) { return effects.on_smooth_motion(); });
   for (std::string& text : mesh_differences(there, here)) texts.push_back(std::move(text));
   if (!same_friction_table(there.scene, here.scene))
     texts.emplace_back("contact.friction_file (other values)");
@@ -237,9 +228,9 @@ double Approach::time(const MotionSpec& motion, double x) const {
   return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
 }
 
-Approach approach_of(const Model& model) {
+Approach approach_of(const Scene& scene, double reach) {
   constexpr double kMargin = 0.02;  // [m]
-  return {model.contact->reach() + kMargin, driven_wheel(model.scene)};
+  return {reach + kMargin, driven_wheel(scene)};
 }
 
 std::optional<std::int64_t> fork_step(const Model& model, double dt) {
@@ -248,7 +239,7 @@ std::optional<std::int64_t> fork_step(const Model& model, double dt) {
   if (scene.forks->at) return steps_until(*scene.forks->at, dt);
   const Corrugation& corrugation = model.contact->corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
-  const double time = approach_of(model).time(*scene.motion, start);
+  const double time = approach_of(scene, model.contact->reach()).time(*scene.motion, start);
   if (time <= 0)
     throw InputError(fmt::format(
         "[forks]: at the start the patch is less than 20 mm from x = {:.4f} m, where the corrugation or the "

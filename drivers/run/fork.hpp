@@ -40,8 +40,9 @@ struct Approach {
   double time(const MotionSpec& motion, double x) const;
 };
 
-/// `model`: before the corrugation is applied, or with the deepest one.
-Approach approach_of(const Model& model);
+/// `reach`: Contact::reach() of the scene's model, before the corrugation is applied or with the deepest one
+/// [m].
+Approach approach_of(const Scene& scene, double reach);
 
 /// Steps of length `dt` [s] after which the run keeps the state for its forks; nothing where the scene wants
 /// none. InputError where the corrugation begins too near for ForkSpec::at to be left out.

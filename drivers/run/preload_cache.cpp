@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <gnu/libc-version.h>
 
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <limits>
@@ -13,9 +13,8 @@
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
-#include "drivers/engine/station_plan.hpp"
 #include "drivers/run/run_checkpoint.hpp"
-#include "io/text/text.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "io/text/text_file.hpp"
 #include "io/text/units.hpp"
 
@@ -89,35 +88,10 @@ std::optional<ContentCache> preload_cache(const std::string& place) {
   return ContentCache(folder, limit());
 }
 
-bool acts_on_rolling_alone(std::string_view path) {
-  constexpr std::array<std::string_view, 10> kBeginnings = {"scene.title",
-                                                            "corrugation.",
-                                                            "wear.",
-                                                            "output.",
-                                                            "stop.",
-                                                            "forks.",
-                                                            "contact.friction",
-                                                            "motion.traction.",
-                                                            "motion.step_safety",
-                                                            "contact.depth_room"};
-  return begins_with_any(path, kBeginnings);
-}
-
 std::string preload_key(const ResolvedScene& resolved, const Model& model) {
   std::string key = fmt::format("program {:016x}\nlibrary {}\ninstruction set {}\n", program_hash(),
                                 gnu_get_libc_version(), model.internal->instruction_set());
-  for (const Entry& entry : resolved.entries)
-    if (!acts_on_rolling_alone(entry.path))
-      key += fmt::format("{} = {} {}\n", entry.path, entry.value, entry.unit);
-  const Span run = run_span(resolved.scene);  // traction acts on the mesh, too
-  key += fmt::format("run {} m to {} m\n", run.first, run.last);
-  const auto acts_on_rolling = [&](const std::string& name) {
-    const Scene& scene = resolved.scene;
-    return (scene.corrugation && name == scene.corrugation->file) ||
-           (scene.contact && name == scene.contact->friction_file);
-  };
-  for (const auto& [name, text] : resolved.source.files)
-    if (!acts_on_rolling(name)) key += fmt::format("{}:\n{}\n", name, text);
+  for (const auto& [name, value] : preload_content(resolved)) key += fmt::format("{} = {}\n", name, value);
   return key;
 }
 

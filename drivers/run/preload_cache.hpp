@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "drivers/engine/preload.hpp"
 #include "io/files/content_cache.hpp"
@@ -17,12 +16,7 @@ namespace tread {
 /// off. Throws InputError.
 std::optional<ContentCache> preload_cache(const std::string& place);
 
-/// Returns true if the key of a scene has no effect on the preload, which is frictionless and smooth and
-/// rolls nothing, but by the stretch of track that the mesh is fine over (run_span()).
-bool acts_on_rolling_alone(std::string_view path);
-
-/// Everything that the preload's bits depend on: the program, the instruction set, and all values of the
-/// scene but those that act on rolling alone.
+/// Everything that the preload's bits depend on: the program, the instruction set, and preload_content().
 std::string preload_key(const ResolvedScene& resolved, const Model& model);
 
 /// The preload that the cache has under the key, and the model as solve_preload() leaves it; nothing where it

@@ -22,6 +22,7 @@
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/plain_text.hpp"
+#include "io/scene/schema.hpp"
 
 namespace tread {
 
@@ -213,7 +214,8 @@ void refuse_unfinished(const RunSession& session) {
 void refuse_other_keys(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
-    if (key != "motion.duration" && !key.starts_with("output.") && !key.starts_with("stop."))
+    const std::optional<Key> known = find_key(key);
+    if (!known || !known->effects.only({Effect::duration, Effect::output, Effect::process, Effect::stop}))
       throw InputError(
           fmt::format("--set {}: a run that goes on may change motion.duration, output.* and "
                       "stop.*; for other values start a run with them",

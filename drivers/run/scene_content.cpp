@@ -2,14 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
 
 #include "core/math/hash.hpp"
+#include "drivers/engine/station_plan.hpp"
 #include "io/files/output_file.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
 
 namespace tread {
@@ -27,27 +27,34 @@ std::string checksum(const std::string& text) {
   return fmt::format("{:016x}", hash.value());
 }
 
-bool matters(std::string_view path) {
-  constexpr std::array<std::string_view, 5> kIdle = {"scene.title", "output.progress_interval",
-                                                     "output.checkpoint_interval", "output.disk_limit",
-                                                     "contact.depth_room"};
-  return !path.starts_with("stop.") && !path.starts_with("forks") &&
-         std::find(kIdle.begin(), kIdle.end(), path) == kIdle.end();
-}
-
 }  // namespace
 
-SceneContent scene_content(const ResolvedScene& resolved) {
+SceneContent content_of(const ResolvedScene& resolved, const std::function<bool(Effects)>& counts) {
   SceneContent content;
-  for (const Entry& entry : resolved.entries)
-    if (matters(entry.path))
-      content[entry.path] = entry.unit.empty() ? entry.value : entry.value + " " + entry.unit;
-  for (const auto& [place, text] : resolved.source.files) content[file_key(place)] = checksum(text);
+  const std::map<std::string, std::string>& files = resolved.source.files;
+  for (const Entry& entry : resolved.entries) {
+    const Key key = *find_key(entry.path);
+    if (!counts(key.effects)) continue;
+    content[entry.path] = entry.unit.empty() ? entry.value : entry.value + " " + entry.unit;
+    const auto file = key.takes_file ? files.find(entry.value) : files.end();
+    if (file != files.end()) content[kFile + entry.value] = checksum(file->second);
+  }
   return content;
 }
 
-std::string file_key(const std::string& place) {
-  return kFile + place;
+SceneContent scene_content(const ResolvedScene& resolved) {
+  return content_of(resolved, [](Effects effects) { return effects.on_results(); });
+}
+
+SceneContent preload_content(const ResolvedScene& resolved) {
+  SceneContent content = content_of(resolved, [](Effects effects) { return effects.on_preload(); });
+  add_run(content, resolved.scene);
+  return content;
+}
+
+void add_run(SceneContent& content, const Scene& scene) {
+  const Span run = run_span(scene);
+  content["run"] = fmt::format("{} m to {} m", run.first, run.last);
 }
 
 void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {

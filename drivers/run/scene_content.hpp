@@ -2,24 +2,32 @@
 // The values of a scene on which the results of a run depend.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 
+#include "io/scene/effects.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
-/// Values by key, and checksums of files by their place, of everything that the results depend on: titles,
-/// and what concerns the process that runs the scene alone ([stop], intervals of progress and checkpoints),
-/// or the runs that begin with its state ([forks], the room for their corrugations), are left out.
+/// Values by key, and checksums of files by their place.
 using SceneContent = std::map<std::string, std::string>;
 
+/// Content of the keys whose effects `counts`, and of the files that those keys name.
+SceneContent content_of(const ResolvedScene& resolved, const std::function<bool(Effects)>& counts);
+
+/// Everything that the results depend on (Effects::on_results).
 SceneContent scene_content(const ResolvedScene& resolved);
 
-inline constexpr const char* kKeptScene = "scene.resolved.toml";  ///< of a run's or a study's folder
+/// Everything that the preload depends on (Effects::on_preload), the stretch of track that the wheel can
+/// touch included.
+SceneContent preload_content(const ResolvedScene& resolved);
 
-/// The key of a file's checksum.
-std::string file_key(const std::string& place);
+/// Adds the stretch of track that the wheel can touch, by which many keys together act on the mesh.
+void add_run(SceneContent& content, const Scene& scene);
+
+inline constexpr const char* kKeptScene = "scene.resolved.toml";  ///< of a run's or a study's folder
 
 /// A scene as a folder keeps it.
 struct KeptScene {

@@ -14,6 +14,7 @@
 #include "io/files/hdf5_file.hpp"
 #include "io/files/history_reader.hpp"
 #include "io/files/output_file.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -33,16 +34,12 @@ fs::path made(const fs::path& directory) {
   return fs::absolute(directory).lexically_normal();
 }
 
-/// Returns true for keys that each passage states for itself.
-bool is_of_passage(const std::string& path) {
-  return path.starts_with("corrugation.") || path.starts_with("wear.") || path.starts_with("forks.") ||
-         path == "contact.depth_room" || path == "output.frames";
-}
-
-/// The scene without corrugation, wear and forks.
+/// The scene without what each passage states for itself.
 std::string smooth_scene(const ResolvedScene& resolved) {
   ResolvedScene smooth = resolved;
-  std::erase_if(smooth.entries, [](const Entry& entry) { return is_of_passage(entry.path); });
+  std::erase_if(smooth.entries, [](const Entry& entry) {
+    return find_key(entry.path)->effects.any_of({Effect::surface, Effect::wear, Effect::forks, Effect::room});
+  });
   return resolved_toml(smooth);
 }
 

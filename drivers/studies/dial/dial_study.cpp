@@ -13,6 +13,7 @@
 #include "drivers/studies/study/study_report.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/plain_text.hpp"
+#include "io/scene/schema.hpp"
 
 namespace tread {
 
@@ -43,8 +44,8 @@ SceneContent passage(SceneContent content, const std::vector<std::string>& varie
     const auto covers = [&](const std::string& one) {
       return key == one || (one.ends_with(".present") && key.starts_with(one.substr(0, one.size() - 7)));
     };
-    return key == "scene.element_size" || key == "scene.quality" || key == "scene.precision" ||
-           key == "motion.duration" || key.starts_with("output.") ||
+    const std::optional<Key> known = find_key(key);
+    return (known && known->effects.any_of({Effect::fineness, Effect::duration, Effect::output})) ||
            std::any_of(varied.begin(), varied.end(), covers);
   });
   return content;
@@ -79,6 +80,11 @@ FinishedRun read_reference(const DialOptions& options, const StudyPlan& plan) {
   return read_finished_run(folder, kept.resolved.scene, own ? name : options.reference);
 }
 
+bool is_of_outputs(const std::string& path) {
+  const std::optional<Key> key = find_key(path);
+  return key && key->effects.any_of({Effect::output, Effect::process});
+}
+
 /// Adds the settings in which the runs differ from the scene, without outputs; a reference from elsewhere has
 /// none.
 void add_settings(const Study& study, DialTable& table) {
@@ -87,7 +93,7 @@ void add_settings(const Study& study, DialTable& table) {
       if (point.name == row.point)
         for (const auto* settings : {&point.own, &point.varied})
           for (const StudySetting& one : *settings)
-            if (!one.key.starts_with("output.")) row.settings.push_back(one.as_override());
+            if (!is_of_outputs(one.key)) row.settings.push_back(one.as_override());
 }
 
 DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const StudyPlan& plan) {

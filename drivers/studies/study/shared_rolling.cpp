@@ -21,14 +21,9 @@ const SharedRolling* group_of(const StudyPlan& plan, const PlannedPoint& point) 
 
 /// Content that is equal for points whose rolling agrees until their corrugations differ.
 SceneContent content_before(const PlannedPoint& point) {
-  const Scene& scene = point.resolved.scene;
-  SceneContent content = point.content;
-  const std::string file = scene.corrugation ? scene.corrugation->file : "";
-  std::erase_if(content, [&](const auto& entry) {
-    return entry.first.starts_with("corrugation") || (!file.empty() && entry.first == file_key(file));
+  return content_of(point.resolved, [](Effects effects) {
+    return (effects.on_results() && !effects.has(Effect::surface)) || effects.has(Effect::room);
   });
-  if (scene.contact->depth_room) content["room"] = fmt::format("{}", *scene.contact->depth_room);
-  return content;
 }
 
 SharedRolling group_from(const StudyPlan& plan, const std::vector<std::size_t>& points) {

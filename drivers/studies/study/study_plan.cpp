@@ -109,30 +109,16 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
   }
 }
 
-/// Text of the run's span, by which traction acts on the mesh.
-std::string run_text(const PlannedPoint& point) {
-  const Span run = run_span(point.resolved.scene);
-  return fmt::format("{:.3f} m to {:.3f} m", run.first, run.last);
-}
-
-/// Content on which the size, memory and step of a point's model depend: everything but speed, duration,
-/// traction and a corrugation by gap.
+/// Content on which the costs of a point's model depend.
 SceneContent model_content(const StudyPlan& plan, const PlannedPoint& point) {
-  SceneContent content = point.content;
-  std::erase_if(content, [&](const auto& entry) {
-    return entry.first == "motion.speed" || entry.first == "motion.duration" ||
-           entry.first.starts_with("motion.traction.") ||
-           (can_share(point.resolved.scene) && entry.first.starts_with("corrugation"));
+  const Scene& scene = point.resolved.scene;
+  const bool moves_nodes = !can_share(scene);
+  SceneContent content = content_of(point.resolved, [&](Effects effects) {
+    return effects.on_cost() || (moves_nodes && effects.has(Effect::surface));
   });
   if (const auto room = room_of(plan, point)) content["room"] = fmt::format("{}", *room);
-  content["run"] = run_text(point);
-  return content;
-}
-
-SceneContent preload_content(const PlannedPoint& point) {
-  SceneContent content = point.content;
-  std::erase_if(content, [](const auto& entry) { return acts_on_rolling_alone(entry.first); });
-  content["run"] = run_text(point);
+  content["start"] = scene.start();
+  add_run(content, scene);
   return content;
 }
 
@@ -163,7 +149,7 @@ void subtract_shared(StudyPlan& plan) {
     const double before = point.cost->seconds();
     const bool from_state = begins_with_state(plan, point);
     if (from_state) point.cost->rolling_seconds *= 1 - plan.shared[*point.shared].until / duration_of(point);
-    const bool known = cached && !solved.insert(preload_content(point)).second;
+    const bool known = cached && !solved.insert(preload_content(point.resolved)).second;
     if (from_state || known) point.cost->preload_seconds = 0;
     if (!point.keeps_state && !point.resolved.scene.forks)
       point.cost->disk.results -= std::exchange(point.cost->disk.forks, 0);
@@ -225,22 +211,23 @@ void project_cost(StudyPlan& plan, bool retry) {
   PointProblems problems(plan.study);
   struct Built {
     const PlannedPoint* point;
-    std::optional<Approach> approach;
+    double reach = 0;  ///< of the patch [m]
   };
   std::map<SceneContent, Built> known;
   for_each_point(plan, problems, [&](PlannedPoint& point) {
     if (!point.to_run(retry)) return;
-    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point, std::nullopt});
+    const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point});
     Built& built = first->second;
     if (is_new) {
       Model model(keeping_scene(plan, point));
-      if (model.contact) built.approach = approach_of(model);
+      if (model.contact) built.reach = model.contact->reach();
       point.cost = estimate(model);
     } else if (const PlannedPoint& same = *built.point; same.cost) {
       const bool rolls = duration_of(same) > 0;
       point.cost = prolonged(*same.cost, rolls ? duration_of(point) / duration_of(same) : 1);
     }
-    if (built.approach) place_state(plan, point, *built.approach);
+    if (point.resolved.scene.contact)
+      place_state(plan, point, approach_of(point.resolved.scene, built.reach));
   });
   problems.throw_if_any();
   choose_keepers(plan, retry);
