@@ -23,9 +23,13 @@ const Material& Scene::rail_material() const {
   return material(rail->material);
 }
 
+const Material& Scene::head_material() const {
+  return rail && !rail->head_material.empty() ? material(rail->head_material) : rail_material();
+}
+
 ElasticPair Scene::elastic_pair() const {
   const Material& of_wheel = wheel_material();
-  const Material& of_rail = rail_material();
+  const Material& of_rail = head_material();
   return {{of_wheel.youngs_modulus, of_wheel.poissons_ratio},
           {of_rail.youngs_modulus, of_rail.poissons_ratio}};
 }

@@ -39,6 +39,7 @@ struct WheelSpec {
 /// [rail]
 struct RailSpec {
   std::string material = "steel";      ///< one of Scene::materials
+  std::string head_material;           ///< of the finely divided head; empty: `material`
   std::string profile = "CN60";        ///< "CN60", "box", or a file of two columns (y, z)
   double inclination = 1.0 / 40;       ///< [-]
   double length = 15.2;                ///< [m]
@@ -249,7 +250,8 @@ struct Scene {
   const Material& material(std::string_view name) const;
   const Material& wheel_material() const;  ///< InputError without [wheel]
   const Material& rail_material() const;   ///< InputError without [rail]
-  ElasticPair elastic_pair() const;        ///< InputError without [wheel] or [rail]
+  const Material& head_material() const;   ///< of the rail's running surface; InputError without [rail]
+  ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
 

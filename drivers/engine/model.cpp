@@ -106,8 +106,8 @@ void Model::build_rail() {
   const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes)
                                           : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
-  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap), {material},
-                                        length.first, plan.fine));
+  index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
+                                        {scene.head_material()}, length.first, plan.fine));
   index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {material},
                                          length.first, plan.coarse));
   tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});

@@ -50,9 +50,13 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
   }
   if (model.scene.rail) {
     BodyMass rail = sum_of("rail", model.index.rail(), blocks);
-    rail.remark =
-        fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
-                    1e4 * rail.mass / model.scene.rail->length / model.scene.rail_material().density);
+    double volume = 0;
+    for (const int b : model.index.rail()) {
+      const auto block = static_cast<std::size_t>(b);
+      volume += blocks[block].mass / model.mesh.blocks[block].materials.front().density;
+    }
+    rail.remark = fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
+                              1e4 * volume / model.scene.rail->length);
     bodies.push_back(rail);
   }
   if (model.index.slab >= 0) {

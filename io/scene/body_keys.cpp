@@ -99,6 +99,10 @@ void add_rail(Keys& keys) {
   const auto box = [](Key key) { return only_with("rail.profile", "box", std::move(key)); };
   keys.push_back(material_name("rail.material", {Effect::preload, Effect::cost},
                                at(&Scene::rail, &RailSpec::material), "Material of the rail"));
+  keys.push_back(material_name(
+      "rail.head_material", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::head_material),
+      "Material of the finely divided head where it is not the rail's, for example of one "
+      "that yields; empty: that of the rail. Not of a box"));
   keys.push_back(or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
                                 {"CN60", "box"}, "Cross-section; also a file of two columns (y, z)")));
   keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),

@@ -23,6 +23,7 @@ std::optional<FieldText> field_text(const Key& key, const Field& field) {
     text.value = fmt::format("{}", ***number);
   }
   if (std::holds_alternative<std::monostate>(field)) return std::nullopt;
+  if (key.names_material && text.value.empty()) return std::nullopt;
   const std::optional<double> number = number_at(field);
   text.shown = number && !key.unit.empty() ? format_quantity(*number, key.unit)
                : text.unit.empty()         ? text.value

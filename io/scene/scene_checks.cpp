@@ -188,6 +188,8 @@ class Checker {
   }
 
   void check_rail(const RailSpec& rail) {
+    require(rail.head_material.empty() || rail.profile != "box", {"rail.head_material", "rail.profile"},
+            "a box has no head; state rail.material");
     require(rail.origin <= rail.length, {"rail.origin", "rail.length"}, "x = 0 lies beyond the rail's end");
     require(rail.crown_radius == 0 || rail.width < 2 * rail.crown_radius, {"rail.width", "rail.crown_radius"},
             "the box is wider than its running surface's arc");

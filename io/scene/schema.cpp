@@ -75,8 +75,8 @@ std::vector<MaterialUse> material_uses(const Scene& scene) {
   for (const Key& key : scene_keys()) {
     if (!key.names_material) continue;
     const Field field = key.locate(copy);
-    if (const auto* name = std::get_if<std::string*>(&field))
-      uses.push_back({key.path, key.path.substr(0, key.path.find('.')), **name});
+    const auto* name = std::get_if<std::string*>(&field);
+    if (name && !(*name)->empty()) uses.push_back({key.path, key.path.substr(0, key.path.find('.')), **name});
   }
   return uses;
 }

@@ -153,6 +153,14 @@ duration = "0.1 ms"
        {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
         {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
          "solution_zone.start=0 m", "solution_zone.length=10 mm", "motion.duration=0.1 ms"}}},
+      {"struck rail",
+       {"[scene]\ntitle = \"struck\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n"
+        "[hammer]\nposition = \"0 m\"\nforce = \"1 kN\"\nduration = \"20 us\"\n"
+        "[wheel]\npresent = false\n[vehicle]\npresent = false\n[contact]\npresent = false\n"
+        "[slab]\npresent = false\n[material.hard]\nyoungs_modulus = \"300 GPa\"\npoissons_ratio = 0.25\n"
+        "density = \"9000 kg/m3\"\n",
+        {"rail.head_material=hard", "rail.length=2 m", "rail.origin=1 m", "fastenings.count=3",
+         "fastenings.first=0.35 m", "motion.duration=0.1 ms"}}},
       {"bar", {kBar.c_str(), {}}},
       {"hammer",
        {kBar.c_str(),
@@ -303,6 +311,7 @@ const std::vector<Change>& changes() {
       {"wheel.bore", "guided", "track", {"motion.start=moving"}},
       {"wheel.overhang", "0.2 m", "guided", {"scene.gravity=0 m/s2"}},
       {"rail.material", "hard", "track", {"motion.start=moving"}},
+      {"rail.head_material", "steel", "struck rail", {}, {"material.hard.present=false"}},
       {"rail.profile", "CN60", "track", {"scene.element_size=11 mm"}},
       {"rail.inclination", "0.01", "wheelset"},
       {"rail.length", "1.3 m"},

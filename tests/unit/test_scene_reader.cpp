@@ -240,6 +240,20 @@ TEST(SceneReader, ScenesKeptByFinishedRunsStayReadable) {
   EXPECT_EQ(scene.material(scene.slab_track->mortar_material).density, 1600);
 }
 
+TEST(SceneReader, TheHeadIsOfTheRailsMaterialUnlessItHasItsOwn) {
+  const std::string head =
+      "[material.head]\nyoungs_modulus = \"200 GPa\"\npoissons_ratio = 0.3\ndensity = \"7800 kg/m3\"\n"
+      "[rail]\nhead_material = \"head\"\n";
+  const std::string track = "[scene]\nbased_on = \"highspeed-slab-2014\"\n";
+  const Scene plain = resolve_scene(SceneSource{"scene.toml", track, {}}).scene;
+  EXPECT_EQ(&plain.head_material(), &plain.rail_material());
+  const ResolvedScene resolved = resolve_scene(SceneSource{"scene.toml", track + head, {}});
+  EXPECT_EQ(resolved.scene.rail_material().youngs_modulus, 205.9e9);
+  EXPECT_EQ(resolved.scene.elastic_pair().rail.youngs_modulus, 200e9);
+  const ResolvedScene again = resolve_scene(SceneSource{"again.toml", resolved_toml(resolved), {}});
+  EXPECT_EQ(again.scene.head_material().name, "head");
+}
+
 TEST(SceneReader, MaterialsOfBodiesThatAreNotThereAreErrors) {
   const Scene rail = read_scene(kScenes / "bar-wave.toml");
   EXPECT_EQ(rail.rail_material().name, "steel");

@@ -14,6 +14,7 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "io/scene/scene_reader.hpp"
 #include "kernels/material/laws.hpp"
 #include "tests/measured.hpp"
 #include "tests/state_copies.hpp"
@@ -415,6 +416,54 @@ TEST_P(RollingPlasticity, DissipatesAndGoesOnWithTheSameBits) {
   EXPECT_TRUE(laws);
 }
 INSTANTIATE_TEST_SUITE_P(Precisions, RollingPlasticity, testing::Values("double", "mixed", "single"));
+
+// A scene file gives the rail's head a law of its own; wheel, rail and slab stay elastic and have no state.
+TEST(PlasticHead, YieldsWhileTheRestStaysElastic) {
+  const Scene scene = resolve_scene(SceneSource{"head.toml",
+                                                R"(
+[scene]
+title = "rail head that yields"
+based_on = "highspeed-slab-2014"
+element_size = "11 mm"
+[material.head]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0.3
+density = "7790 kg/m3"
+law = "j2"
+yield_stress = "100 MPa"
+isotropic_hardening = "1 GPa"
+[rail]
+head_material = "head"
+length = "2 m"
+origin = "1 m"
+[fastenings]
+count = 3
+first = "0.35 m"
+[solution_zone]
+start = "0 m"
+length = "10 mm"
+[motion]
+start = "moving"
+duration = "0.1 ms"
+)",
+                                                {}})
+                          .scene;
+  Model model(scene);
+  const Preload preload = solve_preload(model, steady_motion(model), kSilent);
+  Simulation run(model, preload, 0.9 * step_limit(model).stable_step);
+  constexpr int kSteps = 60;
+  run.set_sampling_interval(kSteps);
+  for (int step = 0; step <= kSteps; ++step) run.step();
+  std::vector<std::string> states;
+  const StateList state = run.state();
+  for (const StateList::Field& field : state.fields())
+    if (field.name.starts_with("law_state/")) states.push_back(field.name);
+  EXPECT_EQ(states, std::vector<std::string>{"law_state/rail head"});
+  const EnergyLedger energy = run.sample().energy;
+  measured("plastic work", energy.plastic_work, "J");
+  measured("energy balance / plastic work", energy.residual / energy.plastic_work);
+  EXPECT_GT(energy.plastic_work, 0);
+}
 
 }  // namespace
 }  // namespace tread

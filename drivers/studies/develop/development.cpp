@@ -72,7 +72,7 @@ WearPlan wear_plan(const Scene& scene) {
   const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
   require_waves(scene, corrugation);
   const WearSpec& wear = *scene.wear;
-  return {wear.coefficient / scene.rail_material().density,
+  return {wear.coefficient / scene.head_material().density,
           wear.change,
           {wear.shortest, wear.longest},
           sampled(corrugation)};
