@@ -151,7 +151,8 @@ std::optional<IndexLine> parse_line(const std::string& text) {
   std::istringstream words(text);
   std::string type;
   IndexLine line;
-  words >> type >> line.count >> line.place >> line.name;
+  words >> type >> line.count >> line.place >> std::ws;
+  std::getline(words, line.name);  // names may hold blanks
   const auto known = std::find(kTypes.begin(), kTypes.end(), type);
   if (!words || known == kTypes.end()) return std::nullopt;
   line.type = static_cast<std::size_t>(known - kTypes.begin());

@@ -44,6 +44,7 @@ std::string refusal(const fs::path& path) {
 SealedContent sample(double value) {
   return {{"state/u", std::vector{value, -0.0, -std::numeric_limits<double>::infinity()}},
           {"state/steps", std::vector<std::int64_t>{-3, std::numeric_limits<std::int64_t>::max()}},
+          {"state/rail head", std::vector{value}},
           {"order/text", std::string("a\0b\nµ", 6)},
           {"order/nothing", std::string()},
           {"samples", std::vector<double>{}}};
@@ -143,7 +144,7 @@ TEST_F(SealedFiles, WhatAForgedListStatesIsNotBelieved) {
                            "f64 1 560 a\n", "byte 500 512 a\nbyte 500 512 b\n"})
     expect_refused(line, "does not fit into its");
   for (const char* line : {"f16 1 512 a\n", "f64 -1 512 a\n", "f64 1 512\n", "f64 01 512 a\n", "\n",
-                           "byte 1 512 a\nbyte 1 512 a\n", "byte 1 512 a b\n"})
+                           "byte 1 512 a\nbyte 1 512 a\n", "byte 1 512  a\n"})
     expect_refused(line, "of its list of entries is broken");
 }
 
