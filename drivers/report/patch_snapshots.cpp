@@ -109,11 +109,12 @@ Figure snapshots_figure(const PatchSnapshots& instants) {
     return series;
   };
   const auto pressure = [](const PatchWindow& w, int i, int row) { return 1e-6 * w.pressure(i, row); };
+  const double f = instants.contact.largest_friction();
   const auto size = [](const PatchWindow& w, int i, int row) { return 1e-6 * w.shear(i, row); };
   figure.panels.push_back(panel("Pressure [MPa]", curves("p", pressure), {}, 190));
   std::vector<Series> shear = curves("shear stress", size);
-  std::vector<Series> limit = curves(
-      "f p", [&](const PatchWindow& w, int i, int row) { return instants.friction * pressure(w, i, row); });
+  std::vector<Series> limit =
+      curves("f p", [&](const PatchWindow& w, int i, int row) { return f * pressure(w, i, row); });
   for (Series& series : limit) {
     series.stroke = Stroke::dotted;
     shear.push_back(std::move(series));
@@ -123,6 +124,9 @@ Figure snapshots_figure(const PatchSnapshots& instants) {
     figure.panels.push_back(
         panel("Rail surface [mm]", {running_surface(instants.corrugation, *figure.x_range)}, {}, 70));
   figure.caption = "Nodal averages. The rail slips where the shear stress meets f p.";
+  if (instants.contact.friction_law != "coulomb")
+    figure.caption =
+        "Nodal averages. f is the largest coefficient of friction of the law; slip begins at lower ones.";
   return figure;
 }
 
@@ -138,7 +142,7 @@ std::string snapshots_csv(const PatchSnapshots& instants) {
       const double pressure = window.pressure(i, row);
       fmt::format_to(out, "{},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g}\n", instant_name(k),
                      instants.samples[k].wheel_x, window.x(i), pressure, window.shear(i, row),
-                     instants.friction * pressure);
+                     instants.contact.largest_friction() * pressure);
     }
   }
   return {text.data(), text.size()};

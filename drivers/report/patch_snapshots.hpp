@@ -33,7 +33,7 @@ std::vector<double> typical_places(const Scene& scene, const Span& stretch, doub
 struct PatchSnapshots {
   PatchAxes axes;
   int axis_row = 0;     ///< the patch's longitudinal axis, of axes.y
-  double friction = 0;  ///< largest f of the law [-]
+  ContactSpec contact;  ///< of the scene
   Corrugation corrugation;
   std::vector<PatchSample> samples;
 };

@@ -92,8 +92,8 @@ Figure surface_figure(const Model& model, const RunResults& r) {
 }
 
 Figure snapshots_figure(const Model& model, const RunResults& r) {
-  return snapshots_figure({axes(model), r.surface.axis_row, model.scene.contact->largest_friction(),
-                           model.contact->corrugation(), r.instants});
+  return snapshots_figure(
+      {axes(model), r.surface.axis_row, *model.scene.contact, model.contact->corrugation(), r.instants});
 }
 
 Drawings stick_slip_drawings(const Model& model, const RunResults& r) {

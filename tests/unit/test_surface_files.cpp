@@ -159,7 +159,7 @@ TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
   file.append(0, 6e-3, patch);
   file.close();
   const PatchSnapshots snapshots{
-      read_patch_axes(folder_ / "patch.h5"), 1, 0.5, {}, read_patch(folder_ / "patch.h5", {6e-3})};
+      read_patch_axes(folder_ / "patch.h5"), 1, ContactSpec{}, {}, read_patch(folder_ / "patch.h5", {6e-3})};
   const std::string csv = snapshots_csv(snapshots);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "instant,wheel_x [m],x [m],pressure [Pa],shear [Pa],friction_limit [Pa]");

@@ -126,8 +126,8 @@ DrawnFigure drawn_snapshots(const std::string& title, const FinishedRun& run) {
   const std::filesystem::path path = run.folder / kPatchFile;
   const PatchAxes axes = read_patch_axes(path);
   const std::size_t axis = nearest(axes.y, run.number("surface.axis_y_m").value_or(0));
-  const PatchSnapshots snapshots{axes, static_cast<int>(axis), run.scene.contact->largest_friction(),
-                                 run.corrugation(), read_patch(path, places_of(run))};
+  const PatchSnapshots snapshots{axes, static_cast<int>(axis), *run.scene.contact, run.corrugation(),
+                                 read_patch(path, places_of(run))};
   if (snapshots.samples.empty()) throw InputError(path.string() + " holds no sample: run the scene again");
   Figure figure = snapshots_figure(snapshots);
   figure.title = title;
