@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include "core/contract.hpp"
+
 namespace tread {
 
 void SpringDampers::apply(ConstNodeField u, ConstNodeField v, double dt, NodeField force) {
+  TREAD_EXPECT(dt >= 0);
   for (const Element& e : elements_) {
     const double rate = e.upper.value(v, 2) - e.lower.value(v, 2);
     const double load = e.stiffness * (e.upper.value(u, 2) - e.lower.value(u, 2)) + e.damping * rate;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/contract.hpp"
 #include "core/error.hpp"
 
 namespace tread {
@@ -43,6 +44,8 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
                options.reach_gap},
               std::move(corrugation)),
       area_(search_) {
+  TREAD_EXPECT(options.penalty > 0 && std::isfinite(options.penalty));
+  TREAD_EXPECT(options.points > 0 && options.wheel_radius > 0 && options.depth_room >= 0);
   make_room();
 }
 
@@ -99,6 +102,7 @@ void Contact::begin() {
 }
 
 void Contact::search(const ContactState& state, double time, double dt) {
+  TREAD_EXPECT(dt > 0 && std::isfinite(time));
   search_.find(state, history_, time, dt, points_);
 }
 
@@ -116,6 +120,7 @@ void Contact::require_room(const BodyFrame& wheel) const {
 }
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
+  TREAD_EXPECT(dt > 0 && std::isfinite(dt));
   solver_.solve(points_, springs_, friction_, wheel, motion, dt);
   for (ContactPoint& point : points_) {
     PointHistory& history = history_[static_cast<std::size_t>(point.history)];

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/contract.hpp"
+
 namespace tread {
 
 namespace {
@@ -49,6 +51,7 @@ void PatchNodes::add(const ContactPoint& point) {
   for (int corner = 0; corner < 4; ++corner) {
     const int station = point.face[0] + corner / 2;
     const int row = point.face[1] - grid_.first_edge + corner % 2;
+    TREAD_EXPECT(station >= first_ && station <= last_ && row >= 0 && row < grid_.rows());
     NodalContact& node = nodes_[grid_.node(station - first_, row)];
     const double share =
         point.area * point.face_share[static_cast<std::size_t>(corner)] / grid_.area(station, row);

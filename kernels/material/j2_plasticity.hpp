@@ -21,6 +21,12 @@ struct J2Plasticity {
   Real isotropic_hardening;          ///< slope of the yield stress over the equivalent plastic strain [Pa]
   Real kinematic_hardening;          ///< slope of the uniaxial backstress over the plastic strain [Pa]
 
+  static const char* refusal(const Material& material) {
+    if (!(material.yield_stress > 0)) return "yield_stress must be above 0 Pa";
+    const bool softens = material.isotropic_hardening < 0 || material.kinematic_hardening < 0;
+    return softens ? "hardening must be at least 0 Pa; softening has no solution that a finer mesh keeps"
+                   : nullptr;
+  }
   static J2Plasticity of(const Material& material) {
     const auto real = [](double value) { return static_cast<Real>(value); };
     return {real(material.bulk_modulus()), real(material.shear_modulus()), real(material.yield_stress),

@@ -16,6 +16,11 @@ int law_of(const SweptBlock& block, const Material& material) {
   if (law < 0)
     throw InputError(fmt::format("block '{}': the material '{}' has the law '{}'; known laws: {}", block.name,
                                  material.name, material.law, fmt::join(Laws::names(), ", ")));
+  const char* refusal =
+      Laws::with(law, [&]<template <class> class Law>() { return Law<double>::refusal(material); });
+  if (refusal != nullptr)
+    throw InputError(fmt::format("block '{}': the material '{}' of the law '{}' cannot be: {}", block.name,
+                                 material.name, material.law, refusal));
   return law;
 }
 

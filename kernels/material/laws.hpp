@@ -7,6 +7,7 @@
 //   struct Law {
 //     static constexpr const char* kName;  // material.NAME.law
 //     static constexpr bool kLinear;       // stress is proportional to strain and has no state
+//     static const char* refusal(const Material&);  // why the law cannot take the values; null: it can
 //     static Law of(const Material&);
 //     template <class V> struct State;     // nothing but values V; zero in the undeformed body
 //     // Stress [Pa] of a strain; advances the state. Stored energy and what is dissipated so far [J/m3].

@@ -14,6 +14,7 @@ struct LinearElastic {
 
   Real lambda, mu;  ///< Lame's constants [Pa]
 
+  static const char* refusal(const Material& /*material*/) { return nullptr; }
   static LinearElastic of(const Material& material) {
     return {static_cast<Real>(material.lame_lambda()), static_cast<Real>(material.shear_modulus())};
   }

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
@@ -416,6 +417,24 @@ TEST_P(RollingPlasticity, DissipatesAndGoesOnWithTheSameBits) {
   EXPECT_TRUE(laws);
 }
 INSTANTIATE_TEST_SUITE_P(Precisions, RollingPlasticity, testing::Values("double", "mixed", "single"));
+
+TEST(PlasticElements, ValuesWithoutMeaningAreRefused) {
+  const auto refusal = [](double yield, double hardening) {
+    Scene scene = wheel_on_block(6e-3);
+    scene.materials["steel"] = yielding(yield);
+    scene.materials["steel"].kinematic_hardening = hardening;
+    try {
+      const Model model(scene);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refusal(1e6, 0), "");
+  EXPECT_NE(refusal(0, 0).find("yield_stress must be above 0 Pa"), std::string::npos);
+  EXPECT_NE(refusal(std::nan(""), 0).find("yield_stress"), std::string::npos);
+  EXPECT_NE(refusal(1e6, -1).find("hardening must be at least 0 Pa"), std::string::npos);
+}
 
 // A scene file gives the rail's head a law of its own; wheel, rail and slab stay elastic and have no state.
 TEST(PlasticHead, YieldsWhileTheRestStaysElastic) {
