@@ -1,5 +1,5 @@
 #pragma once
-// What the value of a key has an effect on. Each key of the schema states its effects; caches, forks, studies
+// Effects of a key's value. Each key of the schema states its effects; caches, forks, studies
 // and the dial ask them.
 
 #include <initializer_list>
@@ -31,23 +31,24 @@ class Effects {
   constexpr Effects(std::initializer_list<Effect> effects) {
     for (const Effect effect : effects) bits_ |= bit(effect);
   }
-  /// Of keys that say how a scene is read; those of a table's presence: the table's values come and go.
+  /// Effects of keys that direct the reading, and of those of a table's presence: the table's own keys have
+  /// them.
   static constexpr Effects none() { return Effects({}); }
 
   constexpr bool has(Effect effect) const { return (bits_ & bit(effect)) != 0; }
   constexpr bool any_of(Effects others) const { return (bits_ & others.bits_) != 0; }
   constexpr bool only(Effects others) const { return (bits_ & ~others.bits_) == 0; }
 
-  /// Whether the value enters the static state of a run over the same stretch of track. Many keys act on that
-  /// stretch together: compare it by itself (run_span).
+  /// Returns true if the value enters the static state of a run over the same stretch of track. Many keys act
+  /// on that stretch together: compare it by itself (run_span).
   constexpr bool on_preload() const { return any_of({Effect::mesh, Effect::preload}); }
-  /// Whether the value enters the motion of a run over a smooth rail.
+  /// Returns true if the value enters the motion of a run over a smooth rail.
   constexpr bool on_smooth_motion() const { return any_of({Effect::mesh, Effect::preload, Effect::motion}); }
-  /// Whether runs that differ in the value differ in their results.
+  /// Returns true if runs that differ in the value differ in their results.
   constexpr bool on_results() const {
     return on_smooth_motion() || any_of({Effect::surface, Effect::duration, Effect::output, Effect::wear});
   }
-  /// Whether the value enters the mesh, step, memory or disk of a run over a smooth rail of the same
+  /// Returns true if the value enters the mesh, step, memory or disk of a run over a smooth rail of the same
   /// duration.
   constexpr bool on_cost() const { return any_of({Effect::mesh, Effect::cost, Effect::output}); }
 

@@ -349,11 +349,8 @@ class SceneBuilder {
   void add_check_results() {
     for (const SceneProblem& problem : validate(scene_)) {
       const auto is_bad = [&](const std::string& key) { return bad_.count(key) > 0; };
-      const auto is_value = [](const auto& path) {
-        const std::optional<Key> key = find_key(path);
-        return key && key->locate;
-      };
       if (std::any_of(problem.keys.begin(), problem.keys.end(), is_bad)) continue;
+      const auto is_value = [](const auto& path) { return find_key(path) && find_key(path)->locate; };
       if (tables_unclear_ && !std::all_of(problem.keys.begin(), problem.keys.end(), is_value)) continue;
       const std::string key = blamed(problem.keys);
       const Place place = place_of(key);

@@ -112,7 +112,7 @@ TEST(SceneErrors, Types) {
        "min, h)"},
   });
   expect_part(error_of("rail = \"none\""),
-              "x.toml:1:1: rail: expected a table with keys among material, profile,");
+              "x.toml:1:1: rail: expected a table with keys among material, head_material, profile,");
   expect_part(error_of("rail = \"none\""), "(to leave it out, write rail.present = false)");
   expect_part(
       error_of(kBase + "[material.slab]\ndamping = { kind = \"high_frequency_fraction\", value = 0.01 }"),
