@@ -1,6 +1,6 @@
 #pragma once
-// What the user asked for, in SI units, as plain data. io fills it, drivers build the model from it. An
-// absent optional is a thing that the scene does not contain and does not pay for.
+// The user's request as plain data in SI units. io fills it, drivers build the model from it. An absent
+// optional is a part that the scene does not contain and does not pay for.
 
 #include <algorithm>
 #include <cmath>

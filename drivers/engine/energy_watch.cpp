@@ -44,7 +44,7 @@ bool EnergyWatch::balanced(const EnergyLedger& energy, double excess) {
   missed_ = by_balance ? unbalanced : excess - excess_;
   const double judged = by_balance ? std::abs(unbalanced) : oscillating;
   share_ = judged == 0 ? 0 : judged / supplied_;
-  // The first push of a load on bodies at rest supplies nothing yet: what does not pass by is wrong.
+  // The first push of a load on bodies at rest supplies no energy yet.
   breaches_ = share_ <= 1 ? 0 : breaches_ + 1;
   return breaches_ < 2;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Judges the energies of a run: what appears or vanishes cannot exceed what was supplied. [theory.md, Energy
+// Judge of a run's energies: the error of the balance cannot exceed the energy supplied. [theory.md, Energy
 // stop]
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace tread {
 
-/// Sample by sample, the energy that was supplied to the elastic bodies beside what the balance misses, and
-/// beside the energy in oscillations that the step hardly follows. The second is needed because central
-/// difference conserves its energy beyond the stable step too: kinetic energy, the product of both half
-/// steps' velocities, then falls below zero as strain energy grows.
+/// Comparison, sample by sample, of the energy supplied to the elastic bodies with two others: the error of
+/// the balance, and the energy of oscillations that the step hardly resolves. The second is needed because
+/// central difference conserves its energy beyond the stable step too. Kinetic energy, the product of both
+/// half steps' velocities, then falls below zero as strain energy grows.
 class EnergyWatch {
  public:
-  /// The first sample. `excess`: of the mean of both half steps' kinetic energies over energy.kinetic;
+  /// Takes the first sample. `excess`: mean of both half steps' kinetic energies less energy.kinetic;
   /// `elastic_kinetic`: kinetic energy of bodies that do not travel. [J]
   void start(const EnergyLedger& energy, double excess, double elastic_kinetic);
 
-  /// A later sample; false where share() exceeds 1 for the second time in a row or a value is not finite.
+  /// Takes a later sample. Returns false if share() exceeds 1 for the second time in a row or a value is not
+  /// finite.
   bool balanced(const EnergyLedger& energy, double excess);
 
   bool started() const { return started_ != 0; }
   double start_energy() const { return total_; }  ///< EnergyLedger::total() of the first sample [J]
   double missed() const { return missed_; }       ///< appeared (> 0) or vanished (< 0) since the start [J]
   double supplied() const { return supplied_; }   ///< since the start, what was there included [J]
-  double share() const { return share_; }         ///< of what ends a run [-]
+  double share() const { return share_; }         ///< error over the error that ends a run [-]
 
   void list_state(StateList& list) {
     list.add("started", started_);

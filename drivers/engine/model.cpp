@@ -38,7 +38,7 @@ std::vector<int> BlockIndex::rail() const {
 
 namespace {
 
-/// The law of the scene; that of a table views the spec's arrays.
+/// Friction law of the scene. A table's law refers to the spec's arrays.
 FrictionLaw friction_of(const ContactSpec& spec) {
   if (spec.friction_law == "table")
     return TableFriction{spec.friction_x.data(), spec.friction_at_x.data(),
@@ -211,7 +211,7 @@ void Model::restrain() {
   if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
   if (index.tread >= 0 && index.axle < 0)
     hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
-  // Secondary nodes follow their primaries: their restraint would be a second opinion.
+  // Secondary nodes follow their primaries and need no restraint of their own.
   if (ties) {
     std::vector<std::int64_t> tied;
     for (const std::int64_t slot : ties->secondary_slots())
@@ -290,16 +290,16 @@ double Model::journal_load() const {
 
 double Model::penalty_stiffness(const ContactSpec& spec) const {
   const double unit_ratio = hertz_patch.max_pressure / hertz_patch.approach;
-  // Softer, and the patch widens; stiffer, and the points of a face share its load unevenly.
+  // A softer penalty widens the patch; under a stiffer one the points of a face share its load unevenly.
   // [limits.md, Penalty]
   constexpr double kPerElement = 10;
-  // The harmonic mean: an element of each body in series.
+  // Harmonic mean of the moduli: one element of each body in series.
   const ElasticPair bodies = scene.elastic_pair();
   const double youngs_modulus =
       2 * bodies.wheel.youngs_modulus / (1 + bodies.wheel.youngs_modulus / bodies.rail.youngs_modulus);
   const double preferred = std::max(kPerElement * youngs_modulus / sizes.contact, unit_ratio / 0.02);
   if (!spec.penetration_ratio) return preferred;
-  // At ten times a tenth to four tenths of the area are missing, points carry up to twice the pressure.
+  // At ten times the stiffness, 10 to 40 % of the area are missing and points carry up to twice the pressure.
   constexpr double kStiffest = 10;
   const double stated = unit_ratio / *spec.penetration_ratio;
   if (stated > kStiffest * preferred * (1 + 1e-9))

@@ -17,7 +17,7 @@ namespace tread {
 
 namespace {
 
-/// Adds the force that gives a block's nodes this acceleration; `angle`: of the wheel's frame [rad].
+/// Adds the inertia force of a block under an acceleration [m/s2]; `angle`: angle of the wheel's frame [rad].
 void add_acceleration(const Model& model, const SweptBlock& block, double angle, const Vec3& acceleration,
                       double* load) {
   for (int station = 0; station < block.station_count(); ++station) {
@@ -30,7 +30,7 @@ void add_acceleration(const Model& model, const SweptBlock& block, double angle,
   }
 }
 
-/// Adds the centrifugal force of a revolved block. `spin` [rad/s]
+/// Adds the centrifugal force of a revolved block; `spin` [rad/s].
 void add_centrifugal(const Model& model, const SweptBlock& block, double spin, double* load) {
   for (int station = 0; station < block.station_count(); ++station)
     for (int node = 0; node < block.section.nodes(); ++node) {
@@ -40,7 +40,7 @@ void add_centrifugal(const Model& model, const SweptBlock& block, double spin, d
     }
 }
 
-/// Adds gravity, centrifugal force and vehicle weight, but for what acts on a carrier.
+/// Adds gravity, centrifugal force and vehicle weight; forces on a carrier are left to add_carrier_load().
 void add_external_load(const Model& model, const BodyFrame& frame, double spin, double* load) {
   for (const SweptBlock& block : model.mesh.blocks) {
     add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load);
@@ -86,7 +86,7 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
   }
 }
 
-/// Adds what presses on the wheelset when it has been rolling.
+/// Adds the forces that press on a wheelset which has been rolling.
 void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {
   model.journal.add(load, frame, {0, 0, -run_in.journal_force});
   const double per_mass = run_in.inertia_force / model.wheelset->mass();
@@ -130,8 +130,8 @@ double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::i
   return force[static_cast<std::size_t>(unknown)];
 }
 
-/// Why Newton's method finds no balance of the external `load`, whose norm is `size`; `residual`: what is
-/// left of it [N].
+/// Reason for a failure of Newton's method; `residual`: norm of the unbalanced force, `size`: norm of the
+/// external load [N].
 std::string why_unbalanced(const Model& model, double residual, double size) {
   constexpr double kRounding = 1e-8;  // of forces that cancel inside the bodies
   if (residual < kRounding * size)
@@ -209,7 +209,7 @@ class Equilibrium {
     if (model.fastenings) fixed_springs_ = model.fastenings->springs();
   }
 
-  /// r = what loads the bodies, with `state.run_in` where there is one [N].
+  /// r = external loads of the bodies, with those of `state.run_in` where there is one [N].
   void load(const Preload& state, double* r) const {
     std::fill_n(r, 3 * model_->mesh.slots, 0.0);
     add_load(state, r);
@@ -271,7 +271,7 @@ void Equilibrium::residual(Preload& state, double* r) {
   held_->balance(r);
 }
 
-/// NumericalError where no point is in contact. `size`: of the load [N].
+/// Throws NumericalError if no point is in contact. `size`: norm of the load [N].
 void require_contact(const Model& model, int iteration, double residual, double size) {
   if (!model.contact || !model.contact->points().empty()) return;
   throw NumericalError(
@@ -340,7 +340,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   AlignedVector<double> residual(static_cast<std::size_t>(n));
   equilibrium.load(out, residual.data());
   const double size = std::sqrt(dot(n, residual.data(), residual.data()));
-  if (size == 0) return out;  // nothing loads the bodies: they rest as they are
+  if (size == 0) return out;  // no load: the bodies stay undeformed
   const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
   TangentSolver solver(model, equilibrium);
