@@ -343,7 +343,7 @@ void Model::build_contact(const Corrugation& shape) {
 Corrugation Model::corrugate(double centre) {
   if (!scene.corrugation) return {};
   const CorrugationSpec& spec = *scene.corrugation;
-  const Corrugation shape = corrugation_of(spec, centre);
+  Corrugation shape = corrugation_of(spec, centre);
   if (spec.apply == "nodes")
     shift_top_layers(mesh.blocks[static_cast<std::size_t>(index.rail_cap)], shape, 3 * sizes.contact);
   return shape;

@@ -22,9 +22,9 @@ std::vector<FieldBytes> Sampling::fields() const {
 void Sampling::apply(StepPhase phase, StepState& step) {
   if (!step.measured) return;
   if (phase == StepPhase::energies)
-    begin(step);
+    open_sample(step);
   else
-    end(step);
+    close_sample(step);
 }
 
 void Sampling::list_state(StateList& list) {
@@ -32,14 +32,14 @@ void Sampling::list_state(StateList& list) {
   list.add_part("energy_watch", energy_watch_);
 }
 
-void Sampling::begin(const StepState& step) {
+void Sampling::open_sample(const StepState& step) {
   sample_ = {};
   sample_.time = step.time;
   kinetic_before_ = kinetic_energy(step.motion());
   for (Feature* feature : features_) feature->begin_sample(step, sample_);
 }
 
-void Sampling::end(const StepState& step) {
+void Sampling::close_sample(const StepState& step) {
   EnergyLedger& energy = sample_.energy;
   const double excess = half_step_excess(*model_, *held_, step.force, step.dt);
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy(step.motion())) - excess;

@@ -25,8 +25,8 @@ class Sampling final : public Feature {
   void list_state(StateList& list) override;
 
  private:
-  void begin(const StepState& step);
-  void end(const StepState& step);
+  void open_sample(const StepState& step);
+  void close_sample(const StepState& step);
   double kinetic_energy(const Motion& motion) const;
 
   const Model* model_;
