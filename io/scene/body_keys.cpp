@@ -183,10 +183,10 @@ void add_slab(Keys& keys) {
 }
 
 void add_vehicle_and_load(Keys& keys) {
-  keys.push_back(quantity("vehicle.sprung_mass", {Effect::preload},
+  keys.push_back(quantity("vehicle.sprung_mass", {Effect::preload, Effect::cost},
                           at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg", above(0, 1e5),
                           "Sprung mass M_c on this wheel"));
-  keys.push_back(quantity("vehicle.unsprung_mass", {Effect::preload},
+  keys.push_back(quantity("vehicle.unsprung_mass", {Effect::preload, Effect::cost},
                           at(&Scene::vehicle, &VehicleSpec::unsprung_mass), kMass, "kg", from(0, 1e5),
                           "Unsprung mass M_a attached to the wheelset"));
   keys.push_back(quantity("vehicle.suspension_stiffness", {Effect::preload},
@@ -195,9 +195,9 @@ void add_vehicle_and_load(Keys& keys) {
   keys.push_back(quantity("vehicle.suspension_damping", {Effect::preload},
                           at(&Scene::vehicle, &VehicleSpec::suspension_damping), kViscousDamping, "kN s/m",
                           from(0, 1e7), "Vertical damping C of the primary suspension"));
-  keys.push_back(
-      required(quantity("load.wheel_load", {Effect::preload}, at(&Scene::load, &LoadSpec::wheel_load), kForce,
-                        "kN", above(0, 1e7), "Downward force on the wheel")));
+  keys.push_back(required(quantity("load.wheel_load", {Effect::preload, Effect::cost},
+                                   at(&Scene::load, &LoadSpec::wheel_load), kForce, "kN", above(0, 1e7),
+                                   "Downward force on the wheel")));
 }
 
 }  // namespace tread::keys

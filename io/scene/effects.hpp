@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace tread {
 
@@ -31,9 +32,12 @@ class Effects {
   constexpr Effects(std::initializer_list<Effect> effects) {
     for (const Effect effect : effects) bits_ |= bit(effect);
   }
-  /// Effects of keys that direct the reading, and of those of a table's presence: the table's own keys have
-  /// them.
-  static constexpr Effects none() { return Effects({}); }
+  /// Effects of a key that stands for other keys: the base of a scene.
+  static constexpr Effects all() {
+    Effects effects({});
+    effects.bits_ = ~0U;
+    return effects;
+  }
 
   constexpr bool has(Effect effect) const { return (bits_ & bit(effect)) != 0; }
   constexpr bool any_of(Effects others) const { return (bits_ & others.bits_) != 0; }
@@ -52,14 +56,26 @@ class Effects {
   /// duration.
   constexpr bool on_cost() const { return any_of({Effect::mesh, Effect::cost, Effect::output}); }
 
-  /// "mesh, cost"; "" of none.
+  /// The words of EffectText, "mesh, cost".
   std::string names() const;
 
+  constexpr Effects operator|(Effects others) const {
+    others.bits_ |= bits_;
+    return others;
+  }
   constexpr bool operator==(const Effects&) const = default;
 
  private:
   static constexpr unsigned bit(Effect effect) { return 1U << static_cast<unsigned>(effect); }
   unsigned bits_ = 0;
 };
+
+/// An effect as docs/scene.md has it.
+struct EffectText {
+  Effect effect;
+  const char* name;
+  const char* meaning;
+};
+const std::vector<EffectText>& effect_texts();
 
 }  // namespace tread

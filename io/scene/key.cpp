@@ -3,32 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace tread {
-
-std::string Effects::names() const {
-  constexpr std::array<std::pair<Effect, const char*>, 14> kNames = {{{Effect::text, "text"},
-                                                                      {Effect::fineness, "fineness"},
-                                                                      {Effect::mesh, "mesh"},
-                                                                      {Effect::preload, "preload"},
-                                                                      {Effect::motion, "motion"},
-                                                                      {Effect::cost, "cost"},
-                                                                      {Effect::surface, "surface"},
-                                                                      {Effect::room, "room"},
-                                                                      {Effect::duration, "duration"},
-                                                                      {Effect::output, "output"},
-                                                                      {Effect::process, "process"},
-                                                                      {Effect::stop, "stop"},
-                                                                      {Effect::forks, "forks"},
-                                                                      {Effect::wear, "wear"}}};
-  std::string text;
-  for (const auto& [effect, name] : kNames)
-    if (has(effect)) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
 
 bool Bounds::contains(double value) const {
   return (open_low ? value > low : value >= low) && (open_high ? value < high : value <= high);

@@ -36,6 +36,10 @@ Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locat
           .allowed = std::move(allowed)};
 }
 
+Key file(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description) {
+  return or_file(choice(std::move(path), effects, std::move(locate), {}, std::move(description)));
+}
+
 Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,
                   std::string description) {
   return {.path = std::move(path),

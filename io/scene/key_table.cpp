@@ -17,7 +17,7 @@ void add_general(Keys& keys) {
                   .locate = at(&Scene::title),
                   .description = "Name of the scene in reports"});
   keys.push_back({.path = "scene.based_on",
-                  .effects = Effects::none(),
+                  .effects = Effects::all(),
                   .kind = Kind::directive,
                   .locate = {},
                   .description = "Library entry whose values hold where the file states none"});
@@ -35,8 +35,8 @@ void add_general(Keys& keys) {
   keys.push_back(quantity("scene.element_size", {Effect::fineness, Effect::mesh}, at(&Scene::element_size),
                           kLength, "mm", above(0, 0.1),
                           "Element size in the contact surface, in place of the quality's"));
-  keys.push_back(quantity("scene.gravity", {Effect::preload}, at(&Scene::gravity), kAcceleration, "m/s2",
-                          from(0, 100), "Acceleration of gravity"));
+  keys.push_back(quantity("scene.gravity", {Effect::preload, Effect::cost}, at(&Scene::gravity),
+                          kAcceleration, "m/s2", from(0, 100), "Acceleration of gravity"));
   keys.push_back(
       only_with("wheel.shape", "tyre",
                 flag("scene.plane_strain", {Effect::preload, Effect::cost}, at(&Scene::plane_strain),
@@ -49,9 +49,13 @@ void add_general(Keys& keys) {
                                    "m", above(0, 1000), "Length of the finely divided rail")));
 }
 
-Key presence_of(const SceneTable& table) {
+/// The key that leaves the table out: it affects what the table's own keys, among `keys`, affect together.
+Key presence_of(const SceneTable& table, const Keys& keys) {
+  Effects effects = {};
+  for (const Key& key : keys)
+    if (key.path.starts_with(table.name + ".")) effects = effects | key.effects;
   return {.path = table.name + ".present",
-          .effects = Effects::none(),
+          .effects = effects,
           .kind = Kind::directive,
           .locate = {},
           .description = "false leaves the table out"};
@@ -90,7 +94,7 @@ Keys make_keys(const std::vector<std::string>& materials) {
   add_wear(keys);
   add_impacts_and_output(keys);
   for (const SceneTable& table : make_tables(materials))
-    if (table.removable()) keys.push_back(presence_of(table));
+    if (table.removable()) keys.push_back(presence_of(table, keys));
   return keys;
 }
 
@@ -155,7 +159,7 @@ Keys material_keys(std::string_view name) {
   Keys keys;
   if (name.empty()) return keys;
   add_material(keys, std::string(name));
-  keys.push_back(presence_of(material_table(std::string(name))));
+  keys.push_back(presence_of(material_table(std::string(name)), keys));
   return keys;
 }
 

@@ -34,16 +34,12 @@ void add_friction(Keys& keys) {
                              at(&Scene::contact, &ContactSpec::friction_memory), kLength, "um", from(0, 1),
                              "Sliding length over which the coefficient follows the slip speed; "
                              "above zero"))));
-  Key file{.path = "contact.friction_file",
-           .effects = {Effect::motion},
-           .kind = Kind::text,
-           .locate = at(&Scene::contact, &ContactSpec::friction_file),
-           .description =
-               "File of two columns, x and coefficient of friction, after a line such as "
-               "`# x [m]  f [-]`; linear between the rows, constant beyond them"};
-  file.takes_file = true;
+  Key table =
+      file("contact.friction_file", {Effect::motion}, at(&Scene::contact, &ContactSpec::friction_file),
+           "File of two columns, x and coefficient of friction, after a line such as "
+           "`# x [m]  f [-]`; linear between the rows, constant beyond them");
   // A table of a later layer takes the place of an earlier coefficient.
-  keys.push_back(with({"table"}, required(instead_of("contact.friction", std::move(file)))));
+  keys.push_back(with({"table"}, required(instead_of("contact.friction", std::move(table)))));
   keys.push_back(with({"table"}, quantity("contact.friction_start", {Effect::motion},
                                           at(&Scene::contact, &ContactSpec::friction_start), kLength, "m",
                                           from(-1000, 1000), "x on the rail where the file's x is zero")));
@@ -146,15 +142,12 @@ void add_corrugation(Keys& keys) {
   keys.push_back(choice("corrugation.apply", {Effect::surface},
                         at(&Scene::corrugation, &CorrugationSpec::apply), {"nodes", "gap"},
                         "By moved nodes, or added to the contact gap"));
-  Key file{.path = "corrugation.file",
-           .effects = {Effect::surface},
-           .kind = Kind::text,
-           .locate = at(&Scene::corrugation, &CorrugationSpec::file),
-           .description =
+  keys.push_back(only_with(
+      "corrugation.kind", "table",
+      required(
+          file("corrugation.file", {Effect::surface}, at(&Scene::corrugation, &CorrugationSpec::file),
                "File of two columns, x from the start and depth positive downwards, after a line such as "
-               "`# x [m]  d [mm]`"};
-  file.takes_file = true;
-  keys.push_back(only_with("corrugation.kind", "table", required(std::move(file))));
+               "`# x [m]  d [mm]`"))));
 }
 
 void add_wear(Keys& keys) {

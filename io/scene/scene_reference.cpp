@@ -40,23 +40,6 @@ nothing.
 "affects" names the first thing that another value changes; the rest follows from it. A new *mesh* means a new static
 state, a new static state (*preload*) another *motion*. Runs with equal mesh and preload share that from the preload cache;
 a fork (`tread run --from`) may differ in all that affects none of mesh, preload and motion.
-
-| affects | which means |
-|---|---|
-| text | what reports call the scene |
-| fineness | how finely the same passage is computed |
-| mesh | nodes, elements and ties of the smooth bodies |
-| preload | the static state on the same mesh |
-| motion | the motion from the same static state |
-| cost | step, memory or disk of the same mesh |
-| surface | the depth of the corrugation |
-| room | the depth that the searched surface has room for |
-| duration | how long the motion is followed, and the stretch of track for that |
-| output | what the run's folder tells of the motion |
-| process | how the process shows progress and saves its state |
-| stop | what ends the process before the duration |
-| forks | the state that is kept for other runs |
-| wear | how `tread develop` goes from a passage to the next |
 )";
 
 /// A cell of a Markdown table.
@@ -115,6 +98,13 @@ std::string table_section(const SceneTable& table, const std::vector<Key>& keys,
   return text;
 }
 
+std::string effects_table() {
+  std::string text = "\n| affects | which means |\n|---|---|\n";
+  for (const EffectText& effect : effect_texts())
+    text += fmt::format("| {} | {} |\n", effect.name, effect.meaning);
+  return text;
+}
+
 std::string library_section(const LibraryEntry& entry) {
   std::string text = fmt::format("\n### {}\n\n{}\n\n| key | value | source |\n|---|---|---|\n", entry.name,
                                  entry.description);
@@ -134,7 +124,7 @@ std::string scene_reference() {
   for (const SceneTable& table : tables) {
     if (table.removable()) table.create(everything);
   }
-  std::string text = kIntroduction;
+  std::string text = kIntroduction + effects_table();
   text += "\n## Tables\n";
   for (const SceneTable& table : tables) text += table_section(table, keys, everything);
   text += "\n## Library\n";

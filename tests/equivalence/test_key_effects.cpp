@@ -21,6 +21,7 @@
 #include "drivers/results/inventory.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/schema.hpp"
+#include "tests/bar_scene.hpp"
 #include "tests/state_copies.hpp"
 
 namespace tread {
@@ -105,29 +106,6 @@ struct BaseScene {
 const BaseScene& base_scene(const std::string& name) {
   static const Overrides kSines = {"corrugation.apply=gap", "corrugation.start=0 mm",
                                    "corrugation.length=170 mm"};
-  static const std::string kBar = R"(
-[scene]
-title = "bar"
-element_size = "10 mm"
-gravity = "0 m/s2"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0
-density = "7790 kg/m3"
-[rail]
-profile = "box"
-support = "free"
-inclination = 0
-length = "1 m"
-origin = "0 m"
-width = "20 mm"
-height = "20 mm"
-[pulse]
-velocity = "1 m/s"
-length = "0.1 m"
-[motion]
-duration = "0.1 ms"
-)";
   static const std::map<std::string, BaseScene> kScenes = {
       {"track", {kTrack, kSines}},
       {"sprung",
@@ -161,9 +139,9 @@ duration = "0.1 ms"
         "density = \"9000 kg/m3\"\n",
         {"rail.head_material=hard", "rail.length=2 m", "rail.origin=1 m", "fastenings.count=3",
          "fastenings.first=0.35 m", "motion.duration=0.1 ms"}}},
-      {"bar", {kBar.c_str(), {}}},
+      {"bar", {samples::kBar, {}}},
       {"hammer",
-       {kBar.c_str(),
+       {samples::kBar,
         {"pulse.present=false", "rail.support=rigid", "hammer.position=0.3 m", "hammer.force=1 kN",
          "hammer.duration=20 us"}}},
   };
@@ -281,7 +259,7 @@ const std::vector<Change>& changes() {
       {"scene.quality", "standard", "wheelset"},
       {"scene.precision", "mixed"},
       {"scene.element_size", "13 mm"},
-      {"scene.gravity", "9.8 m/s2"},
+      {"scene.gravity", "40 m/s2", "sprung", {"motion.start=moving"}},
       {"scene.plane_strain", "true"},
       {"solution_zone.start", "-20 mm"},
       {"solution_zone.length", "220 mm"},
@@ -344,11 +322,11 @@ const std::vector<Change>& changes() {
       {"slab.material", "hard", "track", {}, {"material.slab.present=false"}},
       {"slab.gap_material", "slab", "track", {}, {"material.gap_filler.present=false"}},
       {"slab.mortar_material", "slab", "track", {}, {"material.hard.present=false"}},
-      {"vehicle.sprung_mass", "510 kg", "sprung", {"motion.start=moving"}},
-      {"vehicle.unsprung_mass", "3600 kg", "sprung", {"motion.start=moving"}},
+      {"vehicle.sprung_mass", "12000 kg", "sprung", {"motion.start=moving"}},
+      {"vehicle.unsprung_mass", "15000 kg", "sprung", {"motion.start=moving"}},
       {"vehicle.suspension_stiffness", "900 MN/m", "sprung"},
       {"vehicle.suspension_damping", "9000 kN s/m", "sprung"},
-      {"load.wheel_load", "41 kN"},
+      {"load.wheel_load", "300 kN", "track", {"motion.start=moving"}},
       {"contact.friction_law", "falling", "track", kSliding, {"contact.friction_memory=1 um"}},
       {"contact.friction", "0.3", "track", kSliding},
       {"contact.friction_fast", "0.3", "falling", kSliding},
@@ -478,9 +456,11 @@ TEST(KeyEffects, EveryKeyIsChanged) {
   }
 }
 
-TEST(KeyEffects, DirectivesHaveNone) {
-  for (const Key& key : scene_keys())
-    EXPECT_EQ(key.effects == Effects::none(), key.kind == Kind::directive) << key.path;
+TEST(KeyEffects, DirectivesAffectWhatTheyBring) {
+  EXPECT_TRUE(find_key("scene.based_on")->effects.has(Effect::mesh));
+  EXPECT_EQ(find_key("slab.present")->effects, (Effects{Effect::mesh, Effect::preload, Effect::cost}));
+  EXPECT_EQ(find_key("corrugation.present")->effects, Effects{Effect::surface});
+  EXPECT_TRUE(find_key("material.any_name.present")->effects.has(Effect::mesh));
 }
 
 }  // namespace

@@ -132,7 +132,8 @@ TEST_F(Resume, OnlyWhatLeavesTheMotionAloneMayChange) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
   for (const char* wrong :
        {"contact.friction=0.3", "motion.speed=\"100 km/h\"", "scene.element_size=\"9 mm\"",
-        "motion.duration=\"5 ms\"", "motion.duration=\"0.1 ms\"", "output.interval=1"}) {
+        "motion.duration=\"5 ms\"", "motion.duration=\"0.1 ms\"", "output.interval=1", "rail.present=false",
+        "scene.based_on=highspeed-slab-2014"}) {
     EXPECT_EQ(call(resume(fmt::format("--set {}", wrong))), 2) << wrong;
     const std::string key = wrong;
     EXPECT_TRUE(has(errors(), key.substr(0, key.find('=')))) << errors();

@@ -9,6 +9,7 @@
 #include "drivers/engine/simulation.hpp"
 #include "drivers/results/inventory.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "tests/bar_scene.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -29,30 +30,6 @@ traction = { mu = 0.3, ramp = "1 ms" }
 start = "20 mm"
 wavelength = "20 mm"
 length = "40 mm"
-)";
-
-constexpr const char* kBar = R"(
-[scene]
-title = "bar"
-element_size = "10 mm"
-gravity = "0 m/s2"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0
-density = "7790 kg/m3"
-[rail]
-profile = "box"
-support = "free"
-inclination = 0
-length = "1 m"
-origin = "0 m"
-width = "20 mm"
-height = "20 mm"
-[pulse]
-velocity = "1 m/s"
-length = "0.1 m"
-[motion]
-duration = "0.1 ms"
 )";
 
 Scene static_tyre() {
@@ -121,7 +98,7 @@ TEST(Inventory, EveryFieldBelongsToAPhaseAndHasBytes) {
   Model track(small_track());
   expect_consistent(track);
   expect_consistent(Model(static_tyre()));
-  expect_consistent(Model(scene_of(kBar)));
+  expect_consistent(Model(scene_of(samples::kBar)));
 }
 
 /// Names of the phases that a simulation enters in a step in which energies are looked at.
@@ -170,8 +147,8 @@ TEST(Inventory, BranchLagIsThereWithABranchOnly) {
   const std::vector<std::string> damping = {
       "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-4 s\" }",
       "material.steel.damping_up_to=3 kHz"};
-  const Model with(scene_of(kBar, damping));
-  const Model without(scene_of(kBar));
+  const Model with(scene_of(samples::kBar, damping));
+  const Model without(scene_of(samples::kBar));
   expect_consistent(with);
   EXPECT_EQ(missing(phase_names(with), phase_names(without)), Names{"Maxwell branches"});
   EXPECT_EQ(missing(field_names(with), field_names(without)), Names{"branch lag"});
@@ -228,11 +205,12 @@ TEST(Inventory, StaticTyreHasNoStep) {
 }
 
 TEST(Inventory, BarHasNeitherWheelNorContactNorTrack) {
-  const Model model(scene_of(kBar));
+  const Model model(scene_of(samples::kBar));
   const Names expected = {"preload", "internal force", "energies", "update",
                           "samples", "checkpoint",     "frames"};
   EXPECT_EQ(phase_names(model), expected);
-  EXPECT_EQ(missing(expected, phase_names(Model(scene_of(kBar, {"output.frames=0"})))), Names{"frames"});
+  EXPECT_EQ(missing(expected, phase_names(Model(scene_of(samples::kBar, {"output.frames=0"})))),
+            Names{"frames"});
   const Names names = field_names(model);
   for (const char* absent :
        {"moved nodes", "tie links", "fastening elements", "journal nodes", "torque nodes", "contact points",
