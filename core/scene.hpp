@@ -52,6 +52,13 @@ struct RailSpec {
   std::vector<double> profile_z;       ///< second column [m]
 };
 
+/// How the fastenings hold the rail's foot in a horizontal direction.
+struct FootHold {
+  std::string kind = "held";  ///< "held", "free" or "elastic"
+  double stiffness = 0;       ///< elastic: of one fastening, to the ground [N/m]
+  double damping = 0;         ///< elastic: of one fastening, to the ground [N s/m]
+};
+
 /// [fastenings]
 struct FasteningSpec {
   int count = 24;
@@ -63,6 +70,18 @@ struct FasteningSpec {
   double pad_width = 0.15;   ///< across: the rows stand at the quarters' centres [m]
   int columns = 3;           ///< spring-dampers along x
   int rows = 4;              ///< spring-dampers across
+  FootHold along;            ///< of the foot's motion along x
+  FootHold across;           ///< of the foot's motion along y
+  /// Where "held" acts: "pad", all of the foot over the pad, or "springs", the foot's nodes nearest to the
+  /// spring-dampers.
+  std::string held_at = "pad";
+
+  /// x of the middle of a fastening, from the rail's left end [m]
+  double position(int fastening) const { return first + fastening * spacing; }
+  /// Distance of a column from the middle of its fastening [m].
+  double column_offset(int column) const { return pad_length * ((column + 0.5) / columns - 0.5); }
+  /// Distance of a row from the middle of the foot [m].
+  double row_offset(int row) const { return pad_width * ((row + 0.5) / rows - 0.5); }
 };
 
 /// [slab]; without it the fastenings stand on rigid ground

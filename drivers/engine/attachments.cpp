@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "kernels/contact/contact_surface.hpp"
@@ -55,26 +57,79 @@ Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
   return attach_to_line(block, nodes, "running surface", {x, y});
 }
 
+namespace {
+
+/// y of the middle of the foot [m].
+double middle_of_foot(const SweptBlock& rail) {
+  const std::vector<int>& foot = rail.section.paths.at("foot");
+  return 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
+                rail.section.p[static_cast<std::size_t>(foot.back())]);
+}
+
+/// Calls `act` with x and y [m] of each spring-damper of the fastenings.
+template <class Act>
+void each_spring_damper(const Scene& scene, const SweptBlock& rail, const Act& act) {
+  const FasteningSpec& f = *scene.fastenings;
+  const double middle = middle_of_foot(rail);
+  for (int i = 0; i < f.count; ++i)
+    for (int column = 0; column < f.columns; ++column)
+      for (int row = 0; row < f.rows; ++row)
+        act(f.position(i) + f.column_offset(column) - scene.rail->origin, middle + f.row_offset(row));
+}
+
+/// Indices of the values within `reach` of `at`; where there are none, that of the nearest.
+template <class Value>
+std::vector<int> within(int count, const Value& value, double at, double reach) {
+  std::vector<int> found;
+  int nearest = 0;
+  for (int i = 0; i < count; ++i) {
+    if (std::abs(value(i) - at) <= reach) found.push_back(i);
+    if (std::abs(value(i) - at) < std::abs(value(nearest) - at)) nearest = i;
+  }
+  if (found.empty()) found.push_back(nearest);
+  return found;
+}
+
+}  // namespace
+
 std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
                                                        const SweptBlock* slab) {
   const FasteningSpec& f = *scene.fastenings;
-  const auto& foot = rail.section.paths.at("foot");
-  const double middle = 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
-                               rail.section.p[static_cast<std::size_t>(foot.back())]);
-  std::vector<SpringDampers::Element> elements;
   const int groups = f.columns * f.rows;
-  for (int i = 0; i < f.count; ++i)
-    for (int column = 0; column < f.columns; ++column)
-      for (int row = 0; row < f.rows; ++row) {
-        const double x =
-            -scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5);
-        const double y = middle + f.pad_width * ((row + 0.5) / f.rows - 0.5);
-        SpringDampers::Element element{
-            attach(rail, "foot", x, y), {}, f.stiffness / groups, f.damping / groups};
-        if (slab) element.lower = attach(*slab, "top", x, y);
-        elements.push_back(element);
-      }
+  std::vector<SpringDampers::Element> elements;
+  each_spring_damper(scene, rail, [&](double x, double y) {
+    const Attachment foot = attach(rail, "foot", x, y);
+    const Attachment below = slab ? attach(*slab, "top", x, y) : Attachment{};
+    elements.push_back({foot, below, f.stiffness / groups, f.damping / groups, 2});
+    for (const auto& [component, hold] : {std::pair(0, &f.along), std::pair(1, &f.across)})
+      if (hold->kind == "elastic")
+        elements.push_back({foot, {}, hold->stiffness / groups, hold->damping / groups, component});
+  });
   return elements;
+}
+
+std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail) {
+  constexpr double kRounding = 1e-9;
+  const FasteningSpec& f = *scene.fastenings;
+  const std::vector<int>& foot = rail.section.paths.at("foot");
+  const auto y = [&](int i) {
+    return rail.section.p[static_cast<std::size_t>(foot[static_cast<std::size_t>(i)])];
+  };
+  const auto x = [&](int station) { return rail.stations[static_cast<std::size_t>(station)]; };
+  std::vector<FootNode> nodes;
+  const auto hold = [&](double at_x, double at_y, double half_length, double half_width) {
+    for (const int i : within(static_cast<int>(foot.size()), y, at_y, half_width))
+      for (const int station : within(rail.station_count(), x, at_x, half_length))
+        nodes.push_back({foot[static_cast<std::size_t>(i)], station});
+  };
+  if (f.held_at == "springs") {
+    each_spring_damper(scene, rail, [&](double at_x, double at_y) { hold(at_x, at_y, 0, 0); });
+    return nodes;
+  }
+  for (int i = 0; i < f.count; ++i)
+    hold(f.position(i) - scene.rail->origin, middle_of_foot(rail), 0.5 * f.pad_length + kRounding,
+         0.5 * f.pad_width + kRounding);
+  return nodes;
 }
 
 }  // namespace tread

@@ -17,9 +17,18 @@ Attachment attach(const SweptBlock& block, const std::string& path, double x, do
 /// Attachment at (x, y) [m] on the running surface. InputError if it lies beyond the block.
 Attachment attach_to_surface(const SweptBlock& block, double x, double y);
 
-/// Spring-dampers of the scene's fastenings under the block `rail`, on `slab` or, if that is null, on rigid
-/// ground.
+/// Spring-dampers of the scene's fastenings under the block `rail`: vertical ones on `slab` or, if that is
+/// null, on rigid ground; along and across where they are elastic, to the ground.
 std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
                                                        const SweptBlock* slab);
+
+/// A node of the rail's foot: of the section, and its station.
+struct FootNode {
+  int node = 0, station = 0;
+};
+
+/// Nodes of the foot of the block `rail` that the fastenings hold (FasteningSpec::held_at); of each fastening
+/// at least one.
+std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail);
 
 }  // namespace tread

@@ -17,24 +17,11 @@
 #include "core/travel.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/restraints.hpp"
 #include "drivers/engine/sections.hpp"
 #include "kernels/element/front_plan.hpp"
 
 namespace tread {
-
-std::vector<int> BlockIndex::wheel() const {
-  std::vector<int> blocks;
-  for (const int b : {tread, disc, axle})
-    if (b >= 0) blocks.push_back(b);
-  return blocks;
-}
-
-std::vector<int> BlockIndex::rail() const {
-  std::vector<int> blocks;
-  for (const int b : {rail_cap, rail_base})
-    if (b >= 0) blocks.push_back(b);
-  return blocks;
-}
 
 namespace {
 
@@ -55,7 +42,7 @@ Model::Model(const Scene& source, std::optional<double> corrugation_centre)
   build_bodies();
   const Corrugation shape = corrugation_centre ? corrugate(*corrugation_centre) : Corrugation();
   build_operators();
-  restrain();
+  restrained = restrained_unknowns(scene, {mesh, index, ties ? &*ties : nullptr});
   build_connectors();
   if (scene.wheel) build_wheel_parts();
   if (scene.contact && scene.rail && scene.wheel) build_contact(shape);
@@ -167,61 +154,6 @@ void Model::build_wheel() {
       make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {material}, plan.start, plan.axle));
   tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
   tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
-}
-
-void Model::restrain() {
-  const auto hold = [&](const SweptBlock& block, int node, int station, int component) {
-    restrained.push_back(dof(block.base + block.slot(node, station), component));
-  };
-  const auto hold_path = [&](const SweptBlock& block, const std::string& path, int component) {
-    for (const int node : block.section.paths.at(path))
-      for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, component);
-  };
-  for (const int b : index.rail()) {
-    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(b)];
-    if (scene.pulse) continue;  // a free bar
-    for (int node = 0; node < block.section.nodes(); ++node)
-      for (const int station : {0, block.station_count() - 1}) hold(block, node, station, 0);
-    if (block.section.paths.count("foot") == 0) continue;
-    if (scene.rail->support == "rigid") {
-      for (int c = 0; c < 3; ++c) hold_path(block, "foot", c);
-    } else if (scene.fastenings) {
-      // The foot cannot move sideways over the fastenings.
-      const FasteningSpec& f = *scene.fastenings;
-      for (int station = 0; station < block.station_count(); ++station) {
-        const double from_end =
-            block.stations[static_cast<std::size_t>(station)] + scene.rail->origin - f.first;
-        const double nearest = std::clamp(std::round(from_end / f.spacing), 0.0, f.count - 1.0);
-        if (std::abs(from_end - nearest * f.spacing) <= 0.5 * f.pad_length)
-          for (const int node : block.section.paths.at("foot")) hold(block, node, station, 1);
-      }
-    }
-  }
-  if (index.slab >= 0) {
-    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(index.slab)];
-    for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node)
-        for (int c = 0; c < 2; ++c) hold(block, node, station, c);
-    hold_path(block, "bottom", 2);
-  }
-  if (scene.plane_strain)
-    for (const SweptBlock& block : mesh.blocks)
-      for (int node = 0; node < block.section.nodes(); ++node)
-        for (int station = 0; station < block.station_count(); ++station) hold(block, node, station, 1);
-  if (index.axle >= 0) hold_path(mesh.blocks[static_cast<std::size_t>(index.axle)], "symmetry_end", 1);
-  if (index.tread >= 0 && index.axle < 0)
-    hold_path(mesh.blocks[static_cast<std::size_t>(index.tread)], "bore", 1);
-  // Secondary nodes follow their primaries and need no restraint of their own.
-  if (ties) {
-    std::vector<std::int64_t> tied;
-    for (const std::int64_t slot : ties->secondary_slots())
-      for (int c = 0; c < 3; ++c) tied.push_back(dof(slot, c));
-    std::sort(tied.begin(), tied.end());
-    std::erase_if(restrained,
-                  [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
-  }
-  std::sort(restrained.begin(), restrained.end());
-  restrained.erase(std::unique(restrained.begin(), restrained.end()), restrained.end());
 }
 
 void Model::build_internal() {

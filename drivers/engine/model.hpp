@@ -12,6 +12,7 @@
 #include "core/math/hertz.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/scene.hpp"
+#include "drivers/engine/block_index.hpp"
 #include "drivers/engine/station_plan.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/connectors/connectors.hpp"
@@ -21,21 +22,6 @@
 #include "kernels/update/body_motion.hpp"
 
 namespace tread {
-
-/// Indices into Mesh::blocks; -1: absent. A box rail and a tyre are one block each.
-struct BlockIndex {
-  int rail_cap = -1;   ///< carries the running surface
-  int rail_base = -1;  ///< tied under the cap
-  int slab = -1;
-  int tread = -1;  ///< carries the tread surface
-  int disc = -1;
-  int axle = -1;
-
-  /// The block whose foot stands on fastenings or ground.
-  int rail_foot() const { return rail_base >= 0 ? rail_base : rail_cap; }
-  std::vector<int> wheel() const;
-  std::vector<int> rail() const;
-};
 
 struct Model {
   /// The smooth rail without `corrugation_centre`; with it the rail as apply_corrugation() leaves it [m].
@@ -93,7 +79,6 @@ struct Model {
   void build_wheel();
   void build_slab();
   void build_internal();
-  void restrain();
   void build_mass();
   void set_damping();
   void build_wheel_parts();

@@ -82,9 +82,7 @@ RunIn::Section RunIn::at(double x) const {
   const double share = along - static_cast<double>(i);
   const Section& a = sections[i];
   const Section& b = sections[i + 1];
-  const auto between = [&](double Section::*value) { return (1 - share) * a.*value + share * b.*value; };
-  return {between(&Section::deflection), between(&Section::rotation), between(&Section::deflection_rate),
-          between(&Section::rotation_rate)};
+  return {(1 - share) * a.displacement + share * b.displacement, (1 - share) * a.rate + share * b.rate};
 }
 
 namespace {
@@ -170,18 +168,15 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   const std::vector<double> rest = beam.static_state(0, out.force);
   const std::vector<double>& state = passage.beam_state();
   const std::vector<double>& rate = passage.beam_rate();
-  const auto last = static_cast<std::size_t>(beam.nodes()) - 1;
-  for (std::size_t i = 0; i <= last; ++i) {
+  const int last = beam.nodes() - 1;
+  for (int i = 0; i <= last; ++i) {
     // What stays under the wheel has the rate -v d/dx.
-    const auto seen = [&](std::size_t component) {
-      const std::size_t after = std::min(i + 1, last);
-      const std::size_t before = i == 0 ? 0 : i - 1;
-      const double slope = (state[2 * after + component] - state[2 * before + component]) /
-                           (static_cast<double>(after - before) * out.pitch);
-      return rate[2 * i + component] + speed * slope;
-    };
+    const int after = std::min(i + 1, last);
+    const int before = std::max(i - 1, 0);
+    const double over = speed / ((after - before) * out.pitch);
     out.sections.push_back(
-        {state[2 * i] - rest[2 * i], state[2 * i + 1] - rest[2 * i + 1], seen(0), seen(1)});
+        {beam.motion(state, i) - beam.motion(rest, i),
+         beam.motion(rate, i) + over * (beam.motion(state, after) - beam.motion(state, before))});
   }
   return out;
 }

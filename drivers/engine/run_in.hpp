@@ -53,8 +53,7 @@ struct RunIn {
 
   /// Motion of a section of the beam beyond the static state; rates as seen from the wheel.
   struct Section {
-    double deflection = 0, rotation = 0;            ///< [m], [rad]
-    double deflection_rate = 0, rotation_rate = 0;  ///< [m/s], [rad/s]
+    SectionMotion displacement, rate;
   };
   Section at(double x) const;
 

@@ -27,9 +27,9 @@ double along_sweep(const SweptBlock& block, int node, int station, int component
   return (ahead * h0 + behind * h1) / (h0 + h1);
 }
 
-/// Adds motions of the rail's sections, deflection downwards and rotation, to a field: [m] or [m/s].
-template <class Motion>
-void add_to_rail(const Model& model, const Motion& motion, AlignedVector<double>& field) {
+/// Adds the motions of the rail's sections, `motion(x)`, to a field: [m] or [m/s].
+template <class MotionAt>
+void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<double>& field) {
   // Rotation is about the rail's centroid.
   double mass = 0;
   double moment = 0;
@@ -45,12 +45,12 @@ void add_to_rail(const Model& model, const Motion& motion, AlignedVector<double>
   for (const int b : model.index.rail()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     for (int station = 0; station < block.station_count(); ++station) {
-      const auto [deflection, rotation] = motion(block.stations[static_cast<std::size_t>(station)]);
+      const SectionMotion section = motion(block.stations[static_cast<std::size_t>(station)]);
       for (int node = 0; node < block.section.nodes(); ++node) {
         const std::int64_t slot = block.base + block.slot(node, station);
         const double above = block.section.q[static_cast<std::size_t>(node)] - moment / mass;
-        field[static_cast<std::size_t>(dof(slot, 0))] += above * rotation;
-        field[static_cast<std::size_t>(dof(slot, 2))] -= deflection;
+        field[static_cast<std::size_t>(dof(slot, 0))] += section.axial + above * section.rotation;
+        field[static_cast<std::size_t>(dof(slot, 2))] -= section.deflection;
       }
     }
   }
@@ -103,13 +103,8 @@ void roll_freely(const Model& model, const StartFields& fields) {
 void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
   if (!run_in) return;
   add_to_rail(
-      model,
-      [&](double x) {
-        const RunIn::Section section = run_in->at(x);
-        return std::pair(section.deflection, section.rotation);
-      },
-      fields.displacement);
-  fields.wheel.origin.z -= run_in->at(0).deflection;
+      model, [&](double x) { return run_in->at(x).displacement; }, fields.displacement);
+  fields.wheel.origin.z -= run_in->at(0).displacement.deflection;
 }
 
 namespace {
@@ -123,12 +118,7 @@ void start_wheel(const Model& model, const std::optional<RunIn>& run_in, const S
   if (deflected) move_deflection(model, speed, fields);
   if (run_in)
     add_to_rail(
-        model,
-        [&](double x) {
-          const RunIn::Section section = run_in->at(x);
-          return std::pair(section.deflection_rate, section.rotation_rate);
-        },
-        fields.velocity);
+        model, [&](double x) { return run_in->at(x).rate; }, fields.velocity);
   if (run_in) bend_axle(model, run_in->bending_speed, fields);
   if (deflected) roll_freely(model, fields);
   if (!motion || motion->creepage == 0) return;

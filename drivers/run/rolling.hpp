@@ -3,6 +3,7 @@
 // limits.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -65,8 +66,9 @@ class Rolling {
   std::optional<std::int64_t> fork_step_;  ///< step whose state is kept for other runs
   double started_ = 0;                     ///< start on the session's clock [s]
   std::int64_t started_steps_ = 0;
-  double seconds_before_ = 0;    ///< time that earlier processes rolled [s]
-  double looked_at_ = 0;         ///< last look into the folder on the session's clock [s]
+  double seconds_before_ = 0;  ///< time that earlier processes rolled [s]
+  /// Last look into the folder on the session's clock; the first one is at once. [s]
+  double looked_at_ = -std::numeric_limits<double>::infinity();
   double checkpoint_at_ = 0;     ///< last checkpoint on the session's clock [s]
   std::optional<Mark> written_;  ///< last checkpoint that is safe
   std::optional<Mark> being_written_;

@@ -17,7 +17,9 @@ std::vector<VerifyInput> track_inputs() {
   return {{"element_size", &kLength, "mm", 6e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
           {"spacing", &kLength, "m", 0.65, {0.3, 1}, "the distance between fastenings"},
           {"stiffness", &kStiffness, "MN/m", 22e6, {1e6, 1e9}, "a fastening's stiffness"},
-          {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e6}, "a fastening's damping"}};
+          {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e6}, "a fastening's damping"},
+          {"held", nullptr, "", 1, {0, 1}, "1: the foot is held along x, 0: it moves freely"},
+          {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"}};
 }
 
 std::string track_text(const VerifyInputs& inputs, double element_size) {
@@ -32,9 +34,12 @@ count = {count}
 spacing = "{spacing} m"
 stiffness = "{k} N/m"
 damping = "{c} N s/m"
+along = "{along}"
+held_at = "{held_at}"
 )",
       fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]), fmt::arg("c", inputs["damping"]),
-      fmt::arg("spacing", inputs["spacing"]),
+      fmt::arg("spacing", inputs["spacing"]), fmt::arg("along", inputs["held"] > 0 ? "held" : "free"),
+      fmt::arg("held_at", inputs["over_pad"] > 0 ? "pad" : "springs"),
       fmt::arg("count", 1 + static_cast<int>(std::floor((kRail - 2 * kFirst) / inputs["spacing"] + 1e-9))));
 }
 

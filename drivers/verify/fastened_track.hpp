@@ -8,7 +8,7 @@
 
 namespace tread {
 
-/// Inputs element_size, spacing, stiffness and damping of the fastenings.
+/// Inputs element_size, spacing, stiffness and damping of the fastenings, and where they hold the foot.
 std::vector<VerifyInput> track_inputs();
 
 /// Scene text: wheelset, vehicle and rail of the paper, as many fastenings as the rail takes, no slab. Tables

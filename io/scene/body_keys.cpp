@@ -124,6 +124,26 @@ void add_rail(Keys& keys) {
                    "m", from(0, 1000), "Radius of the box's running surface across the rail, 0: flat")));
 }
 
+namespace {
+
+/// `damping`: what the dampers affect; only those along x enter the start of rolling.
+void add_foot_hold(Keys& keys, const std::string& path, FootHold FasteningSpec::*hold, Effects damping,
+                   const char* description) {
+  keys.push_back(choice(path, {Effect::preload, Effect::cost}, at(&Scene::fastenings, hold, &FootHold::kind),
+                        {"held", "free", "elastic"}, description));
+  keys.push_back(
+      required(only_with(path, "elastic",
+                         quantity(path + "_stiffness", {Effect::preload, Effect::cost},
+                                  at(&Scene::fastenings, hold, &FootHold::stiffness), kStiffness, "MN/m",
+                                  above(0, 1e10), "Stiffness of one fastening in that direction"))));
+  keys.push_back(only_with(
+      path, "elastic",
+      quantity(path + "_damping", damping, at(&Scene::fastenings, hold, &FootHold::damping), kViscousDamping,
+               "kN s/m", from(0, 1e7), "Damping of one fastening in that direction")));
+}
+
+}  // namespace
+
 void add_fastenings(Keys& keys) {
   const auto length = [&](const char* name, Effects effects, double FasteningSpec::*member, Bounds range,
                           const char* description) {
@@ -153,6 +173,16 @@ void add_fastenings(Keys& keys) {
         "Spring-dampers along x");
   count("fastenings.rows", {Effect::preload, Effect::cost}, &FasteningSpec::rows, {1, 20},
         "Spring-dampers across the rail");
+  add_foot_hold(
+      keys, "fastenings.along", &FasteningSpec::along, {Effect::preload, Effect::cost},
+      "The rail's foot along x at the fastenings: it cannot move, moves freely, or is held by springs "
+      "and dampers to the ground");
+  add_foot_hold(keys, "fastenings.across", &FasteningSpec::across, {Effect::motion, Effect::cost},
+                "The same across the rail; `free` in plane strain alone");
+  keys.push_back(choice("fastenings.held_at", {Effect::preload, Effect::cost},
+                        at(&Scene::fastenings, &FasteningSpec::held_at), {"pad", "springs"},
+                        "Where a held foot is held: all of it over the pad, or its nodes nearest to the "
+                        "spring-dampers, which give way the more the finer the mesh"));
 }
 
 void add_slab(Keys& keys) {

@@ -36,6 +36,15 @@ std::function<Field(Scene&)> at(std::optional<Spec> Scene::*spec, Member Spec::*
   };
 }
 
+/// A member of a part of a component.
+template <class Spec, class Part, class Member>
+std::function<Field(Scene&)> at(std::optional<Spec> Scene::*spec, Part Spec::*part, Member Part::*member) {
+  return [spec, part, member](Scene& scene) -> Field {
+    if (!(scene.*spec)) return std::monostate{};
+    return &((*(scene.*spec)).*part.*member);
+  };
+}
+
 /// A member of a part that is always there.
 template <class Spec, class Member>
 std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {

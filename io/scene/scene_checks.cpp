@@ -240,6 +240,9 @@ class Checker {
                         rail.length));
     require(fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
             {"fastenings.pad_length", "fastenings.spacing"}, "the pads of neighbouring fastenings overlap");
+    require(fastenings.across.kind != "free" || scene_.plane_strain, {"fastenings.across"},
+            "nothing would hold the rail sideways; state \"held\", or \"elastic\" with "
+            "fastenings.across_stiffness");
     require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
             {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
   }

@@ -6,6 +6,8 @@ namespace {
 
 constexpr std::string_view kTable1 = "Table 1";
 constexpr std::string_view kText = "section 2.1.1";
+constexpr std::string_view kVertical =
+    "section 2.1.1: the fastenings \"can only move vertically\"";
 constexpr std::string_view kCorrugation = "section 2.3, corrugation D";
 constexpr std::string_view kPad = "rail pad of the fastening WJ-7";
 constexpr std::string_view kSlab = "half of a CRTS II slab, 6.45 m x 2.55 m x 0.2 m";
@@ -58,6 +60,9 @@ LibraryEntry highspeed_slab_2014() {
               {"fastenings.pad_width", "0.15 m", kPad},
               {"fastenings.columns", "3", kText},
               {"fastenings.rows", "4", kText},
+              {"fastenings.along", "held", kVertical},
+              {"fastenings.across", "held", kVertical},
+              {"fastenings.held_at", "pad", kChosen},
               {"slab.pitch", "6.5 m", "Fig. 2, read as slab and gap together"},
               {"slab.gap", "50 mm", "Fig. 2"},
               {"slab.first_gap", "0 m", kChosen},

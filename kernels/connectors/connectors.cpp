@@ -9,10 +9,10 @@ namespace tread {
 void SpringDampers::apply(ConstNodeField u, ConstNodeField v, double dt, NodeField force) {
   TREAD_EXPECT(dt >= 0);
   for (const Element& e : elements_) {
-    const double rate = e.upper.value(v, 2) - e.lower.value(v, 2);
-    const double load = e.stiffness * (e.upper.value(u, 2) - e.lower.value(u, 2)) + e.damping * rate;
-    e.upper.add(force, 2, load);
-    e.lower.add(force, 2, -load);
+    const double rate = e.stretch(v);
+    const double load = e.stiffness * e.stretch(u) + e.damping * rate;
+    e.upper.add(force, e.component, load);
+    e.lower.add(force, e.component, -load);
     dissipated_ += e.damping * rate * rate * dt;
   }
 }
@@ -24,11 +24,11 @@ std::vector<Spring> SpringDampers::springs() const {
     spring.stiffness = e.stiffness;
     for (std::size_t k = 0; k < 4; ++k) {
       if (e.upper.slot[k] >= 0) {
-        spring.dofs.push_back(dof(e.upper.slot[k], 2));
+        spring.dofs.push_back(dof(e.upper.slot[k], e.component));
         spring.weights.push_back(e.upper.weight[k]);
       }
       if (e.lower.slot[k] >= 0) {
-        spring.dofs.push_back(dof(e.lower.slot[k], 2));
+        spring.dofs.push_back(dof(e.lower.slot[k], e.component));
         spring.weights.push_back(-e.lower.weight[k]);
       }
     }
@@ -40,7 +40,7 @@ std::vector<Spring> SpringDampers::springs() const {
 double SpringDampers::energy(ConstNodeField u) const {
   double sum = 0;
   for (const Element& e : elements_) {
-    const double stretch = e.upper.value(u, 2) - e.lower.value(u, 2);
+    const double stretch = e.stretch(u);
     sum += 0.5 * e.stiffness * stretch * stretch;
   }
   return sum;

@@ -33,13 +33,19 @@ struct Attachment {
   }
 };
 
-/// Vertical springs and dampers between points of extruded blocks (fastenings).
+/// Springs and dampers between points of extruded blocks, or to the ground (fastenings).
 class SpringDampers {
  public:
   struct Element {
     Attachment upper, lower;
-    double stiffness;  ///< [N/m]
-    double damping;    ///< [N s/m]
+    double stiffness;   ///< [N/m]
+    double damping;     ///< [N s/m]
+    int component = 2;  ///< direction in which it acts: 0 along, 1 across, 2 vertical
+
+    /// Of a field of displacements, or its rate of one of velocities.
+    double stretch(ConstNodeField field) const {
+      return upper.value(field, component) - lower.value(field, component);
+    }
   };
   explicit SpringDampers(std::vector<Element> elements) : elements_(std::move(elements)) {}
 

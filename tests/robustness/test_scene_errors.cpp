@@ -186,6 +186,9 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "x.toml:4:1: fastenings.first: the first fastening's pad begins before the rail's left end"},
       {"[fastenings]\npad_length = \"0.7 m\"\nfirst = \"0.4 m\"\ncount = 10",
        "x.toml:4:1: fastenings.pad_length: the pads of neighbouring fastenings overlap"},
+      {"[fastenings]\nacross = \"free\"",
+       "x.toml:4:1: fastenings.across: nothing would hold the rail sideways; state \"held\", or \"elastic\" "
+       "with fastenings.across_stiffness"},
       {"[slab]\ngap = \"7 m\"",
        "x.toml:4:1: slab.gap: the gap is not shorter than the pitch of slab and gap together"},
       {"[motion]\ntraction = { mu = 0.3, torque = \"3 kN m\" }",

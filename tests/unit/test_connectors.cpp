@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "core/mesh/structured.hpp"
 #include "drivers/engine/attachments.hpp"
@@ -31,7 +33,9 @@ class Fastened : public testing::Test {
     for (const double x : {0.11, 0.333})
       elements_.push_back(
           {attach(mesh_.blocks[0], "bottom", x, 0.02), attach(mesh_.blocks[1], "top", x, 0.02), 3e6, 4e3});
-    elements_.push_back({attach(mesh_.blocks[0], "bottom", 0.27, -0.03), {}, 5e6, 1e3});  // to the ground
+    // To the ground, in each direction.
+    for (const int component : {0, 1, 2})
+      elements_.push_back({attach(mesh_.blocks[0], "bottom", 0.27, -0.03), {}, 5e6, 1e3, component});
   }
   AlignedVector<double> field() const { return AlignedVector<double>(index(3 * mesh_.slots), 0.0); }
 
@@ -63,7 +67,7 @@ TEST_F(Fastened, ForcesAreThoseOfSpringsAndDampers) {
   double loss = 0;
   for (const auto& e : elements_) {
     const auto stretch = [&](const AlignedVector<double>& a) {
-      return e.upper.value(a.data(), 2) - e.lower.value(a.data(), 2);
+      return e.upper.value(a.data(), e.component) - e.lower.value(a.data(), e.component);
     };
     expected += (e.stiffness * stretch(u) + e.damping * stretch(v)) * stretch(test);
     loss += e.damping * stretch(v) * stretch(v) * 1e-6;
@@ -86,6 +90,47 @@ TEST_F(Fastened, SpringsAndEnergyAgreeWithTheForces) {
   }
   EXPECT_NEAR(fastenings.energy(u.data()), 0.5 * work, 1e-13 * work);
   EXPECT_EQ(fastenings.dissipated(), 0);
+}
+
+/// Nodes of the foot at which a fastening holds the rail, over its pad and at its spring-dampers.
+TEST(HeldFoot, IsThatOfThePadOrOfTheSprings) {
+  Scene scene;
+  scene.rail.emplace().origin = 0.5;
+  FasteningSpec& f = scene.fastenings.emplace();
+  f.count = 2;
+  f.spacing = 0.6;
+  f.first = 0.2;
+  f.pad_length = 0.1;
+  f.pad_width = 0.06;
+  f.columns = 2;
+  f.rows = 2;
+  SweptBlock rail = make_swept_block("rail", Sweep::extruded, rectangle(-0.05, 0.05, 10, 0, 0.1, 2),
+                                     {samples::steel()}, -0.5, {{100, 0.01, 0}});
+  rail.section.paths["foot"] = rail.section.paths.at("bottom");
+  const auto places = [&] {
+    std::set<std::pair<long, long>> mm;
+    for (const FootNode& at : held_foot_nodes(scene, rail))
+      mm.insert({std::lround(1e3 * (rail.stations[index(at.station)] + 0.5)),
+                 std::lround(1e3 * rail.section.p[index(at.node)])});
+    return mm;
+  };
+  std::set<std::pair<long, long>> pad;
+  for (const long middle : {200, 800})
+    for (long x = -50; x <= 50; x += 10)
+      for (long y = -30; y <= 30; y += 10) pad.insert({middle + x, y});
+  EXPECT_EQ(places(), pad);
+  f.pad_length = 0.004;  // shorter than an element: the nearest nodes
+  f.spacing = 0.604;
+  EXPECT_EQ(places().size(), 14U);
+  f.pad_length = 0.1;
+  f.spacing = 0.6;
+  f.held_at = "springs";
+  const std::set<std::pair<long, long>> at_springs = places();
+  EXPECT_EQ(at_springs.size(), 8U);
+  for (const auto& [x, y] : at_springs) {
+    EXPECT_NEAR(std::abs(x < 500 ? x - 200 : x - 800), 25, 5.1);
+    EXPECT_NEAR(std::abs(y), 15, 5.1);
+  }
 }
 
 TEST(SprungMass, SwingsAtItsFrequency) {

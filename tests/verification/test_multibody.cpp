@@ -28,7 +28,8 @@ const char* const kCorrugationD = "[corrugation]\nwavelength = \"80 mm\"\ndepth 
 const char* const kShallow = "[corrugation]\nwavelength = \"80 mm\"\ndepth = \"0.014 mm\"\n";
 
 TEST(ModalBeam, HasTheModesOfTheFiniteElements) {
-  const BeamProperties rail = multibody_model(scene(300, ""), BeamTheory::timoshenko).rail;
+  BeamProperties rail = multibody_model(scene(300, ""), BeamTheory::timoshenko).rail;
+  rail.axial_stiffness = 0;
   const ModalBeam modal(rail, -1, 3, 12);
   const TrackBeam elements(rail, -1, 3, BeamEnds::guided);
   for (int n = 1; n < 12; ++n)
@@ -47,13 +48,14 @@ TEST(ModalTrack, StaticDeflectionIsThatOfTheBeam) {
     const MultibodyModel model = multibody_model(scene(300, ""), theory);
     const TrackBeam beam = rail_beam(model.scene, model.rail);
     const double load = model.vehicle.load();
-    for (const int modes : {60, 120}) {
+    // A held foot sees waves shorter than those of bending: the modes lack more of it.
+    for (const auto& [modes, bound] : {std::pair(60, 6e-3), std::pair(120, 2e-3), std::pair(480, 1e-3)}) {
       const ModalTrack track = modal_track(model, modes);
       for (const double x : {-0.325, 0.0, 0.11}) {
         const ModalPassage still(track, model.vehicle, x, 1e-6);
         EXPECT_NEAR(still.force(), load, 1e-9 * load);
         const double wanted = BeamPassage(beam, model.vehicle, x, 1e-6).rail();
-        EXPECT_NEAR(still.rail() / wanted, 1, 2e-3) << name_of(theory) << " " << modes << " at " << x;
+        EXPECT_NEAR(still.rail() / wanted, 1, bound) << name_of(theory) << " " << modes << " at " << x;
       }
     }
     // On a Winkler foundation of the same stiffness an Euler beam gives way by 1.375 mm.
@@ -168,6 +170,7 @@ TEST(Multibody, AgreesWithImplicitFiniteElements) {
     TrackBeam beam(model.rail, -6.1, 15.2, BeamEnds::guided, kinked ? 0.003 : 0.01);
     beam.spread_head_load(head_spread(model.scene, model.rail));
     for (const BeamSupport& s : model.supports) beam.support(s.x, s.stiffness, s.damping);
+    for (const FootStretch& s : model.foot_holds) beam.hold_foot(s.first, s.last);
     constexpr double kStep = 1e-5;
     BeamPassage passage(beam, model.vehicle, model.start, kStep);
     std::vector<double> theirs;
@@ -193,6 +196,7 @@ TEST(Multibody, PassingOfFastenings) {
   for (const auto& [speed, wanted] : {std::pair{300.0, 0.065}, std::pair{500.0, 0.11}}) {
     Scene smooth = scene(speed, "");
     smooth.fastenings->columns = 1;
+    smooth.fastenings->along.kind = "free";
     const auto part = [&](BeamTheory theory) {
       const MultibodyModel model = multibody_model(smooth, theory);
       const MultibodyResult r = run_multibody(model, {});

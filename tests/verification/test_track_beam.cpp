@@ -109,6 +109,56 @@ TEST(TrackBeam, FreeAndGuidedBeamsHaveTheirFrequencies) {
   }
 }
 
+/// A foot that moves freely leaves the bending as it is.
+TEST(TrackBeam, FreeFootDoesNotActOnBending) {
+  BeamProperties line = timoshenko_rail(0.4);
+  BeamProperties rail = line;
+  rail.axial_stiffness = 205.9e9 * kArea;
+  rail.foot = 0.081;
+  std::vector<double> deflection;
+  for (const BeamProperties& properties : {line, rail}) {
+    TrackBeam beam(properties, -1, 2, BeamEnds::guided);
+    for (const double x : {-0.65, 0.0, 0.65}) beam.support(x, 22e6, 0);
+    deflection.push_back(beam.deflection(beam.static_state(0.3, 1e5), 0.3));
+  }
+  EXPECT_NEAR(deflection[1] / deflection[0], 1, 1e-9);
+}
+
+/// A beam whose foot is held all along bends about the foot: E I + E A h^2, rho I + rho A h^2.
+TEST(TrackBeam, HeldFootIsTheAxisOfBending) {
+  const double length = 2;
+  BeamProperties rail = timoshenko_rail(0.4);
+  rail.axial_stiffness = 205.9e9 * kArea;
+  rail.foot = 0.081;
+  TrackBeam held(rail, 0, length, BeamEnds::guided);
+  held.hold_foot(0, length);
+  BeamProperties about_foot = rail;
+  about_foot.bending_stiffness += rail.axial_stiffness * rail.foot * rail.foot;
+  about_foot.rotary_inertia += rail.mass * rail.foot * rail.foot;
+  for (int n = 1; n < 5; ++n)
+    EXPECT_NEAR(held.eigenfrequency(n) / wave_frequency(about_foot, n * std::numbers::pi / length), 1, 1e-3)
+        << n;
+}
+
+TEST(TrackBeam, FootMovesAlongAsABar) {
+  BeamProperties rail = timoshenko_rail(0.4);
+  rail.axial_stiffness = 205.9e9 * kArea;
+  rail.foot = 0.081;
+  // No deflection: stiff in bending and shear, so that the lowest modes are those of the bar held at its
+  // ends.
+  rail.bending_stiffness *= 1e6;
+  rail.shear_stiffness *= 1e6;
+  const TrackBeam beam(rail, 0, 15, BeamEnds::guided);
+  const double sound = std::sqrt(rail.axial_stiffness / rail.mass);
+  EXPECT_NEAR(beam.eigenfrequency(1) / (sound / 30), 1, 1e-3);
+  TrackBeam sprung = beam;
+  sprung.support_foot(7.5, 1e15, 0);  // in the middle: as if held there
+  EXPECT_NEAR(sprung.eigenfrequency(1) / (sound / 15), 1, 1e-3);
+  TrackBeam held = beam;
+  held.hold_foot(7.5, 7.5);
+  EXPECT_NEAR(held.eigenfrequency(1) / sprung.eigenfrequency(1), 1, 1e-6);
+}
+
 TEST(TrackBeam, ReceptanceOfAFreeRigidBeam) {
   // A short, stiff beam is a mass: a force in the middle moves it by -1 / (m omega^2).
   const TrackBeam beam(kEuler, -0.1, 0.2, BeamEnds::free);
@@ -149,6 +199,7 @@ TEST(TrackBeam, SpreadsAForceOnTheHead) {
       const double x = beam.left() + i * beam.pitch();
       wave.push_back(std::cos(k * x));
       wave.push_back(-k * std::sin(k * x));
+      wave.push_back(0);
     }
     for (const double x : {0.0, 0.0137, 0.1}) {
       const std::vector<double> load = beam.head_load(x);

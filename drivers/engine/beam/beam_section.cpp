@@ -163,6 +163,7 @@ BeamSection beam_section(const std::vector<const Section*>& parts, double poisso
     top = std::max(top, *high);
   }
   s.depth = top - bottom;
+  s.foot = s.height - bottom;
   s.shear_coefficient = cowper(parts, s, poissons_ratio);
   return s;
 }
@@ -216,7 +217,11 @@ Section refined(const Section& section, int n) {
 BeamProperties timoshenko(const BeamSection& section, const Material& material) {
   return {material.youngs_modulus * section.vertical,
           section.shear_coefficient * material.shear_modulus() * section.area,
-          material.density * section.area, material.density * section.vertical, section.depth};
+          material.density * section.area,
+          material.density * section.vertical,
+          section.depth,
+          material.youngs_modulus * section.area,
+          section.foot};
 }
 
 BeamProperties euler(const BeamSection& section, const Material& material) {
@@ -231,16 +236,30 @@ double head_spread(double depth, double poissons_ratio, double wave_number) {
   return std::sqrt(2 * std::log(beam / strip)) / wave_number;
 }
 
-double wave_frequency(const BeamProperties& beam, double wave_number) {
+namespace {
+
+/// Squares of both branches' angular frequencies, lower first, which solve a x^2 - b x + c = 0. [rad2/s2]
+std::pair<double, double> squared_frequencies(const BeamProperties& beam, double wave_number) {
   const double k2 = wave_number * wave_number;
-  if (beam.shear_stiffness == 0)
-    return std::sqrt(beam.bending_stiffness / beam.mass) * k2 / (2 * std::numbers::pi);
-  // Squares of both branches' angular frequencies solve a x^2 - b x + c = 0.
   const double a = beam.mass * beam.rotary_inertia;
   const double b = beam.mass * (beam.bending_stiffness * k2 + beam.shear_stiffness) +
                    beam.rotary_inertia * beam.shear_stiffness * k2;
   const double c = beam.shear_stiffness * beam.bending_stiffness * k2 * k2;
-  return std::sqrt(2 * c / (b + std::sqrt(b * b - 4 * a * c))) / (2 * std::numbers::pi);
+  const double twice_upper = b + std::sqrt(b * b - 4 * a * c);
+  return {2 * c / twice_upper, 0.5 * twice_upper / a};
+}
+
+}  // namespace
+
+double wave_frequency(const BeamProperties& beam, double wave_number) {
+  const double k2 = wave_number * wave_number;
+  if (beam.shear_stiffness == 0)
+    return std::sqrt(beam.bending_stiffness / beam.mass) * k2 / (2 * std::numbers::pi);
+  return std::sqrt(squared_frequencies(beam, wave_number).first) / (2 * std::numbers::pi);
+}
+
+double upper_wave_frequency(const BeamProperties& beam, double wave_number) {
+  return std::sqrt(squared_frequencies(beam, wave_number).second) / (2 * std::numbers::pi);
 }
 
 double wave_number(const BeamProperties& beam, double frequency) {

@@ -12,6 +12,7 @@ struct BeamSection {
   double area = 0;               ///< A [m2]
   double height = 0;             ///< z of the centroid [m]
   double depth = 0;              ///< from top to bottom [m]
+  double foot = 0;               ///< distance from the centroid down to the bottom [m]
   double vertical = 0;           ///< I, integral of z^2 about the centroid: vertical bending [m4]
   double lateral = 0;            ///< integral of y^2 [m4]
   double shear_coefficient = 0;  ///< kappa, vertical bending [-]
@@ -32,6 +33,11 @@ struct BeamProperties {
   double mass = 0;               ///< rho A [kg/m]
   double rotary_inertia = 0;     ///< rho I [kg m]
   double depth = 0;              ///< of the section [m]; 0: a line
+  double axial_stiffness = 0;    ///< E A [N]; 0: rigid along x, the foot does not move along
+  double foot = 0;               ///< distance from the centroid down to the foot [m]
+
+  /// Has a foot whose motion along x the fastenings can hold.
+  bool has_foot() const { return axial_stiffness > 0; }
 };
 
 BeamProperties timoshenko(const BeamSection& section, const Material& material);
@@ -44,6 +50,10 @@ double head_spread(double depth, double poissons_ratio, double wave_number);
 
 /// Frequency of the waves of wave number k on the free beam, lower branch. [theory.md, eq. B2] [Hz]
 double wave_frequency(const BeamProperties& beam, double wave_number);
+
+/// The same of the upper branch, on which the section turns against its deflection; of a Timoshenko beam.
+/// [Hz]
+double upper_wave_frequency(const BeamProperties& beam, double wave_number);
 
 /// Wave number of the waves of a frequency on the free beam. [1/m]
 double wave_number(const BeamProperties& beam, double frequency);

@@ -15,9 +15,25 @@ namespace {
 /// derivatives. [Friedman, Kosmatka, An improved two-node Timoshenko beam finite element, Comput. Struct. 47
 /// (1993)]
 struct BeamShape {
-  std::array<double, 4> deflection{}, slope{};    ///< w, dw/dx
-  std::array<double, 4> rotation{}, curvature{};  ///< theta, dtheta/dx
+  using Values = std::array<double, static_cast<std::size_t>(2 * TrackBeam::kPerNode)>;
+  Values deflection{}, slope{};    ///< w, dw/dx
+  Values rotation{}, curvature{};  ///< theta, dtheta/dx
 };
+
+/// Motion of the centroid along x and its derivative: linear between the nodes, where it is that of the foot
+/// plus the lever's part.
+struct AxialShape {
+  BeamShape::Values motion{}, strain{};
+};
+
+AxialShape axial_shape(double xi, double l, double foot) {
+  return {{0, foot * (1 - xi), 1 - xi, 0, foot * xi, xi}, {0, -foot / l, -1 / l, 0, foot / l, 1 / l}};
+}
+
+/// The foot's motion along x, between the nodes linear.
+BeamShape::Values foot_shape(double xi) {
+  return {0, 0, 1 - xi, 0, 0, xi};
+}
 
 BeamShape beam_shape(double xi, double l, double phi) {
   const double c = 1 / (1 + phi);
@@ -26,18 +42,21 @@ BeamShape beam_shape(double xi, double l, double phi) {
   BeamShape s;
   s.deflection = {c * (2 * x3 - 3 * x2 - phi * xi + 1 + phi),
                   c * l * (x3 - (2 + 0.5 * phi) * x2 + (1 + 0.5 * phi) * xi),
-                  -c * (2 * x3 - 3 * x2 - phi * xi), c * l * (x3 - (1 - 0.5 * phi) * x2 - 0.5 * phi * xi)};
-  s.slope = {c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (4 + phi) * xi + 1 + 0.5 * phi),
-             -c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (2 - phi) * xi - 0.5 * phi)};
-  s.rotation = {6 * c / l * (x2 - xi), c * (3 * x2 - (4 + phi) * xi + 1 + phi), -6 * c / l * (x2 - xi),
-                c * (3 * x2 - (2 - phi) * xi)};
-  s.curvature = {6 * c / (l * l) * (2 * xi - 1), c / l * (6 * xi - 4 - phi), -6 * c / (l * l) * (2 * xi - 1),
-                 c / l * (6 * xi - 2 + phi)};
+                  0,
+                  -c * (2 * x3 - 3 * x2 - phi * xi),
+                  c * l * (x3 - (1 - 0.5 * phi) * x2 - 0.5 * phi * xi),
+                  0};
+  s.slope = {c / l * (6 * x2 - 6 * xi - phi),  c * (3 * x2 - (4 + phi) * xi + 1 + 0.5 * phi), 0,
+             -c / l * (6 * x2 - 6 * xi - phi), c * (3 * x2 - (2 - phi) * xi - 0.5 * phi),     0};
+  s.rotation = {6 * c / l * (x2 - xi),  c * (3 * x2 - (4 + phi) * xi + 1 + phi), 0,
+                -6 * c / l * (x2 - xi), c * (3 * x2 - (2 - phi) * xi),           0};
+  s.curvature = {6 * c / (l * l) * (2 * xi - 1),  c / l * (6 * xi - 4 - phi), 0,
+                 -6 * c / (l * l) * (2 * xi - 1), c / l * (6 * xi - 2 + phi), 0};
   return s;
 }
 
-void add_outer(BandMatrix<double>& matrix, int first, double factor, const std::array<double, 4>& v) {
-  for (int i = 0; i < 4; ++i)
+void add_outer(BandMatrix<double>& matrix, int first, double factor, const BeamShape::Values& v) {
+  for (int i = 0; i < static_cast<int>(v.size()); ++i)
     for (int j = 0; j <= i; ++j)
       matrix.at(first + i, first + j) +=
           factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
@@ -47,7 +66,8 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
-constexpr int kBand = 3;
+constexpr int kBand = 2 * TrackBeam::kPerNode - 1;
+constexpr int kFoot = 2;  // of a node's unknowns
 
 int element_count(double length, double element) {
   return std::max(2, static_cast<int>(std::ceil(length / element - 1e-9)));
@@ -64,16 +84,27 @@ TrackBeam::TrackBeam(const BeamProperties& properties, double left, double lengt
       phi_(properties.shear_stiffness > 0
                ? 12 * properties.bending_stiffness / (properties.shear_stiffness * pitch_ * pitch_)
                : 0),
-      stiffness_(2 * elements_ + 2, kBand),
+      foot_(properties.has_foot() ? properties.foot : 0),
+      held_(properties.bending_stiffness),
+      stiffness_(kPerNode * (elements_ + 1), kBand),
       damping_(stiffness_),
       mass_(stiffness_) {
   for (int e = 0; e < elements_; ++e) add_element(properties, e);
-  if (ends == BeamEnds::free) return;
-  const int component = ends == BeamEnds::guided ? 1 : 0;
+  if (!properties.has_foot())
+    for (int node = 0; node <= elements_; ++node) hold(node, kFoot);
   for (const int node : {0, elements_}) {
-    stiffness_.restrain(2 * node + component, properties.bending_stiffness);
-    mass_.restrain(2 * node + component, 0);
+    if (ends == BeamEnds::pinned) hold(node, 0);
+    if (ends != BeamEnds::guided) continue;
+    hold(node, 1);
+    hold(node, kFoot);
   }
+}
+
+void TrackBeam::hold(int node, int component) {
+  const int unknown = kPerNode * node + component;
+  stiffness_.restrain(unknown, held_);
+  damping_.restrain(unknown, 0);
+  mass_.restrain(unknown, 0);
 }
 
 void TrackBeam::add_element(const BeamProperties& properties, int element) {
@@ -82,21 +113,27 @@ void TrackBeam::add_element(const BeamProperties& properties, int element) {
   constexpr std::array<double, 2> kWeight = {0.65214515486254614, 0.34785484513745386};
   for (std::size_t k = 0; k < 2; ++k)
     for (const double side : {-1.0, 1.0}) {
-      const BeamShape s = beam_shape(0.5 + 0.5 * side * kPoint[k], pitch_, phi_);
+      const double xi = 0.5 + 0.5 * side * kPoint[k];
+      const BeamShape s = beam_shape(xi, pitch_, phi_);
       const double weight = 0.5 * pitch_ * kWeight[k];
-      std::array<double, 4> shear{};
-      for (std::size_t i = 0; i < 4; ++i) shear[i] = s.slope[i] - s.rotation[i];
-      add_outer(stiffness_, 2 * element, weight * properties.bending_stiffness, s.curvature);
-      add_outer(stiffness_, 2 * element, weight * properties.shear_stiffness, shear);
-      add_outer(mass_, 2 * element, weight * properties.mass, s.deflection);
-      add_outer(mass_, 2 * element, weight * properties.rotary_inertia, s.rotation);
+      BeamShape::Values shear{};
+      for (std::size_t i = 0; i < shear.size(); ++i) shear[i] = s.slope[i] - s.rotation[i];
+      const int first = kPerNode * element;
+      add_outer(stiffness_, first, weight * properties.bending_stiffness, s.curvature);
+      add_outer(stiffness_, first, weight * properties.shear_stiffness, shear);
+      add_outer(mass_, first, weight * properties.mass, s.deflection);
+      add_outer(mass_, first, weight * properties.rotary_inertia, s.rotation);
+      if (!properties.has_foot()) continue;
+      const AxialShape axial = axial_shape(xi, pitch_, properties.foot);
+      add_outer(stiffness_, first, weight * properties.axial_stiffness, axial.strain);
+      add_outer(mass_, first, weight * properties.mass, axial.motion);
     }
 }
 
 TrackBeam::Shape TrackBeam::shape(double x) const {
   const double at = (x - left_) / pitch_;
   const int element = std::clamp(static_cast<int>(at), 0, elements_ - 1);
-  return {2 * element, beam_shape(at - element, pitch_, phi_).deflection};
+  return {kPerNode * element, beam_shape(at - element, pitch_, phi_).deflection};
 }
 
 std::vector<double> TrackBeam::head_load(double x) const {
@@ -105,7 +142,8 @@ std::vector<double> TrackBeam::head_load(double x) const {
   std::vector<double> load(static_cast<std::size_t>(stiffness_.size()));
   const auto add = [&](double at, double share) {
     const Shape s = shape(std::clamp(at, left_, left_ + length_));
-    for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] += share * s.value[i];
+    for (std::size_t i = 0; i < s.value.size(); ++i)
+      load[static_cast<std::size_t>(s.first) + i] += share * s.value[i];
   };
   if (spread_ == 0) {
     add(x, 1);
@@ -127,6 +165,23 @@ void TrackBeam::support(double x, double stiffness, double damping) {
   add_outer(damping_, s.first, damping, s.value);
 }
 
+void TrackBeam::support_foot(double x, double stiffness, double damping) {
+  const double at = (x - left_) / pitch_;
+  const int element = std::clamp(static_cast<int>(at), 0, elements_ - 1);
+  const BeamShape::Values foot = foot_shape(at - element);
+  add_outer(stiffness_, kPerNode * element, stiffness, foot);
+  add_outer(damping_, kPerNode * element, damping, foot);
+}
+
+void TrackBeam::hold_foot(double first, double last) {
+  constexpr double kRounding = 1e-9;
+  const auto node_at = [&](double x) { return std::clamp((x - left_) / pitch_, 0.0, 1.0 * elements_); };
+  hold(static_cast<int>(std::lround(node_at(0.5 * (first + last)))), kFoot);
+  for (int node = static_cast<int>(std::ceil(node_at(first) - kRounding)); node <= node_at(last) + kRounding;
+       ++node)
+    hold(node, kFoot);
+}
+
 std::vector<double> TrackBeam::static_state(double x, double force) const {
   BandMatrix<double> factor = stiffness_;
   factor.factorise();
@@ -135,10 +190,16 @@ std::vector<double> TrackBeam::static_state(double x, double force) const {
   return factor.solve(std::move(load));
 }
 
+SectionMotion TrackBeam::motion(const std::vector<double>& state, int node) const {
+  const auto first = static_cast<std::size_t>(kPerNode * node);
+  return {state[first], state[first + 1], state[first + kFoot] + foot_ * state[first + 1]};
+}
+
 double TrackBeam::deflection(const std::vector<double>& state, double x) const {
   const Shape s = shape(x);
   double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) sum += s.value[i] * state[static_cast<std::size_t>(s.first) + i];
+  for (std::size_t i = 0; i < s.value.size(); ++i)
+    sum += s.value[i] * state[static_cast<std::size_t>(s.first) + i];
   return sum;
 }
 
@@ -151,11 +212,12 @@ std::complex<double> TrackBeam::receptance(double x_force, double x, double freq
   factor.factorise();
   std::vector<std::complex<double>> load(static_cast<std::size_t>(factor.size()));
   const Shape s = shape(x_force);
-  for (std::size_t i = 0; i < 4; ++i) load[static_cast<std::size_t>(s.first) + i] = s.value[i];
+  for (std::size_t i = 0; i < s.value.size(); ++i) load[static_cast<std::size_t>(s.first) + i] = s.value[i];
   const auto state = factor.solve(std::move(load));
   const Shape t = shape(x);
   std::complex<double> sum;
-  for (std::size_t i = 0; i < 4; ++i) sum += t.value[i] * state[static_cast<std::size_t>(t.first) + i];
+  for (std::size_t i = 0; i < t.value.size(); ++i)
+    sum += t.value[i] * state[static_cast<std::size_t>(t.first) + i];
   return sum;
 }
 
@@ -180,17 +242,47 @@ double TrackBeam::eigenfrequency(int n) const {
   return 0.5 * (low + high) / (2 * std::numbers::pi);
 }
 
-std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
-  if (!scene.rail) throw InputError("a rail beam needs [rail]");
-  std::vector<BeamSupport> supports;
-  if (!scene.fastenings) return supports;
+namespace {
+
+/// The columns of a scene's fastenings as parts of spring-dampers of a whole fastening.
+std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, double stiffness,
+                                         double damping) {
   const FasteningSpec& f = *scene.fastenings;
+  std::vector<BeamSupport> supports;
   for (int i = -more_spans; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
-      supports.push_back(
-          {-scene.rail->origin + f.first + i * f.spacing + f.pad_length * ((column + 0.5) / f.columns - 0.5),
-           f.stiffness / f.columns, f.damping / f.columns});
+      supports.push_back({f.position(i) + f.column_offset(column) - scene.rail->origin, stiffness / f.columns,
+                          damping / f.columns});
   return supports;
+}
+
+}  // namespace
+
+std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
+  if (!scene.rail) throw InputError("a rail beam needs [rail]");
+  if (!scene.fastenings) return {};
+  return column_supports(scene, more_spans, scene.fastenings->stiffness, scene.fastenings->damping);
+}
+
+std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans) {
+  if (!scene.fastenings || scene.fastenings->along.kind != "elastic") return {};
+  const FootHold& along = scene.fastenings->along;
+  return column_supports(scene, more_spans, along.stiffness, along.damping);
+}
+
+std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
+  if (!scene.fastenings || scene.fastenings->along.kind != "held") return {};
+  const FasteningSpec& f = *scene.fastenings;
+  std::vector<FootStretch> holds;
+  if (f.held_at == "springs") {
+    for (const BeamSupport& s : column_supports(scene, more_spans, 0, 0)) holds.push_back({s.x, s.x});
+    return holds;
+  }
+  for (int i = -more_spans; i < f.count; ++i) {
+    const double middle = f.position(i) - scene.rail->origin;
+    holds.push_back({middle - 0.5 * f.pad_length, middle + 0.5 * f.pad_length});
+  }
+  return holds;
 }
 
 double head_spread(const Scene& scene, const BeamProperties& properties) {
@@ -206,6 +298,10 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
   TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
   beam.spread_head_load(head_spread(scene, properties));
   for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
+  if (!properties.has_foot()) return beam;
+  for (const BeamSupport& s : rail_foot_supports(scene, more_spans))
+    beam.support_foot(s.x, s.stiffness, s.damping);
+  for (const FootStretch& s : rail_foot_holds(scene, more_spans)) beam.hold_foot(s.first, s.last);
   return beam;
 }
 

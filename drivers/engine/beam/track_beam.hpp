@@ -19,16 +19,42 @@ enum class BeamEnds {
   pinned   ///< no deflection
 };
 
+/// Motion of a section of a beam.
+struct SectionMotion {
+  double deflection = 0;  ///< [m], [m/s]
+  double rotation = 0;    ///< [rad], [rad/s]
+  double axial = 0;       ///< of the centroid along x [m], [m/s]
+};
+inline SectionMotion operator+(const SectionMotion& a, const SectionMotion& b) {
+  return {a.deflection + b.deflection, a.rotation + b.rotation, a.axial + b.axial};
+}
+inline SectionMotion operator*(double factor, const SectionMotion& a) {
+  return {factor * a.deflection, factor * a.rotation, factor * a.axial};
+}
+inline SectionMotion operator-(const SectionMotion& a, const SectionMotion& b) {
+  return a + -1 * b;
+}
+
 /// Finite elements with the cubic shape functions that solve the static beam exactly and the consistent mass
-/// of deflection and rotation. Unknowns: (w, rotation) of node after node.
+/// of deflection and rotation; along x the centroid moves linearly within an element. Unknowns: (w, rotation,
+/// motion of the foot along x) of node after node. The foot of a beam that is rigid along x does not move
+/// along. [theory.md, eqs. B1, B1a]
 class TrackBeam {
  public:
+  static constexpr int kPerNode = 3;  ///< unknowns of a node
   /// From `left` on, elements no longer than `element` [m].
   TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
             double element = 0.01);
 
   /// A spring-damper to ground at x [N/m], [N s/m].
   void support(double x, double stiffness, double damping);
+
+  /// The same along x at the foot.
+  void support_foot(double x, double stiffness, double damping);
+
+  /// Holds the foot against motion along x from `first` to `last`, at least at the node nearest to the middle
+  /// [m].
+  void hold_foot(double first, double last);
 
   double left() const { return left_; }
   double pitch() const { return pitch_; }
@@ -44,6 +70,8 @@ class TrackBeam {
 
   /// Nodal values under a force on the head at x, downwards, at rest.
   std::vector<double> static_state(double x, double force) const;
+  /// Motion of the section at a node, of nodal values or their rates.
+  SectionMotion motion(const std::vector<double>& state, int node) const;
   /// w of the axis.
   double deflection(const std::vector<double>& state, double x) const;
 
@@ -60,16 +88,19 @@ class TrackBeam {
  private:
   /// Weights of the nodal values in w at x, and of a force at x in the nodal loads.
   struct Shape {
-    int first = 0;  ///< unknown of the first of four values
-    std::array<double, 4> value{};
+    int first = 0;  ///< unknown of the first of the values
+    std::array<double, static_cast<std::size_t>(2 * kPerNode)> value{};
   };
   Shape shape(double x) const;
   void add_element(const BeamProperties& properties, int element);
+  void hold(int node, int component);
   int modes_below(double omega) const;
 
   double left_, length_, pitch_;
   int elements_;
   double phi_;         ///< 12 E I / (kappa G A l^2)
+  double foot_;        ///< distance from the centroid down to the foot [m]
+  double held_;        ///< stiffness that stands in for a held unknown's [N m/rad], [N/m]
   double spread_ = 0;  ///< of a force on the head [m]
   BandMatrix<double> stiffness_, damping_, mass_;
 };
@@ -85,12 +116,24 @@ struct BeamSupport {
 /// [fastenings]. InputError without rail.
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans = 0);
 
+/// The columns as spring-dampers of the foot along x, where the fastenings are elastic along x; else none.
+std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans = 0);
+
+/// A stretch over which the foot does not move along x [m].
+struct FootStretch {
+  double first = 0, last = 0;
+};
+
+/// The stretches over which the fastenings hold the foot along x: pads or columns; none where they do not.
+std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans = 0);
+
 /// Spread of forces on the head before the fastenings see them: at the wave number of a span; 0 for a
 /// line or without [fastenings]. [m]
 double head_spread(const Scene& scene, const BeamProperties& properties);
 
-/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, forces on the head
-/// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
+/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, the foot held along
+/// x as they hold it, forces on the head spread by `head_spread`; to its left it goes on for so many more
+/// spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
 /// A wheel in the model of the beam.
@@ -143,7 +186,7 @@ class BeamPassage {
   double bending_speed() const { return wheel_speed_[1]; }      ///< [m/s]
   double sprung_speed() const { return wheel_speed_[2]; }       ///< downwards [m/s]
   double suspension() const;                                    ///< its force on the journal, downwards [N]
-  const std::vector<double>& beam_state() const { return u_; }  ///< w [m] and rotation [rad] of each node
+  const std::vector<double>& beam_state() const { return u_; }  ///< the beam's unknowns [m], [rad]
   const std::vector<double>& beam_rate() const { return v_; }   ///< their rates [m/s], [rad/s]
 
  private:

@@ -11,13 +11,22 @@
 
 namespace tread {
 
-ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports) : beam_(std::move(beam)) {
+ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
+                       const std::vector<BeamSupport>& foot)
+    : beam_(std::move(beam)) {
   std::vector<double> values(static_cast<std::size_t>(beam_.modes()));
-  for (const BeamSupport& s : supports) {
+  const auto add = [&](const BeamSupport& s) {
     stiffness_.push_back(s.stiffness);
     damping_.push_back(s.damping);
-    beam_.shapes(s.x, values);
     by_support_.insert(by_support_.end(), values.begin(), values.end());
+  };
+  for (const BeamSupport& s : supports) {
+    beam_.shapes(s.x, values);
+    add(s);
+  }
+  for (const BeamSupport& s : foot) {
+    beam_.foot_shapes(s.x, values);
+    add(s);
   }
 }
 
@@ -185,7 +194,7 @@ double passage_step(const ModalTrack& track, const BeamVehicle& vehicle) {
   double mobility = 1 / vehicle.unsprung_mass;
   for (const double value : shape) mobility += 0.5 * value * value;  // at the end cos^2 = 1, elsewhere half
   const double stiff = contact / (1 + contact * beam.residual_flexibility());
-  const double top = beam.omega().back();
+  const double top = *std::max_element(beam.omega().begin(), beam.omega().end());
   const double omega = std::sqrt(top * top + track.support_stiffness() + stiff * mobility);
   return 0.5 / (0.5 * omega + track.support_damping());
 }

@@ -12,7 +12,9 @@ namespace tread {
 /// The modal rail on its supports.
 class ModalTrack {
  public:
-  ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports);
+  /// `foot`: spring-dampers that act along x at the foot; only under a beam whose foot moves.
+  ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
+             const std::vector<BeamSupport>& foot = {});
 
   const ModalBeam& beam() const { return beam_; }
 

@@ -17,9 +17,11 @@ namespace tread {
 
 namespace {
 
-constexpr double kTopFrequency = 20e3;  ///< highest frequency of the modes [Hz]
-constexpr double kBeyond = 0.1;         ///< length of the passage beyond the evaluated stretch [m]
-constexpr double kEndOfRail = 0.3;      ///< least distance of the wheel from the rail's ends [m]
+constexpr double kTopFrequency = 20e3;        ///< highest frequency of the modes [Hz]
+constexpr double kTopFrequencyOfFoot = 30e3;  ///< the same where the foot is held along x [Hz]
+constexpr double kFootPitch = 0.06;           ///< most between springs that stand in for a held foot [m]
+constexpr double kBeyond = 0.1;               ///< length of the passage beyond the evaluated stretch [m]
+constexpr double kEndOfRail = 0.3;            ///< least distance of the wheel from the rail's ends [m]
 
 void require_parts(const Scene& scene) {
   const auto need = [](bool there, const char* what) {
@@ -90,6 +92,10 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.rail = theory == BeamTheory::euler ? euler(section, material) : timoshenko(section, material);
   if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
   model.supports = rail_supports(scene);
+  if (model.rail.has_foot()) {
+    model.foot_supports = rail_foot_supports(scene);
+    model.foot_holds = rail_foot_holds(scene);
+  }
   model.vehicle = lumped_vehicle(scene);
 
   const MeshSizes sizes = mesh_sizes(scene);
@@ -140,6 +146,19 @@ std::string track_difference(const MultibodyModel& here, const MultibodyModel& t
     compare("a fastening's x", " m", ours.x, theirs.x);
     compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
     compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
+  }
+  const auto along = [&](const char* name, const auto& of) {
+    compare(name, "", static_cast<double>(of(here).size()), static_cast<double>(of(there).size()));
+  };
+  along("the number of places where the foot is held along x",
+        [](const MultibodyModel& one) { return one.foot_holds; });
+  along("the number of the foot's springs along x",
+        [](const MultibodyModel& one) { return one.foot_supports; });
+  for (std::size_t i = 0; i < std::min(here.foot_supports.size(), there.foot_supports.size()); ++i) {
+    const BeamSupport& ours = here.foot_supports[i];
+    const BeamSupport& theirs = there.foot_supports[i];
+    compare("a fastening's stiffness along x", " N/m", ours.stiffness, theirs.stiffness);
+    compare("a fastening's damping along x", " N s/m", ours.damping, theirs.damping);
   }
   return first;
 }
@@ -211,11 +230,26 @@ double apply_contact_filter(MultibodyModel& model) {
 }
 
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
+  const bool foot = !model.foot_supports.empty() || !model.foot_holds.empty();
   const double length = model.scene.rail->length;
-  const int count = modes.value_or(modes_below(model.rail, length, kTopFrequency));
-  return {
-      ModalBeam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail)),
-      model.supports};
+  const int count =
+      modes.value_or(modes_below(model.rail, length, foot ? kTopFrequencyOfFoot : kTopFrequency));
+  ModalBeam beam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail),
+                 foot ? ModalBeam::Foot::moves : ModalBeam::Foot::still);
+  std::vector<BeamSupport> along;
+  for (const BeamSupport& s : model.foot_supports)
+    along.push_back({s.x, 1 / (1 / s.stiffness + beam.foot_residual_flexibility(0)), s.damping});
+  for (const FootStretch& s : model.foot_holds) {
+    const int parts = static_cast<int>(std::ceil((s.last - s.first) / kFootPitch));
+    const double pitch = parts > 0 ? (s.last - s.first) / parts : 0;
+    for (int i = 0; i <= parts; ++i) {
+      // Neighbours share what the modes lack between them.
+      double missing = 0;
+      for (int j = 0; j <= parts; ++j) missing += beam.foot_residual_flexibility((i - j) * pitch);
+      along.push_back({s.first + i * pitch, 1 / missing, 0});
+    }
+  }
+  return {std::move(beam), model.supports, along};
 }
 
 }  // namespace tread

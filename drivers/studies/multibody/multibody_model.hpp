@@ -26,10 +26,12 @@ struct MultibodyModel {
   BeamTheory theory = BeamTheory::euler;
   BeamProperties rail;
   std::vector<BeamSupport> supports;
-  BeamVehicle vehicle;      ///< vehicle; the whole wheelset and M_a are one mass
-  double contact_y = 0;     ///< touching point, from the crown's centre line [m]
-  double radius_y = 0;      ///< lateral radius of the gap there [m]
-  HertzPatch patch;         ///< patch under the static load
+  std::vector<BeamSupport> foot_supports;  ///< along x; none under Euler's beam, which has no foot
+  std::vector<FootStretch> foot_holds;     ///< none under Euler's beam
+  BeamVehicle vehicle;                     ///< vehicle; the whole wheelset and M_a are one mass
+  double contact_y = 0;                    ///< touching point, from the crown's centre line [m]
+  double radius_y = 0;                     ///< lateral radius of the gap there [m]
+  HertzPatch patch;                        ///< patch under the static load
   Corrugation corrugation;  ///< corrugation; its centre is at contact_y unless the scene states one
   double speed = 0;         ///< [m/s]
   double start = 0;         ///< place at which the wheel stands in equilibrium at first [m]
@@ -65,7 +67,9 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength);
 /// without a sine.
 double apply_contact_filter(MultibodyModel& model);
 
-/// The rail with all modes below 20 kHz, or as many as stated.
+/// The rail with all modes below 20 kHz, of a rail whose foot is held along x below 30 kHz, or as many of the
+/// lower branch as stated. Springs of the flexibility that the modes lack stand in for a held foot.
+/// [theory.md, eq. M5]
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes);
 
 }  // namespace tread

@@ -1,0 +1,91 @@
+#include "drivers/engine/restraints.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/mesh/node_field.hpp"
+#include "drivers/engine/attachments.hpp"
+
+namespace tread {
+
+namespace {
+
+class Restraints {
+ public:
+  Restraints(const Scene& scene, const TiedBodies& bodies) : scene_(scene), bodies_(bodies) {}
+
+  std::vector<std::int64_t> collect() {
+    for (const int b : bodies_.index.rail())
+      if (!scene_.pulse) hold_rail(block(b));  // under a pulse it is a free bar
+    if (bodies_.index.slab >= 0) hold_slab(block(bodies_.index.slab));
+    if (scene_.plane_strain)
+      for (const SweptBlock& body : bodies_.mesh.blocks) hold_all(body, 1);
+    if (bodies_.index.axle >= 0)
+      hold_path(block(bodies_.index.axle), "symmetry_end", 1);
+    else if (bodies_.index.tread >= 0)
+      hold_path(block(bodies_.index.tread), "bore", 1);
+    release_secondary_nodes();
+    std::sort(unknowns_.begin(), unknowns_.end());
+    unknowns_.erase(std::unique(unknowns_.begin(), unknowns_.end()), unknowns_.end());
+    return std::move(unknowns_);
+  }
+
+ private:
+  const SweptBlock& block(int b) const { return bodies_.mesh.blocks[static_cast<std::size_t>(b)]; }
+
+  void hold(const SweptBlock& body, int node, int station, int component) {
+    unknowns_.push_back(dof(body.base + body.slot(node, station), component));
+  }
+  void hold_path(const SweptBlock& body, const std::string& path, int component) {
+    for (const int node : body.section.paths.at(path))
+      for (int station = 0; station < body.station_count(); ++station) hold(body, node, station, component);
+  }
+  void hold_all(const SweptBlock& body, int component) {
+    for (int node = 0; node < body.section.nodes(); ++node)
+      for (int station = 0; station < body.station_count(); ++station) hold(body, node, station, component);
+  }
+
+  void hold_rail(const SweptBlock& body) {
+    for (int node = 0; node < body.section.nodes(); ++node)
+      for (const int station : {0, body.station_count() - 1}) hold(body, node, station, 0);
+    if (body.section.paths.count("foot") == 0) return;
+    if (scene_.rail->support == "rigid") {
+      for (int c = 0; c < 3; ++c) hold_path(body, "foot", c);
+      return;
+    }
+    if (!scene_.fastenings) return;
+    const bool along = scene_.fastenings->along.kind == "held";
+    const bool across = scene_.fastenings->across.kind == "held";
+    if (!along && !across) return;
+    for (const FootNode& at : held_foot_nodes(scene_, body)) {
+      if (along) hold(body, at.node, at.station, 0);
+      if (across) hold(body, at.node, at.station, 1);
+    }
+  }
+
+  void hold_slab(const SweptBlock& body) {
+    for (int c = 0; c < 2; ++c) hold_all(body, c);
+    hold_path(body, "bottom", 2);
+  }
+
+  void release_secondary_nodes() {
+    if (!bodies_.ties) return;
+    std::vector<std::int64_t> tied;
+    for (const std::int64_t slot : bodies_.ties->secondary_slots())
+      for (int c = 0; c < 3; ++c) tied.push_back(dof(slot, c));
+    std::sort(tied.begin(), tied.end());
+    std::erase_if(unknowns_, [&](std::int64_t u) { return std::binary_search(tied.begin(), tied.end(), u); });
+  }
+
+  const Scene& scene_;
+  TiedBodies bodies_;
+  std::vector<std::int64_t> unknowns_;
+};
+
+}  // namespace
+
+std::vector<std::int64_t> restrained_unknowns(const Scene& scene, const TiedBodies& bodies) {
+  return Restraints(scene, bodies).collect();
+}
+
+}  // namespace tread
