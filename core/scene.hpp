@@ -105,6 +105,11 @@ struct VehicleSpec {
   double unsprung_mass = 340;           ///< M_a, attached to the wheelset [kg]
   double suspension_stiffness = 880e3;  ///< K [N/m]
   double suspension_damping = 4e3;      ///< C [N s/m]
+  /// Of M_c along x: "carried" rigidly with the journal, or "free", without inertia along x.
+  std::string longitudinal = "carried";
+
+  /// Mass that moves along x with the wheelset [kg].
+  double mass_along() const { return unsprung_mass + (longitudinal == "carried" ? sprung_mass : 0); }
 };
 
 /// [load]: a force pressed on the wheel instead of a vehicle

@@ -34,7 +34,7 @@ DrivenWheel driven_wheel(const Scene& scene) {
   const WheelSpec& wheel = *scene.wheel;
   const auto& vehicle = scene.vehicle;
   const double own = wheel_mass(scene);
-  return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->unsprung_mass : 0),
+  return {carried_load(scene) + own * scene.gravity, own + (vehicle ? vehicle->mass_along() : 0),
           0.5 * wheel.diameter, scene.contact ? scene.contact->largest_friction() : 0,
           wheel.bore == "guided"};
 }

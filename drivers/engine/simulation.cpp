@@ -150,7 +150,7 @@ std::uint64_t Simulation::state_hash() const {
     for (std::int64_t i = 0; field && i < 3 * model_->mesh.slots; ++i) hash.add(field[i]);
   const SprungMass sprung = features_.vehicle() ? features_.vehicle()->sprung_mass() : SprungMass{};
   for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,
-                             frame_.velocity.x, sprung.height, sprung.speed})
+                             frame_.velocity.x, sprung.height, sprung.speed, sprung.speed_along})
     hash.add(value);
   return hash.value();
 }

@@ -22,7 +22,7 @@ double full_torque(const Model& model) {
   if (!motion || !model.wheelset) return 0;
   if (!motion->traction_mu) return motion->traction_torque.value_or(0);
   const std::optional<VehicleSpec>& vehicle = model.scene.vehicle;
-  const double mass = model.wheelset->mass() + (vehicle ? vehicle->unsprung_mass : 0.0);
+  const double mass = model.wheelset->mass() + (vehicle ? vehicle->mass_along() : 0.0);
   const double radius = model.wheel_radius();
   const double torque = *motion->traction_mu * model.wheel_load() * radius;
   return model.guide ? torque : torque * (1 + model.wheelset->inertia() / (mass * radius * radius));
@@ -64,7 +64,9 @@ void StepFeatures::add_wheel(const Model& model, double patch_y) {
   const auto block = [&](int index) -> const SweptBlock& {
     return model.mesh.blocks[static_cast<std::size_t>(index)];
   };
-  const WheelParts parts{*model.wheelset, block(model.index.tread), bore,
+  const bool facets = model.scene.contact && model.scene.contact->surface == "facets";
+  const WheelParts parts{*model.wheelset, block(model.index.tread),
+                         facets ? SurfaceKind::facets : SurfaceKind::exact, bore,
                          model.ties ? &*model.ties : nullptr};
   wheel_ = add<WheelMotion>(parts, patch_y, model.scene.gravity);
   if (guided) all_.push_back(std::move(guided));

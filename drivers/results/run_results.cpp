@@ -42,9 +42,9 @@ const std::vector<Column>& wheel_columns() {
        [](const Sample& s) { return s.max_shear; }},
       {{"max_penetration", "m", "largest penetration at an integration point"},
        [](const Sample& s) { return s.max_penetration; }},
-      {{"creepage_node", "-", "eq. (3) at the tread node that starts in the patch"},
+      {{"creepage_node", "-", "eq. (3) at the point of the tread that starts in the patch"},
        [](const Sample& s) { return s.creepage_node; }},
-      {{"creepage_mean", "-", "eq. (3), mean of 28 tread nodes"},
+      {{"creepage_mean", "-", "eq. (3), mean of 28 points around the tread"},
        [](const Sample& s) { return s.creepage_mean; }},
       {{"torque", "N m", "on the axle"}, [](const Sample& s) { return s.torque; }},
       {{"wheel_speed", "m/s", "mean forward speed of the wheelset"},
@@ -161,6 +161,17 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
                           .mean;
 }
 
+/// Frictional work per way over the mean of F_L; 0 where F_L is. [theory.md, eq. 13a]
+double work_over_force(const std::vector<Sample>& samples, const auto& inside) {
+  const auto first = std::find_if(samples.begin(), samples.end(), inside);
+  const auto last = std::find_if(samples.rbegin(), samples.rend(), inside);
+  if (first == samples.end()) return 0;
+  const double way = last->wheel_x - first->wheel_x;
+  const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
+  if (way <= 0 || force == 0) return 0;
+  return (last->energy.frictional_work - first->energy.frictional_work) / (way * force);
+}
+
 /// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
 /// corrugation.
 void evaluate_steady(const Model& model, double reached, RunResults& r) {
@@ -178,6 +189,7 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
   r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
+  r.creepage_of_work = work_over_force(r.samples, between(r.steady_first, r.steady_last));
   r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
   r.max_shear = mean([](const Sample& s) { return s.max_shear; });
   r.patch_area = mean([](const Sample& s) { return s.patch_area; });
@@ -206,6 +218,7 @@ void evaluate_balance(RunResults& r) {
   const double scale = last.frictional_work + last.connector_loss + last.material_loss + last.plastic_work +
                        strain_high - strain_low;
   r.energy_error = scale > 0 ? worst / scale : 0;
+  r.energy_error_of_work = last.frictional_work > 0 ? worst / last.frictional_work : 0;
   const Vec3 miss = r.momentum.impulse - r.momentum.change;
   if (r.momentum.contact_impulse.z > 0)
     r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
@@ -268,6 +281,7 @@ void add_contact(const Model& model, const RunResults& r, Json& json) {
   json["vertical_force_steady_N"] = r.vertical_force_steady;
   json["traction_coefficient"] = r.traction_coefficient;
   json["creepage_percent"] = 100 * r.creepage;
+  json["creepage_of_frictional_work_percent"] = 100 * r.creepage_of_work;
   json["creepage_max_percent"] = 100 * r.creepage_max;
   json["full_slip_share"] = r.full_slip_share;
   json["max_pressure_Pa"] = r.max_pressure;
@@ -301,6 +315,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["preload_residual"] = r.preload.residual;
   if (model.contact) add_contact(model, r, json);
   json["energy_error"] = r.energy_error;
+  if (model.contact) json["energy_error_over_frictional_work"] = r.energy_error_of_work;
   json["energy_by_body_J"] = Json::array();
   for (std::size_t b = 0; b < r.block_energy.size(); ++b)
     json["energy_by_body_J"].push_back({{"body", model.mesh.blocks[b].name},

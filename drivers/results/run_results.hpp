@@ -69,17 +69,19 @@ struct RunResults {
   Statistics vertical_force;      ///< over evaluated() [N]
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =
-      0;                    ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
-  double creepage = 0;      ///< mean of 28 nodes there [-]
-  double creepage_max = 0;  ///< mean of 28 nodes, the largest in size over the stretch of vertical_force [-]
+      0;                        ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double creepage = 0;          ///< mean of 28 points of the tread there [-]
+  double creepage_of_work = 0;  ///< frictional work per way over F_L there [-]
+  double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
   double full_slip_share = 0;  ///< of the samples in contact there, those whose whole patch slides [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
   double vertical_force_steady = 0;                        ///< mean there [N]
-  double energy_error = 0;                                 ///< [-]
-  double momentum_error = 0;                               ///< [-]
-  double evaluated_first = 0, evaluated_last = 0;          ///< the stretch of vertical_force [m]
-  double steady_first = 0, steady_last = 0;                ///< the stretch of the steady values [m]
-  double frictional_work_decrease = 0;  ///< largest fall between two samples, 0 when monotone [J]
+  double energy_error = 0;          ///< largest residual over what was dissipated or stored [-]
+  double energy_error_of_work = 0;  ///< the same over the frictional work alone; 0 without any [-]
+  double momentum_error = 0;        ///< [-]
+  double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
+  double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
+  double frictional_work_decrease = 0;             ///< largest fall between two samples, 0 when monotone [J]
 };
 
 /// Fills the figures from the samples.

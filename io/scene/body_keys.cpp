@@ -225,6 +225,10 @@ void add_vehicle_and_load(Keys& keys) {
   keys.push_back(quantity("vehicle.suspension_damping", {Effect::preload},
                           at(&Scene::vehicle, &VehicleSpec::suspension_damping), kViscousDamping, "kN s/m",
                           from(0, 1e7), "Vertical damping C of the primary suspension"));
+  keys.push_back(choice("vehicle.longitudinal", {Effect::motion},
+                        at(&Scene::vehicle, &VehicleSpec::longitudinal), {"carried", "free"},
+                        "Motion of the sprung mass along x: carried rigidly with the journal, or free, so "
+                        "that traction speeds up wheelset and unsprung mass alone"));
   keys.push_back(required(quantity("load.wheel_load", {Effect::preload, Effect::cost},
                                    at(&Scene::load, &LoadSpec::wheel_load), kForce, "kN", above(0, 1e7),
                                    "Downward force on the wheel")));

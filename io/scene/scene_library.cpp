@@ -6,8 +6,8 @@ namespace {
 
 constexpr std::string_view kTable1 = "Table 1";
 constexpr std::string_view kText = "section 2.1.1";
-constexpr std::string_view kVertical =
-    "section 2.1.1: the fastenings \"can only move vertically\"";
+constexpr std::string_view kVertical = "section 2.1.1: the fastenings \"can only move vertically\"";
+constexpr std::string_view kNegligible = "section 2.1.2: the gain of speed under traction \"is negligible\"";
 constexpr std::string_view kCorrugation = "section 2.3, corrugation D";
 constexpr std::string_view kPad = "rail pad of the fastening WJ-7";
 constexpr std::string_view kSlab = "half of a CRTS II slab, 6.45 m x 2.55 m x 0.2 m";
@@ -74,6 +74,7 @@ LibraryEntry highspeed_slab_2014() {
               {"vehicle.unsprung_mass", "340 kg", kTable1},
               {"vehicle.suspension_stiffness", "880 kN/m", kTable1},
               {"vehicle.suspension_damping", "4 kN s/m", kTable1},
+              {"vehicle.longitudinal", "carried", kNegligible},
               {"contact.friction", "0.5", kTable1},
               {"motion.speed", "300 km/h", "section 3.2"},
               {"motion.duration", "0.04 s", "section 2.1.2"},

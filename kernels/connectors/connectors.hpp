@@ -95,7 +95,7 @@ class Journal {
   double mass_ = 0;
 };
 
-/// Sprung mass M_c on the primary suspension; moves vertically and is carried along.
+/// Sprung mass M_c on the primary suspension.
 struct SprungMass {
   double mass = 0;                ///< M_c [kg]
   double stiffness = 0;           ///< K [N/m]
@@ -103,6 +103,7 @@ struct SprungMass {
   double free_length_height = 0;  ///< height of M_c above the journal at which the spring is free [m]
   double height = 0;              ///< z of M_c [m]
   double speed = 0;               ///< vertical, at the half step [m/s]
+  double speed_along = 0;         ///< along x, at the half step, where it is carried along [m/s]
   double dissipated = 0;          ///< in the damper [J]
 
   /// Upward force on M_c from the suspension [N].
@@ -117,6 +118,7 @@ struct SprungMass {
   void list_state(StateList& list) {
     list.add("height", height);
     list.add("speed", speed);
+    list.add("speed_along", speed_along);
     list.add("dissipated", dissipated);
   }
 };

@@ -338,6 +338,7 @@ const std::vector<Change>& changes() {
       {"vehicle.unsprung_mass", "15000 kg", "sprung", {"motion.start=moving"}},
       {"vehicle.suspension_stiffness", "900 MN/m", "sprung"},
       {"vehicle.suspension_damping", "9000 kN s/m", "sprung"},
+      {"vehicle.longitudinal", "free", "sprung"},
       {"load.wheel_load", "300 kN", "track", {"motion.start=moving"}},
       {"contact.friction_law", "falling", "track", kSliding, {"contact.friction_memory=1 um"}},
       {"contact.friction", "0.3", "track", kSliding},

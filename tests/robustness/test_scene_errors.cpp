@@ -60,7 +60,7 @@ TEST(SceneErrors, Names) {
        "x.toml:4:1: material.steel.densty: unknown key (did you mean material.steel.density?)"},
       {"[vehicle]\ncolour = \"red\"",
        "x.toml:4:1: vehicle.colour: unknown key (known: sprung_mass, unsprung_mass, suspension_stiffness, "
-       "suspension_damping, present)"},
+       "suspension_damping, longitudinal, present)"},
       {"[motion]\ntraction = { mue = 0.3 }",
        "x.toml:4:14: motion.traction.mue: unknown key (did you mean motion.traction.mu?)"},
   });
@@ -174,7 +174,8 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "x.toml:4:1: motion.duration: the wheel rolls to x = 16.6667 m, beyond 9.08 m, where it is 0.02 m "
        "from the "
        "rail's end"},
-      {"[motion]\nspeed = \"100 km/h\"\nduration = \"0.32 s\"\ntraction.mu = 0.3",
+      {"[motion]\nspeed = \"100 km/h\"\nduration = \"0.32 s\"\ntraction.mu = 0.3\n[vehicle]\nlongitudinal = "
+       "\"free\"",
        "x.toml:5:1: motion.duration: the wheel rolls to x = 10.3188 m, beyond 9.08 m, where it is 0.02 m "
        "from the "
        "rail's end"},

@@ -3,6 +3,7 @@
 
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "core/travel.hpp"
 #include "drivers/engine/model.hpp"
@@ -15,10 +16,12 @@ Scene scene_of(const std::string& text) {
   return resolve_scene(SceneSource{"scene.toml", text, "."}, {}).scene;
 }
 
-/// Scene of the paper's wheelset, which carries 8340 kg; M_a = 340 kg of these moves with the wheelset.
-Scene wheelset(const std::string& motion) {
-  return scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"8 mm\"\n[motion]\n" +
-                  motion);
+/// Scene of the paper's wheelset, which carries 8340 kg; M_a = 340 kg of these moves with the wheelset, and
+/// M_c unless it is free along x.
+Scene wheelset(const std::string& motion, const std::string& longitudinal = "free") {
+  return scene_of(
+      "[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"8 mm\"\n[vehicle]\nlongitudinal = \"" +
+      longitudinal + "\"\n[motion]\n" + motion);
 }
 
 constexpr double kLoad = (8340 + 586) * 9.81;
@@ -33,16 +36,20 @@ TEST(Travel, IsSpeedTimesDurationWithoutTraction) {
 
 /// The speed gained is a (t - T1/2) from T1 on.
 TEST(Travel, TractionAddsToIt) {
-  const double a = 0.3 * kLoad / 926;
   const double ramp = 0.01;
   const double rest = 0.1 - ramp;
-  const double gained = a * (ramp * ramp / 6 + ramp / 2 * rest + rest * rest / 2);
   const std::string motion = "speed = \"100 km/h\"\nduration = \"100 ms\"\ntraction.ramp = \"10 ms\"\n";
-  const double way = travel_of(wheelset(motion + "traction.mu = 0.3")).last;
-  EXPECT_NEAR(way - 100 / 3.6 * 0.1, gained, 1e-6);
-  EXPECT_NEAR(travel_of(wheelset(motion + "traction.mu = -0.3")).last, 100 / 3.6 * 0.1 - gained, 1e-6);
-  const std::string torque = fmt::format("traction.torque = \"{} N m\"", 0.3 * kLoad * 0.43);
-  EXPECT_NEAR(travel_of(wheelset(motion + torque)).last, way, 1e-9);
+  for (const auto& [longitudinal, mass] : {std::pair("free", 926.0), std::pair("carried", 8926.0)}) {
+    SCOPED_TRACE(longitudinal);
+    const double a = 0.3 * kLoad / mass;
+    const double gained = a * (ramp * ramp / 6 + ramp / 2 * rest + rest * rest / 2);
+    const double way = travel_of(wheelset(motion + "traction.mu = 0.3", longitudinal)).last;
+    EXPECT_NEAR(way - 100 / 3.6 * 0.1, gained, 1e-6);
+    EXPECT_NEAR(travel_of(wheelset(motion + "traction.mu = -0.3", longitudinal)).last,
+                100 / 3.6 * 0.1 - gained, 1e-6);
+    const std::string torque = fmt::format("traction.torque = \"{} N m\"", 0.3 * kLoad * 0.43);
+    EXPECT_NEAR(travel_of(wheelset(motion + torque, longitudinal)).last, way, 1e-9);
+  }
 }
 
 TEST(Travel, NoTorqueDrivesBeyondFriction) {

@@ -3,7 +3,10 @@
 namespace tread {
 
 Vehicle::Vehicle(const VehicleSpec& spec, const Journal& journal, double gravity)
-    : journal_(&journal), unsprung_mass_(spec.unsprung_mass), gravity_(gravity) {
+    : journal_(&journal),
+      unsprung_mass_(spec.unsprung_mass),
+      carried_mass_(spec.mass_along() - spec.unsprung_mass),
+      gravity_(gravity) {
   sprung_.mass = spec.sprung_mass;
   sprung_.stiffness = spec.suspension_stiffness;
   sprung_.damping = spec.suspension_damping;
@@ -18,7 +21,7 @@ std::vector<PhaseInfo> Vehicle::phases() const {
           {StepPhase::unsprung_mass,
            "journal",
            {RunField::journal_nodes, RunField::force, RunField::wheel_frame},
-           {RunField::force}}};
+           {RunField::force, RunField::sprung_mass}}};
 }
 
 std::vector<FieldBytes> Vehicle::fields() const {
@@ -30,7 +33,7 @@ void Vehicle::apply(StepPhase phase, StepState& step) {
   if (phase == StepPhase::suspension)
     apply_suspension(step);
   else
-    add_unsprung_mass(step);
+    add_carried_masses(step);
 }
 
 void Vehicle::apply_suspension(StepState& step) {
@@ -43,16 +46,22 @@ void Vehicle::apply_suspension(StepState& step) {
   sprung_.advance(up, gravity_, step.dt);
 }
 
-/// The unsprung mass shares the journal's acceleration; gravity and spin terms come with the update.
-void Vehicle::add_unsprung_mass(StepState& step) const {
+/// The unsprung mass shares the journal's acceleration, a carried sprung mass that along x; gravity and spin
+/// terms come with the update. [theory.md, eq. 8]
+void Vehicle::add_carried_masses(StepState& step) {
   const Vec3 total = journal_->total(step.force, step.wheel);
-  journal_->add(step.force, step.wheel, (-unsprung_mass_ / (journal_->mass() + unsprung_mass_)) * total);
+  const auto share = [&](double mass) { return -mass / (journal_->mass() + mass); };
+  const double along = unsprung_mass_ + carried_mass_;
+  journal_->add(step.force, step.wheel,
+                {share(along) * total.x, share(unsprung_mass_) * total.y, share(unsprung_mass_) * total.z});
+  sprung_.speed_along -= step.dt * total.x / (journal_->mass() + along);
 }
 
 void Vehicle::begin(const Motion& motion, const SprungStart& start) {
   sprung_.height = (motion.wheel.origin + journal_->displacement(motion.displacement, motion.wheel)).z;
   sprung_.height -= start.drop;
   sprung_.speed = start.speed;
+  sprung_.speed_along = journal_->velocity(motion.displacement, motion.velocity, motion.wheel).x;
 }
 
 void Vehicle::begin_sample(const StepState& step, Sample& sample) {
@@ -69,11 +78,13 @@ void Vehicle::end_sample(const StepState& /*step*/, Sample& sample) const {
 
 void Vehicle::add_kinetic_energy(const Motion& motion, double& sum) const {
   const Vec3 v = journal_->velocity(motion.displacement, motion.velocity, motion.wheel);
-  sum += 0.5 * unsprung_mass_ * dot(v, v) + 0.5 * sprung_.mass * sprung_.speed * sprung_.speed;
+  sum += 0.5 * unsprung_mass_ * dot(v, v) + 0.5 * sprung_.mass * sprung_.speed * sprung_.speed +
+         0.5 * carried_mass_ * sprung_.speed_along * sprung_.speed_along;
 }
 
 void Vehicle::add_momentum(const Motion& motion, Vec3& sum) const {
   sum += unsprung_mass_ * journal_->velocity(motion.displacement, motion.velocity, motion.wheel);
+  sum.x += carried_mass_ * sprung_.speed_along;
   sum.z += sprung_.mass * sprung_.speed;
 }
 

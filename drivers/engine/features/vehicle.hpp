@@ -28,11 +28,12 @@ class Vehicle final : public Feature {
 
  private:
   void apply_suspension(StepState& step);
-  void add_unsprung_mass(StepState& step) const;
+  void add_carried_masses(StepState& step);
 
   const Journal* journal_;
   SprungMass sprung_;
   double unsprung_mass_;  ///< [kg]
+  double carried_mass_;   ///< sprung mass that the journal carries along x [kg]
   double gravity_;        ///< [m/s2]
 };
 

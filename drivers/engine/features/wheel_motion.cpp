@@ -1,15 +1,14 @@
 #include "drivers/engine/features/wheel_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
-
-#include "kernels/contact/contact_surface.hpp"
 
 namespace tread {
 
 namespace {
 
 constexpr std::int64_t kAnchorInterval = 256;  ///< steps between looks at the wheel's mean motion
-constexpr int kCreepageNodes = 28;             ///< [paper, section 4.2]
+constexpr int kCreepagePoints = 28;            ///< [paper, section 4.2]
 
 /// Creepage of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed
 /// there is none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper, eq. (3)]
@@ -23,24 +22,26 @@ double creepage_of(double rim, double speed) {
 
 WheelMotion::WheelMotion(const WheelParts& parts, double patch_y, double gravity)
     : parts_(parts), gravity_(gravity) {
-  choose_creepage_nodes(patch_y);
+  choose_creepage_points(patch_y);
 }
 
-/// Nodes of the tread's section nearest to the patch, spread evenly around; the first starts in the patch.
-void WheelMotion::choose_creepage_nodes(double patch_y) {
+/// Points of the tread at the patch's y, spread evenly around; the first starts in the patch.
+void WheelMotion::choose_creepage_points(double patch_y) {
   const SweptBlock& block = parts_.tread;
-  int nearest = block.section.surface.front().node[0];
-  for (const SurfaceEdge& edge : block.section.surface)
-    for (const int node : edge.node)
-      if (std::abs(block.section.p[static_cast<std::size_t>(node)] - patch_y) <
-          std::abs(block.section.p[static_cast<std::size_t>(nearest)] - patch_y))
-        nearest = node;
+  const SurfaceProfile profile(block.section);
+  const double y = std::clamp(patch_y, profile.first_p(), profile.last_p());
+  const int edge = profile.edge_at(y);
+  const double share = (y - profile.edge_p(edge, 0)) / (profile.edge_p(edge, 1) - profile.edge_p(edge, 0));
+  const double radius = profile.evaluate(edge, share, parts_.surface).q;
   const StationFinder finder(block);
-  for (int k = 0; k < (parts_.bore ? 1 : kCreepageNodes); ++k) {
-    const int station = finder.find(2 * M_PI * k / kCreepageNodes).station;
-    creepage_nodes_.push_back({block.base + block.slot(nearest, station),
-                               block.stations[static_cast<std::size_t>(station)],
-                               block.section.q[static_cast<std::size_t>(nearest)]});
+  for (int k = 0; k < (parts_.bore ? 1 : kCreepagePoints); ++k) {
+    const int station = finder.find(2 * M_PI * k / kCreepagePoints).station;
+    Attachment at;
+    for (std::size_t end = 0; end < 2; ++end) {
+      at.slot[end] = block.base + block.slot(profile.node(edge + static_cast<int>(end)), station);
+      at.weight[end] = end == 0 ? 1 - share : share;
+    }
+    creepage_points_.push_back({at, block.stations[static_cast<std::size_t>(station)], radius});
   }
 }
 
@@ -80,11 +81,11 @@ MeanMotion WheelMotion::relative_to_frame(const Motion& motion) const {
                      : parts_.body.mean_motion(motion.displacement, motion.velocity, motion.wheel);
 }
 
-double WheelMotion::creepage(const CreepageNode& node, const Motion& motion, const MeanMotion& mean) const {
+double WheelMotion::creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const {
   const BodyFrame& frame = motion.wheel;
-  const double carried = cartesian_to_cylindrical(node.angle + frame.angle, mean.velocity).x;
-  const double rise = motion.displacement[dof(node.slot, 2)];
-  const double speed = motion.velocity[dof(node.slot, 0)] - carried + frame.spin * (node.radius + rise);
+  const double carried = cartesian_to_cylindrical(point.angle + frame.angle, mean.velocity).x;
+  const double rise = point.at.value(motion.displacement, 2);
+  const double speed = point.at.value(motion.velocity, 0) - carried + frame.spin * (point.radius + rise);
   return creepage_of(speed, frame.velocity.x + mean.velocity.x);
 }
 
@@ -101,12 +102,12 @@ void WheelMotion::end_sample(const StepState& step, Sample& sample) const {
   const MeanMotion mean = relative_to_frame(motion);
   sample.wheel_speed = motion.wheel.velocity.x + mean.velocity.x;
   sample.wheel_spin = motion.wheel.spin + mean.spin;
-  sample.creepage_node = creepage(creepage_nodes_.front(), motion, mean);
+  sample.creepage_node = creepage(creepage_points_.front(), motion, mean);
   double sum = 0;
-  for (const CreepageNode& node : creepage_nodes_) sum += creepage(node, motion, mean);
+  for (const CreepagePoint& point : creepage_points_) sum += creepage(point, motion, mean);
   sample.creepage_mean =
-      parts_.bore ? creepage_of(sample.wheel_spin * creepage_nodes_.front().radius, sample.wheel_speed)
-                  : sum / static_cast<double>(creepage_nodes_.size());
+      parts_.bore ? creepage_of(sample.wheel_spin * creepage_points_.front().radius, sample.wheel_speed)
+                  : sum / static_cast<double>(creepage_points_.size());
 }
 
 void WheelMotion::add_kinetic_energy(const Motion& motion, double& sum) const {

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "drivers/engine/features/feature.hpp"
+#include "kernels/connectors/connectors.hpp"
 #include "kernels/connectors/guided_bore.hpp"
+#include "kernels/contact/contact_surface.hpp"
 #include "kernels/ties/tie.hpp"
 #include "kernels/update/body_motion.hpp"
 
@@ -14,6 +16,7 @@ namespace tread {
 struct WheelParts {
   const SpinningBody& body;
   const SweptBlock& tread;
+  SurfaceKind surface = SurfaceKind::exact;  ///< of the tread
   GuidedBore* bore = nullptr;
   const Ties* ties = nullptr;
 };
@@ -37,20 +40,20 @@ class WheelMotion final : public Feature {
   void add_momentum(const Motion& motion, Vec3& sum) const override;
 
  private:
-  /// A node of the tread whose speed makes the creepage.
-  struct CreepageNode {
-    std::int64_t slot;
+  /// A point of the tread, between two nodes across it, whose speed makes the creepage.
+  struct CreepagePoint {
+    Attachment at;
     double angle;   ///< in the wheel [rad]
     double radius;  ///< [m]
   };
-  void choose_creepage_nodes(double patch_y);
+  void choose_creepage_points(double patch_y);
   void anchor(const StaticStart& at) const;
   /// `mean`: relative_to_frame().
-  double creepage(const CreepageNode& node, const Motion& motion, const MeanMotion& mean) const;
+  double creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const;
 
   WheelParts parts_;
   double gravity_;  ///< [m/s2]
-  std::vector<CreepageNode> creepage_nodes_;
+  std::vector<CreepagePoint> creepage_points_;
 };
 
 }  // namespace tread
