@@ -24,12 +24,15 @@ struct WheelSpec {
   std::string profile = "LMA";          ///< "LMA", "arc", "cylinder", or a file of two columns (y, z)
   double diameter = 0.86;               ///< [m]
   double lateral_offset = 6.5e-3;  ///< rail centre line in wheel coordinates, positive to the field side [m]
-  double mass = 586;               ///< mass that the brake disc ring is sized to reach [kg] (half_wheelset)
-  double axle_bore = 0.060;        ///< bore of the hollow axle [m] (half_wheelset)
-  double crown_radius = 0.43;      ///< lateral radius of the profile "arc" [m] (tyre)
-  double width = 0.060;            ///< width of the ring [m] (tyre)
-  double thickness = 0.060;        ///< radial thickness of the ring [m] (tyre)
-  std::string bore = "free";       ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
+  double mass = 586;               ///< mass that web or brake rings are sized to reach [kg] (half_wheelset)
+  std::optional<double>
+      web_thickness;           ///< absent: by the mass, or 30 mm with brake rings [m] (half_wheelset)
+  bool brake_rings = false;    ///< two plates on the web, sized by the mass (half_wheelset)
+  double axle_bore = 0.060;    ///< bore of the hollow axle [m] (half_wheelset)
+  double crown_radius = 0.43;  ///< lateral radius of the profile "arc" [m] (tyre)
+  double width = 0.060;        ///< width of the ring [m] (tyre)
+  double thickness = 0.060;    ///< radial thickness of the ring [m] (tyre)
+  std::string bore = "free";   ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
   /// Tread of a guided tyre beyond the run, before and behind it; absent: the whole ring. [m]
   std::optional<double> overhang;
   std::vector<double> profile_y;  ///< first column of the profile's file, in its order [m]

@@ -320,7 +320,8 @@ void check_shape(const WheelShape& shape) {
   refuse("axle_bore", shape.axle_bore, 0.02, 0.11,
          "the axle is swept about its axis and leaves a wall in the journal");
   refuse("lateral_offset", shape.lateral_offset, -0.03, 0.03, "the rail has to lie under the tread");
-  refuse("web_thickness", shape.web_thickness, 0.01, 0.08, "the web has to fit between rim and hub");
+  refuse("web_thickness", shape.web_thickness, kThinnestWeb, kThickestWeb,
+         "the web has to fit between rim and hub");
   refuse("brake_ring_thickness", shape.brake_ring_thickness, 0, 0.1,
          "two rings of this thickness make up the mass");
 }

@@ -8,6 +8,9 @@
 
 namespace tread {
 
+/// Webs that fit between rim and hub [m].
+inline constexpr double kThinnestWeb = 0.01, kThickestWeb = 0.1;
+
 /// A half wheelset of standard gauge. The track's centre plane lies 746.5 mm from the nominal rolling circle,
 /// the journal's centre 1000 mm.
 struct WheelShape {

@@ -145,6 +145,7 @@ void Model::build_wheel() {
   const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(scene), sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
+  web_thickness = sized.web_thickness;
   brake_ring_thickness = sized.brake_ring_thickness;
   index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {material},
                                      plan.start, plan.tread));

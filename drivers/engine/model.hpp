@@ -50,7 +50,8 @@ struct Model {
   std::optional<GuidedBore> guide;  ///< carries load and torque in place of journal and torque
   Journal journal;                  ///< carries vehicle or load; empty without either
   AxleTorque torque;                ///< empty without traction
-  double brake_ring_thickness = 0;  ///< of each of the two plates that bring the wheelset to its mass [m]
+  double web_thickness = 0;         ///< of a half wheelset [m]
+  double brake_ring_thickness = 0;  ///< of each of the two plates on its web; 0: there are none [m]
   std::unique_ptr<Contact> contact;
   HertzPatch hertz_patch;     ///< of the undeformed surfaces at the touching point under wheel_load()
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]

@@ -81,51 +81,103 @@ Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes&
   return section;
 }
 
-/// Brake rings that a mass may ask for [m].
-constexpr double kThinnest = 2e-3, kThickest = 0.08;
+namespace {
 
-SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
-  const WheelSpec& wheel = *scene.wheel;
+constexpr double kThinnestRing = 2e-3, kThickestRing = 0.08;  // [m]
+constexpr double kSameMass = 0.01;                            // of a stated web and a stated mass
+
+/// The sections of a half wheelset and their mass with the plan's polygons.
+class WheelBuilder {
+ public:
+  WheelBuilder(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan)
+      : profile_(wheel_profile(*scene.wheel)),
+        size_(section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre)),
+        plan_(plan),
+        density_(scene.wheel_material().density) {
+    shape.diameter = scene.wheel->diameter;
+    shape.lateral_offset = scene.wheel->lateral_offset;
+    shape.axle_bore = scene.wheel->axle_bore;
+  }
+
   WheelShape shape;
-  shape.diameter = wheel.diameter;
-  shape.lateral_offset = wheel.lateral_offset;
-  shape.axle_bore = wheel.axle_bore;
-  const SectionSize size = section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre);
-  const WheelProfile profile = wheel_profile(wheel);
 
-  // Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
-  const auto polygon = [](const std::vector<Segment>& segments) {
+  WheelSections sections() const { return make_wheel_sections(profile_, shape, size_); }
+
+  double mass() const {
+    const WheelSections s = sections();
+    return density_ * (revolved_moments(s.tread).volume * polygon(plan_.tread) +
+                       revolved_moments(s.disc).volume * polygon(plan_.disc) +
+                       revolved_moments(s.axle).volume * polygon(plan_.axle));
+  }
+  double mass_with(double WheelShape::*part, double thickness) {
+    shape.*part = thickness;
+    return mass();
+  }
+
+ private:
+  /// Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
+  static double polygon(const std::vector<Segment>& segments) {
     double sum = 0;
     for (const Segment& s : segments) sum += s.elements * std::sin(s.pitch);
     return sum / (2 * std::numbers::pi);
-  };
-  const auto mass = [&](double ring) {
-    shape.brake_ring_thickness = ring;
-    const WheelSections s = make_wheel_sections(profile, shape, size);
-    return scene.wheel_material().density * (revolved_moments(s.tread).volume * polygon(plan.tread) +
-                                             revolved_moments(s.disc).volume * polygon(plan.disc) +
-                                             revolved_moments(s.axle).volume * polygon(plan.axle));
-  };
-  // The mass grows almost linearly with the ring's thickness.
-  double thickness = 0.02;
+  }
+
+  WheelProfile profile_;
+  SectionSize size_;
+  WheelPlan plan_;
+  double density_;
+};
+
+/// A part whose thickness is found by the wheelset's mass.
+struct SizedPart {
+  double WheelShape::*thickness;
+  const char* name;
+  double thinnest, thickest;  ///< [m]
+};
+
+/// Makes the part as thick as the mass needs, which grows almost linearly with it.
+void size_by_mass(WheelBuilder& builder, const SizedPart& part, double wanted) {
+  constexpr double kTolerance = 0.05;  // [kg]
+  const auto mass = [&](double thickness) { return builder.mass_with(part.thickness, thickness); };
   double last_thickness = 0.012;
   double last_mass = mass(last_thickness);
+  double thickness = 0.02;
   for (int i = 0; i < 12; ++i) {
     const double m = mass(thickness);
-    if (std::abs(m - wheel.mass) < 0.05) break;
+    if (std::abs(m - wanted) < kTolerance) return;
     const double slope = (m - last_mass) / (thickness - last_thickness);
     last_thickness = thickness;
     last_mass = m;
-    thickness += (wheel.mass - m) / slope;
-    if (!(thickness > kThinnest && thickness < kThickest))
+    thickness += (wanted - m) / slope;
+    if (!(thickness > part.thinnest && thickness < part.thickest))
       throw InputError(fmt::format(
-          "wheel.mass = {:.1f} kg cannot be met: brake rings of {:.1f} mm would be needed; those of {:g} to "
-          "{:g} mm make half wheelsets of {:.1f} to {:.1f} kg: state a mass between, or another "
-          "wheel.diameter",
-          wheel.mass, 1e3 * thickness, 1e3 * kThinnest, 1e3 * kThickest, mass(kThinnest), mass(kThickest)));
+          "wheel.mass = {:.1f} kg cannot be met: {} of {:.1f} mm would be needed; {:g} to {:g} mm make half "
+          "wheelsets of {:.1f} to {:.1f} kg: state a mass between, or another wheel.diameter",
+          wanted, part.name, 1e3 * thickness, 1e3 * part.thinnest, 1e3 * part.thickest, mass(part.thinnest),
+          mass(part.thickest)));
   }
-  shape.brake_ring_thickness = thickness;
-  return {make_wheel_sections(profile, shape, size), thickness};
+}
+
+}  // namespace
+
+SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan) {
+  const WheelSpec& wheel = *scene.wheel;
+  WheelBuilder builder(scene, sizes, plan);
+  WheelShape& shape = builder.shape;
+  if (wheel.web_thickness) shape.web_thickness = *wheel.web_thickness;
+  if (wheel.brake_rings) {
+    size_by_mass(builder, {&WheelShape::brake_ring_thickness, "brake rings", kThinnestRing, kThickestRing},
+                 wheel.mass);
+  } else if (!wheel.web_thickness) {
+    size_by_mass(builder, {&WheelShape::web_thickness, "a web", kThinnestWeb, kThickestWeb}, wheel.mass);
+  } else if (const double mass = builder.mass(); std::abs(mass / wheel.mass - 1) > kSameMass) {
+    throw InputError(fmt::format(
+        "wheel.web_thickness = {:.4g} mm makes a half wheelset of {:.1f} kg, wheel.mass = {:.1f} "
+        "kg; state wheel.mass = \"{:.1f} kg\", leave wheel.web_thickness out and the web is sized "
+        "by the mass, or state wheel.brake_rings = true and two plates make up the rest",
+        1e3 * *wheel.web_thickness, mass, wheel.mass, mass));
+  }
+  return {builder.sections(), shape.web_thickness, shape.brake_ring_thickness};
 }
 
 Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {

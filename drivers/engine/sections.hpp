@@ -18,11 +18,12 @@ Section tyre_section(const Scene& scene, const MeshSizes& sizes);
 
 struct SizedWheel {
   WheelSections sections;
-  double brake_ring_thickness = 0;  ///< of each of the two plates [m]
+  double web_thickness = 0;         ///< [m]
+  double brake_ring_thickness = 0;  ///< of each of the two plates; 0: there are none [m]
 };
 
-/// The brake disc rings are as thick as WheelSpec::mass needs with the plan's polygons. InputError if no
-/// rings do it.
+/// The web, or with WheelSpec::brake_rings the two plates on it, are as thick as WheelSpec::mass needs with
+/// the plan's polygons. InputError if no thickness does it, or if a stated web alone makes another mass.
 SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
 
 /// The corrugation whose deepest line lies at y = `centre` [m].

@@ -43,8 +43,9 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.index.wheel(), blocks);
     if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
-      wheel.remark =
-          fmt::format("reached by two brake ring plates of {:.2f} mm", 1e3 * model.brake_ring_thickness);
+      wheel.remark = fmt::format("with a web of {:.2f} mm", 1e3 * model.web_thickness);
+      if (model.brake_ring_thickness > 0)
+        wheel.remark += fmt::format(" and two brake rings of {:.2f} mm", 1e3 * model.brake_ring_thickness);
     }
     bodies.push_back(wheel);
   }
@@ -142,7 +143,10 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
     wheelset["polar_inertia_kg_m2"] = model.wheelset->inertia();
     wheelset["transverse_inertia_kg_m2"] = model.wheelset->transverse_inertia();
     wheelset["centre_y_m"] = model.wheelset->centre_y();
-    if (model.index.axle >= 0) wheelset["brake_ring_thickness_m"] = model.brake_ring_thickness;
+    if (model.index.axle >= 0) {
+      wheelset["web_thickness_m"] = model.web_thickness;
+      wheelset["brake_ring_thickness_m"] = model.brake_ring_thickness;
+    }
   }
   json["stable_step_s"] = limit.stable_step;
   json["stable_step_reason"] = limit.reason;

@@ -72,7 +72,16 @@ void add_wheel(Keys& keys) {
                           "Rail centre line in wheel coordinates, positive to the field side"));
   keys.push_back(
       half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
-                             above(0, 1e4), "Mass that the brake disc ring is sized to reach")));
+                             above(0, 1e4), "Mass that the web, or the brake rings, are sized to reach")));
+  keys.push_back(
+      half_wheelset(quantity("wheel.web_thickness", {Effect::mesh},
+                             at(&Scene::wheel, &WheelSpec::web_thickness), kLength, "mm", {0.01, 0.1},
+                             "Thickness of the web; absent: as the mass needs, or 30 mm with brake rings. "
+                             "Without brake rings it has "
+                             "to agree with the mass within 1 %")));
+  keys.push_back(
+      half_wheelset(flag("wheel.brake_rings", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::brake_rings),
+                         "Two ring plates on the web, bolted along a circle, as thick as the mass needs")));
   keys.push_back(
       half_wheelset(quantity("wheel.axle_bore", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::axle_bore),
                              kLength, "mm", above(0, 0.15), "Bore of the hollow axle")));

@@ -45,6 +45,7 @@ LibraryEntry highspeed_slab_2014() {
               {"wheel.diameter", "0.86 m", kTable1},
               {"wheel.lateral_offset", "6.5 mm", "gauge 1435 mm, wheels 1353 mm back to back"},
               {"wheel.mass", "586 kg", kTable1},
+              {"wheel.brake_rings", "false", kChosen},
               {"wheel.axle_bore", "60 mm", kChosen},
               {"rail.profile", "CN60", kText},
               {"rail.inclination", "1:40", kText},

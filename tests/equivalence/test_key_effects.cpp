@@ -287,6 +287,8 @@ const std::vector<Change>& changes() {
       {"wheel.diameter", "0.87 m"},
       {"wheel.lateral_offset", "1 mm"},
       {"wheel.mass", "600 kg", "wheelset"},
+      {"wheel.web_thickness", "28 mm", "wheelset", {"wheel.brake_rings=true"}},
+      {"wheel.brake_rings", "true", "wheelset"},
       {"wheel.axle_bore", "58 mm", "wheelset"},
       {"wheel.crown_radius", "0.31 m"},
       {"wheel.width", "62 mm"},

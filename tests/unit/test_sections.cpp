@@ -272,6 +272,14 @@ TEST(WheelSection, IsWellShapedAndNestedForAllSizes) {
         shape.lateral_offset = offset * mm;
         shape.diameter = diameter;
         shape.brake_ring_thickness = 23 * mm;
+        for (const double web : {10.0, 64.0, 100.0}) {
+          WheelShape plain = shape;
+          plain.web_thickness = web * mm;
+          plain.brake_ring_thickness = 0;
+          const WheelSections sections = make_wheel_sections(lma(), plain, size);
+          EXPECT_GT(worst_quality(sections.disc), 0.45) << web;
+          EXPECT_GT(smallest_square(sections.disc), (web < 15 ? 4.5 : 8) * mm) << web;
+        }
         const WheelSections wheel = make_wheel_sections(lma(), shape, size);
         EXPECT_GT(worst_quality(wheel.tread), 0.35);
         EXPECT_GT(worst_quality(wheel.disc), 0.6);
