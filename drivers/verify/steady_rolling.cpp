@@ -100,7 +100,7 @@ Reference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, d
   reference.creepage =
       half_space::extrapolated_summary({half_space.influence.material, bodies.radius, bodies.crown_radius,
                                         bodies.load, bodies.friction, force, h},
-                                       std::min(patch.semi_axis_x, patch.semi_axis_y) / 9)
+                                       std::min(patch.semi_axis_x, patch.semi_axis_y) / 11)
           .creepage;
   reference.slip_fraction = half_space.state.slip_fraction;
   reference.work = half_space::centre_element_work(half_space.grid(), half_space.state, h) / (h * h);

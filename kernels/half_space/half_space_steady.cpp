@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/math/hertz.hpp"
 
@@ -32,9 +33,24 @@ SteadySummary steady_summary(const SteadyCase& steady, double cell) {
 }
 
 SteadySummary extrapolated_summary(const SteadyCase& steady, double cell) {
-  const SteadySummary coarse = steady_summary(steady, cell);
-  const SteadySummary fine = steady_summary(steady, 0.5 * cell);
-  const auto limit = [&](double SteadySummary::*value) { return 2 * fine.*value - coarse.*value; };
+  constexpr int kGrids = 12;
+  std::vector<double> size;
+  std::vector<SteadySummary> summary;
+  for (int i = 0; i < kGrids; ++i) {
+    size.push_back(cell * std::exp2(-i / (kGrids - 1.0)));
+    summary.push_back(steady_summary(steady, size.back()));
+  }
+  double mean = 0;
+  for (const double h : size) mean += h / kGrids;
+  double spread = 0;
+  for (const double h : size) spread += (h - mean) * (h - mean);
+  // Value at size 0 of the line of least squares.
+  const auto limit = [&](double SteadySummary::*value) {
+    double sum = 0;
+    for (std::size_t i = 0; i < kGrids; ++i)
+      sum += summary[i].*value * (1.0 / kGrids - mean * (size[i] - mean) / spread);
+    return sum;
+  };
   return {limit(&SteadySummary::creepage), limit(&SteadySummary::slip_fraction),
           limit(&SteadySummary::max_shear), limit(&SteadySummary::work), limit(&SteadySummary::element_work)};
 }

@@ -28,9 +28,9 @@ struct SteadySummary {
 
 /// Summary of steady rolling on square cells of side `cell` [m].
 SteadySummary steady_summary(const SteadyCase& steady, double cell);
-/// Limit of fine grids, extrapolated by first order from cells of `cell` and `cell` / 2 [m]. Slip fraction
-/// and largest shear are those of single cells and scatter: by 12 % and 3 % from cells of a sixth of the
-/// patch.
+/// Limit of fine grids: the line over the size of the cells, by least squares, through twelve grids of `cell`
+/// to `cell` / 2 [m]. A cell is in contact or not, slips or sticks as a whole, so values of single grids
+/// scatter about the line; creepage by 0.3 % from cells of a tenth of the shorter semi-axis.
 SteadySummary extrapolated_summary(const SteadyCase& steady, double cell);
 
 }  // namespace tread::half_space

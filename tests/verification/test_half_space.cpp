@@ -250,6 +250,15 @@ TEST(HalfSpaceRolling, ExtrapolatesToFineGrids) {
   }
 }
 
+/// CONTACT's creepages near the limit of friction.
+TEST(HalfSpaceRolling, ExtrapolatesNearFullSliding) {
+  for (const auto& [mu, creepage] : {std::pair(0.4, 0.004102), std::pair(0.45, 0.005205)}) {
+    const SteadyCase steady{kSteel, kRadiusX, kRadiusY, kLoad, kFriction, mu * kLoad, kElement};
+    compare("creepage at mu " + std::to_string(mu).substr(0, 4),
+            extrapolated_summary(steady, 0.55e-3).creepage, creepage, 0.01);
+  }
+}
+
 // ---- Histories
 
 TEST(HalfSpaceRolling, SphereUnderATangentialLoop) {
