@@ -54,7 +54,7 @@ void flatten(const nlohmann::json& value, const std::string& path, int depth, Js
   if (value.is_structured()) {
     if (depth > kDeepest) throw InputError(fmt::format("nested more than {} deep", kDeepest));
     for (const auto& [name, item] : value.items())
-      flatten(item, depth == 0 ? name : path + "." + name, depth + 1, record);
+      flatten(item, depth == 0 ? name : fmt::format("{}.{}", path, name), depth + 1, record);
   } else if (value.is_boolean()) {
     record[path] = value.get<bool>();
   } else if (value.is_number()) {

@@ -29,8 +29,7 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
 
 void TwoLevelPreconditioner::update(Operator a, const std::vector<Spring>& springs) {
   a_ = std::move(a);
-  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
-    inverse_[change->first] = change->second;
+  for (std::size_t i = changes_.size(); i-- > 0;) inverse_[changes_[i].first] = changes_[i].second;
   changes_.clear();
   // Row sums of |k g g^T| replace its diagonal: D^-1 A then has no larger eigenvalue than without springs.
   for (const Spring& spring : springs) {

@@ -119,6 +119,7 @@ DialTable table() {
 
 std::vector<std::string> names(const std::vector<const DialRow*>& rows) {
   std::vector<std::string> list;
+  list.reserve(rows.size());
   for (const DialRow* one : rows) list.push_back(one->point);
   return list;
 }

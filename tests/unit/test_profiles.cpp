@@ -48,6 +48,7 @@ std::vector<Point2> outline(const RailProfile& rail) {
   const double left = rail.running.first(length / 2, 0, below);
   std::vector<Point2> clockwise;
   constexpr int count = 20000;
+  clockwise.reserve(2 * count);
   for (int i = 0; i < count; ++i)
     clockwise.push_back(rail.running.at(left + (right - left) * i / count).position);
   for (int i = 0; i < count; ++i)

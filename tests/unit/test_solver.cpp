@@ -55,6 +55,7 @@ double distance(const Field& a, const Field& b) {
 
 std::vector<double> random_modes(int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(std::sin(1 + 2.3 * i * i));
   return values;
 }

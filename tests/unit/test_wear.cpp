@@ -135,7 +135,8 @@ Development developed(double response, double change, int passages) {
     const WornProfile& profile = development.profile;
     PassageWork work = development.smooth;
     for (std::size_t i = 0; i < work.x.size(); ++i)
-      work.work[i] += response * profile.depth[static_cast<std::size_t>((work.x[i] - kStart) / 1e-3 + 0.5)];
+      work.work[i] +=
+          response * profile.depth[static_cast<std::size_t>(std::lround((work.x[i] - kStart) / 1e-3))];
     development.add(work);
   }
   return development;
