@@ -1,5 +1,5 @@
 #pragma once
-// How the undeformed surfaces of wheel and rail meet across the rail.
+// The gap across the rail between the undeformed surfaces of wheel and rail.
 
 #include "kernels/contact/contact_surface.hpp"
 

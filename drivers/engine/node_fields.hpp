@@ -1,6 +1,6 @@
 #pragma once
-// What a run carries at its nodes, in the precision that the scene wants, and what a step does to all of them
-// at once. Whoever touches few of them does so through views, in double. [theory.md, Precision]
+// Fields at the nodes of a run, in the scene's precision, and the operations of a step on all of them at
+// once. Whoever touches few of them does so through views, in double. [theory.md, Precision]
 
 #include <memory>
 

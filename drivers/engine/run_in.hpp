@@ -1,13 +1,13 @@
 #pragma once
-// How the start of rolling looks to a wheel that has been rolling: rail and vehicle as a beam on the scene's
-// fastenings leaves them that a rigid wheel has run over. [theory.md, Start]
+// Start of rolling as after a long way: the state of rail and vehicle comes from a beam on the scene's
+// fastenings over which a rigid wheel has run. [theory.md, Start]
 
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/state_list.hpp"
-#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/engine/model.hpp"
 
 namespace tread {

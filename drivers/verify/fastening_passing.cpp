@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/engine/rail_beam.hpp"
 #include "drivers/engine/run_in.hpp"
 #include "drivers/engine/simulation.hpp"

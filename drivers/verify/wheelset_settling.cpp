@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/engine/rail_beam.hpp"
 #include "drivers/engine/run_in.hpp"
 #include "drivers/engine/simulation.hpp"

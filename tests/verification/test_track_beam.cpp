@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/engine/beam/beam_section.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
 #include "drivers/engine/rail_beam.hpp"

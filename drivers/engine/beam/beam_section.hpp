@@ -1,5 +1,5 @@
 #pragma once
-// What a beam knows of a cross-section: area, moments of inertia, Cowper's shear coefficient.
+// The cross-section of a beam: area, moments of inertia, Cowper's shear coefficient.
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/beam/beam_passage.hpp"
 #include "drivers/studies/multibody/modal_beam.hpp"
 
 namespace tread {

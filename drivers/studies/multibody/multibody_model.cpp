@@ -229,6 +229,26 @@ double apply_contact_filter(MultibodyModel& model) {
   return gain;
 }
 
+namespace {
+
+/// Springs of the modes' foot, evenly over a stretch where the rail's foot is held along x [N/m]: each the
+/// stiffness of the higher modes, which share it with their neighbours.
+std::vector<double> springs_of_held_foot(const ModalBeam& beam, double length) {
+  const int parts = static_cast<int>(std::ceil(length / kFootPitch));
+  const double pitch = parts > 0 ? length / parts : 0;
+  std::vector<double> flexibility;  // by distance in pitches
+  for (int i = 0; i <= parts; ++i) flexibility.push_back(beam.foot_residual_flexibility(i * pitch));
+  std::vector<double> springs;
+  for (int i = 0; i <= parts; ++i) {
+    double missing = 0;
+    for (int j = 0; j <= parts; ++j) missing += flexibility[static_cast<std::size_t>(std::abs(i - j))];
+    springs.push_back(1 / missing);
+  }
+  return springs;
+}
+
+}  // namespace
+
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
   const bool foot = !model.foot_supports.empty() || !model.foot_holds.empty();
   const double length = model.scene.rail->length;
@@ -237,17 +257,20 @@ ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
   ModalBeam beam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail),
                  foot ? ModalBeam::Foot::moves : ModalBeam::Foot::still);
   std::vector<BeamSupport> along;
-  for (const BeamSupport& s : model.foot_supports)
-    along.push_back({s.x, 1 / (1 / s.stiffness + beam.foot_residual_flexibility(0)), s.damping});
-  for (const FootStretch& s : model.foot_holds) {
-    const int parts = static_cast<int>(std::ceil((s.last - s.first) / kFootPitch));
-    const double pitch = parts > 0 ? (s.last - s.first) / parts : 0;
-    for (int i = 0; i <= parts; ++i) {
-      // Neighbours share what the modes lack between them.
-      double missing = 0;
-      for (int j = 0; j <= parts; ++j) missing += beam.foot_residual_flexibility((i - j) * pitch);
-      along.push_back({s.first + i * pitch, 1 / missing, 0});
-    }
+  if (!model.foot_supports.empty()) {
+    const double missing = beam.foot_residual_flexibility(0);
+    for (const BeamSupport& s : model.foot_supports)
+      along.push_back({s.x, 1 / (1 / s.stiffness + missing), s.damping});
+  }
+  if (!model.foot_holds.empty()) {
+    // All stretches are of the same length.
+    const FootStretch& one = model.foot_holds.front();
+    const std::vector<double> springs = springs_of_held_foot(beam, one.last - one.first);
+    const double pitch =
+        springs.size() > 1 ? (one.last - one.first) / static_cast<double>(springs.size() - 1) : 0;
+    for (const FootStretch& s : model.foot_holds)
+      for (std::size_t i = 0; i < springs.size(); ++i)
+        along.push_back({s.first + static_cast<double>(i) * pitch, springs[i], 0});
   }
   return {std::move(beam), model.supports, along};
 }
