@@ -161,17 +161,6 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
                           .mean;
 }
 
-/// Frictional work per way over the mean of F_L; 0 where F_L is. [theory.md, eq. 13a]
-double work_over_force(const std::vector<Sample>& samples, const auto& inside) {
-  const auto first = std::find_if(samples.begin(), samples.end(), inside);
-  const auto last = std::find_if(samples.rbegin(), samples.rend(), inside);
-  if (first == samples.end()) return 0;
-  const double way = last->wheel_x - first->wheel_x;
-  const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
-  if (way <= 0 || force == 0) return 0;
-  return (last->energy.frictional_work - first->energy.frictional_work) / (way * force);
-}
-
 /// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
 /// corrugation.
 void evaluate_steady(const Model& model, double reached, RunResults& r) {
@@ -189,7 +178,7 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
   r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
-  r.creepage_of_work = work_over_force(r.samples, between(r.steady_first, r.steady_last));
+  r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last);
   r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
   r.max_shear = mean([](const Sample& s) { return s.max_shear; });
   r.patch_area = mean([](const Sample& s) { return s.patch_area; });
@@ -323,6 +312,17 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
                                         {"hourglass", r.block_energy[b].hourglass}});
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
   return json_text(json);
+}
+
+double creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
+  const auto inside = between(first, last);
+  const auto begin = std::find_if(samples.begin(), samples.end(), inside);
+  const auto end = std::find_if(samples.rbegin(), samples.rend(), inside);
+  if (begin == samples.end()) return 0;
+  const double way = end->wheel_x - begin->wheel_x;
+  const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
+  if (way <= 0 || force == 0) return 0;
+  return (end->energy.frictional_work - begin->energy.frictional_work) / (way * force);
 }
 
 }  // namespace tread

@@ -87,6 +87,10 @@ struct RunResults {
 /// Fills the figures from the samples.
 void evaluate(const Model& model, RunResults& results);
 
+/// Creepage of the frictional work between two places of the wheel [m]: work per way over the mean of F_L; 0
+/// without F_L or without way. [theory.md, eq. 13a]
+double creepage_of_work(const std::vector<Sample>& samples, double first, double last);
+
 std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
 
 }  // namespace tread

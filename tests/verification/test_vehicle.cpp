@@ -4,55 +4,45 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
-#include "io/scene/scene_reader.hpp"
 #include "tests/measured.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
 
-/// A tyre whose bore carries a vehicle, under traction on a rigid rail.
+/// The tyre, rolling from the start, with overrides as on the command line.
+Scene rolling_tyre(std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(),
+                   {"solution_zone.start=0 mm", "solution_zone.length=100 mm", "rail.length=0.7 m",
+                    "rail.origin=0.2 m", "motion.speed=20 m/s", "motion.start=moving"});
+  return samples::tyre_scene(overrides);
+}
+
+/// A tyre whose bore carries a vehicle, under traction.
 Scene driven_tyre(const std::string& longitudinal) {
-  return resolve_scene(SceneSource{"tyre.toml",
-                                   R"([scene]
-title = "driven tyre"
-element_size = "12 mm"
-[solution_zone]
-start = "0 mm"
-length = "100 mm"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0.3
-density = "7790 kg/m3"
-[wheel]
-shape = "tyre"
-profile = "arc"
-crown_radius = "0.3 m"
-thickness = "0.1 m"
-lateral_offset = "0 mm"
-[rail]
-profile = "box"
-support = "rigid"
-inclination = 0
-length = "0.7 m"
-origin = "0.2 m"
-[vehicle]
-sprung_mass = "3000 kg"
-unsprung_mass = "200 kg"
-longitudinal = ")" + longitudinal + R"("
-[contact]
-friction = 0.5
-[motion]
-speed = "20 m/s"
-duration = "12 ms"
-start = "moving"
-traction = { mu = 0.3, ramp = "4 ms", shape = "smooth" }
-)",
-                                   {}})
-      .scene;
+  return rolling_tyre({"scene.element_size=12 mm", "wheel.thickness=0.1 m", "load.present=false",
+                       "vehicle.sprung_mass=3000 kg", "vehicle.unsprung_mass=200 kg",
+                       "vehicle.longitudinal=" + longitudinal, "motion.duration=12 ms",
+                       "motion.traction.mu=0.3", "motion.traction.ramp=4 ms",
+                       "motion.traction.shape=smooth"});
+}
+
+/// Rolls the scene from its preload to its end. `see` receives the simulation after every sampled step.
+template <class See>
+void roll(const Scene& scene, Model& model, const See& see) {
+  const double v = scene.motion->speed;
+  const Preload preload =
+      solve_preload(model, {v / model.wheel_radius(), v, false}, [](const std::string&) {});
+  Simulation simulation(model, preload, scene.motion->step_safety * step_limit(model).stable_step);
+  while (simulation.time() < scene.motion->duration) {
+    simulation.step();
+    if (simulation.sampled()) see(simulation);
+  }
 }
 
 struct Driven {
@@ -65,26 +55,22 @@ Driven drive(const std::string& longitudinal) {
   const Scene scene = driven_tyre(longitudinal);
   Model model(scene);
   const double v = scene.motion->speed;
-  const Preload preload =
-      solve_preload(model, {v / model.wheel_radius(), v, false}, [](const std::string&) {});
-  Simulation simulation(model, preload, scene.motion->step_safety * step_limit(model).stable_step);
   double impulse = 0;
   double time = 0;
   double forward = 0;
   double upward = 0;
   double speed = v;
-  while (simulation.time() < scene.motion->duration) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  MomentumCheck momentum;
+  roll(scene, model, [&](const Simulation& simulation) {
     const Sample& sample = simulation.sample();
     impulse += sample.longitudinal_force * (sample.time - time);
     time = sample.time;
     speed = sample.wheel_speed;
-    if (time < scene.motion->ramp) continue;
+    momentum = simulation.momentum_check();
+    if (time < scene.motion->ramp) return;
     forward += sample.longitudinal_force;
     upward += sample.vertical_force;
-  }
-  const MomentumCheck momentum = simulation.momentum_check();
+  });
   EXPECT_NEAR(momentum.change.x / momentum.impulse.x, 1, 5e-4);
   return {impulse / (speed - v), model.wheelset->mass() + scene.vehicle->mass_along(), forward / upward};
 }
@@ -105,55 +91,17 @@ TEST(Vehicle, TractionDrivesTheSprungMassUnlessItIsFree) {
 
 /// Creepage of a tyre without friction in the first instants.
 double creepage_of_elements(double size) {
-  const Scene scene = resolve_scene(SceneSource{"tyre.toml",
-                                                R"([scene]
-title = "sliding tyre"
-element_size = ")" + std::to_string(1e3 * size) +
-                                                    R"( mm"
-gravity = "0 m/s2"
-[solution_zone]
-start = "0 mm"
-length = "100 mm"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0.3
-density = "7790 kg/m3"
-[wheel]
-shape = "tyre"
-profile = "arc"
-crown_radius = "0.1 m"
-lateral_offset = "0 mm"
-[rail]
-profile = "box"
-support = "rigid"
-inclination = 0
-length = "0.7 m"
-origin = "0.2 m"
-[load]
-wheel_load = "20 kN"
-[contact]
-friction = 0
-[motion]
-speed = "20 m/s"
-duration = "0.2 ms"
-creepage = 0.01
-start = "moving"
-)",
-                                                {}})
-                          .scene;
+  const Scene scene =
+      rolling_tyre({"scene.element_size=" + std::to_string(1e3 * size) + " mm", "scene.gravity=0 m/s2",
+                    "wheel.crown_radius=0.1 m", "load.wheel_load=20 kN", "contact.friction=0",
+                    "motion.duration=0.2 ms", "motion.creepage=0.01"});
   Model model(scene);
-  const double v = scene.motion->speed;
-  const Preload preload =
-      solve_preload(model, {v / model.wheel_radius(), v, false}, [](const std::string&) {});
-  Simulation simulation(model, preload, scene.motion->step_safety * step_limit(model).stable_step);
   double sum = 0;
   int samples = 0;
-  while (simulation.time() < scene.motion->duration) {
-    simulation.step();
-    if (!simulation.sampled()) continue;
+  roll(scene, model, [&](const Simulation& simulation) {
     sum += simulation.sample().creepage_mean;
     ++samples;
-  }
+  });
   return sum / samples;
 }
 
