@@ -33,6 +33,7 @@ runs=(
   'fastening_passing'
   'wheelset_settling'
   'wheelset_modes'
+  'wheel_receptance'
   'ring_modes'
   'moving_frames'
   'moving_frames --set rolling_steps=1e6' # 41 minutes of a core

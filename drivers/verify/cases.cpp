@@ -17,6 +17,7 @@ const std::vector<VerifyCase>& verify_cases() {
                                                 fastening_passing_case(),
                                                 wheelset_settling_case(),
                                                 wheelset_modes_case(),
+                                                wheel_receptance_case(),
                                                 ring_modes_case(),
                                                 moving_frames_case(),
                                                 extremes_step_case(),

@@ -15,8 +15,9 @@ VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
 VerifyCase steady_rolling_case();  // steady_rolling.cpp
 VerifyCase moving_frames_case();   // moving_frames.cpp
-VerifyCase wheelset_modes_case();  // wheelset_modes.cpp
-VerifyCase ring_modes_case();      // ring_modes.cpp
+VerifyCase wheelset_modes_case();
+VerifyCase wheel_receptance_case();  // wheelset_modes.cpp
+VerifyCase ring_modes_case();        // ring_modes.cpp
 
 VerifyCase rail_on_fastenings_case();  // rail_on_fastenings.cpp
 VerifyCase rail_waves_case();          // rail_waves.cpp

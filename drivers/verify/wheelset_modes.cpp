@@ -11,36 +11,12 @@
 #include "core/error.hpp"
 #include "core/geometry/profiles.hpp"
 #include "drivers/verify/cases.hpp"
+#include "drivers/verify/free_wheelset.hpp"
 #include "drivers/verify/natural_modes.hpp"
-#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
 namespace {
-
-Scene free_wheelset(double element_size) {
-  const std::string text = fmt::format(R"([scene]
-based_on = "highspeed-slab-2014"
-element_size = "{} m"
-[solution_zone]
-start = "0 m"
-length = "0.01 m"
-[rail]
-present = false
-[fastenings]
-present = false
-[slab]
-present = false
-[vehicle]
-present = false
-[contact]
-present = false
-[motion]
-present = false
-)",
-                                       element_size);
-  return resolve_scene(SceneSource{"verify", text, {}}).scene;
-}
 
 /// Integrals of the body that a closed outline sweeps about r = 0, by Green's theorem on its lines.
 struct SweptOutline {
