@@ -55,7 +55,7 @@ struct RailSpec {
   std::vector<double> profile_z;       ///< second column [m]
 };
 
-/// How the fastenings hold the rail's foot in a horizontal direction.
+/// Hold of the fastenings on the rail's foot in a horizontal direction.
 struct FootHold {
   std::string kind = "held";  ///< "held", "free" or "elastic"
   double stiffness = 0;       ///< elastic: of one fastening, to the ground [N/m]
@@ -108,7 +108,7 @@ struct VehicleSpec {
   double unsprung_mass = 340;           ///< M_a, attached to the wheelset [kg]
   double suspension_stiffness = 880e3;  ///< K [N/m]
   double suspension_damping = 4e3;      ///< C [N s/m]
-  /// Of M_c along x: "carried" rigidly with the journal, or "free", without inertia along x.
+  /// Motion of M_c along x: "carried" rigidly with the journal, or "free", without inertia along x.
   std::string longitudinal = "carried";
 
   /// Mass that moves along x with the wheelset [kg].

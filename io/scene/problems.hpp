@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with the user's files, collected so that one pass reports everything.
+// Problems in the user's files, collected so that one pass reports everything.
 
 #include <string>
 #include <vector>

@@ -42,7 +42,7 @@ class SpringDampers {
     double damping;     ///< [N s/m]
     int component = 2;  ///< direction in which it acts: 0 along, 1 across, 2 vertical
 
-    /// Of a field of displacements, or its rate of one of velocities.
+    /// Stretch under a field of displacements; its rate under one of velocities.
     double stretch(ConstNodeField field) const {
       return upper.value(field, component) - lower.value(field, component);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// What happens at the nodes of the rail's surface, from what the integration points carry.
+// Stresses, slip and work at the nodes of the rail's surface, from the integration points.
 // [theory.md, Fields of the surface]
 
 #include <array>

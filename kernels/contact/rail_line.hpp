@@ -1,5 +1,5 @@
 #pragma once
-// How far the rail's running surface is pressed down along a line. [paper, Fig. 7]
+// Deflection of the rail's running surface along a line. [paper, Fig. 7]
 
 #include <cstdint>
 #include <vector>

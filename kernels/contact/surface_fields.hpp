@@ -1,5 +1,5 @@
 #pragma once
-// What a passage leaves on the rail's surface: the largest stresses and the frictional work.
+// Fields of a passage on the rail's surface: the largest stresses and the frictional work.
 // [theory.md, Fields of the surface]
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-// What a contact point takes from its nodes, and gives to them.
+// Sums of a contact point over its nodes, and its forces on them.
 
 #include <cstddef>
 

@@ -71,7 +71,7 @@ void require(bool condition, const std::string& what) {
   if (!condition) throw std::logic_error(what);
 }
 
-/// What a scene comes to, without where its values stand.
+/// Resolved values of a scene, without their places in the file.
 std::string values_of(const ResolvedScene& resolved) {
   std::string text;
   for (const Entry& entry : resolved.entries)

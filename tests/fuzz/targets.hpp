@@ -1,5 +1,5 @@
 #pragma once
-// What reads files that others may have written, each as a function of the bytes. Whatever these are, it must
+// Readers of files that others may have written, each as a function of the bytes. Whatever these are, it must
 // return: errors of the program's own kind are the right answer to bad bytes, anything else is a finding.
 
 #include <filesystem>

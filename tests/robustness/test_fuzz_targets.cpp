@@ -93,7 +93,7 @@ TEST_P(FuzzTargets, AnyBytesAreReadOrRefused) {
   }
 }
 
-/// What unpacks a checkpoint, without each of its entries in turn, and with another in its place.
+/// The unpacking of a checkpoint, without each of its entries in turn, and with another in its place.
 TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
   RunResults results;
   results.samples.resize(2);

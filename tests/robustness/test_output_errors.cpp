@@ -1,4 +1,4 @@
-// What the user is told when an output cannot be written, and what is left then.
+// Errors when an output cannot be written, and the files that remain then.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

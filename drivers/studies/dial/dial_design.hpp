@@ -9,7 +9,7 @@
 
 namespace tread {
 
-/// What the user says of the points of a scene's dial.
+/// The user's choice of points of a scene's dial.
 struct DialAxes {
   std::vector<std::string> base;  ///< "key=value"; empty: elements of 5 mm
   std::vector<std::string> axes;  ///< "key=value,value"; empty: default_axes()

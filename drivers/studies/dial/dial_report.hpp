@@ -1,5 +1,5 @@
 #pragma once
-// What a dial shows: tables, picture, report.
+// The report of a dial: tables, picture, report.
 
 #include <string>
 #include <vector>

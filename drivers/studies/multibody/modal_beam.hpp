@@ -12,7 +12,7 @@ namespace tread {
 /// [theory.md, eqs. M1 and M2]
 class ModalBeam {
  public:
-  /// What besides the waves of bending moves.
+  /// Motion of the foot besides the waves of bending.
   enum class Foot {
     still,  ///< modes of the lower branch alone
     moves  ///< also the upper branch and the waves along x up to the same frequency: a foot that is held sees
