@@ -40,6 +40,14 @@ bool Finding::pass() const {
   return !bound || std::abs(error()) <= *bound;
 }
 
+Finding judged_by_slip_zone(Finding finding, double factor, double element, double width) {
+  if (width > element)
+    finding.bound = factor * element / width;
+  else
+    finding.quantity += fmt::format(", not resolved: {:.2f} elements slip", width / element);
+  return finding;
+}
+
 bool refused(const std::function<void()>& act, const std::vector<std::string>& parts) {
   try {
     act();

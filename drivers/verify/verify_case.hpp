@@ -49,6 +49,10 @@ struct Finding {
   bool pass() const;
 };
 
+/// `finding` judged by the elements across a slip zone: the bound is `factor` times element [m] over width
+/// [m]. A zone narrower than an element is not resolved: no bound, and the quantity says so.
+Finding judged_by_slip_zone(Finding finding, double factor, double element, double width);
+
 /// Returns true if `act` throws an InputError whose text holds all `parts`.
 bool refused(const std::function<void()>& act, const std::vector<std::string>& parts = {});
 
