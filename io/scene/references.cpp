@@ -27,9 +27,12 @@ bool same(const Field& a, const Field& b) {
   return x && y && std::abs(*x - *y) <= kSame * std::abs(*y);
 }
 
-/// Returns true if the scene has the value that the node states for the key, or for a table's name its
-/// presence.
+/// Returns true if the scene has the value that the node states for the key, one of its values for a list, or
+/// for a table's name its presence.
 bool holds(const std::string& path, const toml::node& node, Scene& scene) {
+  if (const toml::array* values = node.as_array())
+    return std::any_of(values->begin(), values->end(),
+                       [&](const toml::node& value) { return holds(path, value, scene); });
   const std::optional<SceneTable> table = table_of(path);
   if (table && table->name == path && table->removable()) return table->exists(scene) == to_boolean(node);
   const std::optional<Key> key = find_key(path);

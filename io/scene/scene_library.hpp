@@ -14,13 +14,14 @@ struct LibraryValue {
 
 struct LibraryEntry {
   std::string_view name;
+  std::string_view base;  ///< entry whose values hold where this one states none; may be empty
   std::string_view description;
   std::vector<LibraryValue> values;
 };
 
 const std::vector<LibraryEntry>& scene_library();
 
-/// The entry of that name, or nullptr.
+/// Entry of that name, or nullptr.
 const LibraryEntry* find_library_entry(std::string_view name);
 
 }  // namespace tread

@@ -113,9 +113,15 @@ class SceneBuilder {
                          describe_node(*found->second.node)));
       return;
     }
-    for (const LibraryValue& value : entry->values) {
+    add_library_entry(*entry);
+  }
+
+  /// Values of the entry after those of its base: the later of two stays.
+  void add_library_entry(const LibraryEntry& entry) {
+    if (const LibraryEntry* base = find_library_entry(entry.base)) add_library_entry(*base);
+    for (const LibraryValue& value : entry.values) {
       const Place whole{source_.name, 0, 0};
-      const Origin origin{Level::library, whole, fmt::format("{}: {}", entry->name, value.source)};
+      const Origin origin{Level::library, whole, fmt::format("{}: {}", entry.name, value.source)};
       set_plain(std::string(value.path), std::string(value.value), origin);
     }
   }

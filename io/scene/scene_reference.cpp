@@ -106,8 +106,9 @@ std::string effects_table() {
 }
 
 std::string library_section(const LibraryEntry& entry) {
-  std::string text = fmt::format("\n### {}\n\n{}\n\n| key | value | source |\n|---|---|---|\n", entry.name,
-                                 entry.description);
+  std::string text = fmt::format("\n### {}\n\n{}\n", entry.name, entry.description);
+  if (!entry.base.empty()) text += fmt::format("All other values are those of `{}`.\n", entry.base);
+  text += "\n| key | value | source |\n|---|---|---|\n";
   for (const LibraryValue& value : entry.values) {
     text += fmt::format("| `{}` | `{}` | {} |\n", value.path, cell(std::string(value.value)), value.source);
   }

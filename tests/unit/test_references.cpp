@@ -120,6 +120,8 @@ TEST_F(ShareFolder, HoldsTheReferencesOfTheLibrary) {
   EXPECT_EQ(count(scene("corrugation-d.toml")), 8U);
   EXPECT_EQ(count(scene("corrugation-d.toml", {"corrugation.depth=0.1 mm"})), 5U);
   EXPECT_EQ(count(scene("corrugation-d.toml", {"motion.speed=200 km/h"})), 1U);
+  EXPECT_EQ(count(scene("corrugation-d.toml", {"scene.based_on=highspeed-slab-2014-calibrated"})), 8U);
+  EXPECT_EQ(count(scene("corrugation-d.toml", {"fastenings.damping=150 kN s/m"})), 2U);
   EXPECT_EQ(count(scene("bar-wave.toml")), 0U);
   const std::vector<Marker> levels = creepage_levels(library_references(scene("smooth.toml")));
   ASSERT_EQ(levels.size(), 1U);

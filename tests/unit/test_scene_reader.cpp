@@ -155,6 +155,15 @@ TEST(SceneReader, LibraryNamesKnownKeysOnly) {
   }
 }
 
+TEST(SceneReader, LibraryEntryStandsOnItsBase) {
+  const ResolvedScene scene = resolve(kBase, {"scene.based_on=highspeed-slab-2014-calibrated"});
+  EXPECT_EQ(scene.scene.fastenings->damping, 100e3);
+  EXPECT_EQ(scene.scene.rail->origin, 6.4625);
+  EXPECT_EQ(scene.scene.fastenings->stiffness, 22e6);
+  EXPECT_EQ(source_of(scene, "fastenings.stiffness"), "highspeed-slab-2014: Table 1");
+  EXPECT_EQ(source_of(scene, "rail.origin").rfind("highspeed-slab-2014-calibrated: ", 0), 0U);
+}
+
 TEST(SceneReader, LaterLevelsOverrideEarlierOnes) {
   const std::string text = kBase + "[motion]\nspeed = \"250 km/h\"\ntraction = { mu = 0.2 }\n";
   const ResolvedScene file = resolve(text);

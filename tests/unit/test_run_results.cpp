@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "drivers/results/run_results.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kForce = 25e3;  // [N]
+
+/// Samples of a wheel that rolls 1 m and does the frictional work `creepage` times |F_L| times its way.
+std::vector<Sample> rolling(double force, double creepage) {
+  std::vector<Sample> samples;
+  for (int i = 0; i <= 100; ++i) {
+    Sample sample;
+    sample.wheel_x = 0.01 * i;
+    sample.longitudinal_force = force;
+    sample.energy.frictional_work = creepage * kForce * sample.wheel_x;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+TEST(CreepageOfWork, IsTheWorkPerWayOverTheForce) {
+  EXPECT_NEAR(creepage_of_work(rolling(kForce, 0.0027), 0.2, 0.8), 0.0027, 1e-12);
+  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 0.0027), 0.2, 0.8), -0.0027, 1e-12);  // braking
+}
+
+TEST(CreepageOfWork, IsZeroWithoutForceOrWay) {
+  EXPECT_EQ(creepage_of_work(rolling(0, 0), 0.2, 0.8), 0);
+  EXPECT_EQ(creepage_of_work(rolling(kForce, 0.0027), 2.0, 3.0), 0);
+  EXPECT_EQ(creepage_of_work({}, 0.2, 0.8), 0);
+}
+
+}  // namespace
+}  // namespace tread
