@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -112,12 +113,11 @@ std::vector<double> roll_in(BeamPassage& passage, const BeamVehicle& vehicle, do
   return forces;
 }
 
-/// Largest change from one span to the next [N].
-double change_between_spans(const std::vector<double>& forces) {
-  double change = 0;
-  for (std::size_t i = 0; i < kStepsOfSpan; ++i)
-    change = std::max(change, std::abs(forces[kStepsOfSpan + i] - forces[i]));
-  return change;
+/// Largest difference of two spans' forces [N].
+double difference(std::span<const double> one, std::span<const double> other) {
+  double largest = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) largest = std::max(largest, std::abs(one[i] - other[i]));
+  return largest;
 }
 
 }  // namespace
@@ -130,13 +130,20 @@ RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
   const double speed = scene.motion->speed;
   const double spacing = scene.fastenings->spacing;
   const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.rail_material());
+  std::vector<double> shorter;  // forces over the last span after half of the way
   for (int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));; spans *= 2) {
     auto beam = std::make_unique<TrackBeam>(rail_beam(scene, properties, spans));
     BeamPassage passage(*beam, vehicle, -spans * spacing, spacing / kStepsOfSpan / speed);
     const double bending_at_rest = passage.bending();
     const std::vector<double> forces = roll_in(passage, vehicle, spacing, spans);
-    if (2 * spans > kMostSpans || change_between_spans(forces) < kSettled * vehicle.load())
+    const std::span all(forces);
+    const std::span last = all.subspan(kStepsOfSpan);
+    // Near an end of the rail no span is like the one before; a longer way then changes nothing.
+    const double change = std::min(difference(last, all.first(kStepsOfSpan)),
+                                   shorter.empty() ? vehicle.load() : difference(last, shorter));
+    if (2 * spans > kMostSpans || change < kSettled * vehicle.load())
       return {std::move(beam), std::move(passage), bending_at_rest};
+    shorter.assign(last.begin(), last.end());
   }
 }
 

@@ -32,7 +32,8 @@ Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const Bod
 BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);
 
 /// A wheel at x = 0 of a scene's rail that has rolled over its fastenings, continued to the left, until the
-/// force hardly changes from span to span; its sprung mass where the suspension bears it in the mean.
+/// force over the last span changes by less than a thousandth of the load from the span before, or by a way
+/// of twice the length; its sprung mass where the suspension bears it in the mean.
 struct RunningWheel {
   std::unique_ptr<TrackBeam> beam;  ///< that the passage refers to
   BeamPassage passage;

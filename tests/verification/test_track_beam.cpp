@@ -278,5 +278,22 @@ TEST(RunningWheel, IsPeriodic) {
   }
 }
 
+/// The last span of a short rail is like no other; the way before it is long enough all the same.
+TEST(RunningWheel, SettlesOnAShortRail) {
+  const BeamVehicle vehicle = {926, {}, 8000, 880e3, 4e3, 0, 9e10, 9.81};
+  const Scene scene = resolve_scene(SceneSource{"x.toml",
+                                                "[scene]\nbased_on = \"highspeed-slab-2014\"\n"
+                                                "[rail]\nlength = \"1.3 m\"\norigin = \"0.3 m\"\n"
+                                                "[fastenings]\ncount = 2\nfirst = \"0.2 m\"\n"
+                                                "[solution_zone]\nstart = \"0 m\"\nlength = \"20 mm\"\n"
+                                                "[motion]\nspeed = \"40 km/h\"\n",
+                                                {}},
+                                    {})
+                          .scene;
+  const RunningWheel running = running_wheel(scene, vehicle);
+  EXPECT_GT(running.beam->left(), -20 * scene.fastenings->spacing);
+  EXPECT_NEAR(running.passage.force(), vehicle.load(), 0.01 * vehicle.load());
+}
+
 }  // namespace
 }  // namespace tread
