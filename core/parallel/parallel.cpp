@@ -16,7 +16,9 @@ namespace tread {
 namespace {
 
 constexpr int kRangesPerThread = 8;
-constexpr std::array<const ParallelBackend*, 2> kBackends = {&openmp_backend, &tbb_backend};
+/// TBB is the default: its idle threads sleep soon. OpenMP's spin, which takes the cores from other programs
+/// and, on busy cores, slows a run by more than ten times.
+constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &openmp_backend};
 
 int g_threads = 1;
 ParallelTimes* g_times = nullptr;

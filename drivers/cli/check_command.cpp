@@ -18,7 +18,8 @@ namespace {
 
 struct CheckOptions {
   ThreadOptions threads;
-  bool json = false;  ///< an object instead of tables
+  bool json = false;     ///< an object instead of tables
+  bool verbose = false;  ///< phases and fields, too
   AdviceOptions advice;
 };
 
@@ -33,7 +34,7 @@ void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
     fmt::print("{}", json_text(json));
     return;
   }
-  fmt::print("{}", check_text(model, resolved, cost));
+  fmt::print("{}", check_text(model, resolved, cost, options.verbose));
   if (advice) fmt::print("\n{}", advice_text(*advice));
 }
 
@@ -43,6 +44,7 @@ void add_check(CLI::App& app, const std::string& /*command_line*/) {
   auto state = std::make_shared<SceneCommand<CheckOptions>>();
   CLI::App& command = add_scene_command(
       app, "check", "all errors of a scene, or what it would compute and cost", check_scene, state);
+  command.add_flag("--verbose", state->options.verbose, "the phases of a step and the fields, too");
   AdviceOptions& advice = state->options.advice;
   CLI::Option* error = command.add_option(
       "--error", advice.error, "names the cheapest setting that was measured to be as near, e.g. 2%");

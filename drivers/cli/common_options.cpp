@@ -60,7 +60,7 @@ CLI::Validator at_least(int least) {
 void add_thread_options(CLI::App& command, ThreadOptions& options) {
   command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
   command.add_option("--backend", options.backend,
-                     "library that runs them, openmp (default) or tbb; same bits");
+                     "library that runs them, tbb (default) or openmp; same bits");
 }
 
 void add_cache_option(CLI::App& command, std::string& place) {

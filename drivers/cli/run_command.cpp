@@ -13,10 +13,11 @@ void add_run(CLI::App& app, const std::string& command_line) {
   state->options.command = command_line;
   CLI::App& command =
       add_scene_command(app, "run", "preload, roll, write histories, summary and report", run_scene, state);
-  command.add_option("-o,--output", state->options.output, "output directory")->required();
+  command.add_option("-o,--output", state->options.output,
+                     "output directory (default: the scene's name and the time, in the working directory)");
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
   command.add_flag("--overwrite", state->options.overwrite,
-                   "throw away an unfinished run that the output directory holds");
+                   "throw away the run that the output directory holds");
   command.add_option(
       "--from", state->options.from,
       "begin with the state of another run over another corrugation, DIR or DIR@TIME: out@10ms");

@@ -8,6 +8,7 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/process/version.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
 
@@ -20,7 +21,7 @@ void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   if (!json) {
     fmt::print("tread {}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n",
-               TREAD_VERSION, TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
+               program_version(), TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
     return;
   }
   Json packages = Json::object();
@@ -31,7 +32,7 @@ void print_version(bool json) {
     const auto blank = package.find(' ');
     packages[std::string(package.substr(0, blank))] = package.substr(blank + 1);
   }
-  fmt::print("{}", json_text({{"version", TREAD_VERSION},
+  fmt::print("{}", json_text({{"version", program_version()},
                               {"compiler", TREAD_COMPILER},
                               {"build", TREAD_BUILD},
                               {"instruction_sets", sets},

@@ -1,9 +1,12 @@
 #include "drivers/process/machine.hpp"
 
 #include <fmt/core.h>
+#include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <ctime>
 #include <system_error>
 #include <thread>
 #ifdef __GLIBC__
@@ -15,10 +18,28 @@
 
 namespace tread {
 
+int machine_cores() {
+  cpu_set_t allowed;
+  if (::sched_getaffinity(0, sizeof(allowed), &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+std::int64_t machine_memory() {
+  return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
+}
+
 void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
-  set_threads(options.number > 0 ? options.number
-                                 : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  if (options.number > machine_cores())
+    fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
+               options.number, machine_cores(), machine_cores());
+  set_threads(options.number > 0 ? options.number : machine_cores());
+}
+
+double processor_seconds() {
+  timespec used{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 void give_back_large_arrays() {
@@ -26,6 +47,10 @@ void give_back_large_arrays() {
   // The GNU library raises this threshold to the size of the largest freed array, up to 32 MiB.
   constexpr int kLarge = 1 << 20;  // [B]
   ::mallopt(M_MMAP_THRESHOLD, kLarge);
+  // With the former threshold stated, the one for the end of the heap stays at 128 KiB: vectors that a loop
+  // makes and drops would be taken from the machine and given back each time, page by page.
+  constexpr int kKept = 64 << 20;  // [B]
+  ::mallopt(M_TRIM_THRESHOLD, kKept);
 #endif
 }
 

@@ -12,11 +12,20 @@ struct ThreadOptions {
   std::string backend;  ///< library that runs the threads; empty: the default
 };
 
-/// Sets the number and the backend of the threads. Throws InputError for an unknown backend.
+/// Number of cores that this process may use.
+int machine_cores();
+/// Memory of the machine [B].
+std::int64_t machine_memory();
+
+/// Sets the number and the backend of the threads. Warns of more threads than cores. Throws InputError for an
+/// unknown backend.
 void use_threads(const ThreadOptions& options);
 
-/// Makes freed large arrays return their memory to the machine at once. The memory of one phase is then free
-/// for all programs in the next.
+/// Time that this process has used on all cores [s].
+double processor_seconds();
+
+/// Makes freed arrays of 1 MiB and more return their memory to the machine at once, so that the memory of one
+/// phase is free for all programs in the next. Up to 64 MiB of small ones are kept.
 void give_back_large_arrays();
 
 /// Largest resident memory of this process so far [B].

@@ -17,6 +17,7 @@
 #include "drivers/report/surface_figures.hpp"
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/inventory.hpp"
+#include "drivers/results/resolution.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
@@ -370,6 +371,10 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   report.title = resolved.scene.title;
   report.subtitle = subtitle(run);
   report.footer = command;
+  if (const std::vector<std::string> warnings = resolution_warnings(model); !warnings.empty()) {
+    report.chapters.push_back({"Warnings", {}});
+    for (const std::string& warning : warnings) report.chapters.back().blocks.emplace_back(Text{warning});
+  }
   report.chapters.push_back(result_chapter(run));
   if (run.rolled()) {
     Chapter forces{"Forces", {}};

@@ -9,6 +9,7 @@
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/estimate.hpp"
 #include "drivers/results/inventory.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -31,9 +32,12 @@ std::string disk_text(const Model& model, const DiskUse& disk) {
 
 }  // namespace
 
-std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e) {
-  std::string text = fmt::format("{}: no problems found\n\n", resolved.name);
-  text += plain_text(count_table(measure_blocks(model))) + "\n";
+std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e, bool verbose) {
+  const std::vector<std::string> warnings = resolution_warnings(model);
+  std::string text = fmt::format("{}: {}\n", resolved.name,
+                                 warnings.empty() ? "no problems found" : "no errors, but warnings");
+  for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
+  text += fmt::format("\n{}\n", plain_text(count_table(measure_blocks(model))));
   const auto line = [&](const char* name, const std::string& value) {
     text += fmt::format("{:<10}{}\n", name, value);
   };
@@ -47,12 +51,14 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   line("Time", fmt::format("about {} with {} thread{}: preload {}{}", duration_text(e.seconds()), threads(),
                            threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
                            e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
-  text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
+  if (verbose)
+    text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
   return text;
 }
 
 Json check_json(const Model& model, const Estimate& e) {
   Json json = {{"ok", true}, {"problems", Json::array()}};
+  json["warnings"] = resolution_warnings(model);
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
   json["blocks"] = Json::array();

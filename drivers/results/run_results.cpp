@@ -8,6 +8,7 @@
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/results/resolution.hpp"
 #include "io/text/json.hpp"
 
 namespace tread {
@@ -310,6 +311,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json["energy_by_body_J"].push_back({{"body", model.mesh.blocks[b].name},
                                         {"strain", r.block_energy[b].strain},
                                         {"hourglass", r.block_energy[b].hourglass}});
+  json["warnings"] = resolution_warnings(model);
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
   return json_text(json);
 }

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/process/machine.hpp"
 #include "drivers/run/fork.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -17,6 +19,8 @@ namespace {
 
 constexpr int kLookInterval = 16;         ///< steps between two looks at the clock
 constexpr double kRequestInterval = 0.5;  ///< time between two looks into the folder [s]
+constexpr double kNoticeAfter = 5;        ///< time after which busy cores are noticed [s]
+constexpr double kBusyShare = 0.6;  ///< share of the time that threads work if nothing else runs, at least
 
 std::string instant(double time, std::int64_t steps) {
   return fmt::format("t = {:.6e} s (step {})", time, steps);
@@ -57,6 +61,7 @@ void Rolling::to_the_end() {
   simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
   started_ = checkpoint_at_ = session_->progress.seconds();
   started_steps_ = simulation_->steps();
+  started_processor_ = processor_seconds();
   session_->interruption.defer();
   try {
     if (!written_) write_checkpoint();  // the preload is expensive
@@ -100,6 +105,7 @@ void Rolling::look() {
   if (session_->progress.due(model_->scene.output.progress_interval)) {
     session_->progress.say(progress_line());
     session_->folder.show_status(status());
+    notice_busy_cores();
   }
   if (now - looked_at_ < kRequestInterval) return;
   looked_at_ = now;
@@ -110,6 +116,18 @@ void Rolling::look() {
   if (const auto limit = model_->scene.stop.wall_time; limit && now > *limit)
     leave(fmt::format("stop.wall_time = {}", duration_text(*limit)));
   check_disk();
+}
+
+void Rolling::notice_busy_cores() {
+  const double passed = session_->progress.seconds() - started_;
+  if (noticed_busy_cores_ || passed < kNoticeAfter) return;
+  const double share = (processor_seconds() - started_processor_) / (passed * threads());
+  if (share >= kBusyShare) return;
+  noticed_busy_cores_ = true;
+  session_->progress.say(fmt::format(
+      "[roll] {} threads work {:.0f} % of the time: other programs use the cores, or the scene is too "
+      "small for so many; fewer threads (-t) may be faster",
+      threads(), 100 * share));
 }
 
 void Rolling::check_disk() {

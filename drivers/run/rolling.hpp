@@ -51,6 +51,8 @@ class Rolling {
   template <class E>
   std::string how_to_go_on() const;
   void close_quietly();
+  /// Says once if the threads often have to wait for a core.
+  void notice_busy_cores();
   std::string progress_line() const;
   std::string status() const;
   double seconds() const;  ///< time of rolling, earlier processes included [s]
@@ -66,6 +68,8 @@ class Rolling {
   std::optional<std::int64_t> fork_step_;  ///< step whose state is kept for other runs
   double started_ = 0;                     ///< start on the session's clock [s]
   std::int64_t started_steps_ = 0;
+  double started_processor_ = 0;  ///< processor time of this process at the start [s]
+  bool noticed_busy_cores_ = false;
   double seconds_before_ = 0;  ///< time that earlier processes rolled [s]
   /// Last look into the folder on the session's clock; the first one is at once. [s]
   double looked_at_ = -std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/process/version.hpp"
 
 namespace tread {
 
@@ -65,7 +66,7 @@ void require_format(const SealedContent& content) {
   throw InputError(fmt::format(
       "the checkpoint has {}, and tread {} wrote it; this is tread {}, which reads format {}; go on with the "
       "program that wrote it, or start the run anew with `tread run ... --overwrite`",
-      stated ? fmt::format("format {}", format) : "no format number", writer, TREAD_VERSION,
+      stated ? fmt::format("format {}", format) : "no format number", writer, program_version(),
       kCheckpointFormat));
 }
 
@@ -74,7 +75,7 @@ void require_format(const SealedContent& content) {
 SealedContent pack_order(const RunOrder& order) {
   SealedContent content;
   content[kFormat] = std::vector<std::int64_t>{kCheckpointFormat};
-  content[kVersion] = std::string(TREAD_VERSION);
+  content[kVersion] = std::string(program_version());
   content["order/scene/name"] = order.scene.name;
   content["order/scene/text"] = order.scene.text;
   content["order/scene/folder"] = order.scene.folder.string();
@@ -204,7 +205,8 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
 std::string other_origin(const SealedContent& content, const Model& model) {
   const std::string& version = sealed_entry<std::string>(content, kVersion);
   const std::string& set = sealed_entry<std::string>(content, "made/instruction_set");
-  if (version != TREAD_VERSION) return fmt::format("version {} wrote it, this is {}", version, TREAD_VERSION);
+  if (version != program_version())
+    return fmt::format("version {} wrote it, this is {}", version, program_version());
   if (set != model.internal->instruction_set())
     return fmt::format("it was written with {}, this machine computes with {}", set,
                        model.internal->instruction_set());

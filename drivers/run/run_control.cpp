@@ -4,10 +4,13 @@
 
 #include <chrono>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/error.hpp"
 #include "drivers/run/run_folder.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -25,9 +28,23 @@ bool wait_until(const std::function<bool()>& condition, double patience) {
   return true;
 }
 
+/// status.json as the last process left it, and the truth about the folder: a process that was killed still
+/// says there what it did. Throws Interrupted if no process works on a run that `tread resume` goes on with.
 void print_status(const std::filesystem::path& folder) {
-  fmt::print("{}", read_text_file(folder / "status.json", kLargestStatus));
-  if (!is_taken(folder)) fmt::print(stderr, "tread: no process works on {} now\n", folder.string());
+  const std::filesystem::path file = folder / "status.json";
+  Json status = Json::parse(read_text_file(file, kLargestStatus), nullptr, false);
+  if (!status.is_object())
+    throw InputError(fmt::format("{}: not a JSON object, so no status of a run", file.string()));
+  const CheckpointFolder checkpoints(folder / kCheckpointFolder);
+  const bool alive = is_taken(folder);
+  const bool resumable = !alive && (checkpoints.has_order() || !checkpoints.states().empty());
+  status["alive"] = alive;
+  status["resumable"] = resumable;
+  fmt::print("{}", json_text(status));
+  if (resumable)
+    throw Interrupted(
+        fmt::format("no process works on {}: `tread resume {}` goes on", folder.string(), folder.string()));
+  if (!alive) fmt::print(stderr, "tread: no process works on {}\n", folder.string());
 }
 
 }  // namespace

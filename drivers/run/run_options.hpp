@@ -18,7 +18,7 @@ struct RunOptions {
   /// Run with whose state this one begins: "DIR" or "DIR@TIME", as in fork_from().
   std::string from;
   std::string cache = "off";  ///< place of the preload cache, as in preload_cache()
-  bool overwrite = false;     ///< true if an unfinished run in the directory may be thrown away
+  bool overwrite = false;     ///< true if a run in the directory may be thrown away
   std::string command;        ///< command as typed, for the report
   /// Overrides of `tread resume`: other values of motion.duration, output and stop.
   std::vector<std::string> overrides;

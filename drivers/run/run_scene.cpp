@@ -1,9 +1,11 @@
 #include "drivers/run/run_scene.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <system_error>
 
@@ -14,6 +16,7 @@
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
@@ -163,6 +166,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                                     model.mesh.blocks.size(), duration_text(seconds_mesh)));
+  for (const std::string& warning : resolution_warnings(model)) session.progress.say("[warning] " + warning);
   const Scene& scene = model.scene;
   if (checkpoint) {
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
@@ -201,13 +205,18 @@ void remove_results(const std::filesystem::path& directory) {
   FrameFiles::remove(directory);
 }
 
-/// A run that could go on is not thrown away by mistake.
-void refuse_unfinished(const RunSession& session) {
-  if (session.options.overwrite || session.checkpoints.states().empty()) return;
-  throw InputError(
-      fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
-                  "away, or choose another folder",
-                  session.folder.path().string(), session.resume_command()));
+/// A run is not thrown away by mistake, finished or not.
+void refuse_to_overwrite(const RunSession& session) {
+  if (session.options.overwrite) return;
+  const std::string folder = session.folder.path().string();
+  if (!session.checkpoints.states().empty())
+    throw InputError(
+        fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
+                    "away, or choose another folder",
+                    folder, session.resume_command()));
+  if (std::filesystem::exists(session.folder / "summary.json"))
+    throw InputError(fmt::format(
+        "{} holds a finished run: --overwrite throws it away, or choose another folder with -o", folder));
 }
 
 /// Anything else would make it another run.
@@ -270,16 +279,26 @@ void read_order(RunSession& session, const std::optional<CheckpointFolder::Found
   session.resolved = resolve_with_later(order);
 }
 
+/// "corrugation-d-20140512-093000", of a scene's file and the local time.
+std::filesystem::path dated_folder(const std::filesystem::path& scene) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  ::localtime_r(&now, &local);
+  return fmt::format("{}-{:%Y%m%d-%H%M%S}", scene.stem().string(), local);
+}
+
 }  // namespace
 
-void run_scene(const ResolvedScene& resolved, const RunOptions& options) {
+void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
+  RunOptions options = given;
+  if (options.output.empty()) options.output = dated_folder(resolved.source.name);
   use_threads(options.threads);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
   std::optional<Fork> fork;
   if (!options.from.empty()) fork = read_other(options, wanted);
   RunSession session(options);
-  refuse_unfinished(session);
+  refuse_to_overwrite(session);
   session.order = fork ? fork->order : wanted;
   session.resolved = fork ? resolve_with_later(session.order) : resolved;
   session.checkpoints.clear();

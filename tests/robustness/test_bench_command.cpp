@@ -57,7 +57,7 @@ TEST_F(Bench, KernelsStateEveryKey) {
     kernels.insert(text(row, "kernel"));
     const std::string precision = text(row, "precision");
     EXPECT_TRUE(precision == "double" || precision == "mixed" || precision == "single") << name;
-    EXPECT_EQ(text(row, "backend"), "openmp");
+    EXPECT_EQ(text(row, "backend"), "tbb");
     EXPECT_FALSE(text(row, "lanes").empty());
     EXPECT_EQ(number(row, "threads"), 1);
     EXPECT_GT(number(row, "elements"), 0) << name;

@@ -65,6 +65,60 @@ TEST_F(Commands, CheckStatesStepsAndFields) {
   EXPECT_FALSE(has(outcome.out, "contact"));
 }
 
+TEST_F(Commands, CheckAnswersFirstAndListsPhasesOnRequest) {
+  const Outcome brief = call("check -t 1 " + scene("bar-wave.toml"));
+  EXPECT_TRUE(has(brief.out, "Memory")) << brief.out;
+  EXPECT_FALSE(has(brief.out, "Phase")) << brief.out;
+  EXPECT_TRUE(has(call("check -t 1 --verbose " + scene("bar-wave.toml")).out, "Phase"));
+}
+
+TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
+  const fs::path file = folder_ / "coarse.toml";
+  std::ofstream(file)
+      << "[scene]\ntitle = \"coarse\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n"
+         "[solution_zone]\nstart = \"0 m\"\nlength = \"0.1 m\"\n[motion]\nduration = \"0.1 ms\"\n"
+         "[corrugation]\npresent = true\nstart = \"0 m\"\nlength = \"80 mm\"\napply = \"gap\"\n";
+  const auto warnings = [&](const std::string& set) {
+    return call("check --json -t 1 " + file.string() + set).out;
+  };
+  const std::string coarse = warnings("");
+  EXPECT_TRUE(has(coarse, "the contact patch has 1.0 elements across")) << coarse;
+  EXPECT_TRUE(has(coarse, "a wave of the corrugation has 7.3 elements")) << coarse;
+  EXPECT_FALSE(has(coarse, "corrugation.depth")) << coarse;
+  EXPECT_TRUE(has(warnings(" --set \"corrugation.depth=8 mm\""), "look at the units of corrugation.depth"));
+  EXPECT_TRUE(has(call("check --json -t 1 " + scene("smooth.toml")).out, "\"warnings\": []"));
+}
+
+TEST_F(Commands, MoreThreadsThanCoresAreAWarning) {
+  EXPECT_TRUE(has(call("check -t 1000 " + scene("bar-wave.toml")).errors, "1000 threads on"));
+  EXPECT_EQ(call("check -t 1 " + scene("bar-wave.toml")).errors, "");
+}
+
+TEST_F(Commands, AFinishedRunIsNotOverwritten) {
+  const std::string run = fmt::format("run -t 1 --quiet --set output.frames=0 {} -o {}/out",
+                                      scene("bar-wave.toml"), folder_.string());
+  ASSERT_EQ(call(run).code, 0);
+  const std::string summary = content("out/summary.json");
+  const Outcome again = call(run);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_TRUE(has(again.errors, "holds a finished run: --overwrite")) << again.errors;
+  EXPECT_EQ(content("out/summary.json"), summary);
+  EXPECT_EQ(call(run + " --overwrite").code, 0);
+}
+
+TEST_F(Commands, WithoutAFolderARunGetsADatedOne) {
+  const std::string before = fmt::format("cd {} &&", folder_.string());
+  const pid_t process = samples::start_program(
+      "run -t 1 --quiet --set output.frames=0 --set motion.duration=1us " + scene("bar-wave.toml"), folder_,
+      before);
+  ASSERT_EQ(samples::wait_for(process), 0) << content("errors");
+  int found = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+    found += entry.path().filename().string().starts_with("bar-wave-20") &&
+             fs::exists(entry.path() / "summary.json");
+  EXPECT_EQ(found, 1);
+}
+
 TEST_F(Commands, MeshWritesAFile) {
   const Outcome outcome = call(fmt::format("mesh -t 1 -o {} {} --set \"scene.element_size=8 mm\"",
                                            folder_.string(), scene("sphere-on-block.toml")));
@@ -241,9 +295,10 @@ TEST_F(Commands, RoughnessNamesTheBrokenLine) {
 
 TEST_F(Commands, WrongWordsAreNamed) {
   for (const auto& [wrong, answer] :
-       {std::pair{"rum x.toml", "rum was not expected"},
+       {std::pair{"rum x.toml", "there is no command 'rum'; did you mean 'run'?"},
+        {"report --help", "there is no command 'report'; `tread --help` lists all"},
         {"develop x.toml --frm y", "--frm was not expected"},
-        {"run", "scene is required"},
+        {"run", "tread: scene is required"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
         {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
@@ -255,6 +310,8 @@ TEST_F(Commands, WrongWordsAreNamed) {
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
+  EXPECT_EQ(call("--version").out.rfind("tread ", 0), 0U);
+  EXPECT_TRUE(has(call("--help").out, "Exit codes: 0 done"));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
 }
 

@@ -80,7 +80,12 @@ TEST_F(Resume, SigkillLosesWhatFollowedTheLastCheckpoint) {
   ASSERT_TRUE(wait_until([&] { return CheckpointFolder(folder_ / "checkpoint").states().size() == 2; }));
   ::kill(process, SIGKILL);
   EXPECT_EQ(wait_for(process), 1000 + SIGKILL);
+  // The killed process could not say so itself.
+  EXPECT_EQ(call("ctl " + folder_.string() + " status"), 75);
+  EXPECT_TRUE(has(content_of(root_ / "out"), "\"alive\": false,\n  \"resumable\": true"));
+  EXPECT_TRUE(has(errors(), "tread resume")) << errors();
   expect_finishes_as_if_never_stopped();
+  EXPECT_EQ(call("ctl " + folder_.string() + " status"), 0);
 }
 
 TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
@@ -98,6 +103,7 @@ TEST_F(Resume, ControlledFromOutside) {
   EXPECT_TRUE(has(errors(), "another process works on")) << errors();
   EXPECT_EQ(call("ctl " + folder_.string() + " status"), 0);
   EXPECT_TRUE(has(content_of(root_ / "out"), fmt::format("\"process\": {}", process)));
+  EXPECT_TRUE(has(content_of(root_ / "out"), "\"alive\": true"));
   EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 0) << errors();
   EXPECT_EQ(wait_for(process), 75);
   EXPECT_EQ(call("ctl " + folder_.string() + " stop"), 2);
@@ -247,7 +253,7 @@ TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
   EXPECT_TRUE(has(errors(), "output.disk_limit = 1")) << errors();
   EXPECT_EQ(call(resume("--set \"output.disk_limit=1 GB\"")), 0);
   EXPECT_TRUE(content_of(folder_ / "histories.csv") == content_of(root_ / "whole/histories.csv"));
-  EXPECT_EQ(call(run(folder_, "--set \"output.disk_limit=1 kB\"")), 2);
+  EXPECT_EQ(call(run(folder_, "--overwrite --set \"output.disk_limit=1 kB\"")), 2);
   EXPECT_TRUE(has(errors(), "the run needs about")) << errors();
 }
 

@@ -1,7 +1,6 @@
 #include "drivers/studies/study/study_plan.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +8,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <thread>
 #include <tuple>
 #include <utility>
 
@@ -158,14 +156,6 @@ void subtract_shared(StudyPlan& plan) {
 }
 
 }  // namespace
-
-int machine_cores() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-std::int64_t machine_memory() {
-  return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
-}
 
 ExitCode StudyPlan::failure_code() const {
   for (const PlannedPoint& point : points)

@@ -10,10 +10,6 @@
 
 namespace tread {
 
-/// Cores of the machine [-] and its memory [B].
-int machine_cores();
-std::int64_t machine_memory();
-
 /// Resolves every point; `folder` will hold a folder for each. Throws ProblemsError with all errors, placed
 /// in the study's file if a value of it is meant. Points with equal scenes are an error, too.
 StudyPlan plan_study(const Study& study, const std::filesystem::path& folder);

@@ -1,0 +1,73 @@
+#include "drivers/results/resolution.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+namespace tread {
+
+namespace {
+
+/// Elements across the patch below which nodal pressures are more than about 10 % low. [docs/contact.md]
+constexpr double kElementsOfPatch = 4;
+/// Elements a wave below which F_N is more than about 4 % off. [docs/dial.md]
+constexpr double kElementsOfWave = 10;
+/// Slope of the corrugation above which its depth is no small change of a smooth rail.
+constexpr double kSlope = 0.05;
+
+/// The shorter axis of the patch.
+std::string patch_warning(const Model& model) {
+  const double shorter = 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
+  const double element = model.sizes.contact;
+  if (shorter <= 0 || shorter / element >= kElementsOfPatch) return "";
+  return fmt::format(
+      "the contact patch has {:.1f} elements across ({:.3g} mm of Hertz on elements of {:.3g} mm): below "
+      "{:g}, "
+      "pressures and stresses are too low and slip, shear and creepage are not resolved; scene.element_size "
+      "= "
+      "\"{:.2g} mm\" resolves it",
+      shorter / element, 1e3 * shorter, 1e3 * element, kElementsOfPatch, 1e3 * shorter / kElementsOfPatch);
+}
+
+/// Shortest wave of the corrugation [m].
+double shortest_wave(const CorrugationSpec& corrugation) {
+  return corrugation.kind == "random" ? corrugation.shortest : corrugation.wavelength;
+}
+
+std::string wave_warning(const CorrugationSpec& corrugation, double element) {
+  const double wave = shortest_wave(corrugation);
+  if (wave / element >= kElementsOfWave) return "";
+  return fmt::format(
+      "a wave of the corrugation has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, "
+      "forces "
+      "are off by several per cent; scene.element_size = \"{:.2g} mm\" resolves the wave",
+      wave / element, 1e3 * wave, 1e3 * element, kElementsOfWave, 1e3 * wave / kElementsOfWave);
+}
+
+std::string slope_warning(const CorrugationSpec& corrugation) {
+  const double slope = std::numbers::pi * corrugation.depth / corrugation.wavelength;
+  if (corrugation.kind != "sine" || slope <= kSlope) return "";
+  return fmt::format(
+      "the corrugation rises by {:.2g} of its length ({:.3g} mm deep, {:.3g} mm long): above {:g} it is no "
+      "roughness of a rail; look at the units of corrugation.depth",
+      slope, 1e3 * corrugation.depth, 1e3 * corrugation.wavelength, kSlope);
+}
+
+}  // namespace
+
+std::vector<std::string> resolution_warnings(const Model& model) {
+  std::vector<std::string> warnings;
+  if (!model.contact) return warnings;
+  warnings.push_back(patch_warning(model));
+  if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
+      corrugation && corrugation->kind != "table") {
+    warnings.push_back(wave_warning(*corrugation, model.sizes.contact));
+    warnings.push_back(slope_warning(*corrugation));
+  }
+  std::erase(warnings, "");
+  return warnings;
+}
+
+}  // namespace tread
