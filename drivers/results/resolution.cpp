@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -16,6 +17,8 @@ constexpr double kElementsOfPatch = 4;
 constexpr double kElementsOfWave = 10;
 /// Slope of the corrugation above which its depth is no small change of a smooth rail.
 constexpr double kSlope = 0.05;
+/// Step at an end of a table of depths that a measured rail does not have [m].
+constexpr double kStep = 5e-6;
 
 /// The shorter axis of the patch.
 std::string patch_warning(const Model& model) {
@@ -55,6 +58,19 @@ std::string slope_warning(const CorrugationSpec& corrugation) {
       slope, 1e3 * corrugation.depth, 1e3 * corrugation.wavelength, kSlope);
 }
 
+/// Depth that begins or ends beside zero is a step in the rail.
+std::string step_warning(const CorrugationSpec& corrugation) {
+  const std::vector<double>& depth = corrugation.table_depth;
+  if (depth.empty()) return "";
+  const double step = std::max(std::abs(depth.front()), std::abs(depth.back()));
+  if (step <= kStep) return "";
+  return fmt::format(
+      "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, so that "
+      "the "
+      "rail has a step there; let both ends fade to 0",
+      corrugation.file, 1e6 * depth.front(), 1e6 * depth.back());
+}
+
 }  // namespace
 
 std::vector<std::string> resolution_warnings(const Model& model) {
@@ -62,7 +78,9 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   if (!model.contact) return warnings;
   warnings.push_back(patch_warning(model));
   if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
-      corrugation && corrugation->kind != "table") {
+      corrugation && corrugation->kind == "table") {
+    warnings.push_back(step_warning(*corrugation));
+  } else if (corrugation) {
     warnings.push_back(wave_warning(*corrugation, model.sizes.contact));
     warnings.push_back(slope_warning(*corrugation));
   }

@@ -28,6 +28,12 @@ bool wait_until(const std::function<bool()>& condition, double patience) {
   return true;
 }
 
+/// Returns true if the folder holds a run that `tread resume` goes on with.
+bool is_resumable(const std::filesystem::path& folder) {
+  const CheckpointFolder checkpoints(folder / kCheckpointFolder);
+  return checkpoints.has_order() || !checkpoints.states().empty();
+}
+
 /// status.json as the last process left it, and the truth about the folder: a process that was killed still
 /// says there what it did. Throws Interrupted if no process works on a run that `tread resume` goes on with.
 void print_status(const std::filesystem::path& folder) {
@@ -35,9 +41,8 @@ void print_status(const std::filesystem::path& folder) {
   Json status = Json::parse(read_text_file(file, kLargestStatus), nullptr, false);
   if (!status.is_object())
     throw InputError(fmt::format("{}: not a JSON object, so no status of a run", file.string()));
-  const CheckpointFolder checkpoints(folder / kCheckpointFolder);
   const bool alive = is_taken(folder);
-  const bool resumable = !alive && (checkpoints.has_order() || !checkpoints.states().empty());
+  const bool resumable = !alive && is_resumable(folder);
   status["alive"] = alive;
   status["resumable"] = resumable;
   fmt::print("{}", json_text(status));
@@ -59,9 +64,10 @@ void control_run(const CtlOptions& options) {
     return;
   }
   if (!is_taken(folder))
-    throw InputError(
-        fmt::format("no process works on {}; `tread resume {}` goes on with a run that was stopped",
-                    folder.string(), folder.string()));
+    throw InputError(is_resumable(folder)
+                         ? fmt::format("no process works on {}; `tread resume {}` goes on with the run",
+                                       folder.string(), folder.string())
+                         : fmt::format("no process works on {}, and no run waits there", folder.string()));
   const bool stop = options.action == "stop";
   leave_request(folder, stop                        ? RunRequest::stop
                         : options.action == "frame" ? RunRequest::frame

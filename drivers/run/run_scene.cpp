@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <optional>
 #include <system_error>
 
@@ -151,6 +152,18 @@ void begin_fork(const RunSession& session, const Fork& fork, const Model& model,
                   origin.folder, origin.time, origin.steps));
 }
 
+/// Shows in status.json why `act` failed; a run that was stopped has shown it.
+void showing_failure(const RunSession& session, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const Error& error) {
+    session.show("failed", error.what());
+    throw;
+  }
+}
+
 /// From the mesh to the report; from `checkpoint` on where there is one, that of a `fork` that begins
 /// included.
 void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork* fork = nullptr) {
@@ -200,7 +213,8 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
 void remove_results(const std::filesystem::path& directory) {
   CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
-  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv"})
+  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv",
+                           "run.h5", "histories.csv", kPatchFile, "scene.files.json"})
     std::filesystem::remove(directory / name, ignored);
   FrameFiles::remove(directory);
 }
@@ -304,7 +318,8 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   session.checkpoints.clear();
   remove_results(session.folder.path());
   if (!fork) session.checkpoints.write_order(pack_order(session.order));
-  carry_out(session, fork ? &fork->content : nullptr, fork ? &*fork : nullptr);
+  showing_failure(session,
+                  [&] { carry_out(session, fork ? &fork->content : nullptr, fork ? &*fork : nullptr); });
 }
 
 void resume_run(const RunOptions& options) {
@@ -324,7 +339,7 @@ void resume_run(const RunOptions& options) {
   const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);
   read_order(session, found);
   if (found) session.progress.say(fmt::format("[resume] from {}", found->path.string()));
-  carry_out(session, found ? &found->content : nullptr);
+  showing_failure(session, [&] { carry_out(session, found ? &found->content : nullptr); });
 }
 
 }  // namespace tread

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
 #include "io/scene/problems.hpp"
+#include "io/scene/profile_checks.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
@@ -293,15 +294,25 @@ class SceneBuilder {
       scene_.corrugation->table_depth = std::move(columns.second);
     }
     if (scene_.wheel) {
-      TwoColumns columns = read_columns("wheel.profile", {});
+      TwoColumns columns = read_profile("wheel.profile", wheel_profile_fault);
       scene_.wheel->profile_y = std::move(columns.first);
       scene_.wheel->profile_z = std::move(columns.second);
     }
     if (scene_.rail) {
-      TwoColumns columns = read_columns("rail.profile", {});
+      TwoColumns columns = read_profile("rail.profile", rail_profile_fault);
       scene_.rail->profile_y = std::move(columns.first);
       scene_.rail->profile_z = std::move(columns.second);
     }
+  }
+
+  /// The profile that the key names; one with mistaken axes is a problem.
+  TwoColumns read_profile(const std::string& path, std::string (*fault_of)(const TwoColumns&)) {
+    TwoColumns columns = read_columns(path, {.increasing = true});
+    const std::string fault = bad_.count(path) ? "" : fault_of(columns);
+    if (!fault.empty())
+      report(place_of(path), path,
+             fmt::format("{}: {}", *std::get<std::string*>(find_key(path)->locate(scene_)), fault));
+    return columns;
   }
 
   /// The file that the key names; empty where it names none.

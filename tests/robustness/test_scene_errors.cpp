@@ -431,6 +431,26 @@ TEST_F(Files, NamedInAScene) {
               "wheel.toml:4:1: wheel.profile: cannot read");
 }
 
+TEST_F(Files, ProfilesWhoseAxesAreMistaken) {
+  // Rows of the flange's back and tip, of the tread and of the rim.
+  const auto wheel = [&](const std::string& rows) {
+    write("wheel.txt", "# y [mm]  z [mm]\n" + rows);
+    return scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"wheel.txt\"\n"));
+  };
+  const std::string place =
+      (folder_ / "wheel.toml").string() + ":4:1: wheel.profile: " + (folder_ / "wheel.txt").string() + ": ";
+  expect_part(wheel("-70 -10\n-56 -27\n-40 -10\n0 0\n65 3\n"),
+              place + "the flange, y = -56.0 mm, lies 27.0 mm above the tread");
+  expect_part(wheel("-70 -10\n-56 -27\n-40 -10\n0 0\n65 3\n"), "turn the sign of z");
+  expect_part(wheel("-65 -3\n0 0\n40 10\n56 27\n70 10\n"), place + "the flange is at y = 56.0 mm");
+  expect_part(wheel("-65 3\n0 0\n40 -10\n56 -27\n70 -10\n"), "turn both signs");
+  expect_part(wheel("-70 10\n-56 27\n-57 28\n0 0\n65 -3\n"),
+              (folder_ / "wheel.txt").string() + ":4: the first column must grow");
+  write("rail.txt", "# y [mm]  z [mm]\n-36 18\n-20 2\n0 0\n20 2\n36 18\n");
+  expect_part(scene_error(write("rail.toml", kBase + "[rail]\nprofile = \"rail.txt\"\n")),
+              "rail.txt: the head rises to both sides (18.0 mm at y = 36.0 mm), but z counts upwards");
+}
+
 TEST_F(Files, TablesOfTwoColumns) {
   const TableRules corrugation{.needs_units = true, .increasing = true};
   const struct {

@@ -27,10 +27,14 @@ double wanted_error(const std::string& text) {
   throw InputError(fmt::format("--error {}: expected a share above 0 and below 100 %, such as 2%", text));
 }
 
-Estimate cost_with(const ResolvedScene& resolved, const std::vector<std::string>& settings) {
+/// With the settings; `hidden_quality`: without the scene's element size, as the advice says.
+Estimate cost_with(const ResolvedScene& resolved, const std::vector<std::string>& settings,
+                   bool hidden_quality) {
   std::vector<std::string> overrides = resolved.overrides;
   overrides.insert(overrides.end(), settings.begin(), settings.end());
-  Model model(resolve_scene(resolved.source, overrides).scene);
+  Scene scene = resolve_scene(resolved.source, overrides).scene;
+  if (hidden_quality) scene.element_size.reset();
+  Model model(scene);
   return estimate(model);
 }
 
@@ -64,8 +68,8 @@ std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions&
   if (!front.empty()) advice.nearest = *front.back();
   if (const DialRow* row = cheapest(table, advice.quantity, advice.wanted, dial_cost(options.cost))) {
     advice.row = *row;
-    advice.cost = cost_with(resolved, row->settings);
     advice.hidden_quality = hides_quality(resolved, *row);
+    advice.cost = cost_with(resolved, row->settings, advice.hidden_quality);
   }
   return advice;
 }
