@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kKind = "checkpoint";
-/// Number of the files' layout; the contents have one of their own.
-constexpr int kVersion = 3;
 constexpr std::size_t kKept = 2;
 constexpr std::string_view kSuffix = ".h5";
 
@@ -47,10 +45,10 @@ void write_verified(const fs::path& path, SealedContent content, const Checkpoin
   };
   replace_file(path, [&](const fs::path& part) {
     reached(CheckpointStage::begun);
-    write_sealed(part, kKind, kVersion, std::move(content));
+    write_sealed(part, kKind, kCheckpointFileVersion, std::move(content));
     reached(CheckpointStage::sealed);
     try {
-      if (digests_of(read_sealed(part, kKind, kVersion)) != digests)
+      if (digests_of(read_sealed(part, kKind, kCheckpointFileVersion)) != digests)
         throw InputError("other values come back");
     } catch (const InputError& error) {
       throw ResourceError(fmt::format("{} does not read back as it was written: {}; look after the disk",
@@ -69,7 +67,7 @@ void CheckpointFolder::write_order(SealedContent order) const {
 }
 
 SealedContent CheckpointFolder::read_order() const {
-  return read_sealed(folder_ / "order.h5", kKind, kVersion);
+  return read_sealed(folder_ / "order.h5", kKind, kCheckpointFileVersion);
 }
 
 void CheckpointFolder::write(std::int64_t steps, SealedContent content,
@@ -107,7 +105,7 @@ std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std:
     if (steps > last) continue;
     const fs::path path = step_file(folder_, steps, kSuffix);
     try {
-      return Found{path, steps, read_sealed(path, kKind, kVersion)};
+      return Found{path, steps, read_sealed(path, kKind, kCheckpointFileVersion)};
     } catch (const InputError& error) {
       refused.emplace_back(error.what());
     }

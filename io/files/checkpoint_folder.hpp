@@ -13,6 +13,9 @@
 
 namespace tread {
 
+/// Number of the layout of a checkpoint's file; the contents have one of their own.
+inline constexpr int kCheckpointFileVersion = 3;
+
 /// Stages in the writing of a checkpoint.
 enum class CheckpointStage { begun, sealed, verified, in_place, old_removed };
 inline constexpr int kCheckpointStages = 5;

@@ -117,7 +117,8 @@ void read_roughness(const std::string& bytes) {
 /// As they are, and with a header that makes the rest sound: what follows must not be believed either.
 void read_checkpoint(const std::string& bytes) {
   for (const std::string& file : {bytes, resealed(bytes)}) try {
-      const SealedContent content = read_sealed(written("checkpoint.h5", file), "checkpoint", 2);
+      const SealedContent content =
+          read_sealed(written("checkpoint.h5", file), "checkpoint", kCheckpointFileVersion);
       std::size_t held = 0;
       for (const auto& [name, values] : content)
         held += std::visit([](const auto& v) { return v.size() * sizeof(v[0]); }, values);
@@ -189,7 +190,7 @@ std::vector<std::string> checkpoint_seeds() {
                                  {"histories/samples", std::vector<double>(60, 0.5)},
                                  {"order/command", std::string()}};
   const fs::path path = workplace() / "seed.h5";
-  write_sealed(path, "checkpoint", 2, content);
+  write_sealed(path, "checkpoint", kCheckpointFileVersion, content);
   return {content_of(path)};
 }
 
