@@ -226,7 +226,7 @@ void shift_top_layers(SweptBlock& block, const Corrugation& corrugation, double 
     if (share <= 1e-9 || below < -1e-6) continue;
     for (int station = 0; station < block.station_count(); ++station) {
       const double depth = corrugation.depth(block.stations[static_cast<std::size_t>(station)], section.p[n]);
-      if (depth > 0) block.node_shift[block.slot(node, station)] += Vec3{0, 0, -share * depth};
+      if (depth != 0) block.node_shift[block.slot(node, station)] += Vec3{0, 0, -share * depth};
     }
   }
 }

@@ -253,7 +253,7 @@ Json surface_json(const SurfaceResults& s) {
   return json;
 }
 
-void add_contact(const Model& model, const RunResults& r, Json& json) {
+void add_static_contact(const Model& model, const RunResults& r, Json& json) {
   json["static_wheel_load_N"] = -r.preload.contact.force_on_rail.z;
   json["static_max_pressure_Pa"] = r.preload.max_pressure;
   json["static_max_point_pressure_Pa"] = r.preload.contact.max_pressure;
@@ -264,6 +264,9 @@ void add_contact(const Model& model, const RunResults& r, Json& json) {
   json["wheel_tilt_rad"] = r.preload.tilt;
   json["wheelset_mass_kg"] = model.wheelset->mass();
   json["wheelset_inertia_kg_m2"] = model.wheelset->inertia();
+}
+
+void add_rolling_contact(const RunResults& r, Json& json) {
   json["vertical_force_N"] = statistics_json(r.vertical_force);
   json["longitudinal_force_N"] = statistics_json(r.longitudinal_force);
   json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
@@ -277,7 +280,7 @@ void add_contact(const Model& model, const RunResults& r, Json& json) {
   json["max_pressure_Pa"] = r.max_pressure;
   json["max_shear_Pa"] = r.max_shear;
   json["patch_area_m2"] = r.patch_area;
-  json["frictional_work_J"] = r.samples.empty() ? 0.0 : r.samples.back().energy.frictional_work;
+  json["frictional_work_J"] = r.samples.back().energy.frictional_work;
   json["frictional_work_decrease_J"] = r.frictional_work_decrease;
   json["momentum_error"] = r.momentum_error;
   if (r.surface_fields) json["surface"] = surface_json(r.surface);
@@ -303,7 +306,10 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["element_steps_per_s"] =
       r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling : 0.0;
   json["preload_residual"] = r.preload.residual;
-  if (model.contact) add_contact(model, r, json);
+  json["warnings"] = resolution_warnings(model);
+  if (model.contact) add_static_contact(model, r, json);
+  if (r.samples.empty()) return json_text(json);  // a static scene
+  if (model.contact) add_rolling_contact(r, json);
   json["energy_error"] = r.energy_error;
   if (model.contact) json["energy_error_over_frictional_work"] = r.energy_error_of_work;
   json["energy_by_body_J"] = Json::array();
@@ -311,7 +317,6 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
     json["energy_by_body_J"].push_back({{"body", model.mesh.blocks[b].name},
                                         {"strain", r.block_energy[b].strain},
                                         {"hourglass", r.block_energy[b].hourglass}});
-  json["warnings"] = resolution_warnings(model);
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
   return json_text(json);
 }

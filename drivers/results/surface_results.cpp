@@ -99,6 +99,8 @@ SurfaceResults surface_results(const SurfaceFields& fields, double first, double
                       fields.max_shear()[i], beside(fields, station, cell_row), fields.frictional_work()[i],
                       fields.sampled_frictional_work()[i]});
   }
+  if (std::none_of(s.axis.begin(), s.axis.end(), [&](const AxisNode& n) { return s.covers(n); }))
+    s.last = s.first;  // shorter than an element, or not reached: no values
   s.max_pressure = largest(fields, s, fields.max_pressure(), rows);
   s.max_shear = largest(fields, s, fields.max_shear(), rows);
   s.max_von_mises = largest(fields, s, fields.max_von_mises(), cell_rows);

@@ -5,10 +5,12 @@
 #include <numbers>
 #include <vector>
 
+#include "core/corrugation.hpp"
 #include "core/error.hpp"
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "drivers/engine/sections.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/solver/stable_step.hpp"
 #include "tests/swept_samples.hpp"
@@ -424,6 +426,24 @@ TEST(SimpleSections, BoxRailAndTyre) {
   const double volume =
       revolved_moments(make_tyre_section(crowned(50 * mm, 0), 0.86, 0, 60 * mm, size)).volume;
   EXPECT_NEAR(volume, std::numbers::pi * (0.43 * 0.43 - 0.37 * 0.37) * 0.05, 1e-14);
+}
+
+/// A measured surface lies above and below the smooth one; the mesh follows it either way.
+TEST(SimpleSections, NodesFollowARaisedAndALoweredSurface) {
+  SectionSize size = size_of(4, 8);
+  size.band_half_width = 10 * mm;
+  const Section box = make_box_rail_section(60 * mm, 60 * mm, 0, size);
+  SweptBlock rail = make_swept_block("rail", Sweep::extruded, box, {samples::steel()}, 0, {{8, 10 * mm, 0}});
+  const Corrugation measured({0, 0.02, 0.04, 0.06}, {0, 1e-4, -1e-4, 0}, 0, 0, 30 * mm);
+  shift_top_layers(rail, measured, 12 * mm);
+  for (const SurfaceEdge& edge : rail.section.surface)
+    for (int station = 0; station < rail.station_count(); ++station) {
+      const auto shift = rail.node_shift.find(rail.slot(edge.node[0], station));
+      const double depth = measured.depth(rail.stations[static_cast<std::size_t>(station)],
+                                          rail.section.p[static_cast<std::size_t>(edge.node[0])]);
+      EXPECT_EQ(shift == rail.node_shift.end() ? 0 : shift->second.z, -depth);
+    }
+  EXPECT_LT(measured.depth(0.04, 0), 0);
 }
 
 TEST(SimpleSections, RevolvedMomentsOfACylinder) {
