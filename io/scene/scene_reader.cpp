@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
+#include "io/scene/known_purposes.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_checks.hpp"
 #include "io/scene/scene_checks.hpp"
@@ -183,6 +184,9 @@ class SceneBuilder {
     const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
     if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
     const std::string what = node.is_table() ? "table" : "key";
+    const std::string_view instead =
+        instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
+    if (!instead.empty()) return fmt::format("unknown {}: {} (docs/can-and-cannot.md)", what, instead);
     const std::string similar = problems_.size() < kSuggestions ? similar_path(path) : "";
     if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
     const std::string known = names_in(is_table(parent) ? parent : "");

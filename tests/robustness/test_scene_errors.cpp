@@ -47,6 +47,13 @@ TEST(SceneErrors, Names) {
   expect_messages({
       {"[rail]\nlenght = \"3 m\"", "x.toml:4:1: rail.lenght: unknown key (did you mean rail.length?)"},
       {"[rail]\n  friction = 0.4", "x.toml:4:3: rail.friction: unknown key (did you mean contact.friction?)"},
+      {"[sleepers]\nspacing = \"0.6 m\"",
+       "x.toml:3:2: sleepers: unknown table: there are no sleepers; leave out [slab] and let "
+       "fastenings.stiffness and fastenings.damping be those of pad and bed in series "
+       "(docs/can-and-cannot.md)"},
+      {"[wheel]\nflat = \"40 mm\"",
+       "x.toml:4:1: wheel.flat: unknown key: the wheel is round; corrugation.kind = \"table\" puts the depth "
+       "on the rail, once a turn (docs/can-and-cannot.md)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
       {"[material.stel]",
        "x.toml:3:11: material.stel: has no effect, because no part is of it; the parts state wheel.material "
@@ -65,7 +72,8 @@ TEST(SceneErrors, Names) {
        "x.toml:4:14: motion.traction.mue: unknown key (did you mean motion.traction.mu?)"},
   });
   expect_part(error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
-              "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014), got "
+              "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
+              "highspeed-slab-2014-calibrated), got "
               "the string");
 }
 
