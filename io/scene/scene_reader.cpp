@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
-#include "io/scene/known_purposes.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_checks.hpp"
 #include "io/scene/scene_checks.hpp"
@@ -20,6 +19,7 @@
 #include "io/scene/table_reader.hpp"
 #include "io/scene/toml_text.hpp"
 #include "io/scene/toml_value.hpp"
+#include "io/scene/unknown_key.hpp"
 #include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 
@@ -158,7 +158,7 @@ class SceneBuilder {
              fmt::format("expected a table with keys among {}; got {}{}", names_in(path), describe_node(node),
                          removable ? fmt::format(" (to leave it out, write {}.present = false)", path) : ""));
     } else if (!find_key(path)) {
-      report(origin.place, path, unknown_key(path, node));
+      report(origin.place, path, unknown_key(path, node.is_table(), problems_.size() < kSuggestions));
       if (!table_of(path)) tables_unclear_ = true;
     } else {
       mention(path, origin);
@@ -177,20 +177,6 @@ class SceneBuilder {
     const auto found = settings_.find(path);
     if (found != settings_.end() && found->second.origin.level > origin.level) return;
     settings_[path] = {clone(node), origin};
-  }
-
-  std::string unknown_key(const std::string& path, const toml::node& node) const {
-    const auto dot = path.rfind('.');
-    const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
-    if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
-    const std::string what = node.is_table() ? "table" : "key";
-    const std::string_view instead =
-        instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
-    if (!instead.empty()) return fmt::format("unknown {}: {} (docs/can-and-cannot.md)", what, instead);
-    const std::string similar = problems_.size() < kSuggestions ? similar_path(path) : "";
-    if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
-    const std::string known = names_in(is_table(parent) ? parent : "");
-    return fmt::format("unknown {} (known: {})", what, known);
   }
 
   /// Creates the components that the highest level to mention them wants.
@@ -286,27 +272,22 @@ class SceneBuilder {
   }
 
   void read_named_files() {
-    if (scene_.contact && scene_.contact->friction_law == "table") {
-      TwoColumns columns = read_columns("contact.friction_file",
-                                        {.needs_units = true, .increasing = true, .pure_second = true});
-      scene_.contact->friction_x = std::move(columns.first);
-      scene_.contact->friction_at_x = std::move(columns.second);
-    }
-    if (scene_.corrugation && scene_.corrugation->kind == "table") {
-      TwoColumns columns = read_columns("corrugation.file", {.needs_units = true, .increasing = true});
-      scene_.corrugation->table_x = std::move(columns.first);
-      scene_.corrugation->table_depth = std::move(columns.second);
-    }
-    if (scene_.wheel) {
-      TwoColumns columns = read_profile("wheel.profile", wheel_profile_fault);
-      scene_.wheel->profile_y = std::move(columns.first);
-      scene_.wheel->profile_z = std::move(columns.second);
-    }
-    if (scene_.rail) {
-      TwoColumns columns = read_profile("rail.profile", rail_profile_fault);
-      scene_.rail->profile_y = std::move(columns.first);
-      scene_.rail->profile_z = std::move(columns.second);
-    }
+    const auto keep = [](TwoColumns columns, std::vector<double>& first, std::vector<double>& second) {
+      first = std::move(columns.first);
+      second = std::move(columns.second);
+    };
+    if (scene_.contact && scene_.contact->friction_law == "table")
+      keep(read_columns("contact.friction_file",
+                        {.needs_units = true, .increasing = true, .pure_second = true}),
+           scene_.contact->friction_x, scene_.contact->friction_at_x);
+    if (scene_.corrugation && scene_.corrugation->kind == "table")
+      keep(read_columns("corrugation.file", {.needs_units = true, .increasing = true}),
+           scene_.corrugation->table_x, scene_.corrugation->table_depth);
+    if (scene_.wheel)
+      keep(read_profile("wheel.profile", wheel_profile_fault), scene_.wheel->profile_y,
+           scene_.wheel->profile_z);
+    if (scene_.rail)
+      keep(read_profile("rail.profile", rail_profile_fault), scene_.rail->profile_y, scene_.rail->profile_z);
   }
 
   /// The profile that the key names; one with mistaken axes is a problem.

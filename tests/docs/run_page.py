@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """run_page.py TREAD PAGE: does what a page of the documentation tells its reader, in an empty folder.
 
-Blocks ```toml NAME are written to files of that name; blocks ```sh run in order by `bash -e`, with TREAD on the path
+Blocks with a NAME behind their language are written to files of that name; blocks ```sh run in order by `bash -e`, with TREAD on the path
 as `tread`. Other blocks are only read. Exit status 1: a command of the page failed.
 """
 

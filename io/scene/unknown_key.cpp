@@ -1,6 +1,12 @@
-#include "io/scene/known_purposes.hpp"
+#include "io/scene/unknown_key.hpp"
+
+#include <fmt/core.h>
 
 #include <array>
+#include <string_view>
+
+#include "io/scene/key.hpp"
+#include "io/scene/schema.hpp"
 
 namespace tread {
 
@@ -44,13 +50,27 @@ constexpr std::array kPurposes = {
             "bodies are swept from profiles; scene.element_size sets the mesh"},
 };
 
-}  // namespace
-
+/// What exists in place of the thing of this name; "" for a word without a known purpose.
 std::string_view instead_of(std::string_view word) {
   for (const Purpose& purpose : kPurposes)
     for (const std::string_view known : purpose.words)
       if (!known.empty() && known == word) return purpose.instead;
   return "";
+}
+
+}  // namespace
+
+std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) {
+  const auto dot = path.rfind('.');
+  const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+  if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
+  const std::string what = is_a_table ? "table" : "key";
+  const std::string_view instead =
+      instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
+  if (!instead.empty()) return fmt::format("unknown {}: {} (docs/can-and-cannot.md)", what, instead);
+  const std::string similar = suggest ? similar_path(path) : "";
+  if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
+  return fmt::format("unknown {} (known: {})", what, names_in(is_table(parent) ? parent : ""));
 }
 
 }  // namespace tread
