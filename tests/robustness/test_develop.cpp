@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "drivers/studies/study/study_plan.hpp"
+#include "drivers/process/machine.hpp"
 #include "io/text/json.hpp"
 #include "tests/program_test.hpp"
 
