@@ -34,8 +34,8 @@ class PreloadCache : public ProgramTest {
   }
   static std::string run_with(const fs::path& cache, const char* folder, const std::string& more,
                               int threads = 1) {
-    return fmt::format("run {} -t {} -o {}/{} --cache {} --set \"scene.element_size=8 mm\" {}", kTyre,
-                       threads, root_.string(), folder, cache.string(), more);
+    return fmt::format("run {} --overwrite -t {} -o {}/{} --cache {} --set \"scene.element_size=8 mm\" {}",
+                       kTyre, threads, root_.string(), folder, cache.string(), more);
   }
   std::vector<ContentCache::Entry> entries() const { return ContentCache(cache_, 0).entries(); }
   static bool found() { return has(errors(), "[preload] found by an earlier run"); }
