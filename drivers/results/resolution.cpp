@@ -26,11 +26,9 @@ std::string patch_warning(const Model& model) {
   const double element = model.sizes.contact;
   if (shorter <= 0 || shorter / element >= kElementsOfPatch) return "";
   return fmt::format(
-      "the contact patch has {:.1f} elements across ({:.3g} mm of Hertz on elements of {:.3g} mm): below "
-      "{:g}, "
-      "pressures and stresses are too low and slip, shear and creepage are not resolved; scene.element_size "
-      "= "
-      "\"{:.2g} mm\" resolves it",
+      "the contact patch has {:.1f} elements across ({:.3g} mm of Hertz on elements of {:.3g} mm): "
+      "below {:g}, pressures and stresses are too low and slip, shear and creepage are not resolved; "
+      "scene.element_size = \"{:.2g} mm\" resolves it",
       shorter / element, 1e3 * shorter, 1e3 * element, kElementsOfPatch, 1e3 * shorter / kElementsOfPatch);
 }
 
@@ -44,8 +42,7 @@ std::string wave_warning(const CorrugationSpec& corrugation, double element) {
   if (wave / element >= kElementsOfWave) return "";
   return fmt::format(
       "a wave of the corrugation has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, "
-      "forces "
-      "are off by several per cent; scene.element_size = \"{:.2g} mm\" resolves the wave",
+      "forces are off by several per cent; scene.element_size = \"{:.2g} mm\" resolves the wave",
       wave / element, 1e3 * wave, 1e3 * element, kElementsOfWave, 1e3 * wave / kElementsOfWave);
 }
 
@@ -65,9 +62,8 @@ std::string step_warning(const CorrugationSpec& corrugation) {
   const double step = std::max(std::abs(depth.front()), std::abs(depth.back()));
   if (step <= kStep) return "";
   return fmt::format(
-      "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, so that "
-      "the "
-      "rail has a step there; let both ends fade to 0",
+      "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, "
+      "so that the rail has a step there; let both ends fade to 0",
       corrugation.file, 1e6 * depth.front(), 1e6 * depth.back());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a scene's mesh resolves its contact patch and its corrugation.
+// Warnings of a mesh that resolves the contact patch or the corrugation too coarsely.
 
 #include <string>
 #include <vector>

@@ -19,9 +19,8 @@ struct Purpose {
 
 constexpr std::array kPurposes = {
     Purpose{{"sleeper", "sleepers", "tie", "ties", "ballast", "ballasted"},
-            "there are no sleepers; leave out [slab] and let fastenings.stiffness and fastenings.damping be "
-            "those of "
-            "pad and bed in series"},
+            "there are no sleepers; leave out [slab] and let fastenings.stiffness and "
+            "fastenings.damping be those of pad and bed in series"},
     Purpose{{"plasticity", "plastic", "yield", "yield_stress", "hardening"},
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
     Purpose{{"gpu", "cuda", "device"}, "there is no GPU; -t states the threads of the processor"},
@@ -38,8 +37,8 @@ constexpr std::array kPurposes = {
     Purpose{{"flat", "wheel_flat", "flats", "polygon", "out_of_round", "out_of_roundness"},
             "the wheel is round; corrugation.kind = \"table\" puts the depth on the rail, once a turn"},
     Purpose{{"weld", "joint", "squat", "dent", "defect", "dip", "roughness", "irregularity"},
-            "[corrugation] with kind = \"table\" reads depths along the rail, kind = \"random\" makes a "
-            "roughness"},
+            "[corrugation] with kind = \"table\" reads depths along the rail, "
+            "kind = \"random\" makes a roughness"},
     Purpose{{"probe", "probes", "sensor", "sensors"},
             "there are no probes; output.frames writes the surfaces, histories are those of results.md"},
     Purpose{{"bogie", "car", "carbody", "primary_suspension"},

@@ -1,5 +1,5 @@
 #pragma once
-// What to say of a key or table that scenes do not have.
+// Message about a key or table that scenes do not have.
 
 #include <string>
 
