@@ -237,7 +237,6 @@ void Rolling::end_with_what_is_left(const std::string& why) {
   text +=
       fmt::format("; {} samples are kept in {}", results_->samples.size(), session_->folder.path().string());
   text += "; " + how_to_go_on<E>();
-  session_->show("failed", text);
   throw E(text);
 }
 

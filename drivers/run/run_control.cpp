@@ -30,8 +30,7 @@ bool wait_until(const std::function<bool()>& condition, double patience) {
 
 /// Returns true if the folder holds a run that `tread resume` goes on with.
 bool is_resumable(const std::filesystem::path& folder) {
-  const CheckpointFolder checkpoints(folder / kCheckpointFolder);
-  return checkpoints.has_order() || !checkpoints.states().empty();
+  return CheckpointFolder(folder / kCheckpointFolder).holds_run();
 }
 
 /// status.json as the last process left it, and the truth about the folder: a process that was killed still

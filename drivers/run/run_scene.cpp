@@ -152,7 +152,7 @@ void begin_fork(const RunSession& session, const Fork& fork, const Model& model,
                   origin.folder, origin.time, origin.steps));
 }
 
-/// Shows in status.json why `act` failed; a run that was stopped has shown it.
+/// Calls `act` and shows in status.json why it failed; a run that was stopped has shown that itself.
 void showing_failure(const RunSession& session, const std::function<void()>& act) {
   try {
     act();
@@ -328,7 +328,7 @@ void resume_run(const RunOptions& options) {
     throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
                                  options.output.string()));
   RunSession session(options);
-  if (!session.checkpoints.has_order() && session.checkpoints.states().empty()) {
+  if (!session.checkpoints.holds_run()) {
     if (!std::filesystem::exists(session.folder / "summary.json"))
       throw InputError(fmt::format("{} holds no run: start one with `tread run SCENE -o {}`",
                                    options.output.string(), options.output.string()));

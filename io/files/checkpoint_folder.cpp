@@ -95,8 +95,8 @@ std::vector<fs::path> CheckpointFolder::states() const {
   return paths;
 }
 
-bool CheckpointFolder::has_order() const {
-  return fs::exists(fs::symlink_status(folder_ / "order.h5"));
+bool CheckpointFolder::holds_run() const {
+  return fs::exists(fs::symlink_status(folder_ / "order.h5")) || !states().empty();
 }
 
 std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused,

@@ -53,7 +53,8 @@ class CheckpointFolder {
 
   /// Paths of the states, the newest first.
   std::vector<std::filesystem::path> states() const;
-  bool has_order() const;
+  /// Returns true if the folder holds the order or a state of a run that is not finished.
+  bool holds_run() const;
 
   /// Removes everything that write() and write_order() left.
   void clear() const;

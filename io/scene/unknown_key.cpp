@@ -49,7 +49,7 @@ constexpr std::array kPurposes = {
             "bodies are swept from profiles; scene.element_size sets the mesh"},
 };
 
-/// What exists in place of the thing of this name; "" for a word without a known purpose.
+/// Sentence on the way to have a thing of this name; "" for a word without a known purpose.
 std::string_view instead_of(std::string_view word) {
   for (const Purpose& purpose : kPurposes)
     for (const std::string_view known : purpose.words)

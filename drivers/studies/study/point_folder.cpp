@@ -103,7 +103,7 @@ const char* name_of(PointState state) {
 PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
   PointStatus status;
   const CheckpointFolder checkpoints(folder / "checkpoint");
-  const bool begun = checkpoints.has_order() || !checkpoints.states().empty();
+  const bool begun = checkpoints.holds_run();
   const bool finished = !begun && fs::exists(folder / "summary.json");
   const bool stated = fs::exists(folder / kKeptScene);
   if (stated && (begun || finished)) look_at_scene(folder, scene, status);
