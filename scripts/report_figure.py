@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Takes one figure out of a report.html as a stand-alone SVG: report_figure.py REPORT NUMBER OUT (numbers from 0).
 
-docs/corrugation-d.svg is figure 0 of the draft run of scenes/corrugation-d.toml.
+docs/records/corrugation-d.svg is figure 0 of the draft run of scenes/corrugation-d.toml.
 """
 import re
 import sys

@@ -3,7 +3,7 @@
 
 RUN is a run's folder (histories.csv, summary.json). F_N is averaged over 12 mm of the way (--mean), so that the passing
 of single elements does not count; the part that repeats in a fastening span, taken from the last span of the run, is taken
-off. Prints, in per cent of the static load, the largest rest of each 0.3 m as a line of docs/verification.md, Start.
+off. Prints, in per cent of the static load, the largest rest of each 0.3 m as a line of docs/records/verification.md, Start.
 """
 import argparse
 import bisect

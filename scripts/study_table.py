@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the table of a study of corrugations as Markdown: study_table.py STUDY/sweep.csv
 
-One row a point: extremes of the forces, creepage before the corrugation, ranges on the patch's axis, as docs/paper.md
+One row a point: extremes of the forces, creepage before the corrugation, ranges on the patch's axis, as docs/records/paper.md
 defines them. `tread sweep` writes the file.
 """
 import csv

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # scripts/verification_page.sh [CASE...]: runs `tread verify` as listed below for the named cases (default: all, some
-# while) and puts the pages of docs/verification/ between the marks of docs/verification.md. With --collect nothing is run.
+# hours) and puts the pages of docs/records/verification/ between the marks of docs/records/verification.md.
+# With --collect nothing is run.
 set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
-pages="$root/docs/verification"
-document="$root/docs/verification.md"
+pages="$root/docs/records/verification"
+document="$root/docs/records/verification.md"
 
 # One run a line: the case and its inputs; the order is that of the document.
 runs=(

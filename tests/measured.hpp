@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that a test measures, printed for docs/verification.md and kept in the test's report.
+// Numbers that a test measures, printed for docs/records/verification.md and kept in the test's report.
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #pragma once
-// `tread bench`: the program's speed beside the machine's limits. [docs/performance.md]
+// `tread bench`: the program's speed beside the machine's limits. [docs/records/performance.md]
 
 #include <cstdint>
 #include <filesystem>

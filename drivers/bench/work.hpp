@@ -1,5 +1,5 @@
 #pragma once
-// Operations and bytes of kernels: the numerators of the roofline. [docs/performance.md, How it is counted]
+// Operations and bytes of kernels: the numerators of the roofline. [performance.md, How it is counted]
 
 #include <cstdint>
 

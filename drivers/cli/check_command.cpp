@@ -54,7 +54,7 @@ void add_check(CLI::App& app, const std::string& /*command_line*/) {
       ->needs(error);
   command
       .add_option("--dial", advice.dial,
-                  "folder of `tread dial`, or its dial.jsonl (default: the table of docs/dial.md)")
+                  "folder of `tread dial`, or its dial.jsonl (default: the table of docs/records/dial.md)")
       ->needs(error);
   add_cost_option(command, advice.cost)->needs(error);
 }

@@ -39,7 +39,7 @@ void print_version(bool json) {
                               {"packages", packages}}));
 }
 
-/// docs/scene.md on stdout, as JSON one member `markdown`.
+/// docs/reference/scene.md on stdout, as JSON one member `markdown`.
 void print_scene_reference(bool json) {
   if (!json) {
     fmt::print("{}", scene_reference());

@@ -39,7 +39,7 @@ double seconds_of_one_force(const Model& model) {
 
 /// Time of the preload [s]. A preload of a draft takes 378 iterations of conjugate gradients, each three
 /// applications of the stiffness, vectors and a coarse solution. The preload of a tyre on a block takes 120.
-/// [docs/performance.md, Mesh, preload, memory]
+/// [docs/records/performance.md, Mesh, preload, memory]
 double seconds_of_preload(const Model& model) {
   constexpr double kOnFastenings = 4300;  ///< time over that of one application of the stiffness
   constexpr double kOnRigidGround = 1200;

@@ -11,9 +11,9 @@ namespace tread {
 
 namespace {
 
-/// Elements across the patch below which nodal pressures are more than about 10 % low. [docs/contact.md]
+/// Elements across the patch below which nodal pressures are more than about 10 % low. [contact.md]
 constexpr double kElementsOfPatch = 4;
-/// Elements a wave below which F_N is more than about 4 % off. [docs/dial.md]
+/// Elements a wave below which F_N is more than about 4 % off. [dial.md]
 constexpr double kElementsOfWave = 10;
 /// Slope of the corrugation above which its depth is no small change of a smooth rail.
 constexpr double kSlope = 0.05;

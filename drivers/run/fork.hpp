@@ -1,5 +1,5 @@
 #pragma once
-// Runs that begin with the state of another one, over another corrugation. [reliability.md, Fork]
+// Runs that begin with the state of another one, over another corrugation. [long-runs.md, Fork]
 
 #include <cstdint>
 #include <optional>

@@ -164,7 +164,7 @@ std::string page_name(const Outcome& outcome) {
   return name;
 }
 
-/// A chapter of docs/verification.md: Markdown table and SVG figures.
+/// A chapter of docs/records/verification.md: Markdown table and SVG figures.
 void write_page(const Outcome& outcome, const std::filesystem::path& directory) {
   const std::string name = page_name(outcome);
   const std::string command = "`tread verify " + outcome.verified->name + changed_inputs(outcome, " --set ");

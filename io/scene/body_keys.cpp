@@ -110,8 +110,8 @@ void add_rail(Keys& keys) {
                                at(&Scene::rail, &RailSpec::material), "Material of the rail"));
   keys.push_back(material_name(
       "rail.head_material", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::head_material),
-      "Material of the finely divided head where it is not the rail's, for example of one "
-      "that yields; empty: that of the rail. Not of a box"));
+      "Material of the finely divided head, for example one that yields; empty: that of the rail. "
+      "A box has no head"));
   keys.push_back(or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
                                 {"CN60", "box"}, "Cross-section; also a file of two columns (y, z)")));
   keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
@@ -123,7 +123,7 @@ void add_rail(Keys& keys) {
                           "Distance of x = 0, the wheel's first position, from the rail's left end"));
   keys.push_back(choice("rail.support", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::support),
                         {"fastenings", "rigid", "free"},
-                        "What the rail stands on: fastenings, a fixed bottom, or nothing"));
+                        "Support of the rail: fastenings, a fixed bottom, or none"));
   keys.push_back(box(quantity("rail.width", {Effect::mesh}, at(&Scene::rail, &RailSpec::width), kLength, "mm",
                               above(0, 1), "Width of the box")));
   keys.push_back(box(quantity("rail.height", {Effect::mesh}, at(&Scene::rail, &RailSpec::height), kLength,
@@ -187,11 +187,12 @@ void add_fastenings(Keys& keys) {
       "The rail's foot along x at the fastenings: it cannot move, moves freely, or is held by springs "
       "and dampers to the ground");
   add_foot_hold(keys, "fastenings.across", &FasteningSpec::across, {Effect::motion, Effect::cost},
-                "The same across the rail; `free` in plane strain alone");
-  keys.push_back(choice("fastenings.held_at", {Effect::preload, Effect::cost},
-                        at(&Scene::fastenings, &FasteningSpec::held_at), {"pad", "springs"},
-                        "Where a held foot is held: all of it over the pad, or its nodes nearest to the "
-                        "spring-dampers, which give way the more the finer the mesh"));
+                "The rail's foot across the rail, as `along`; `free` in plane strain alone");
+  keys.push_back(
+      choice("fastenings.held_at", {Effect::preload, Effect::cost},
+             at(&Scene::fastenings, &FasteningSpec::held_at), {"pad", "springs"},
+             "Held part of the foot: all of it over the pad, or the nodes nearest to the spring-dampers, "
+             "which give way the more the finer the mesh"));
 }
 
 void add_slab(Keys& keys) {

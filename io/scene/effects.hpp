@@ -70,7 +70,7 @@ class Effects {
   unsigned bits_ = 0;
 };
 
-/// An effect as docs/scene.md has it.
+/// An effect as docs/reference/scene.md has it.
 struct EffectText {
   Effect effect;
   const char* name;

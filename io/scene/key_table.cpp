@@ -101,17 +101,16 @@ Keys make_keys(const std::vector<std::string>& materials) {
 SceneTable material_table(const std::string& name) {
   return {.name = std::string(kMaterialTables) + name,
           .description =
-              "A material of that name; parts name theirs: `wheel.material`, `rail.material`, "
-              "`slab.material`. The name is free and consists of letters, digits, _ and -.",
+              "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
+              "`slab.material`. The name consists of letters, digits, _ and -.",
           .create = [name](Scene& scene) { scene.materials[name] = {.name = name}; },
           .remove = [name](Scene& scene) { scene.materials.erase(name); },
           .exists = [name](const Scene& scene) { return scene.materials.contains(name); }};
 }
 
 std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
-  std::vector<SceneTable> tables = {
-      always("scene", "What the scene is called, what it is based on, how fine it is."),
-      always("solution_zone", "The part of the rail that is divided finely and watched closely.")};
+  std::vector<SceneTable> tables = {always("scene", "Title, base and fineness of the scene."),
+                                    always("solution_zone", "The finely divided part of the rail.")};
   for (const std::string& name : materials) tables.push_back(material_table(name));
   const std::vector<SceneTable> others = {
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
@@ -129,17 +128,17 @@ std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
       component("corrugation", &Scene::corrugation,
                 "Periodic or measured depth of the rail's running surface."),
       component("wear", &Scene::wear,
-                "How the frictional work of passages changes the profile: of `tread develop` alone. "
-                "[develop.md](develop.md)"),
+                "Wear of the profile by the frictional work of passages, for `tread develop`. "
+                "[Corrugation that grows](../records/develop.md)"),
       component("pulse", &Scene::pulse, "An initial velocity at one end of a bar: a rail without a wheel."),
       component("hammer", &Scene::hammer,
                 "A blow on the rail head; the histories hold its force and the struck point's "
                 "displacement."),
       component("forks", &Scene::forks,
-                "A state that the run keeps for good, from which runs over other corrugations begin. "
-                "[reliability.md](reliability.md)"),
-      always("output", "How often results are sampled, progress shown, checkpoints and frames written."),
-      always("stop", "What ends a run before its duration. [reliability.md](reliability.md)"),
+                "A kept state, from which runs over other corrugations begin. "
+                "[Long runs](../explanation/long-runs.md)"),
+      always("output", "Intervals of samples, progress lines, checkpoints and frames."),
+      always("stop", "Limits that end a run before its duration. [Long runs](../explanation/long-runs.md)"),
   };
   tables.insert(tables.end(), others.begin(), others.end());
   return tables;

@@ -18,7 +18,7 @@ void add_friction(Keys& keys) {
   keys.push_back(
       with({"coulomb", "falling"},
            number("contact.friction", {Effect::motion}, at(&Scene::contact, &ContactSpec::friction), {0, 2},
-                  "Coefficient of friction f; of falling friction without slip")));
+                  "Coefficient of friction f; for falling friction, f without slip")));
   keys.push_back(with({"falling"}, number("contact.friction_fast", {Effect::motion},
                                           at(&Scene::contact, &ContactSpec::friction_fast), {0, 2},
                                           "Coefficient of friction of fast slip; dry rails: 0.4 f after "
@@ -83,15 +83,15 @@ void add_motion(Keys& keys) {
   keys.push_back(
       rolling(quantity("motion.traction.ramp", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp), kTime,
                        "ms", from(0, 100), "Time T1 in which the torque grows from zero")));
-  keys.push_back(
-      rolling(choice("motion.traction.shape", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp_shape),
-                     {"linear", "smooth"}, "How it grows and reverses: evenly, or as half a cosine")));
-  keys.push_back(rolling(number(
-      "motion.traction.reversals", {Effect::motion}, at(&Scene::motion, &MotionSpec::reversals), {0, 1000},
-      "How often the full torque then turns into its opposite, each time in 2 T1", Kind::integer)));
+  keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
+                                at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
+                                "Growth and reversal of the torque: linear, or as half a cosine")));
+  keys.push_back(rolling(
+      number("motion.traction.reversals", {Effect::motion}, at(&Scene::motion, &MotionSpec::reversals),
+             {0, 1000}, "Number of later reversals of the full torque, each in 2 T1", Kind::integer)));
   keys.push_back(rolling(flag("motion.spin_in_preload", {Effect::preload},
                               at(&Scene::motion, &MotionSpec::spin_in_preload),
-                              "Whether the static state carries the spin's body force")));
+                              "The static state carries the spin's body force")));
   keys.push_back(rolling(number("motion.creepage", {Effect::preload},
                                 at(&Scene::motion, &MotionSpec::creepage), {-2, 2, false, true},
                                 "Creepage at the start, relative to free rolling; -2: a locked wheel")));
@@ -136,12 +136,12 @@ void add_corrugation(Keys& keys) {
                                above(0, 10), "Longest wave of the roughness")));
   keys.push_back(
       random(number("corrugation.seed", {Effect::surface}, at(&Scene::corrugation, &CorrugationSpec::seed),
-                    {0, 2e9}, "Draws the phases of the roughness' waves", Kind::integer)));
+                    {0, 2e9}, "Seed of the phases of the roughness' waves", Kind::integer)));
   keys.push_back(length("corrugation.centre", {Effect::surface}, &CorrugationSpec::centre, "mm", {-0.1, 0.1},
                         "y of the deepest line; absent: at the preload's largest pressure"));
   keys.push_back(choice("corrugation.apply", {Effect::surface},
                         at(&Scene::corrugation, &CorrugationSpec::apply), {"nodes", "gap"},
-                        "By moved nodes, or added to the contact gap"));
+                        "Moved nodes, or depths added to the contact gap"));
   keys.push_back(only_with(
       "corrugation.kind", "table",
       required(
@@ -155,12 +155,13 @@ void add_wear(Keys& keys) {
                           "ug/N/m", above(0, 1e-3),
                           "Mass worn off per frictional work: 2.5e-9 kg/(N m) is usual for mild wear, after "
                           "Krause and Poll (1984)"));
-  keys.push_back(number("wear.change", {Effect::wear}, at(&Scene::wear, &WearSpec::change), above(0, 1),
-                        "Change of the depth by one simulated passage over the depth, at the most: how many "
-                        "passages it stands for"));
+  keys.push_back(number(
+      "wear.change", {Effect::wear}, at(&Scene::wear, &WearSpec::change), above(0, 1),
+      "Largest relative change of the depth by one simulated passage; sets the number of real passages "
+      "that it stands for"));
   keys.push_back(quantity("wear.shortest", {Effect::wear}, at(&Scene::wear, &WearSpec::shortest), kLength,
                           "mm", above(0, 10),
-                          "Shortest wave that wear changes; what is shorter is taken for the mesh's noise"));
+                          "Shortest wave that wear changes; shorter waves count as noise of the mesh"));
   keys.push_back(quantity("wear.longest", {Effect::wear}, at(&Scene::wear, &WearSpec::longest), kLength, "mm",
                           above(0, 10), "Longest wave that wear changes"));
 }
@@ -170,7 +171,7 @@ void add_impacts_and_output(Keys& keys) {
       required(quantity("pulse.velocity", {Effect::motion}, at(&Scene::pulse, &PulseSpec::velocity), kSpeed,
                         "m/s", {-1000, 1000}, "Initial velocity along x of the bar's left end")));
   keys.push_back(required(quantity("pulse.length", {Effect::motion}, at(&Scene::pulse, &PulseSpec::length),
-                                   kLength, "m", above(0, 1000), "Length of the part that has it")));
+                                   kLength, "m", above(0, 1000), "Length of the part with this velocity")));
   keys.push_back(quantity("hammer.position", {Effect::motion}, at(&Scene::hammer, &HammerSpec::position),
                           kLength, "m", from(-1000, 1000), "x of the struck point on the rail's crown"));
   keys.push_back(required(quantity("hammer.force", {Effect::motion}, at(&Scene::hammer, &HammerSpec::force),
@@ -197,10 +198,10 @@ void add_impacts_and_output(Keys& keys) {
              Kind::integer));
   keys.push_back(choice("output.frame_cells", {Effect::output}, at(&Scene::output, &OutputSpec::frame_cells),
                         {"faces", "elements"},
-                        "What frames show: the outer faces of the bodies, or all elements"));
+                        "Content of the frames: the outer faces of the bodies, or all elements"));
   keys.push_back(quantity("output.disk_limit", {Effect::process}, at(&Scene::output, &OutputSpec::disk_limit),
                           kData, "GB", above(0, 1e15),
-                          "What the run's folder may take; more than that ends the run"));
+                          "Largest size of the run's folder; a larger one ends the run"));
   keys.push_back(number("stop.steps", {Effect::stop}, at(&Scene::stop, &StopSpec::steps), {0, 2e9},
                         "Steps after which the run ends; 0: any number", Kind::integer));
   keys.push_back(quantity("stop.wall_time", {Effect::stop}, at(&Scene::stop, &StopSpec::wall_time), kTime,

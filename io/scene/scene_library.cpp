@@ -95,9 +95,9 @@ LibraryEntry highspeed_slab_2014() {
 LibraryEntry highspeed_slab_2014_calibrated() {
   return {"highspeed-slab-2014-calibrated",
           "highspeed-slab-2014",
-          "highspeed-slab-2014 with the damping of the fastenings, and the place of the wheel at the start, "
-          "which the "
-          "paper does not state, chosen for the paper's forces over corrugation D ([paper.md](paper.md)).",
+          "highspeed-slab-2014 with two other values, chosen for the paper's forces over corrugation D "
+          "([the paper's figures](../records/paper.md)). The paper does not state the wheel's place at the "
+          "start.",
           {
               {"fastenings.damping", "100 kN s/m", "fits F_N over corrugation D; Table 1: 200 kN s/m"},
               {"rail.origin", "6.4625 m", "fits F_N over corrugation D; not stated there"},

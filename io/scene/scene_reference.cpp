@@ -1,4 +1,4 @@
-// docs/scene.md, printed from the schema.
+// docs/reference/scene.md, printed from the schema.
 
 #include <fmt/format.h>
 
@@ -14,32 +14,37 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Scene reference
 
-This page is printed from the table of keys that the program itself reads scenes with.
+This page is printed from the table of keys with which the program reads scenes.
 
-A scene is a [TOML](https://toml.io) file. It contains what it names: a table that is absent is not modelled and costs
-nothing.
+A scene is a [TOML](https://toml.io) file.
+A table that is absent is not modelled and costs nothing.
 
-* **Units.** A physical quantity is a string with its unit: `"300 km/h"`, `"0.14 mm"`, `"205.9 GPa"`, `"200 kN s/m"`. Any
-  product, quotient or power of m, g, t, s, min, h, N, Pa, Hz with the prefixes n, u, m, c, d, k, M, G will do. A blank or `*`
-  multiplies, `/` divides by the next factor alone. A bare number there is an error.
-* **Base.** `scene.based_on` names a library entry (below). Its values hold wherever the file states none. To leave out
-  a table of the base, write `present = false` in it, for example `[slab]` with `present = false`. Naming a table brings
-  in the whole table.
-* **Materials.** A material is a table of any name, for example `[material.wheel_steel]`. Parts name theirs:
-  `wheel.material = "wheel_steel"`. A material that no part is of is an error, one of the base is left out.
-* **Order.** Values come from, in rising order: the defaults, the library entry, the file, and `--set key=value` on the
-  command line, for example `--set "motion.speed=250 km/h"`.
-* **Files.** A file that a scene names is relative to the scene's folder. It holds two numbers a line, separated by
-  blanks, commas or semicolons; `#` starts a comment; a line such as `# x [m]  d [mm]` before the numbers states their units (profiles:
-  millimetres where it is missing; corrugation: required).
-* **Mistakes.** Unknown keys, wrong units, values out of range, keys without effect and parts that do not fit together are
-  errors; all are reported at once with file, line and column.
+* **Units.** A physical quantity is a string with its unit: `"300 km/h"`, `"0.14 mm"`, `"205.9 GPa"`, `"200 kN s/m"`.
+  Units are products, quotients and powers of m, g, t, s, min, h, N, Pa, Hz with the prefixes n, u, m, c, d, k, M, G.
+  A blank or `*` multiplies; `/` divides by the next factor alone.
+  A bare number is an error.
+* **Base.** `scene.based_on` names a library entry (below); its values hold where the file states none.
+  `present = false` leaves out a table of the base, for example in `[slab]`.
+  A table that the base lacks is added by naming it.
+* **Materials.** A material is a table of any name, for example `[material.wheel_steel]`.
+  Parts name their material: `wheel.material = "wheel_steel"`.
+  A material that no part names is an error; one of the base is left out.
+* **Order.** Later values replace earlier ones: defaults, library entry, file, `--set key=value` on the command line.
+  Example: `--set "motion.speed=250 km/h"`.
+* **Files.** A file that a scene names is relative to the scene's folder.
+  A file holds two numbers a line, separated by blanks, commas or semicolons; `#` starts a comment.
+  A line such as `# x [m]  d [mm]` before the numbers states the units.
+  Depths and friction need this line; profiles without the line are in millimetres.
+* **Mistakes.** Unknown keys, wrong units, values out of range and keys without effect are errors.
+  Parts that do not fit together are errors too.
+  All errors are reported at once with file, line and column.
 
 "required" means that the key must be given where its table is present.
 
-"affects" names the first thing that another value changes; the rest follows from it. A new *mesh* means a new static
-state, a new static state (*preload*) another *motion*. Runs with equal mesh and preload share that from the preload cache;
-a fork (`tread run --from`) may differ in all that affects none of mesh, preload and motion.
+"affects" names the first part of a run that another value changes; later parts follow.
+A new *mesh* needs a new static state (*preload*), and a new static state gives another *motion*.
+Runs with equal mesh and preload share the static state through the preload cache.
+A fork (`tread run --from`) may differ in all keys that affect none of mesh, preload and motion.
 )";
 
 /// A cell of a Markdown table.
@@ -93,13 +98,13 @@ std::string table_section(const SceneTable& table, const std::vector<Key>& keys,
     if (directive && table.removable()) continue;
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", name, directive ? "none" : default_of(key, scene),
                         directive ? "a library entry" : cell(allowed_of(key)),
-                        directive ? "what it brings" : key.effects.names(), cell(meaning_of(key)));
+                        directive ? "all that it sets" : key.effects.names(), cell(meaning_of(key)));
   }
   return text;
 }
 
 std::string effects_table() {
-  std::string text = "\n| affects | which means |\n|---|---|\n";
+  std::string text = "\n| affects | meaning |\n|---|---|\n";
   for (const EffectText& effect : effect_texts())
     text += fmt::format("| {} | {} |\n", effect.name, effect.meaning);
   return text;

@@ -1,6 +1,6 @@
 #pragma once
-// Every key that a scene can hold, declared once: reading, checking, the resolved scene and docs/scene.md
-// come from this table. Defaults are those of the structs in core/scene.hpp.
+// Every key that a scene can hold, declared once: reading, checking, the resolved scene and
+// docs/reference/scene.md come from this table. Defaults are those of the structs in core/scene.hpp.
 
 #include <optional>
 #include <string>
@@ -60,7 +60,7 @@ std::string similar_text(std::string_view text, const std::vector<std::string>& 
 /// The names below a table path, "length, origin, profile".
 std::string names_in(std::string_view table);
 
-/// docs/scene.md: the reference of every table, key and library entry, in Markdown.
+/// docs/reference/scene.md: the reference of every table, key and library entry, in Markdown.
 std::string scene_reference();
 
 }  // namespace tread

@@ -40,7 +40,8 @@ constexpr std::array kPurposes = {
             "[corrugation] with kind = \"table\" reads depths along the rail, "
             "kind = \"random\" makes a roughness"},
     Purpose{{"probe", "probes", "sensor", "sensors"},
-            "there are no probes; output.frames writes the surfaces, histories are those of results.md"},
+            "there are no probes; output.frames writes the surfaces, docs/reference/results.md lists the "
+            "histories"},
     Purpose{{"bogie", "car", "carbody", "primary_suspension"},
             "[vehicle] holds one sprung mass on a suspension"},
     Purpose{{"mass_scaling"},

@@ -226,7 +226,7 @@ class Sweep:
 
     names: list[str]  # points, named as their folders
     states: list[str]  # "done", "failed", "interrupted", "running" or "waiting", by point
-    varied: Table  # scene key -> column [point] in the unit of docs/scene.md; nan where a number is absent
+    varied: Table  # scene key -> column [point] in the unit of docs/reference/scene.md; nan where a number is absent
     results: Table  # name -> column [point] in SI; "state_hash" is text
     runs: Table  # point -> Run, opened when asked for
 

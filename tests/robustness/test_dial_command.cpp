@@ -119,7 +119,7 @@ TEST_F(Dial, AReferenceIsOfTheSamePassage) {
 }
 
 TEST_F(Dial, TheKeptPassageIsOfTheDocumentedDial) {
-  const fs::path docs = fs::path(TREAD_SOURCE_DIR) / "docs";
+  const fs::path docs = fs::path(TREAD_SOURCE_DIR) / "docs/records";
   ASSERT_EQ(
       call(fmt::format("dial {} -o {} --list --reference {}", (docs / "dial/corrugation-d.toml").string(),
                        runs_.string(), (docs / "performance/paper-passage").string())),

@@ -176,7 +176,7 @@ TEST(DialTable, TheMeasuredTableHasItsReference) {
             1);
   for (const DialRow& one : measured.rows)
     EXPECT_EQ(one.differences.size(), dial_quantities().size()) << one.point;
-  // Questions that docs/dial.md answers.
+  // Questions that docs/records/dial.md answers.
   EXPECT_NE(cheapest(measured, "F_N", 0.02, DialCost::element_steps), nullptr);
   EXPECT_NE(cheapest(measured, "pressure", 0.05, DialCost::element_steps), nullptr);
 }

@@ -242,7 +242,8 @@ TEST(SceneReader, MaterialsAreNamedOnTheCommandLine) {
 }
 
 TEST(SceneReader, ScenesKeptByFinishedRunsStayReadable) {
-  const fs::path kept = fs::path(TREAD_SOURCE_DIR) / "docs/performance/paper-passage/scene.resolved.toml";
+  const fs::path kept =
+      fs::path(TREAD_SOURCE_DIR) / "docs/records/performance/paper-passage/scene.resolved.toml";
   const Scene scene = read_scene(kept);
   EXPECT_EQ(scene.wheel_material().youngs_modulus, 205.9e9);
   EXPECT_EQ(scene.rail_material().name, "steel");
@@ -301,10 +302,11 @@ TEST(SceneReader, ProfilesAreReadBesideTheScene) {
 }
 
 TEST(SceneReader, ReferencePageIsUpToDate) {
-  std::ifstream stream(fs::path(TREAD_SOURCE_DIR) / "docs" / "scene.md");
+  std::ifstream stream(fs::path(TREAD_SOURCE_DIR) / "docs" / "reference" / "scene.md");
   std::stringstream page;
   page << stream.rdbuf();
-  EXPECT_EQ(page.str(), scene_reference()) << "docs/scene.md differs from scene_reference(); write it anew";
+  EXPECT_EQ(page.str(), scene_reference())
+      << "docs/reference/scene.md is not scene_reference(); write it anew";
 }
 
 TEST(Schema, KnowsTheKeysOfMaterialsOfAnyName) {

@@ -244,7 +244,7 @@ TEST(Multibody, ContactFilterIsThatOfTheHalfSpace) {
   MultibodyModel model = multibody_model(scene(300, kCorrugationD), BeamTheory::euler);
   const double gain = contact_filter_gain(model, 0.08);
   measured("gain at 80 mm", gain);
-  EXPECT_NEAR(gain, 0.945, 0.003);  // [docs/verification.md, contact_filter]
+  EXPECT_NEAR(gain, 0.945, 0.003);  // [docs/records/verification.md, contact_filter]
   const double deepest = model.corrugation.deepest();
   apply_contact_filter(model);
   EXPECT_NEAR(model.corrugation.deepest(), gain * deepest, 1e-12);

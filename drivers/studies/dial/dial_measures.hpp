@@ -1,5 +1,5 @@
 #pragma once
-// Distances of the curves of one passage from those of another. [docs/dial.md, Definitions]
+// Distances of the curves of one passage from those of another. [docs/records/dial.md, Definitions]
 
 #include <optional>
 #include <string>

@@ -30,7 +30,7 @@ struct DialOutcome {
   DialCost cost = DialCost::element_steps;
 };
 
-/// Its tables with their titles, for docs/dial.md.
+/// Its tables with their titles, for docs/records/dial.md.
 std::string dial_markdown(const DialOutcome& outcome);
 
 Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command);

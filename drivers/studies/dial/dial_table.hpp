@@ -69,7 +69,7 @@ DialTable parse_dial(const std::string& text, const std::string& name);
 /// dial.jsonl of a dial's folder, or such a file. InputError.
 DialTable read_dial(const std::filesystem::path& path);
 
-/// The table that comes with the library's scene. [docs/dial.md] InputError where the file is missing.
+/// The table that comes with the library's scene. [dial.md] InputError where the file is missing.
 DialTable measured_dial();
 
 }  // namespace tread

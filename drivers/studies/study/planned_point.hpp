@@ -38,7 +38,7 @@ struct PlannedPoint {
 };
 
 /// Points whose runs agree bit for bit until the patch reaches the first difference of their corrugations.
-/// [reliability.md, Fork]
+/// [long-runs.md, Fork]
 struct SharedRolling {
   std::vector<std::size_t> points;  ///< indices in StudyPlan::points, in their order
   double from_x = 0;                ///< place from which corrugations differ [m]

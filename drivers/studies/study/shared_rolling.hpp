@@ -1,5 +1,5 @@
 #pragma once
-// Points of a study that roll as one until their corrugations differ. [sweep.md, Shared rolling]
+// Points of a study that roll as one until their corrugations differ. [studies.md, Shared rolling]
 
 #include <optional>
 #include <string>
