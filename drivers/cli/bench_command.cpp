@@ -14,15 +14,15 @@ namespace tread {
 namespace {
 
 void add_plan_options(CLI::App& command, MeasurementPlan& plan) {
-  command.add_option("--repetitions", plan.repetitions, "runs, of which the median counts")
+  command.add_option("--repetitions", plan.repetitions, "number of runs; the median counts")
       ->check(at_least(1));
   command.add_option("--run-seconds", plan.run_seconds, "shortest time of a run [s]")->check(at_least(0));
 }
 
 void add_bench_kernels(CLI::App& bench) {
   auto options = std::make_shared<BenchKernelsOptions>();
-  CLI::App& command =
-      *bench.add_subcommand("kernels", "every kernel on made-up data beside the machine's limits");
+  CLI::App& command = *bench.add_subcommand(
+      "kernels", "speed of every kernel on made-up data, beside the limits of the machine");
   add_thread_options(command, options->threads);
   add_plan_options(command, options->plan);
   command.add_flag("--json", options->json, "one JSON object a line on stdout");
@@ -36,14 +36,14 @@ void add_bench_kernels(CLI::App& bench) {
 
 void add_bench_scaling(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<BenchScalingOptions>>();
-  CLI::App& command = *bench.add_subcommand(
-      "scaling", "one to all threads, strong and weak, by every backend, and where efficiency is lost");
+  CLI::App& command =
+      *bench.add_subcommand("scaling", "strong and weak scaling from one to all threads, with every backend");
   add_scene_options(command, state->arguments);
   add_thread_options(command, state->options.threads);
   add_plan_options(command, state->options.plan);
   command
       .add_option("--elements", state->options.elements,
-                  "of the made-up rail that is measured without a scene (default: 400000)")
+                  "elements of the made-up rail that is measured without a scene (default: 400000)")
       ->check(CLI::Range(100, 100000000));
   command.add_flag("--json", state->options.json, "one JSON object a line on stdout");
   command.callback([state] {
@@ -56,9 +56,9 @@ void add_bench_scaling(CLI::App& bench) {
 
 void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<BenchHotspotsOptions>>();
-  CLI::App& command = add_scene_command(bench, "hotspots", "time, work and balance of every phase of a step",
-                                        bench_hotspots, state);
-  command.add_option("--steps", state->options.steps, "of a run (default: 500)")->check(at_least(1));
+  CLI::App& command = add_scene_command(
+      bench, "hotspots", "time, work and load balance of every phase of a step", bench_hotspots, state);
+  command.add_option("--steps", state->options.steps, "steps of a run (default: 500)")->check(at_least(1));
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }
@@ -67,15 +67,16 @@ void add_bench_compare(CLI::App& bench) {
   auto files = std::make_shared<std::array<std::string, 2>>();
   auto measure = std::make_shared<BenchMeasure>(BenchMeasure::rate);
   CLI::App& command = *bench.add_subcommand(
-      "compare", "two files of `bench kernels --json`; exits 3 where the second is slower beyond the spread");
-  command.add_option("before", (*files)[0], "recorded before")->required();
-  command.add_option("after", (*files)[1], "recorded after")->required();
+      "compare",
+      "compare two files of `bench kernels --json`; exit code 3 if the second is slower beyond the spread");
+  command.add_option("before", (*files)[0], "file of the older program")->required();
+  command.add_option("after", (*files)[1], "file of the newer program")->required();
   const std::map<std::string, BenchMeasure> measures = {{"rate", BenchMeasure::rate},
                                                         {"limit", BenchMeasure::fraction_of_limit},
                                                         {"instructions", BenchMeasure::instructions}};
   command
       .add_option("--by", *measure,
-                  "rate (default; one quiet machine), limit (shares of what each machine bore) or "
+                  "rate (default; one quiet machine), limit (shares of each machine's limits) or "
                   "instructions (recorded with -t 1; busy machines)")
       ->transform(CLI::CheckedTransformer(measures))
       ->option_text("TEXT");
@@ -88,7 +89,7 @@ void add_bench_compare(CLI::App& bench) {
 }  // namespace
 
 void add_bench(CLI::App& app, const std::string& /*command_line*/) {
-  CLI::App& bench = *app.add_subcommand("bench", "how fast the program is beside what the machine can do");
+  CLI::App& bench = *app.add_subcommand("bench", "speed of the program beside the limits of the machine");
   bench.require_subcommand(1);
   add_bench_kernels(bench);
   add_bench_scaling(bench);

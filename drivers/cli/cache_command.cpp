@@ -10,7 +10,7 @@ namespace tread {
 
 void add_cache(CLI::App& app, const std::string& /*command_line*/) {
   auto options = std::make_shared<CacheOptions>();
-  CLI::App& command = *app.add_subcommand("cache", "preloads that earlier runs have found");
+  CLI::App& command = *app.add_subcommand("cache", "show or clear the preload cache");
   command.add_option("action", options->action, "show or clear")
       ->required()
       ->check(CLI::IsMember({"show", "clear"}));

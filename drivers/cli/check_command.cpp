@@ -43,14 +43,15 @@ void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
 void add_check(CLI::App& app, const std::string& /*command_line*/) {
   auto state = std::make_shared<SceneCommand<CheckOptions>>();
   CLI::App& command = add_scene_command(
-      app, "check", "all errors of a scene, or what it would compute and cost", check_scene, state);
-  command.add_flag("--verbose", state->options.verbose, "the phases of a step and the fields, too");
+      app, "check", "report all errors of a scene, or its size, step and cost", check_scene, state);
+  command.add_flag("--verbose", state->options.verbose, "list the phases of a step and the fields as well");
   AdviceOptions& advice = state->options.advice;
   CLI::Option* error = command.add_option(
-      "--error", advice.error, "names the cheapest setting that was measured to be as near, e.g. 2%");
+      "--error", advice.error, "name the cheapest setting with at most this measured error, e.g. 2%");
   command
-      .add_option("--quantity", advice.quantity,
-                  "of the error: F_N, F_L, creepage, pressure, shear, von_mises, work (default: all)")
+      .add_option(
+          "--quantity", advice.quantity,
+          "quantity of the error: F_N, F_L, creepage, pressure, shear, von_mises, work (default: all)")
       ->needs(error);
   command
       .add_option("--dial", advice.dial,

@@ -60,7 +60,7 @@ CLI::Validator at_least(int least) {
 void add_thread_options(CLI::App& command, ThreadOptions& options) {
   command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
   command.add_option("--backend", options.backend,
-                     "library that runs them, tbb (default) or openmp; same bits");
+                     "library of the threads, tbb (default) or openmp; same bits");
 }
 
 void add_cache_option(CLI::App& command, std::string& place) {
@@ -83,11 +83,11 @@ CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
 }
 
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {
-  return command.add_option("--cost", cost, "what cheap means: element-steps (default) or minutes");
+  return command.add_option("--cost", cost, "measure of the cost: element-steps (default) or minutes");
 }
 
 void add_study_options(CLI::App& command, StudyOptions& options) {
-  command.add_option("-o,--output", options.output, "directory for a folder a run and the comparison");
+  command.add_option("-o,--output", options.output, "directory for the comparison and one folder a run");
   command.add_option("-q,--quality", options.quality, "draft, standard or paper, of all points");
   command
       .add_option("--set", options.overrides,
@@ -99,10 +99,10 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
       .add_option("-t,--threads", options.threads,
                   "threads of one run (default: its share of the cores that are idle when it begins)")
       ->check(at_least(1));
-  command.add_flag("--retry", options.retry, "points that failed, too");
+  command.add_flag("--retry", options.retry, "run failed points again");
   command.add_flag("--no-share", options.no_share,
-                   "each run begins at the start, also where corrugations by gap could share the rolling");
-  command.add_flag("--list", options.list, "the points and what they will cost, without running them");
+                   "start each run at t = 0, even if points could share their rolling");
+  command.add_flag("--list", options.list, "list the points and their cost, and run nothing");
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
 }

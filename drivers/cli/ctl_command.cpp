@@ -11,7 +11,7 @@ namespace tread {
 void add_ctl(CLI::App& app, const std::string& /*command_line*/) {
   auto options = std::make_shared<CtlOptions>();
   CLI::App& command =
-      *app.add_subcommand("ctl", "look at a run, or ask it for a checkpoint, for a frame, or to stop");
+      *app.add_subcommand("ctl", "show the state of a run, or ask for a checkpoint, a frame or a stop");
   command.add_option("folder", options->folder, "output directory of the run")->required();
   command.add_option("action", options->action, "status, checkpoint, frame or stop")
       ->required()

@@ -13,13 +13,16 @@ void add_develop(CLI::App& app, const std::string& command_line) {
   DevelopOptions& options = state->options;
   options.command = command_line;
   CLI::App& command = *app.add_subcommand(
-      "develop", "passages that wear the rail, each for the next; goes on where it was stopped");
+      "develop",
+      "corrugation growth: passages that wear the rail one after another; continues a stopped one");
   add_scene_options(command, state->arguments)->required();
-  command.add_option("--passages", options.passages, "simulated ones (default: 10), each standing for many")
+  command
+      .add_option("--passages", options.passages,
+                  "number of simulated passages (default: 10); each stands for many real ones")
       ->check(CLI::Range(1, 9999));
-  command.add_option("-o,--output", options.output, "directory")->required();
+  command.add_option("-o,--output", options.output, "output directory")->required();
   command.add_option("--from", options.from,
-                     "begin all passages with the state of a run over the smooth rail, DIR or DIR@TIME");
+                     "start all passages from the state of a run over the smooth rail, DIR or DIR@TIME");
   command.add_option("-t,--threads", options.threads, "threads of a passage (default: all)")
       ->check(at_least(1));
   command.add_flag("--json", options.json, "JSON on stdout");

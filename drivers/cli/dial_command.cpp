@@ -11,21 +11,20 @@ namespace tread {
 void add_dial(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<DialOptions>();
   options->common.command = command_line;
-  CLI::App& command =
-      *app.add_subcommand("dial", "what settings of a passage cost and how far from the finest they lead");
+  CLI::App& command = *app.add_subcommand("dial", "cost and error of the settings of a passage");
   command.add_option("file", options->file, "scene, or study file that states the runs (TOML)")->required();
   command
       .add_option("--base", options->axes.base,
-                  "key=value that holds while another key is varied (default: scene.element_size=5 mm)")
+                  "key=value while another key is varied (default: scene.element_size=5 mm)")
       ->allow_extra_args(false);
   command
       .add_option("--axis", options->axes.axes,
-                  "key=value,value,...: values in place of the usual ones, a run each")
+                  "key=value,value,...: values in place of the usual ones; one run for each")
       ->allow_extra_args(false);
   command.add_option("--reference", options->reference,
-                     "point, or folder of a finished run of the passage (default: the finest)");
+                     "reference: a point, or the folder of a finished run (default: the finest point)");
   command.add_option("--against", options->against,
-                     "point that single settings are compared with (default: the base)");
+                     "point with which single settings are compared (default: the base)");
   add_cost_option(command, options->cost);
   add_study(command, options, turn_dial);
 }

@@ -16,8 +16,8 @@
 namespace {
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 2 wrong input; 3 a numerical stop, or a bound that fails; "
-    "4 a resource that the machine refuses; 75 stopped, `tread resume` goes on.";
+    "Exit codes: 0 done; 2 wrong input; 3 numerical stop or failed bound; 4 missing resource; "
+    "75 stopped, `tread resume` continues.";
 
 std::string version_line() {
   return std::string("tread ") + tread::program_version();

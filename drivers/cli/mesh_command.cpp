@@ -10,8 +10,9 @@ namespace tread {
 
 void add_mesh(CLI::App& app, const std::string& /*command_line*/) {
   auto state = std::make_shared<SceneCommand<MeshOptions>>();
-  CLI::App& command = add_scene_command(
-      app, "mesh", "counts, element sizes, masses and stable step of a scene's mesh", describe_mesh, state);
+  CLI::App& command =
+      add_scene_command(app, "mesh", "report size, element sizes, masses and stable step of a scene's mesh",
+                        describe_mesh, state);
   command.add_option("-o,--output", state->options.output, "directory for mesh.hdf (ParaView)");
 }
 

@@ -13,20 +13,20 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
   MultibodyOptions& options = state->options;
   options.command = command_line;
   CLI::App& command =
-      add_scene_command(app, "multibody", "the scene by the multi-body approach: a second instead of an hour",
+      add_scene_command(app, "multibody", "run the scene by the multi-body approach, in about a second",
                         run_multibody_study, state);
   command.add_option("-o,--output", options.output, "directory for CSV, summary and report");
   command
-      .add_option(
-          "--beam", options.beam,
-          "the rail: euler (default), timoshenko, or spread: timoshenko with the head's forces spread")
+      .add_option("--beam", options.beam,
+                  "model of the rail: euler (default), timoshenko, or spread: timoshenko with forces spread "
+                  "by the head")
       ->check(CLI::IsMember({"euler", "timoshenko", "spread"}));
   command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
       ->check(CLI::Range(2, 3000));
   command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");
-  command.add_flag("--filter", options.filter, "a sine as deep as the contact patch leaves it");
+  command.add_flag("--filter", options.filter, "reduce the depth of a sine by the contact filter");
   command.add_option("--calibrate", options.calibrate,
-                     "directory of a transient run whose F_N the contact spring is fitted to");
+                     "directory of a transient run; the contact spring is fitted to its F_N");
   command
       .add_option("--map", options.map,
                   "response over speed and wavelength: speed=100:500:10km/h wavelength=40:150:2mm")

@@ -11,8 +11,8 @@ namespace tread {
 void add_paper(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<PaperOptions>();
   options->common.command = command_line;
-  CLI::App& command = *app.add_subcommand(
-      "paper", "the figures of the paper: runs what they need, ours beside theirs, a verdict each");
+  CLI::App& command =
+      *app.add_subcommand("paper", "compute the figures of the paper and compare them with the printed ones");
   command.add_option("--fig", options->figures, "numbers of figures (default: all; --list names them)");
   add_study(command, options, reproduce_paper);
 }

@@ -12,10 +12,10 @@ void add_roughness(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<RoughnessOptions>();
   options->command = command_line;
   CLI::App& command = *app.add_subcommand(
-      "roughness", "one-third octave levels of a measured profile beside the limit of ISO 3095");
+      "roughness", "one-third octave levels of a measured profile, beside the limit of ISO 3095");
   command.add_option("file", options->file, "two columns: along the rail, height upwards")->required();
   command.add_option("--units", options->units,
-                     "of both columns, e.g. m,um, where the file does not state them");
+                     "units of both columns, e.g. m,um, if the file does not state them");
   command.add_option("--segment", options->segment, "length of the averaged segments (default: \"2 m\")");
   command.add_flag("--depth", options->depth, "the second column counts downwards");
   command.add_flag("--raw", options->raw, "leave spikes and pits as they are");

@@ -11,22 +11,20 @@ namespace tread {
 void add_run(CLI::App& app, const std::string& command_line) {
   auto state = std::make_shared<SceneCommand<RunOptions>>();
   state->options.command = command_line;
-  CLI::App& command =
-      add_scene_command(app, "run", "preload, roll, write histories, summary and report", run_scene, state);
+  CLI::App& command = add_scene_command(
+      app, "run", "run a scene: preload, rolling, histories, summary, report", run_scene, state);
   command.add_option("-o,--output", state->options.output,
                      "output directory (default: the scene's name and the time, in the working directory)");
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
-  command.add_flag("--overwrite", state->options.overwrite,
-                   "throw away the run that the output directory holds");
-  command.add_option(
-      "--from", state->options.from,
-      "begin with the state of another run over another corrugation, DIR or DIR@TIME: out@10ms");
+  command.add_flag("--overwrite", state->options.overwrite, "remove the run in the output directory first");
+  command.add_option("--from", state->options.from,
+                     "start from the state of a run over another corrugation, DIR or DIR@TIME: out@10ms");
   add_cache_option(command, state->options.cache);
 }
 
 void add_resume(CLI::App& app, const std::string& /*command_line*/) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App& command = *app.add_subcommand("resume", "go on with a run that was stopped or killed");
+  CLI::App& command = *app.add_subcommand("resume", "continue a stopped or killed run");
   command.add_option("folder", options->output, "output directory of the run")->required();
   command
       .add_option("--set", options->overrides,

@@ -12,7 +12,7 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<SweepOptions>();
   options->common.command = command_line;
   CLI::App& command = *app.add_subcommand(
-      "sweep", "a scene with some keys varied: a run for each point; goes on where it was stopped");
+      "sweep", "run a study: a scene with varied keys, one run a point; continues a stopped one");
   command.add_option("study", options->study, "study file (TOML)")->required();
   add_study(command, options, sweep);
 }

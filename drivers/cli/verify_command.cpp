@@ -12,11 +12,11 @@ namespace tread {
 void add_verify(CLI::App& app, const std::string& /*command_line*/) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App& command =
-      *app.add_subcommand("verify", "compare the program with theory; exits 3 if a bound fails");
+      *app.add_subcommand("verify", "compare the program with theory; exit code 3 if a bound fails");
   command.add_option("cases", options->names, "names of cases or groups (default: standard)");
   command
       .add_option("--set", options->overrides,
-                  "input=value for every chosen case that has it, e.g. --set \"radius=0.5 m\"")
+                  "input=value for every chosen case with this input, e.g. --set \"radius=0.5 m\"")
       ->allow_extra_args(false);
   command.add_option("-o,--output", options->output, "directory for a page and figures of each case");
   add_thread_options(command, options->threads);

@@ -58,11 +58,11 @@ void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bo
 }  // namespace
 
 void add_version(CLI::App& app, const std::string& /*command_line*/) {
-  add_plain(app, "version", "version, compiler, instruction sets, packages", print_version);
+  add_plain(app, "version", "print version, compiler, instruction sets and packages", print_version);
 }
 
 void add_scene_reference(CLI::App& app, const std::string& /*command_line*/) {
-  add_plain(app, "scene-reference", "every key of a scene file, as Markdown", print_scene_reference);
+  add_plain(app, "scene-reference", "print the scene reference as Markdown", print_scene_reference);
 }
 
 }  // namespace tread
