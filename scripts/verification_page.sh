@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scripts/verification_page.sh [CASE...]: runs `tread verify` as listed below for the named cases (default: all, some
 # hours) and puts the pages of docs/records/verification/ between the marks of docs/records/verification.md.
-# With --collect nothing is run.
+# With --collect nothing is run. The tables of README.md and of docs/explanation/how-accurate.md follow.
 set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 pages="$root/docs/records/verification"
@@ -56,3 +56,4 @@ for case in $order; do
   done
   printf '\n'
 done | "$root/scripts/put_between_marks.sh" "$document" 'tread verify'
+"$root/scripts/accuracy_table.py"
