@@ -11,7 +11,7 @@ namespace tread {
 
 namespace {
 
-/// Elements across the patch below which nodal pressures are more than about 10 % low. [contact.md]
+/// Elements across the patch below which nodal pressures are more than about 10 % low. [contact-choices.md]
 constexpr double kElementsOfPatch = 4;
 /// Elements a wave below which F_N is more than about 4 % off. [dial.md]
 constexpr double kElementsOfWave = 10;
