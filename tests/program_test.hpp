@@ -35,6 +35,7 @@ inline std::string figures(const fs::path& folder) {
 inline void expect_same_file(const fs::path& a, const fs::path& b) {
   const Hdf5File one = Hdf5File::open_to_read(a);
   const Hdf5File other = Hdf5File::open_to_read(b);
+  EXPECT_EQ(one.attributes("/"), other.attributes("/"));
   ASSERT_EQ(one.datasets(), other.datasets());
   for (const std::string& name : one.datasets()) {
     ASSERT_EQ(one.shape(name), other.shape(name)) << name;

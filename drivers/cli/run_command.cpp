@@ -4,12 +4,14 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
+#include "drivers/cli/program_name.hpp"
 #include "drivers/run/run_scene.hpp"
 
 namespace tread {
 
 void add_run(CLI::App& app, const std::string& command_line) {
   auto state = std::make_shared<SceneCommand<RunOptions>>();
+  state->options.program = program_name();
   state->options.command = command_line;
   CLI::App& command = add_scene_command(
       app, "run", "run a scene: preload, rolling, histories, summary, report", run_scene, state);
@@ -24,6 +26,7 @@ void add_run(CLI::App& app, const std::string& command_line) {
 
 void add_resume(CLI::App& app, const std::string& /*command_line*/) {
   auto options = std::make_shared<RunOptions>();
+  options->program = program_name();
   CLI::App& command = *app.add_subcommand("resume", "continue a stopped or killed run");
   command.add_option("folder", options->output, "output directory of the run")->required();
   command

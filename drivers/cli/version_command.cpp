@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "drivers/cli/commands.hpp"
+#include "drivers/cli/program_name.hpp"
 #include "drivers/engine/model.hpp"
 #include "drivers/process/version.hpp"
 #include "io/scene/schema.hpp"
@@ -16,12 +17,12 @@ namespace tread {
 
 namespace {
 
-/// Version, compiler, instruction sets and packages on stdout.
+/// Version, commit, compiler, instruction sets and packages on stdout.
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   if (!json) {
-    fmt::print("tread {}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n",
-               program_version(), TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
+    fmt::print("{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n", program_name(),
+               TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
     return;
   }
   Json packages = Json::object();
@@ -33,6 +34,7 @@ void print_version(bool json) {
     packages[std::string(package.substr(0, blank))] = package.substr(blank + 1);
   }
   fmt::print("{}", json_text({{"version", program_version()},
+                              {"commit", program_commit()},
                               {"compiler", TREAD_COMPILER},
                               {"build", TREAD_BUILD},
                               {"instruction_sets", sets},
@@ -58,7 +60,7 @@ void add_plain(CLI::App& app, const char* name, const char* text, void (*act)(bo
 }  // namespace
 
 void add_version(CLI::App& app, const std::string& /*command_line*/) {
-  add_plain(app, "version", "print version, compiler, instruction sets and packages", print_version);
+  add_plain(app, "version", "print version, commit, compiler, instruction sets and packages", print_version);
 }
 
 void add_scene_reference(CLI::App& app, const std::string& /*command_line*/) {

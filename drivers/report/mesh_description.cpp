@@ -9,6 +9,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
@@ -111,7 +112,7 @@ Table step_table(const Model& model, const StepLimit& limit) {
 void write_mesh(const Model& model, const std::filesystem::path& directory) {
   make_directory(directory);
   write_vtk_mesh(directory / "mesh.hdf", model.mesh, make_vtk_grid(model.mesh, VtkCells::elements),
-                 resting_places(model));
+                 resting_places(model), root_attributes(model.scene));
 }
 
 Json extreme_json(const Extreme& extreme) {

@@ -10,9 +10,16 @@
 
 namespace tread {
 
-/// Writes the report from evaluated results; `command` is what the user typed. Chapters that the scene gives
-/// no matter for are left out. Throws ResourceError; an older file stays until the new one is complete.
+/// Origin of a run's results that neither scene nor results state.
+struct Provenance {
+  std::string program;  ///< name, version and commit
+  std::string command;  ///< command as typed
+};
+
+/// Writes the report from evaluated results; date and machine are those of this process. Chapters that the
+/// scene gives no matter for are left out. Throws ResourceError; an older file stays until the new one is
+/// complete.
 void write_run_report(const std::filesystem::path& path, const Model& model, const ResolvedScene& resolved,
-                      const RunResults& results, const std::string& command);
+                      const RunResults& results, const Provenance& provenance);
 
 }  // namespace tread

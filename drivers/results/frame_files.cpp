@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/step_files.hpp"
 #include "io/text/json.hpp"
@@ -137,7 +138,8 @@ void FrameFiles::begin() {
   if (std::exchange(begun_, true)) return;
   make_directory(folder());
   grid_ = make_vtk_grid(model_->mesh, frame_cells(model_->scene));
-  write_vtk_mesh(folder() / mesh_name(grid_.kind), model_->mesh, grid_, resting_places(*model_));
+  write_vtk_mesh(folder() / mesh_name(grid_.kind), model_->mesh, grid_, resting_places(*model_),
+                 root_attributes(model_->scene));
 }
 
 void FrameFiles::write() {
@@ -151,7 +153,7 @@ void FrameFiles::write_copy() {
   for (const int block : model_->index.wheel())
     places_[static_cast<std::size_t>(block)] = {at_.wheel.origin, at_.wheel.angle};
   write_vtk_frame(step_file(folder(), at_.steps, kSuffix),
-                  {mesh_name(grid_.kind), at_.time, points(), arrays()});
+                  {mesh_name(grid_.kind), at_.time, points(), arrays(), root_attributes(model_->scene)});
   write_series();
 }
 

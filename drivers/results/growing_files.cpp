@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/text_file.hpp"
 
@@ -27,8 +28,9 @@ GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& dire
     : model_(&model),
       directory_(directory),
       channels_(history_channels(model)),
-      histories_(directory, channels_) {
-  if (model.contact) patch_.emplace(directory / kPatchFile, model.contact->nodes());
+      histories_(directory, channels_, root_attributes(model.scene)) {
+  if (model.contact)
+    patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene));
 }
 
 GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& directory,
@@ -36,11 +38,12 @@ GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& dire
     : model_(&model),
       directory_(directory),
       channels_(history_channels(model)),
-      histories_(directory, channels_) {
+      histories_(directory, channels_, root_attributes(model.scene)) {
   for (const Sample& sample : samples) histories_.append(history_row(model, sample));
   if (!model.contact) return;
   write_text_file(directory / kPatchFile, patch);
-  patch_.emplace(directory / kPatchFile, model.contact->nodes(), samples.size());
+  patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene),
+                 samples.size());
 }
 
 void GrowingFiles::append(const Sample& sample) {

@@ -41,8 +41,10 @@ const std::vector<PatchField>& patch_fields() {
   return fields;
 }
 
-PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes)
+PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes,
+                     const Hdf5Attributes& attributes)
     : file_(Hdf5File::create(path)), fields_(patch_fields().size()) {
+  file_.set_attributes("/", attributes);
   const SurfaceGrid& grid = nodes.grid();
   file_.write<double>("/x", grid.x);
   describe(file_, "/x", "m", "stations of the rail's surface, along the rail");
@@ -64,12 +66,15 @@ PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes)
   file_.flush();
 }
 
-PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, std::size_t samples)
+PatchFile::PatchFile(const std::filesystem::path& path, const PatchNodes& nodes,
+                     const Hdf5Attributes& attributes, std::size_t samples)
     : file_(Hdf5File::open_to_extend(path)), fields_(patch_fields().size()) {
   const std::vector<std::uint64_t> expected = {samples, static_cast<std::uint64_t>(nodes.capacity()),
                                                nodes.grid().y.size()};
   if (file_.shape("/state") != expected || file_.shape("/time") != std::vector<std::uint64_t>{samples})
     throw InputError(fmt::format("{} does not hold {} samples of this scene", path.string(), samples));
+  file_.set_attributes("/", attributes);
+  file_.flush();
 }
 
 PatchFile::~PatchFile() {

@@ -36,10 +36,12 @@ class PatchFile {
  public:
   static constexpr std::size_t kBlock = 64;  ///< samples per block
 
-  /// Starts the file afresh.
-  PatchFile(const std::filesystem::path& path, const PatchNodes& nodes);
-  /// Goes on with a file that holds `samples`. Throws InputError if the file does not fit.
-  PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, std::size_t samples);
+  /// Starts the file afresh, with `attributes` at its root.
+  PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, const Hdf5Attributes& attributes);
+  /// Goes on with a file that holds `samples`. The attributes replace those of the process before. Throws
+  /// InputError if the file does not fit.
+  PatchFile(const std::filesystem::path& path, const PatchNodes& nodes, const Hdf5Attributes& attributes,
+            std::size_t samples);
   /// Closes without reporting errors.
   ~PatchFile();
   PatchFile(const PatchFile&) = delete;

@@ -9,6 +9,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/results/resolution.hpp"
+#include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
 
 namespace tread {
@@ -289,11 +290,12 @@ void add_rolling_contact(const RunResults& r, Json& json) {
 }  // namespace
 
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
-  Json json = {{"title", resolved.scene.title},
-               {"quality", resolved.scene.quality},
-               {"elements", model.elements()},
-               {"nodes", model.nodes()},
-               {"steps", r.steps}};
+  Json json = {{"title", resolved.scene.title}, {"quality", resolved.scene.quality}};
+  for (const auto& [name, value] : root_attributes(resolved.scene))
+    std::visit([&](const auto& stated) { json[name] = stated; }, value);
+  json["elements"] = model.elements();
+  json["nodes"] = model.nodes();
+  json["steps"] = r.steps;
   if (r.origin)
     json["fork"] = {{"from", r.origin->folder}, {"time_s", r.origin->time}, {"step", r.origin->steps}};
   json["dt_s"] = r.dt;

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "io/files/hdf5_file.hpp"
 #include "io/files/output_file.hpp"
 
 namespace tread {
@@ -115,11 +114,13 @@ SurfaceResults surface_results(const SurfaceFields& fields, double first, double
   return s;
 }
 
-void write_surface(const std::filesystem::path& path, const SurfaceFields& fields) {
+void write_surface(const std::filesystem::path& path, const SurfaceFields& fields,
+                   const Hdf5Attributes& attributes) {
   const SurfaceGrid& grid = fields.grid();
   const std::size_t rows = grid.y.size();
   replace_file(path, [&](const std::filesystem::path& part) {
     Hdf5File file = Hdf5File::create(part);
+    file.set_attributes("/", attributes);
     const auto [first, last] = touched(fields);
     write_field(file, {"/y", "m", "nodes across the rail, field side positive", grid.y, 1}, 0, grid.rows());
     write_field(file, {"/width", "m", "of the profile that a node stands for", grid.width, 1}, 0,

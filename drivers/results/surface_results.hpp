@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math/statistics.hpp"
+#include "io/files/hdf5_file.hpp"
 #include "kernels/contact/surface_fields.hpp"
 
 namespace tread {
@@ -43,7 +44,8 @@ struct SurfaceResults {
 SurfaceResults surface_results(const SurfaceFields& fields, double first, double last);
 
 /// Writes the fields of the stations that were in contact, with coordinates and units.
-void write_surface(const std::filesystem::path& path, const SurfaceFields& fields);
+void write_surface(const std::filesystem::path& path, const SurfaceFields& fields,
+                   const Hdf5Attributes& attributes = {});
 
 /// Writes a row per node of the axis.
 void write_axis(const std::filesystem::path& path, const SurfaceResults& surface);

@@ -19,6 +19,7 @@ struct RunOptions {
   std::string from;
   std::string cache = "off";  ///< place of the preload cache, as in preload_cache()
   bool overwrite = false;     ///< true if a run in the directory may be thrown away
+  std::string program;        ///< name, version and commit, for the report
   std::string command;        ///< command as typed, for the report
   /// Overrides of `tread resume`: other values of motion.duration, output and stop.
   std::vector<std::string> overrides;

@@ -18,6 +18,7 @@
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/resolution.hpp"
+#include "drivers/results/root_attributes.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
@@ -38,7 +39,7 @@ constexpr int kMovieFrames = 200;
 /// of a wave, or of the last patch lengths on a smooth rail; a movie of the whole evaluated stretch.
 void leave_surface(const Model& model, RunResults& results, const std::filesystem::path& directory) {
   if (!results.surface_fields) return;
-  write_surface(directory / "surface.h5", *results.surface_fields);
+  write_surface(directory / "surface.h5", *results.surface_fields, root_attributes(model.scene));
   write_axis(directory / "surface_axis.csv", results.surface);
   write_deflection(directory / "deflection.csv", deflection(*results.rail_line));
   const Span stretch{results.evaluated_first, results.evaluated_last};
@@ -134,7 +135,8 @@ void leave_results(RunSession& session, const Model& model, RunResults& results)
   leave_surface(model, results, session.folder.path());
   const std::string summary = summary_json(model, session.resolved, results);
   write_text_file(session.folder / "summary.json", summary);
-  write_run_report(session.folder / "report.html", model, session.resolved, results, session.order.command);
+  write_run_report(session.folder / "report.html", model, session.resolved, results,
+                   {session.options.program, session.order.command});
   if (session.options.json) fmt::print("{}", summary);
 }
 

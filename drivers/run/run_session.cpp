@@ -3,10 +3,11 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 
+#include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/process/version.hpp"
 
 namespace tread {
 
@@ -39,9 +40,8 @@ std::string RunSession::resume_command() const {
 }
 
 Json RunSession::status(const std::string& stage) const {
-  std::array<char, 256> machine{};
-  ::gethostname(machine.data(), machine.size() - 1);
-  return {{"stage", stage}, {"process", ::getpid()}, {"machine", machine.data()}};
+  return {
+      {"stage", stage}, {"version", program_version()}, {"process", ::getpid()}, {"machine", host_name()}};
 }
 
 void RunSession::show(const std::string& stage, const std::string& text) const {

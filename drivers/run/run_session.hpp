@@ -28,7 +28,7 @@ struct RunSession {
   /// Command that goes on with the run: "`tread resume out`".
   std::string resume_command() const;
 
-  /// The beginning of status.json: stage, process and machine.
+  /// The beginning of status.json: stage, version, process and machine.
   Json status(const std::string& stage) const;
 
   /// Shows stage and text in status.json.

@@ -8,6 +8,7 @@
 
 #include "core/math/hash.hpp"
 #include "drivers/engine/station_plan.hpp"
+#include "drivers/process/version.hpp"
 #include "io/files/output_file.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
@@ -58,7 +59,8 @@ void add_run(SceneContent& content, const Scene& scene) {
 }
 
 void keep_scene(const fs::path& folder, const ResolvedScene& resolved) {
-  write_text_file(folder / kKeptScene, resolved_toml(resolved));
+  write_text_file(folder / kKeptScene,
+                  fmt::format("# Written by tread {}.\n{}", program_version(), resolved_toml(resolved)));
   if (resolved.source.files.empty()) return;
   Json json;
   for (const auto& [place, text] : resolved.source.files) json[place] = checksum(text);

@@ -267,6 +267,22 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
   check.written(H5Awrite(attribute, type, text.c_str()));
 }
 
+void Hdf5File::set_attributes(const std::string& object, const Hdf5Attributes& attributes) {
+  const Check check{path_, object};
+  const Id owner = check.written(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
+  for (const auto& [name, value] : attributes) {
+    if (H5Aexists(owner, name.c_str()) > 0) check.written(H5Adelete(owner, name.c_str()));
+    if (const std::string* text = std::get_if<std::string>(&value)) {
+      write_attribute(object, name, *text);
+      continue;
+    }
+    const Id space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Id attribute = check.written(
+        H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    check.written(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &std::get<double>(value)));
+  }
+}
+
 void Hdf5File::link_external(const std::string& name, const std::filesystem::path& file,
                              const std::string& object) {
   const Check check{path_, name};
@@ -324,6 +340,19 @@ Shape Hdf5File::shape(const std::string& name) const {
   return extent(Id(H5Dget_space(data), H5Sclose));
 }
 
+std::string Hdf5File::type(const std::string& name) const {
+  const Check check{path_, name};
+  const Id data = check.read(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Id type(H5Dget_type(data), H5Tclose);
+  const auto is = [&](hid_t known) { return H5Tequal(type, known) > 0; };
+  if (is(type_of<double>())) return "double";
+  if (is(type_of<float>())) return "float";
+  if (is(type_of<std::int64_t>())) return "int64";
+  if (is(type_of<std::int32_t>())) return "int32";
+  if (is(type_of<std::uint8_t>())) return "uint8";
+  return "other";
+}
+
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& name) const {
   const Check check{path_, name};
@@ -372,6 +401,33 @@ std::string Hdf5File::read_text_attribute(const std::string& object, const std::
   std::string text(H5Tget_size(type), '\0');
   check.read(H5Aread(attribute, type, text.data()));
   return text.substr(0, text.find('\0'));
+}
+
+Hdf5Attributes Hdf5File::attributes(const std::string& object) const {
+  const Check check{path_, object};
+  const Id owner = check.read(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
+  std::vector<std::string> names;
+  check.read(H5Aiterate2(
+      owner, H5_INDEX_NAME, H5_ITER_INC, nullptr,
+      [](hid_t /*owner*/, const char* name, const H5A_info_t* /*info*/, void* out) -> herr_t {
+        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+        return 0;
+      },
+      &names));
+  Hdf5Attributes found;
+  for (const std::string& name : names) {
+    const Id attribute = check.read(H5Aopen(owner, name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Id type(H5Aget_type(attribute), H5Tclose);
+    const Id space(H5Aget_space(attribute), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space) != 1 || H5Tis_variable_str(type) > 0) continue;
+    const H5T_class_t kind = H5Tget_class(type);
+    if (kind == H5T_STRING) found[name] = read_text_attribute(object, name);
+    if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;
+    double value = 0;
+    check.read(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value));
+    found[name] = value;
+  }
+  return found;
 }
 
 void Hdf5File::flush() {

@@ -3,12 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tread {
+
+/// Attributes of an object by name: numbers and texts.
+using Hdf5Attributes = std::map<std::string, std::variant<double, std::string>>;
 
 /// An open HDF5 file. The element type T of data is double, float, std::int64_t, std::int32_t or
 /// std::uint8_t. Errors name the file, the object and the system's reason: InputError if a file or object to
@@ -51,6 +56,9 @@ class Hdf5File {
   void write_attribute(const std::string& object, const std::string& name, std::span<const T> values);
   void write_attribute(const std::string& object, const std::string& name, const std::string& text);
 
+  /// Sets attributes of a group or dataset, in place of those of the same names.
+  void set_attributes(const std::string& object, const Hdf5Attributes& attributes);
+
   /// Makes `name` a link to an object of another file. A relative path is relative to this file's folder.
   void link_external(const std::string& name, const std::filesystem::path& file, const std::string& object);
 
@@ -60,6 +68,8 @@ class Hdf5File {
   /// Offset in image() of the values of a dataset that write() made [B].
   std::uint64_t place(const std::string& name) const;
   std::vector<std::uint64_t> shape(const std::string& name) const;
+  /// Element type of a dataset: "double", "float", "int64", "int32", "uint8" or "other".
+  std::string type(const std::string& name) const;
   template <class T>
   std::vector<T> read(const std::string& name) const;
   /// Row at a place along the first dimension.
@@ -67,6 +77,8 @@ class Hdf5File {
   std::vector<T> read_row(const std::string& name, std::uint64_t row) const;
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
+  /// Single numbers and texts of fixed length among the attributes of an object.
+  Hdf5Attributes attributes(const std::string& object) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
 
   /// Returns true if several threads may use files at the same time, each its own.

@@ -32,10 +32,12 @@ std::vector<Channel> checked(std::vector<Channel> channels) {
 
 }  // namespace
 
-HistoryFile::HistoryFile(const std::filesystem::path& directory, std::vector<Channel> channels)
+HistoryFile::HistoryFile(const std::filesystem::path& directory, std::vector<Channel> channels,
+                         const Hdf5Attributes& attributes)
     : channels_(checked(std::move(channels))),
       hdf5_(Hdf5File::create(directory / "run.h5")),
       csv_(directory / "histories.csv") {
+  hdf5_.set_attributes("/", attributes);
   std::string header;
   for (const Channel& channel : channels_) {
     hdf5_.make_extendible<double>(dataset(channel), kChunk);

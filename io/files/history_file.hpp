@@ -28,8 +28,10 @@ class HistoryFile {
  public:
   static constexpr std::size_t kBlock = 64;  ///< rows per block
 
-  /// Starts both files afresh. The first channel is the abscissa, usually the time.
-  HistoryFile(const std::filesystem::path& directory, std::vector<Channel> channels);
+  /// Starts both files afresh. The first channel is the abscissa, usually the time. run.h5 gets `attributes`
+  /// at its root.
+  HistoryFile(const std::filesystem::path& directory, std::vector<Channel> channels,
+              const Hdf5Attributes& attributes = {});
   /// Closes without reporting errors.
   ~HistoryFile();
   HistoryFile(const HistoryFile&) = delete;

@@ -9,7 +9,6 @@
 #include <span>
 #include <stdexcept>
 
-#include "io/files/hdf5_file.hpp"
 #include "io/files/output_file.hpp"
 
 namespace tread {
@@ -40,8 +39,9 @@ double mean_radius(const Section& section, int quad) {
 }
 
 /// Starts the file in memory: HDF5 recovers badly from a full disk.
-Hdf5File begin() {
+Hdf5File begin(const Hdf5Attributes& attributes) {
   Hdf5File file = Hdf5File::create_in_memory();
+  file.set_attributes("/", attributes);
   for (const char* group : {"/VTKHDF", "/VTKHDF/PointData", "/VTKHDF/CellData", "/VTKHDF/FieldData"})
     file.make_group(group);
   const std::array<std::int64_t, 2> version = {1, 0};
@@ -127,12 +127,12 @@ void write_array(Hdf5File& file, const VtkArray& array) {
 }  // namespace
 
 void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
-                    const std::vector<Placement>& placements) {
+                    const std::vector<Placement>& placements, const Hdf5Attributes& attributes) {
   if (!placements.empty() && placements.size() != mesh.blocks.size())
     throw std::logic_error("write_vtk_mesh: one placement per block");
   const std::vector<Placement> places =
       placements.empty() ? std::vector<Placement>(mesh.blocks.size()) : placements;
-  Hdf5File file = begin();
+  Hdf5File file = begin(attributes);
   write_points(file, mesh, grid, places);
   write_topology(file, grid);
   write_cell_arrays(file, mesh, grid);
@@ -140,7 +140,7 @@ void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const V
 }
 
 void write_vtk_frame(const std::filesystem::path& path, const VtkFrame& frame) {
-  Hdf5File file = begin();
+  Hdf5File file = begin(frame.attributes);
   for (const std::string name : kShared) file.link_external("/VTKHDF/" + name, frame.mesh, "/VTKHDF/" + name);
   write_compressed(file, "/VTKHDF/Points", frame.points, 3);
   for (const VtkArray& array : frame.arrays) write_array(file, array);

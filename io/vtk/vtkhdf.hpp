@@ -6,16 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "io/files/hdf5_file.hpp"
 #include "io/vtk/vtk_grid.hpp"
 
 namespace tread {
 
 /// Writes a grid of the mesh with cell arrays `block` and `material` (indices; the arrays' attribute `names`
 /// lists the names, comma-separated) and `pitch [m]`, the length of the element along the sweep. `placements`
-/// holds one placement per block or is empty (all at the origin). Throws ResourceError; an older file stays
-/// until the new one is complete.
+/// holds one placement per block or is empty (all at the origin). `attributes` are those of the root. Throws
+/// ResourceError; an older file stays until the new one is complete.
 void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
-                    const std::vector<Placement>& placements = {});
+                    const std::vector<Placement>& placements = {}, const Hdf5Attributes& attributes = {});
 
 /// Values at the points of a grid, or at its cells.
 struct VtkArray {
@@ -34,6 +35,7 @@ struct VtkFrame {
   double time = 0;             ///< [s]
   std::vector<float> points;   ///< coordinates [point][3] [m]
   std::vector<VtkArray> arrays;
+  Hdf5Attributes attributes = {};  ///< attributes of the root
 };
 
 /// Writes a frame: a file that shows its mesh's cells and materials by links, with points and arrays of its

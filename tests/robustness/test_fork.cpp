@@ -66,6 +66,12 @@ TEST_F(Fork, OfTheSameSceneIsTheSameRunOnOtherThreads) {
   EXPECT_TRUE(has(content_of(folder_ / "report.html"), "fork of"));
 }
 
+TEST_F(Fork, FilesThatGoOnCarryTheNewScene) {
+  ASSERT_EQ(call(from("sine.toml", "smooth", "--set scene.title=other")), 0) << errors();
+  for (const char* name : {"run.h5", "patch.h5", "surface.h5"})
+    EXPECT_EQ(Hdf5File::open_to_read(folder_ / name).read_text_attribute("/", "title"), "other") << name;
+}
+
 TEST_F(Fork, OverAnotherCorrugationIsTheRunFromTheStart) {
   // The state of a smooth rail lies 20 mm before the solution zone, x = 0.1 m.
   for (const char* scene : {"sine", "table"}) {

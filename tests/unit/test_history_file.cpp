@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/error.hpp"
 #include "io/files/history_file.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -102,6 +103,29 @@ TEST_F(HistoryFileTest, Hdf5TablesGrowByWholeRows) {
   EXPECT_EQ(file.read<float>("/group/pairs"), (std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_TRUE(file.contains("/group/pairs"));
   EXPECT_FALSE(file.contains("/nowhere/pairs"));
+}
+
+TEST_F(HistoryFileTest, AttributesOfTheRootCanBeReplaced) {
+  HistoryFile(folder_, channels_, {{"title", "a"}, {"speed_m_per_s", 2.5}}).close();
+  const Hdf5Attributes first = {{"title", "a"}, {"speed_m_per_s", 2.5}};
+  EXPECT_EQ(Hdf5File::open_to_read(folder_ / "run.h5").attributes("/"), first);
+  Hdf5File file = Hdf5File::open_to_extend(folder_ / "run.h5");
+  file.set_attributes("/", {{"title", "longer"}, {"quality", ""}});
+  file.write_attribute<double>("/", "pair", std::array{1.0, 2.0});
+  file.close();
+  const Hdf5Attributes then = {{"title", "longer"}, {"quality", ""}, {"speed_m_per_s", 2.5}};
+  EXPECT_EQ(Hdf5File::open_to_read(folder_ / "run.h5").attributes("/"), then);
+}
+
+TEST_F(HistoryFileTest, TypesAreNamed) {
+  Hdf5File file = Hdf5File::create(folder_ / "types.h5");
+  file.write<float>("/f", std::array{1.0F});
+  file.write<std::int32_t>("/i", std::array{std::int32_t{1}});
+  file.write<std::uint8_t>("/u", std::array{std::uint8_t{1}});
+  EXPECT_EQ(file.type("/f"), "float");
+  EXPECT_EQ(file.type("/i"), "int32");
+  EXPECT_EQ(file.type("/u"), "uint8");
+  EXPECT_THROW(file.type("/absent"), InputError);
 }
 
 TEST_F(HistoryFileTest, ExternalLinksLeadToTheOtherFile) {

@@ -73,7 +73,7 @@ TEST_F(SurfaceFiles, PatchIsReadBackSampleBySample) {
   constexpr int kSamples = 150;  // more than two blocks, not a whole number of them
   PatchNodes patch(grid_, 5);
   {
-    PatchFile file(folder_ / "patch.h5", patch);
+    PatchFile file(folder_ / "patch.h5", patch, {});
     for (int i = 0; i < kSamples; ++i) {
       const int first = i * 7 / kSamples;
       patch.average(first, first + 3, {point_on({first + 1, 1}, 1e6 * (i + 1))});
@@ -109,7 +109,7 @@ TEST_F(SurfaceFiles, PatchIsReadBackSampleBySample) {
 
 TEST_F(SurfaceFiles, InstantsAreNotRepeated) {
   PatchNodes patch(grid_, 5);
-  PatchFile file(folder_ / "patch.h5", patch);
+  PatchFile file(folder_ / "patch.h5", patch, {});
   for (int i = 0; i < 3; ++i) {
     patch.average(0, 3, {});
     file.append(1e-5 * i, 1e-3 * i, patch);
@@ -154,7 +154,7 @@ TEST(TypicalPlaces, OfFewWavesAreThoseOfTheLast) {
 
 TEST_F(SurfaceFiles, InstantsBecomeRowsOfTheAxis) {
   PatchNodes patch(grid_, 5);
-  PatchFile file(folder_ / "patch.h5", patch);
+  PatchFile file(folder_ / "patch.h5", patch, {});
   patch.average(2, 5, {point_on({3, 1}, 4e8)});
   file.append(0, 6e-3, patch);
   file.close();

@@ -1,0 +1,14 @@
+#pragma once
+// Name, version and commit of the program.
+
+#include <string>
+
+namespace tread {
+
+/// Commit of the sources, "24b0c2e13a77", with "-dirty" where they differ from it; empty outside of a clone.
+std::string program_commit();
+
+/// "tread 0.1.0, commit 24b0c2e13a77"; without commit outside of a clone.
+std::string program_name();
+
+}  // namespace tread

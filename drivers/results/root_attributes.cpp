@@ -1,0 +1,23 @@
+#include "drivers/results/root_attributes.hpp"
+
+#include "drivers/process/version.hpp"
+
+namespace tread {
+
+Hdf5Attributes root_attributes(const Scene& scene) {
+  Hdf5Attributes attributes = {
+      {"program", "tread"},
+      {"version", program_version()},
+      {"title", scene.title},
+      {"quality", scene.quality},
+      {"axes", "x along the rail, forwards; y across, to the field side of a left rail; z upwards"},
+      {"units", "SI"}};
+  if (scene.motion && scene.wheel) attributes["speed_m_per_s"] = scene.motion->speed;
+  if (scene.contact) {
+    attributes["friction_law"] = scene.contact->friction_law;
+    attributes["friction_coefficient"] = scene.contact->largest_friction();
+  }
+  return attributes;
+}
+
+}  // namespace tread
