@@ -16,6 +16,7 @@ using AddCommand = void(CLI::App& app, const std::string& command_line);
 AddCommand add_run;
 AddCommand add_resume;
 AddCommand add_ctl;
+AddCommand add_results;
 AddCommand add_cache;
 AddCommand add_check;
 AddCommand add_mesh;
@@ -32,7 +33,8 @@ AddCommand add_scene_reference;
 
 /// In the order of `tread --help`.
 inline constexpr std::array kCommands = {
-    add_run,   add_resume, add_ctl,     add_cache, add_check,  add_mesh,  add_multibody, add_roughness,
-    add_sweep, add_paper,  add_develop, add_dial,  add_verify, add_bench, add_version,   add_scene_reference};
+    add_run,  add_resume,    add_ctl,       add_results, add_cache,          add_check,
+    add_mesh, add_multibody, add_roughness, add_sweep,   add_paper,          add_develop,
+    add_dial, add_verify,    add_bench,     add_version, add_scene_reference};
 
 }  // namespace tread
