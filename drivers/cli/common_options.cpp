@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "io/files/share_folder.hpp"
 #include "io/scene/problems.hpp"
 #include "io/text/json.hpp"
 
@@ -22,6 +23,10 @@ void print_problems(const std::vector<Problem>& problems) {
                     {"key", problem.key},
                     {"message", problem.message}});
   fmt::print("{}", json_text({{"ok", false}, {"problems", list}}));
+}
+
+void add_quality_option(CLI::App& command, std::string& quality, const char* text) {
+  command.add_option("-q,--quality", quality, text)->type_name("draft|standard|paper");
 }
 
 }  // namespace
@@ -59,8 +64,10 @@ CLI::Validator at_least(int least) {
 
 void add_thread_options(CLI::App& command, ThreadOptions& options) {
   command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
-  command.add_option("--backend", options.backend,
-                     "library of the threads, tbb (default) or openmp; same bits");
+  command
+      .add_option("--backend", options.backend,
+                  "library of the threads, tbb (default) or openmp; same bits")
+      ->type_name("tbb|openmp");
 }
 
 void add_cache_option(CLI::App& command, std::string& place) {
@@ -71,24 +78,30 @@ void add_cache_option(CLI::App& command, std::string& place) {
       "or ~/.cache)");
 }
 
+CLI::Option* or_shipped(CLI::Option* option) {
+  return option->transform([](const std::string& stated) { return find_scene(stated).string(); });
+}
+
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("-q,--quality", arguments.quality, "draft, standard or paper; overrides scene.quality");
-  command.add_option("--precision", arguments.precision,
-                     "double, mixed or single; overrides scene.precision");
+  add_quality_option(command, arguments.quality, "overrides scene.quality");
+  command.add_option("--precision", arguments.precision, "overrides scene.precision")
+      ->type_name("double|mixed|single");
   command
       .add_option("--set", arguments.overrides,
                   "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
       ->allow_extra_args(false);
-  return command.add_option("scene", arguments.scene, "scene file (TOML)");
+  return or_shipped(
+      command.add_option("scene", arguments.scene, "scene file (TOML), or the name of a shipped scene"));
 }
 
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {
-  return command.add_option("--cost", cost, "measure of the cost: element-steps (default) or minutes");
+  return command.add_option("--cost", cost, "measure of the cost: element-steps (default) or minutes")
+      ->type_name("element-steps|minutes");
 }
 
 void add_study_options(CLI::App& command, StudyOptions& options) {
   command.add_option("-o,--output", options.output, "directory for the comparison and one folder a run");
-  command.add_option("-q,--quality", options.quality, "draft, standard or paper, of all points");
+  add_quality_option(command, options.quality, "of all points");
   command
       .add_option("--set", options.overrides,
                   "key=value for all points, e.g. --set \"motion.duration=20 ms\"")

@@ -44,6 +44,10 @@ void add_cache_option(CLI::App& command, std::string& place);
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost);
 void add_study_options(CLI::App& command, StudyOptions& options);
 
+/// Lets an option that names a scene or a study take the name of a shipped one, too. Files that are there
+/// come first.
+CLI::Option* or_shipped(CLI::Option* option);
+
 /// Returns the option of the scene itself.
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments);
 

@@ -12,7 +12,8 @@ void add_dial(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<DialOptions>();
   options->common.command = command_line;
   CLI::App& command = *app.add_subcommand("dial", "cost and error of the settings of a passage");
-  command.add_option("file", options->file, "scene, or study file that states the runs (TOML)")->required();
+  or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"))
+      ->required();
   command
       .add_option("--base", options->axes.base,
                   "key=value while another key is varied (default: scene.element_size=5 mm)")

@@ -5,12 +5,19 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "drivers/cli/command_table.hpp"
 #include "drivers/cli/commands.hpp"
+#include "drivers/cli/program_name.hpp"
+#include "drivers/cli/wrong_word.hpp"
+#include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/process/progress.hpp"
 #include "drivers/process/version.hpp"
+#include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
 
 namespace {
@@ -34,29 +41,65 @@ void require_command(const CLI::App& app, int argc, char** argv) {
                                       near.empty() ? "" : fmt::format("did you mean '{}'? ", near)));
 }
 
+/// The command that the command line names, with the words before it.
+tread::CommandEntry named_command(const CLI::App& app) {
+  tread::CommandEntry entry = tread::command_table(app);
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    const auto same = [&](const tread::CommandEntry& part) { return part.words.back() == at->get_name(); };
+    tread::CommandEntry part = *std::find_if(entry.commands.begin(), entry.commands.end(), same);
+    entry = std::move(part);
+  }
+  return entry;
+}
+
+/// Says program and machine on stderr.
+void say_origin() {
+  fmt::print(stderr, "[tread] {}; {}, {}, {} cores\n", tread::program_name(), tread::host_name(),
+             tread::processor_name(), tread::machine_cores());
+}
+
+/// Gives `--quiet` and `--verbose` to every command that acts. Commands without progress are quiet anyway.
+void add_common_flags(CLI::App& command, bool& verbose) {
+  for (CLI::App* part : command.get_subcommands({})) add_common_flags(*part, verbose);
+  if (!command.get_subcommands({}).empty()) return;
+  if (!command.get_option_no_throw("--quiet"))
+    command.add_flag("--quiet")->description("no progress on stderr");
+  CLI::Option* option = command.get_option_no_throw("--verbose");
+  if (!option)
+    option = command.add_flag("--verbose")->description("program, machine, time and memory on stderr");
+  option->each([&verbose](const std::string&) {
+    if (!std::exchange(verbose, true)) say_origin();
+  });
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"tread: transient wheel-rail rolling contact"};
+  CLI::App app{"transient wheel-rail rolling contact"};
+  app.set_help_flag("-h,--help", "print this help and exit");
   app.require_subcommand(1);
   app.footer(kExitCodes);
-  app.set_version_flag("--version", version_line);
+  app.set_version_flag("--version", version_line, "print the version and exit");
   std::string command_line = "tread";
   for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);
+  bool verbose = false;
+  add_common_flags(app, verbose);
   require_command(app, argc, argv);
+  const tread::Progress clock(false);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     // A misspelt word may be why another one is missing.
     const std::vector<std::string> unknown = app.remaining(true);
-    char** const end = argv + argc;
-    char** const word = std::find_first_of(argv + 1, end, unknown.begin(), unknown.end());
-    if (word == end)
-      fmt::print(stderr, "tread: {}; --help shows how\n", error.what());
-    else
-      fmt::print(stderr, "tread: {} was not expected here; --help lists what is\n", *word);
-    return static_cast<int>(tread::ExitCode::input);
+    const tread::CommandEntry command = named_command(app);
+    throw tread::InputError(unknown.empty() ? fmt::format("{}: {}; `{} --help` shows how", command.name(" "),
+                                                          error.what(), command.name(" "))
+                                            : tread::wrong_word(command, {argv + 1, argv + argc}, unknown));
   }
+  if (verbose)
+    clock.say(fmt::format("[tread] {}, {} of memory at the most", tread::duration_text(clock.seconds()),
+                          tread::bytes_text(tread::peak_memory())));
   return 0;
 }
 

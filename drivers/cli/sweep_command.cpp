@@ -13,7 +13,8 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
   options->common.command = command_line;
   CLI::App& command = *app.add_subcommand(
       "sweep", "run a study: a scene with varied keys, one run a point; continues a stopped one");
-  command.add_option("study", options->study, "study file (TOML)")->required();
+  or_shipped(command.add_option("study", options->study, "study file (TOML), or the name of a shipped one"))
+      ->required();
   add_study(command, options, sweep);
 }
 

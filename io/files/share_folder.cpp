@@ -13,8 +13,23 @@ std::vector<fs::path> share_folders() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) folders.push_back(program.parent_path().parent_path() / "share" / "tread");
-  folders.emplace_back(TREAD_SOURCE_SHARE);
+  if (const fs::path source = TREAD_SOURCE_SHARE; !source.empty()) folders.push_back(source);
   return folders;
+}
+
+fs::path find_scene(const fs::path& stated) {
+  std::error_code ignored;
+  const bool there = fs::exists(stated, ignored) && !fs::is_directory(stated, ignored);
+  if (there || stated.empty() || stated.is_absolute()) return stated;
+  std::vector<fs::path> folders;
+  for (const fs::path& folder : share_folders()) folders.push_back(folder / "scenes");
+  if (const fs::path source = TREAD_SOURCE_SHARE; !source.empty())
+    folders.push_back(source.parent_path() / "scenes");
+  for (const fs::path& folder : folders)
+    for (const char* ending : {"", ".toml"})
+      if (fs::path file = folder / (stated.string() + ending); fs::is_regular_file(file, ignored))
+        return file;
+  return stated;
 }
 
 fs::path find_share_file(const fs::path& name) {

@@ -1,5 +1,5 @@
 #pragma once
-// Data files that come with the program: references/ and dial/ of share/.
+// Data files and scenes that come with the program.
 
 #include <filesystem>
 #include <vector>
@@ -8,11 +8,15 @@ namespace tread {
 
 /// Folders that may hold the data files, first come first: TREAD_SHARE alone where the environment
 /// has it; else ../share/tread beside the program's folder (an installed program), then share/ of the source
-/// tree that it was built from.
+/// tree that it was built from, if the build states one.
 std::vector<std::filesystem::path> share_folders();
 
 /// The file of that name, "dial/NAME.jsonl", in the first of these folders that has it; an empty path where
 /// none does.
 std::filesystem::path find_share_file(const std::filesystem::path& name);
+
+/// The scene or study at the path that the user states; where there is none, the shipped one of that name,
+/// "tyre.toml" or "tyre". A path that leads nowhere is returned as it is.
+std::filesystem::path find_scene(const std::filesystem::path& stated);
 
 }  // namespace tread

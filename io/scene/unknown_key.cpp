@@ -50,24 +50,23 @@ constexpr std::array kPurposes = {
             "bodies are swept from profiles; scene.element_size sets the mesh"},
 };
 
-/// Sentence on the way to have a thing of this name; "" for a word without a known purpose.
-std::string_view instead_of(std::string_view word) {
+}  // namespace
+
+std::string instead_of(std::string_view word) {
   for (const Purpose& purpose : kPurposes)
     for (const std::string_view known : purpose.words)
-      if (!known.empty() && known == word) return purpose.instead;
+      if (!known.empty() && known == word) return fmt::format("{} (docs/can-and-cannot.md)", purpose.instead);
   return "";
 }
-
-}  // namespace
 
 std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) {
   const auto dot = path.rfind('.');
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
   if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
   const std::string what = is_a_table ? "table" : "key";
-  const std::string_view instead =
+  const std::string instead =
       instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
-  if (!instead.empty()) return fmt::format("unknown {}: {} (docs/can-and-cannot.md)", what, instead);
+  if (!instead.empty()) return fmt::format("unknown {}: {}", what, instead);
   const std::string similar = suggest ? similar_path(path) : "";
   if (!similar.empty()) return fmt::format("unknown {} (did you mean {}?)", what, similar);
   return fmt::format("unknown {} (known: {})", what, names_in(is_table(parent) ? parent : ""));

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "drivers/process/version.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -87,6 +88,21 @@ TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
   EXPECT_FALSE(has(coarse, "corrugation.depth")) << coarse;
   EXPECT_TRUE(has(warnings(" --set \"corrugation.depth=8 mm\""), "look at the units of corrugation.depth"));
   EXPECT_TRUE(has(call("check --json -t 1 " + scene("smooth.toml")).out, "\"warnings\": []"));
+}
+
+TEST_F(Commands, ShippedScenesHaveNamesInEveryFolder) {
+  EXPECT_EQ(call("check -t 1 bar-wave").code, 0);
+  EXPECT_EQ(call("check -t 1 bar-wave.toml").code, 0);
+  EXPECT_EQ(call("sweep --list studies/wavelengths").code, 0);
+  EXPECT_EQ(call("check -t 1 bar-weave").code, 2);
+  // A file of the working directory comes first.
+  std::ofstream(folder_ / "bar-wave.toml") << "[scene]\ntitle = 3\n";
+  fs::create_directory(folder_ / "bar-wave");
+  for (const auto& [name, code] : {std::pair{"bar-wave.toml", 2}, {"bar-wave", 0}}) {
+    const pid_t process = samples::start_program(fmt::format("check -t 1 {}", name), folder_,
+                                                 fmt::format("cd {} &&", folder_.string()));
+    EXPECT_EQ(samples::wait_for(process), code) << name;
+  }
 }
 
 TEST_F(Commands, MoreThreadsThanCoresAreAWarning) {
@@ -297,8 +313,14 @@ TEST_F(Commands, WrongWordsAreNamed) {
   for (const auto& [wrong, answer] :
        {std::pair{"rum x.toml", "there is no command 'rum'; did you mean 'run'?"},
         {"report --help", "there is no command 'report'; `tread --help` lists all"},
-        {"develop x.toml --frm y", "--frm was not expected"},
-        {"run", "tread: scene is required"},
+        {"develop x.toml --frm y",
+         "tread develop: there is no option --frm; did you mean --from? `tread develop --help`"},
+        {"run x.toml --gpu", "tread run: there is no option --gpu: there is no GPU; -t states the threads"},
+        {"run x.toml --mass-scaling=2", "masses are not scaled"},
+        {"bench kernels --kernels x",
+         "tread bench kernels: there is no option --kernels; did you mean --kernel?"},
+        {"run x.toml y.toml", "tread run: 'y.toml' was not expected here; `tread run --help` shows how"},
+        {"run", "tread: tread run: scene is required; `tread run --help` shows how"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
         {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
@@ -313,6 +335,16 @@ TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_EQ(call("--version").out.rfind("tread ", 0), 0U);
   EXPECT_TRUE(has(call("--help").out, "Exit codes: 0 done"));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
+  EXPECT_TRUE(has(samples::content_of(fs::path(TREAD_SOURCE_DIR) / "CITATION.cff"),
+                  fmt::format("\nversion: {}\n", program_version())));
+}
+
+TEST_F(Commands, VerboseAndQuietAreOptionsOfAll) {
+  const Outcome verbose = call("version --verbose");
+  EXPECT_TRUE(has(verbose.errors, fmt::format("[tread] tread {}", program_version()))) << verbose.errors;
+  EXPECT_TRUE(has(verbose.errors, "of memory at the most")) << verbose.errors;
+  EXPECT_EQ(call("version --quiet").errors, "");
+  EXPECT_TRUE(has(call("check -t 1 --verbose " + scene("bar-wave.toml")).errors, "[tread] tread "));
 }
 
 }  // namespace
