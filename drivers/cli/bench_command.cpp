@@ -79,7 +79,7 @@ void add_bench_compare(CLI::App& bench) {
                   "rate (default; one quiet machine), limit (shares of each machine's limits) or "
                   "instructions (recorded with -t 1; busy machines)")
       ->transform(CLI::CheckedTransformer(measures))
-      ->option_text("TEXT");
+      ->option_text("rate|limit|instructions");
   command.callback([files, measure] {
     if (!compare_benchmarks((*files)[0], (*files)[1], *measure))
       throw NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");

@@ -28,13 +28,14 @@ AddCommand add_develop;
 AddCommand add_dial;
 AddCommand add_verify;
 AddCommand add_bench;
+AddCommand add_manual;
 AddCommand add_version;
 AddCommand add_scene_reference;
 
 /// In the order of `tread --help`.
 inline constexpr std::array kCommands = {
-    add_run,  add_resume,    add_ctl,       add_results, add_cache,          add_check,
-    add_mesh, add_multibody, add_roughness, add_sweep,   add_paper,          add_develop,
-    add_dial, add_verify,    add_bench,     add_version, add_scene_reference};
+    add_run,  add_resume,    add_ctl,       add_results, add_cache,   add_check,
+    add_mesh, add_multibody, add_roughness, add_sweep,   add_paper,   add_develop,
+    add_dial, add_verify,    add_bench,     add_manual,  add_version, add_scene_reference};
 
 }  // namespace tread

@@ -1,0 +1,16 @@
+#pragma once
+// Completion of commands, options and their values in shells.
+
+#include <string>
+
+#include "drivers/cli/command_table.hpp"
+
+namespace tread {
+
+/// Script for bash: completes commands, options and listed values, and files elsewhere.
+std::string bash_completion(const CommandEntry& program);
+
+/// The same for fish.
+std::string fish_completion(const CommandEntry& program);
+
+}  // namespace tread
