@@ -7,9 +7,11 @@
 
 #include "core/math/vec.hpp"
 #include "kernels/contact/friction/elastic_stick.hpp"
-#include "kernels/lanes/patch_sum.hpp"
 
 namespace tread {
+
+/// Nodes that carry a point of a surface: 4 stations x 4 nodes across.
+inline constexpr std::size_t kSupport = 16;
 
 /// State of an integration point between steps.
 struct PointHistory {

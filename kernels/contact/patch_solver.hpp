@@ -2,7 +2,6 @@
 // Pressure and friction of all points of the patch, solved together with the motion that they cause.
 // [theory.md, Contact]
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +9,8 @@
 #include "core/mesh/node_field.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/friction/friction_law.hpp"
-#include "kernels/lanes/patch_sum.hpp"
+#include "kernels/contact/friction/point_response.hpp"
+#include "kernels/lanes/patch_loop.hpp"
 
 namespace tread {
 
@@ -23,18 +23,9 @@ struct NodeMotion {
   const double* inverse_mass;  ///< by slot [1/kg]
 };
 
-/// Springs of a point: the normal penalty and the elastic stick.
-struct PointSprings {
-  double penalty;  ///< normal stiffness per area [Pa/m]
-  ElasticStick stick;
-
-  /// Energy stored per area [J/m2].
-  double stored(double pressure, const Traction& shear) const {
-    return 0.5 * pressure * pressure / penalty + stick.stored(shear);
-  }
-};
-
-/// Gauss and Seidel's method over the points, in a fixed order.
+/// Jacobi's method with momentum: all points of an iteration respond to the motion that the iteration before
+/// leaves, then all nodes sum up the impulses of their points. Points and nodes are shared by the threads of
+/// a large patch; the bits do not depend on them.
 class PatchSolver {
  public:
   PatchSolver();
@@ -47,6 +38,9 @@ class PatchSolver {
   void solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
              const BodyFrame& wheel, const NodeMotion& motion, double dt);
 
+  /// Iterations of the last solution.
+  int iterations() const { return iterations_; }
+
   std::int64_t bytes() const;
 
  private:
@@ -56,57 +50,44 @@ class PatchSolver {
     double cosine, sine;  ///< of the space angle of its basis (wheel)
     double mobility;      ///< square root of the inverse mass [kg^-1/2]
   };
-  struct Link {
-    PatchLink nodes;    ///< into nodes_; weights of the wheel's against the rail's, times mobility [kg^-1/2]
-    PatchVector free;   ///< velocity of the wheel against the rail without contact [m/s]
-    Vec3 before;        ///< the same of the step before: closing, along, across [m/s]
-    double compliance;  ///< half of dt^2 A sum(w^2 / m) [m/Pa]
-  };
-  /// Coefficient of friction of each point.
-  template <class Law>
-  struct Coefficients {
-    double uniform;
-    const double* by_point;
-
-    double operator[](std::size_t i) const {
-      if constexpr (Law::kUniform)
-        return uniform;
-      else
-        return by_point[i];
-    }
-  };
   /// Largest values over all points. [Pa]
-  struct Sweep {
-    double change = 0;   ///< of a traction
-    double largest = 0;  ///< pressure
+  struct Progress {
+    double change;   ///< of a traction
+    double largest;  ///< pressure
   };
-  struct Step {
-    PointSprings springs;
-    double dt;  ///< [s]
-  };
-  void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion,
-            double dt);
-  /// Adds an impulse on the rail, and its opposite on the wheel. [N s]
-  void push(const Link& link, const Vec3& impulse);
-  /// Velocity of the wheel against the rail: closing, along, across. [m/s]
-  Vec3 relative_velocity(const ContactPoint& point, const Link& link) const;
+
+  void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion);
+  void list_points_of_nodes();
+  void fill_tiles(const std::vector<ContactPoint>& points, double dt);
   template <class Law>
-  Coefficients<Law> advance(const std::vector<ContactPoint>& points, FrictionOf<Law>& friction, double dt);
-  template <class Law>
-  void solve_with(std::vector<ContactPoint>& points, const Coefficients<Law>& friction, bool rubs,
-                  const Step& step);
-  template <bool rubs, class Law>
-  Sweep sweep(std::vector<ContactPoint>& points, const Coefficients<Law>& friction, const Step& step);
-  /// Sets the slip speed of points without friction, which no sweep needs.
-  void slip_freely(std::vector<ContactPoint>& points) const;
+  void advance(const std::vector<ContactPoint>& points, FrictionOf<Law>& friction, double dt);
+  void set_compliances(const std::vector<ContactPoint>& points, double dt);
+  void guess(const std::vector<ContactPoint>& points, const PointSprings& springs, double dt);
+  void iterate(const std::vector<ContactPoint>& points, const PointSprings& springs, double dt);
+  Progress respond(std::size_t points, const PointIteration& iteration);
+  /// Sets the nodes' change of velocity from the impulses of their points.
+  void sum_impulses();
+  PatchTerms nodes_of(std::size_t point) const;
+  /// Sets the tractions of the points, and the impulses to them alone.
+  void settle(std::vector<ContactPoint>& points, double dt);
+  void set_speeds(std::vector<ContactPoint>& points) const;
   void write_back(const NodeMotion& motion, double spin, double dt);
 
   const TileForces* lanes_;   ///< the widest instruction set's loops
   std::vector<int> node_of_;  ///< by slot, -1: none
   std::vector<Node> nodes_;
-  std::vector<PatchVector> change_;  ///< of the nodes' velocities by contact, over their mobility
-  std::vector<Link> links_;
-  std::vector<double> coefficient_;  ///< of friction, by point; empty for a uniform law
+  std::vector<PointTile> tiles_;
+  std::vector<PatchVector> free_;     ///< velocity of the points, wheel against rail, without contact [m/s]
+  std::vector<PatchVector> impulse_;  ///< of the points on the wheel [N s]
+  std::vector<PatchVector> change_;   ///< of the nodes' velocities by contact, over their mobility
+  /// Nodes of the points, kLinkedNodes each, and the wheel's weights against the rail's, times mobility
+  /// [kg^-1/2].
+  std::vector<int> node_;
+  std::vector<double> node_weight_;
+  /// The same by node: terms first_point_[n] to first_point_[n + 1].
+  std::vector<int> first_point_, point_;
+  std::vector<double> point_weight_;
+  int iterations_ = 0;
 };
 
 }  // namespace tread

@@ -14,7 +14,7 @@
 
 #include "kernels/element/element.hpp"
 #include "kernels/element/front_plan.hpp"
-#include "kernels/lanes/patch_sum.hpp"
+#include "kernels/lanes/patch_loop.hpp"
 #include "kernels/lanes/tie_sum.hpp"
 #include "kernels/update/node_motion_body.hpp"
 
@@ -144,8 +144,8 @@ struct TileForces {
   TileLoops<float, float> single;
   TieSum<double> tie_in_double;
   TieSum<float> tie_in_float;
-  PatchTake patch_take;
-  PatchGive patch_give;
+  PatchRespond patch_respond;
+  PatchSum patch_sum;
 
   template <class Real, class U>
   const TileLoops<Real, U>& loops() const {

@@ -9,7 +9,7 @@ const TileForces tile_forces_baseline = {"baseline",
                                          tile_loops<float, float>,
                                          tie_sum<double>,
                                          tie_sum<float>,
-                                         patch_take,
-                                         patch_give};
+                                         patch_respond,
+                                         patch_sum};
 
 }  // namespace tread

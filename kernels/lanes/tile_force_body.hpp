@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "kernels/lanes/patch_sum_body.hpp"
+#include "kernels/lanes/patch_loop_body.hpp"
 #include "kernels/lanes/tie_sum_body.hpp"
 #include "kernels/lanes/tile_force.hpp"
 #include "kernels/lanes/tile_loop.hpp"

@@ -2,14 +2,17 @@
 // Elastic stick under a limit of the shear stress, the same for every friction law. [theory.md, Friction]
 
 #include "core/elementary.hpp"
+#include "core/inline.hpp"
 
 namespace tread {
 
-/// Shear traction [Pa], slip [m] or slip speed [m/s] in the surface's frame.
-struct Traction {
-  double along = 0;
-  double across = 0;
+/// Shear traction [Pa], slip [m] or slip speed [m/s] in the surface's frame, of a point or of a lane each.
+template <class V>
+struct TractionOf {
+  V along{};
+  V across{};
 };
+using Traction = TractionOf<double>;
 
 /// Share of the limit from which on a point counts as slipping: a vibrating point sticks for single steps.
 inline constexpr double kSlipping = 0.98;
@@ -28,16 +31,17 @@ struct ElasticStick {
   /// itself from the slip [m/Pa]. `limit` is f p at the end of the step [Pa]; zero releases the traction.
   constexpr Result advance(const Traction& before, const Traction& slip, double limit,
                            double compliance) const {
-    const double scale = 1 / (1 + tangential_penalty * compliance);
-    Traction after{scale * (before.along + tangential_penalty * slip.along),
-                   scale * (before.across + tangential_penalty * slip.across)};
-    const double size = square_root(after.along * after.along + after.across * after.across);
-    if (size > limit) {
-      const double share = limit / size;
-      after.along *= share;
-      after.across *= share;
-    }
-    return {after, size > 0 && size >= kSlipping * limit};
+    const Traction stuck = stick(before, slip, compliance);
+    const double size = length(stuck);
+    return {shorten(stuck, size, limit), size > 0 && size >= kSlipping * limit};
+  }
+
+  /// The traction alone.
+  template <class V>
+  TREAD_INLINE TractionOf<V> traction(const TractionOf<V>& before, const TractionOf<V>& slip, const V& limit,
+                                      const V& compliance) const {
+    const TractionOf<V> stuck = stick(before, slip, compliance);
+    return shorten(stuck, length(stuck), limit);
   }
 
   /// Frictional work of a step [J/m2]: work of the mid-step traction on the slip less the change of the
@@ -51,6 +55,28 @@ struct ElasticStick {
   /// Energy in the elastic stick [J/m2].
   constexpr double stored(const Traction& traction) const {
     return 0.5 * (traction.along * traction.along + traction.across * traction.across) / tangential_penalty;
+  }
+
+ private:
+  template <class V>
+  TREAD_INLINE TractionOf<V> stick(const TractionOf<V>& before, const TractionOf<V>& slip,
+                                   const V& compliance) const {
+    const V scale = 1 / (1 + tangential_penalty * compliance);
+    return {scale * (before.along + tangential_penalty * slip.along),
+            scale * (before.across + tangential_penalty * slip.across)};
+  }
+  template <class V>
+  TREAD_INLINE static V length(const TractionOf<V>& traction) {
+    return square_root<V>(traction.along * traction.along + traction.across * traction.across);
+  }
+  /// Without a branch, so that lanes take it together.
+  template <class V>
+  TREAD_INLINE static TractionOf<V> shorten(const TractionOf<V>& traction, const V& size, const V& limit) {
+    constexpr double kNothing = 1e-300;  // beside any stress but zero [Pa]
+    const V all = V{} + 1;
+    const V share = limit / (size + kNothing);
+    const V kept = share < all ? share : all;
+    return {kept * traction.along, kept * traction.across};
   }
 };
 
