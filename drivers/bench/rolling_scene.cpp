@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "drivers/engine/start.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "drivers/results/run_results.hpp"
 
 namespace tread {
@@ -12,6 +13,7 @@ namespace tread {
 RollingScene::RollingScene(const Scene& scene, const Progress& progress) {
   if (!scene.motion)
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
+  require_memory(scene);
   model_ = std::make_unique<Model>(scene);
   preload_ = solve_preload(*model_, steady_motion(*model_),
                            [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); });

@@ -9,6 +9,7 @@
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
 #include "drivers/report/scene_check.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "drivers/studies/dial/dial_advice.hpp"
 #include "io/text/json.hpp"
 
@@ -25,6 +26,7 @@ struct CheckOptions {
 
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
+  require_memory(resolved.scene);
   const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model(resolved.scene);
   const Estimate cost = estimate(model);

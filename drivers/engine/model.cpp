@@ -37,9 +37,17 @@ FrictionLaw friction_of(const ContactSpec& spec) {
 
 }  // namespace
 
-Model::Model(const Scene& source, std::optional<double> corrugation_centre)
-    : scene(source), sizes(mesh_sizes(source)) {
-  build_bodies();
+MeshCount count_mesh(const Scene& scene) {
+  const Model model(scene, Model::BlocksAlone());
+  return {model.elements(), model.nodes()};
+}
+
+Model::Model(const Scene& source, BlocksAlone /*scope*/) : scene(source), sizes(mesh_sizes(source)) {
+  build_blocks();
+}
+
+Model::Model(const Scene& source, std::optional<double> corrugation_centre) : Model(source, BlocksAlone()) {
+  tie_blocks();
   const Corrugation shape = corrugation_centre ? corrugate(*corrugation_centre) : Corrugation();
   build_operators();
   restrained = restrained_unknowns(scene, {mesh, index, ties ? &*ties : nullptr});
@@ -48,11 +56,14 @@ Model::Model(const Scene& source, std::optional<double> corrugation_centre)
   if (scene.contact && scene.rail && scene.wheel) build_contact(shape);
 }
 
-void Model::build_bodies() {
+void Model::build_blocks() {
   if (scene.rail) build_rail();
   if (scene.slab_track) build_slab();
   if (scene.wheel) build_wheel();
   if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
+}
+
+void Model::tie_blocks() {
   if (tie_specs.empty()) return;
   for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
   ties.emplace(mesh, tie_specs);

@@ -23,6 +23,16 @@
 
 namespace tread {
 
+/// Size of a mesh.
+struct MeshCount {
+  std::int64_t elements = 0;
+  std::int64_t nodes = 0;
+};
+
+/// Size of a scene's mesh, from its sections and stations alone: the fields of its nodes are not made.
+/// InputError where the scene cannot be meshed.
+MeshCount count_mesh(const Scene& scene);
+
 struct Model {
   /// The smooth rail without `corrugation_centre`; with it the rail as apply_corrugation() leaves it [m].
   /// InputError where the scene cannot be meshed.
@@ -71,8 +81,13 @@ struct Model {
   void apply_corrugation(double centre);
 
  private:
+  friend MeshCount count_mesh(const Scene& scene);
+  struct BlocksAlone {};
+  Model(const Scene& scene, BlocksAlone);
+
   int add(SweptBlock block);
-  void build_bodies();
+  void build_blocks();
+  void tie_blocks();
   void build_operators();
   void build_connectors();
   Corrugation corrugate(double centre);

@@ -9,6 +9,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/markup.hpp"
@@ -158,6 +159,7 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
 
 void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
   use_threads(options.threads);
+  require_memory(resolved.scene);
   const Model model(resolved.scene);
   const std::vector<BlockMeasures> blocks = measure_blocks(model);
   const StepLimit limit = step_limit(model);

@@ -13,10 +13,6 @@ namespace tread {
 
 namespace {
 
-// The static solver beside the displacement, in vector fields: the residual, two of conjugate gradients, one
-// and a half of the preconditioner; aggregates and coarse factor as measured on runs.
-constexpr double kSolverVectors = 4.5 + 2;
-
 /// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
 /// arrays, file and its image.
 std::int64_t frame_memory(const Model& model) {

@@ -8,7 +8,6 @@
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
-#include "drivers/results/resolution.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
 
@@ -163,6 +162,17 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
                           .mean;
 }
 
+/// Change of F_L / F_N along the steady stretch over its mean, and its size that is always accepted.
+constexpr double kSteady = 0.05;
+constexpr double kSmallTraction = 0.005;
+
+/// Mean F_L over mean F_N between two places of the wheel [m]; 0 without load.
+double traction_between(const std::vector<Sample>& samples, double first, double last) {
+  const auto mean = [&](auto value) { return statistics(samples, between(first, last), value).mean; };
+  const double vertical = mean([](const Sample& s) { return s.vertical_force; });
+  return vertical > 0 ? mean([](const Sample& s) { return s.longitudinal_force; }) / vertical : 0.0;
+}
+
 /// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
 /// corrugation.
 void evaluate_steady(const Model& model, double reached, RunResults& r) {
@@ -177,8 +187,10 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
     return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
   };
   r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
-  const double longitudinal = mean([](const Sample& s) { return s.longitudinal_force; });
-  r.traction_coefficient = r.vertical_force_steady > 0 ? longitudinal / r.vertical_force_steady : 0.0;
+  r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
+  const double middle = 0.5 * (r.steady_first + r.steady_last);
+  r.traction_drift = traction_between(r.samples, middle, r.steady_last) -
+                     traction_between(r.samples, r.steady_first, middle);
   r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
   r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last);
   r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
@@ -216,6 +228,10 @@ void evaluate_balance(RunResults& r) {
 }
 
 }  // namespace
+
+bool traction_is_steady(const RunResults& r) {
+  return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
+}
 
 void evaluate(const Model& model, RunResults& r) {
   if (r.samples.empty()) return;
@@ -274,6 +290,8 @@ void add_rolling_contact(const RunResults& r, Json& json) {
   json["steady_x_m"] = {r.steady_first, r.steady_last};
   json["vertical_force_steady_N"] = r.vertical_force_steady;
   json["traction_coefficient"] = r.traction_coefficient;
+  json["traction_drift"] = r.traction_drift;
+  json["traction_steady"] = traction_is_steady(r);
   json["creepage_percent"] = 100 * r.creepage;
   json["creepage_of_frictional_work_percent"] = 100 * r.creepage_of_work;
   json["creepage_max_percent"] = 100 * r.creepage_max;
@@ -289,7 +307,8 @@ void add_rolling_contact(const RunResults& r, Json& json) {
 
 }  // namespace
 
-std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
+std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r,
+                         const std::vector<std::string>& warnings) {
   Json json = {{"title", resolved.scene.title}, {"quality", resolved.scene.quality}};
   for (const auto& [name, value] : root_attributes(resolved.scene))
     std::visit([&](const auto& stated) { json[name] = stated; }, value);
@@ -308,7 +327,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["element_steps_per_s"] =
       r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling : 0.0;
   json["preload_residual"] = r.preload.residual;
-  json["warnings"] = resolution_warnings(model);
+  json["warnings"] = warnings;
   if (model.contact) add_static_contact(model, r, json);
   if (r.samples.empty()) return json_text(json);  // a static scene
   if (model.contact) add_rolling_contact(r, json);

@@ -70,6 +70,7 @@ struct RunResults {
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =
       0;                        ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double traction_drift = 0;    ///< of the means over its second half and its first [-]
   double creepage = 0;          ///< mean of 28 points of the tread there [-]
   double creepage_of_work = 0;  ///< frictional work per way over F_L there [-]
   double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
@@ -91,6 +92,12 @@ void evaluate(const Model& model, RunResults& results);
 /// without F_L or without way. [theory.md, eq. 13a]
 double creepage_of_work(const std::vector<Sample>& samples, double first, double last);
 
-std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
+/// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
+/// 0.005 where the traction is small.
+bool traction_is_steady(const RunResults& results);
+
+/// `warnings`: sentences for the user (run_warnings.hpp).
+std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results,
+                         const std::vector<std::string>& warnings);
 
 }  // namespace tread

@@ -17,9 +17,11 @@
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "drivers/results/run_results.hpp"
+#include "drivers/results/run_warnings.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/rolling.hpp"
@@ -133,7 +135,7 @@ void choose_step(const RunSession& session, const Model& model, RunResults& resu
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
   evaluate(model, results);
   leave_surface(model, results, session.folder.path());
-  const std::string summary = summary_json(model, session.resolved, results);
+  const std::string summary = summary_json(model, session.resolved, results, run_warnings(model, results));
   write_text_file(session.folder / "summary.json", summary);
   write_run_report(session.folder / "report.html", model, session.resolved, results,
                    {session.options.program, session.order.command});
@@ -172,6 +174,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
   const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
+  require_memory(made.scene);
   RunResults results;
   results.origin = session.order.origin;
   if (checkpoint) unpack_results(*checkpoint, results);
@@ -181,7 +184,8 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
   session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
                                     model.mesh.blocks.size(), duration_text(seconds_mesh)));
-  for (const std::string& warning : resolution_warnings(model)) session.progress.say("[warning] " + warning);
+  const std::vector<std::string> of_mesh = resolution_warnings(model);
+  for (const std::string& warning : of_mesh) session.progress.say("[warning] " + warning);
   const Scene& scene = model.scene;
   if (checkpoint) {
     if (const std::string other = other_origin(*checkpoint, model); !other.empty())
@@ -206,6 +210,9 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     throw ResourceError(
         fmt::format("{}; with more room {} leaves the results", error.what(), session.resume_command()));
   }
+  for (const std::string& warning : run_warnings(model, results))
+    if (std::find(of_mesh.begin(), of_mesh.end(), warning) == of_mesh.end())
+      session.progress.say("[warning] " + warning);
   session.checkpoints.clear();
   session.enter("done", fmt::format("{} in {}", session.folder.path().string(),
                                     duration_text(session.progress.seconds())));

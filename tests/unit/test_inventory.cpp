@@ -8,6 +8,7 @@
 
 #include "drivers/engine/simulation.hpp"
 #include "drivers/results/inventory.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "tests/bar_scene.hpp"
 #include "tests/tyre_scene.hpp"
@@ -230,6 +231,22 @@ TEST(Quality, PaperHasThePapersElements) {
   const Model model(scene);
   EXPECT_NEAR(static_cast<double>(model.elements()), 1.46e6, 0.05 * 1.46e6);  // [paper, section 2]
   EXPECT_EQ(model.sizes.contact, 1.1e-3);
+}
+
+TEST(Memory, TheMeshIsCountedWithoutItsFields) {
+  const Scene scene = small_track();
+  const Model model(scene);
+  const MeshCount count = count_mesh(scene);
+  EXPECT_EQ(count.elements, model.elements());
+  EXPECT_EQ(count.nodes, model.nodes());
+}
+
+TEST(Memory, ARunNeedsMoreThanTheLeast) {
+  const Scene scene = small_track();
+  const Model model(scene);
+  const std::int64_t least = least_bytes(count_mesh(scene));
+  EXPECT_LT(least, peak_bytes(model));
+  EXPECT_GT(least, peak_bytes(model) / 4);
 }
 
 }  // namespace

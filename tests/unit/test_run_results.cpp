@@ -33,5 +33,18 @@ TEST(CreepageOfWork, IsZeroWithoutForceOrWay) {
   EXPECT_EQ(creepage_of_work({}, 0.2, 0.8), 0);
 }
 
+TEST(Traction, IsSteadyIfItsHalvesAgree) {
+  RunResults results;
+  results.traction_coefficient = 0.3;
+  results.traction_drift = 0.0149;
+  EXPECT_TRUE(traction_is_steady(results));
+  results.traction_drift = -0.0151;
+  EXPECT_FALSE(traction_is_steady(results));
+  // A wheel that rolls freely has no traction to compare with.
+  results.traction_coefficient = 0.001;
+  results.traction_drift = 0.0049;
+  EXPECT_TRUE(traction_is_steady(results));
+}
+
 }  // namespace
 }  // namespace tread

@@ -13,6 +13,7 @@
 
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/results/memory_need.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
@@ -103,6 +104,8 @@ void for_each_point(StudyPlan& plan, PointProblems& problems, const std::functio
       for (const Problem& problem : error.problems) problems.add(point, problem);
     } catch (const InputError& error) {
       problems.add(point, {plan.study.scene.string(), 0, 0, "", error.what()});
+    } catch (const ResourceError& error) {
+      throw ResourceError(fmt::format("{}: {}", point.name, error.what()));
     }
   }
 }
@@ -209,6 +212,7 @@ void project_cost(StudyPlan& plan, bool retry) {
     const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point});
     Built& built = first->second;
     if (is_new) {
+      require_memory(point.resolved.scene);
       Model model(keeping_scene(plan, point));
       if (model.contact) built.reach = model.contact->reach();
       point.cost = estimate(model);

@@ -1,0 +1,16 @@
+#pragma once
+// Warnings of a finished run: what its mesh does not resolve, and which of its values are not steady.
+
+#include <string>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+#include "drivers/results/run_results.hpp"
+
+namespace tread {
+
+/// The warnings of the mesh, and a sentence for each value of the run that is not steady or not sound, with
+/// the bound, the consequence and the way out. Empty for a sound run.
+std::vector<std::string> run_warnings(const Model& model, const RunResults& results);
+
+}  // namespace tread
