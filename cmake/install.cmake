@@ -14,7 +14,27 @@ target_compile_options(tread_core INTERFACE $<INSTALL_INTERFACE:-Wno-psabi>)
 
 install(TARGETS tread RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 # Data files that the program finds beside itself or, while it is not installed, in the source tree.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tread COMPONENT program)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tread COMPONENT program
+  PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/tread COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program RENAME copyright)
+
+# Man pages and completion, which the program writes itself from its table of commands.
+set(manual_folder ${PROJECT_BINARY_DIR}/manual)
+install(CODE "
+  file(REMOVE_RECURSE \"${manual_folder}\")
+  execute_process(COMMAND \"$<TARGET_FILE:tread>\" manual -o \"${manual_folder}\" COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT program)
+install(DIRECTORY ${manual_folder}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
+install(DIRECTORY ${manual_folder}/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+  COMPONENT program)
+install(DIRECTORY ${manual_folder}/fish/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+  COMPONENT program)
+
+# The reader of results where Debian's python3 looks for modules: in the package alone.
+install(FILES ${PROJECT_SOURCE_DIR}/share/python/tread_results.py DESTINATION lib/python3/dist-packages
+  COMPONENT python EXCLUDE_FROM_ALL)
 # One path to the libraries, built and installed.
 set_target_properties(tread PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH_USE_LINK_PATH ON)
 
