@@ -183,6 +183,18 @@ void write_page(const Outcome& outcome, const std::filesystem::path& directory) 
   write_text_file(directory / (name + ".md"), text);
 }
 
+/// "[verify] 2 of 9 done, 1 failed  carter": cases so far, and the next one.
+std::string progress_line(const std::vector<Outcome>& outcomes, const std::vector<const VerifyCase*>& cases) {
+  std::string line = fmt::format("[verify] {} of {} done", outcomes.size(), cases.size());
+  const auto failed = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) {
+    return std::any_of(outcome.result.findings.begin(), outcome.result.findings.end(),
+                       [](const Finding& finding) { return !finding.pass(); });
+  });
+  if (failed > 0) line += fmt::format(", {} failed", failed);
+  if (outcomes.size() < cases.size()) line += fmt::format("  {}", cases[outcomes.size()]->name);
+  return line;
+}
+
 }  // namespace
 
 bool verify(const VerifyOptions& options) {
@@ -199,6 +211,7 @@ bool verify(const VerifyOptions& options) {
   bool passed = true;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double started = progress.seconds();
+    progress.say(progress_line(outcomes, cases));
     CaseResult result = cases[i]->run(inputs[i], [&](const std::string& text) {
       progress.say(fmt::format("[{}] {}", cases[i]->name, text));
     });
@@ -209,6 +222,7 @@ bool verify(const VerifyOptions& options) {
     fmt::print("{}", json_lines(outcomes.back()));
     std::fflush(stdout);
   }
+  progress.say(progress_line(outcomes, cases));
   if (!options.json) fmt::print("{}", plain_text(table_of(outcomes)));
   return passed;
 }

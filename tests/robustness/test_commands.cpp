@@ -199,6 +199,10 @@ TEST_F(Commands, VerifyTakesInputsAndJudges) {
       call("verify hertz_sphere --quiet --json -t 1 --set \"element_size=3.6 mm\" --set \"load=60 kN\"");
   EXPECT_EQ(coarse.code, 3) << coarse.out;
   EXPECT_TRUE(has(coarse.out, "\"pass\": false")) << coarse.out;
+  const Outcome told =
+      call("verify hertz_sphere contact_filter -t 1 --set \"element_size=3.6 mm\" --set \"load=60 kN\"");
+  EXPECT_TRUE(has(told.errors, "[verify] 0 of 2 done  hertz_sphere\n")) << told.errors;
+  EXPECT_TRUE(has(told.errors, "[verify] 1 of 2 done, 1 failed  contact_filter\n")) << told.errors;
 }
 
 TEST_F(Commands, VerifyRefusesWhatItDoesNotKnow) {

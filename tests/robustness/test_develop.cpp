@@ -28,6 +28,8 @@ class Develop : public ProgramTest {
   static void SetUpTestSuite() {
     make_root();
     ASSERT_EQ(call(develop(root_ / "whole", 2, kCorrugation + kWear)), 0) << errors();
+    for (const char* line : {"[develop] 0 of 3 done", "[develop] 2 of 3 done", "[develop] 3 of 3 done"})
+      EXPECT_TRUE(has(errors(), line)) << line << errors();
   }
   void TearDown() override { fs::remove_all(folder_); }
 

@@ -165,6 +165,7 @@ TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
 
   ASSERT_EQ(program_.call(fmt::format("paper --fig 15 --fig 18 -o {} {}", runs_.string(), coarse)), 0)
       << errors();
+  EXPECT_TRUE(has(errors(), "[paper] 0 of ")) << errors();
   for (const char* name : {"fig15.csv", "fig15.svg", "fig18.csv", "fig18.svg", "report.html"})
     EXPECT_TRUE(fs::exists(runs_ / name)) << name;
   EXPECT_TRUE(has(program_.out(), "not run: corrugation D")) << program_.out();

@@ -42,7 +42,7 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
-  const DevelopmentFolder folder(options.output, resolved, {options.from, options.threads});
+  const DevelopmentFolder folder(options.output, resolved, {options.from, options.threads, options.passages});
   interruption.defer();
   development.smooth = folder.pass(0, nullptr, progress);
   for (int number = 1; number <= options.passages; ++number) {

@@ -170,7 +170,8 @@ void DevelopmentFolder::roll(int number, Progress& progress) const {
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign) throw failure(point.folder, point.status);
   plan.points.push_back(std::move(point));
-  const std::string stopped_by = StudyRunner(plan, folder_, progress).run(true);
+  const StudyLabel label{"develop", number, options_.passages - number};
+  const std::string stopped_by = StudyRunner(plan, folder_, progress, label).run(true);
   if (!stopped_by.empty())
     throw Interrupted(fmt::format("stopped by {} in passage {}; nothing is lost: the same command goes on",
                                   stopped_by, number));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -123,6 +124,13 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
   return std::nullopt;
 }
 
+/// The command of a command line: "paper" of "tread paper -o out".
+std::string command_word(const std::string& line) {
+  std::istringstream words(line);
+  std::string word;
+  return words >> word >> word ? word : "sweep";
+}
+
 }  // namespace
 
 void add_overrides(Study& study, const StudyOptions& options) {
@@ -155,6 +163,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   if (options.output.empty() && !options.list)
     throw InputError("-o is missing: the folder for the runs; --list shows them without it");
   const std::string resume_command = fmt::format("`{}`", options.command);
+  const std::string command = command_word(options.command);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first run", fmt::format("tread: stopped at once; the "
                                                                                "runs go on from their last "
@@ -177,9 +186,9 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   }
   require_disk(plan, cost);
   leave_scene(study);
-  progress.say(plain_text(plan_table(plan)) + "\n[sweep] " + cost_text(plan, cost));
+  progress.say(plain_text(plan_table(plan)) + fmt::format("\n[{}] {}", command, cost_text(plan, cost)));
   interruption.defer();
-  const std::string stopped_by = StudyRunner(plan, *folder, progress).run(options.retry);
+  const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
   leave(plan);
   return shortfall(plan, stopped_by, resume_command);
 }

@@ -56,8 +56,8 @@ std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoi
   return arguments;
 }
 
-StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress)
-    : plan_(&plan), folder_(&folder), progress_(&progress) {}
+StudyRunner::StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress, StudyLabel label)
+    : plan_(&plan), folder_(&folder), progress_(&progress), label_(std::move(label)) {}
 
 std::string StudyRunner::run(bool retry) {
   for (PlannedPoint& point : plan_->points)
@@ -167,8 +167,8 @@ void StudyRunner::obey() {
 
 void StudyRunner::stop(const std::string& why) {
   stopped_by_ = why;
-  progress_->say(
-      fmt::format("[sweep] {}: waiting until {} runs have left a checkpoint", why, running_.size()));
+  progress_->say(fmt::format("[{}] {}: waiting until {} runs have left a checkpoint", label_.command, why,
+                             running_.size()));
   for (const Running& running : running_) running.process.send(SIGTERM);
 }
 
@@ -198,7 +198,9 @@ double StudyRunner::seconds_left() const {
 void StudyRunner::show() {
   const StudyPlan& plan = *plan_;
   const double left = seconds_left();
-  std::string line = fmt::format("[sweep] {} of {} done", count(plan, PointState::done), plan.points.size());
+  std::string line =
+      fmt::format("[{}] {} of {} done", label_.command, label_.before + count(plan, PointState::done),
+                  label_.before + static_cast<int>(plan.points.size()) + label_.after);
   if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
   Json json = {{"stage", running_.empty() ? "ended" : "sweep"}, {"process", ::getpid()}};
   for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,

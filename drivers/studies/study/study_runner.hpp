@@ -11,12 +11,19 @@
 
 namespace tread {
 
+/// Name and count in progress lines, "[develop] 3 of 10 done".
+struct StudyLabel {
+  std::string command = "sweep";
+  int before = 0;  ///< runs that were done before those of the plan
+  int after = 0;   ///< runs that follow those of the plan
+};
+
 /// Runs the points: a point begins with `tread run`, with another one's state if rolling is shared, and goes
 /// on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys `tread
 /// ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
 class StudyRunner {
  public:
-  StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress);
+  StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress, StudyLabel label);
 
   /// Runs until every point has ended or the study is stopped; fills the points' status. Returns the reason
   /// of a stop, empty without one. `retry`: failed points run, too.
@@ -43,6 +50,7 @@ class StudyRunner {
   StudyPlan* plan_;
   const RunFolder* folder_;
   Progress* progress_;
+  StudyLabel label_;
   std::vector<PlannedPoint*> queue_;  ///< waiting points, the next one first
   std::vector<Running> running_;
   std::string stopped_by_;
