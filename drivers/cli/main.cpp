@@ -59,8 +59,10 @@ void say_origin() {
              tread::processor_name(), tread::machine_cores());
 }
 
-/// Gives `--quiet` and `--verbose` to every command that acts. Commands without progress are quiet anyway.
+/// Gives `--version` to every command, and `--quiet` and `--verbose` to those that act. Commands without
+/// progress are quiet anyway.
 void add_common_flags(CLI::App& command, bool& verbose) {
+  command.set_version_flag("--version", version_line, "print the version and exit");
   for (CLI::App* part : command.get_subcommands({})) add_common_flags(*part, verbose);
   if (!command.get_subcommands({}).empty()) return;
   if (!command.get_option_no_throw("--quiet"))
@@ -78,7 +80,6 @@ int run(int argc, char** argv) {
   app.set_help_flag("-h,--help", "print this help and exit");
   app.require_subcommand(1);
   app.footer(kExitCodes);
-  app.set_version_flag("--version", version_line, "print the version and exit");
   std::string command_line = "tread";
   for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);

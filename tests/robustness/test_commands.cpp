@@ -321,6 +321,7 @@ TEST_F(Commands, WrongWordsAreNamed) {
          "tread develop: there is no option --frm; did you mean --from? `tread develop --help`"},
         {"run x.toml --gpu", "tread run: there is no option --gpu: there is no GPU; -t states the threads"},
         {"run x.toml --mass-scaling=2", "masses are not scaled"},
+        {"resume x --restart 3", "`tread resume DIR` goes on with a run"},
         {"bench kernels --kernels x",
          "tread bench kernels: there is no option --kernels; did you mean --kernel?"},
         {"run x.toml y.toml", "tread run: 'y.toml' was not expected here; `tread run --help` shows how"},
@@ -336,7 +337,11 @@ TEST_F(Commands, WrongWordsAreNamed) {
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
   EXPECT_TRUE(has(call("version --json").out, "\"compiler\": "));
-  EXPECT_EQ(call("--version").out.rfind("tread ", 0), 0U);
+  for (const char* command : {"--version", "run --version", "bench --version", "bench kernels --version"}) {
+    const Outcome outcome = call(command);
+    EXPECT_EQ(outcome.code, 0) << command;
+    EXPECT_EQ(outcome.out, fmt::format("tread {}\n", program_version())) << command;
+  }
   EXPECT_TRUE(has(call("--help").out, "Exit codes: 0 done"));
   EXPECT_TRUE(has(call("scene-reference").out, "# Scene reference"));
   EXPECT_TRUE(has(samples::content_of(fs::path(TREAD_SOURCE_DIR) / "CITATION.cff"),
