@@ -1,16 +1,13 @@
 #include "drivers/report/run_report.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/hammer_figures.hpp"
@@ -333,17 +330,6 @@ Chapter scene_chapter(const Run& run) {
   return {"Scene", {table}};
 }
 
-/// Program, command, date and machine.
-Chapter provenance_chapter(const Run& run, const Provenance& provenance) {
-  Quantities q("");
-  q.add_text("Program", provenance.program);
-  q.add_text("Command", provenance.command);
-  q.add_text("Scene", run.resolved.name);
-  q.add_text("Finished", fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr))));
-  q.add_text("Machine", fmt::format("{}, {}, {} cores", host_name(), processor_name(), machine_cores()));
-  return {"Provenance", {q.take()}};
-}
-
 /// A file of references that does not read must not cost a finished run its report.
 void find_references(Run& run) {
   try {
@@ -381,10 +367,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
                       const RunResults& results, const Provenance& provenance) {
   Run run{model, resolved, results};
   find_references(run);
-  Report report;
-  report.title = resolved.scene.title;
-  report.subtitle = subtitle(run);
-  report.footer = provenance.command;
+  Report report{resolved.scene.title, subtitle(run), {}, provenance.command};
   if (const std::vector<std::string> warnings = run_warnings(model, results); !warnings.empty()) {
     report.chapters.push_back({"Warnings", {}});
     for (const std::string& warning : warnings) report.chapters.back().blocks.emplace_back(Text{warning});
@@ -407,7 +390,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   report.chapters.push_back(model_chapter(run));
   report.chapters.push_back(cost_chapter(run));
   report.chapters.push_back(scene_chapter(run));
-  report.chapters.push_back(provenance_chapter(run, provenance));
+  report.chapters.push_back(provenance_chapter(resolved, provenance));
   write_report(path, report);
 }
 

@@ -4,44 +4,19 @@
 #include <fmt/ranges.h>
 #include <hdf5.h>
 
-#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/files/hdf5_handles.hpp"
 
 namespace tread {
 
-static_assert(std::is_same_v<hid_t, std::int64_t>);
+using namespace hdf5;
 
-namespace {
-
-using Shape = std::vector<std::uint64_t>;
-
-/// An HDF5 identifier that closes itself.
-class Id {
- public:
-  Id(hid_t id, herr_t (*closer)(hid_t)) : id_(id), close_(closer) {}
-  ~Id() {
-    if (id_ >= 0) close_(id_);
-  }
-  Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Id& operator=(Id&& other) = delete;
-  operator hid_t() const { return id_; }
-
-  /// Closes the object. The library holds small data back until then, so a full disk may show here.
-  herr_t close() { return close_(std::exchange(id_, -1)); }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// Innermost entry of the library's error stack, or the operating system's words if it holds any.
-std::string reason() {
+std::string hdf5::reason() {
   std::string text;
   H5Ewalk2(
       H5E_DEFAULT, H5E_WALK_UPWARD,
@@ -57,46 +32,17 @@ std::string reason() {
   return text.substr(first, text.find('\'', first) - first);
 }
 
-template <class E>
-[[noreturn]] void fail(const char* verb, const std::filesystem::path& file, const std::string& object) {
-  const std::string place =
-      object.empty() ? "" : fmt::format(" '{}' {}", object, verb[0] == 'r' ? "from" : "to");
-  throw E(fmt::format("cannot {}{} {}: {}", verb, place, file.string(), reason()));
-}
-
-/// Checks the library's return values of writing and reading.
-struct Check {
-  const std::filesystem::path& file;
-  const std::string& object;
-
-  void written(herr_t status) const {
-    if (status < 0) fail<ResourceError>("write", file, object);
-  }
-  void read(herr_t status) const {
-    if (status < 0) fail<InputError>("read", file, object);
-  }
-  Id written(hid_t id, herr_t (*close)(hid_t)) const {
-    if (id < 0) fail<ResourceError>("write", file, object);
-    return {id, close};
-  }
-  Id read(hid_t id, herr_t (*close)(hid_t)) const {
-    if (id < 0) fail<InputError>("read", file, object);
-    return {id, close};
-  }
-};
-
-template <class T>
-hid_t type_of() {
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
-  if constexpr (std::is_same_v<T, std::int64_t>) return H5T_NATIVE_INT64;
-  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
-  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
-}
-
-std::uint64_t count(const Shape& shape) {
+std::uint64_t hdf5::count(const Shape& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
 }
+
+hdf5::Shape hdf5::extent(hid_t space) {
+  std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, size.data(), nullptr);
+  return {size.begin(), size.end()};
+}
+
+namespace {
 
 std::vector<hsize_t> sizes(const Shape& shape) {
   return {shape.begin(), shape.end()};
@@ -119,12 +65,6 @@ Id access() {
   Id list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(list, 0, 1);
   return list;
-}
-
-Shape extent(hid_t space) {
-  std::vector<hsize_t> size(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-  H5Sget_simple_extent_dims(space, size.data(), nullptr);
-  return {size.begin(), size.end()};
 }
 
 }  // namespace
@@ -243,46 +183,6 @@ void Hdf5File::append(const std::string& name, std::span<const T> rows) {
   check.written(data.close());
 }
 
-template <class T>
-void Hdf5File::write_attribute(const std::string& object, const std::string& name,
-                               std::span<const T> values) {
-  const Check check{path_, object};
-  const hsize_t size = values.size();
-  const Id owner = check.written(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  const Id space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Id attribute =
-      check.written(H5Acreate2(owner, name.c_str(), type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  check.written(H5Awrite(attribute, type_of<T>(), values.data()));
-}
-
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, const std::string& text) {
-  const Check check{path_, object};
-  const Id owner = check.written(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  const Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Id type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type, std::max<std::size_t>(text.size(), 1));
-  H5Tset_strpad(type, H5T_STR_NULLPAD);
-  const Id attribute =
-      check.written(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  check.written(H5Awrite(attribute, type, text.c_str()));
-}
-
-void Hdf5File::set_attributes(const std::string& object, const Hdf5Attributes& attributes) {
-  const Check check{path_, object};
-  const Id owner = check.written(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  for (const auto& [name, value] : attributes) {
-    if (H5Aexists(owner, name.c_str()) > 0) check.written(H5Adelete(owner, name.c_str()));
-    if (const std::string* text = std::get_if<std::string>(&value)) {
-      write_attribute(object, name, *text);
-      continue;
-    }
-    const Id space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Id attribute = check.written(
-        H5Acreate2(owner, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    check.written(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &std::get<double>(value)));
-  }
-}
-
 void Hdf5File::link_external(const std::string& name, const std::filesystem::path& file,
                              const std::string& object) {
   const Check check{path_, name};
@@ -380,56 +280,6 @@ std::vector<T> Hdf5File::read_row(const std::string& name, std::uint64_t row) co
   return values;
 }
 
-template <class T>
-std::vector<T> Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
-  const Check check{path_, object};
-  const Id attribute =
-      check.read(H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  std::vector<T> values(count(extent(Id(H5Aget_space(attribute), H5Sclose))));
-  check.read(H5Aread(attribute, type_of<T>(), values.data()));
-  return values;
-}
-
-std::string Hdf5File::read_text_attribute(const std::string& object, const std::string& name) const {
-  const Check check{path_, object};
-  const Id attribute =
-      check.read(H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  const Id type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
-    throw InputError(fmt::format("cannot read '{}' from {}: attribute '{}' is not a string of fixed length",
-                                 object, path_.string(), name));
-  std::string text(H5Tget_size(type), '\0');
-  check.read(H5Aread(attribute, type, text.data()));
-  return text.substr(0, text.find('\0'));
-}
-
-Hdf5Attributes Hdf5File::attributes(const std::string& object) const {
-  const Check check{path_, object};
-  const Id owner = check.read(H5Oopen(id_, object.c_str(), H5P_DEFAULT), H5Oclose);
-  std::vector<std::string> names;
-  check.read(H5Aiterate2(
-      owner, H5_INDEX_NAME, H5_ITER_INC, nullptr,
-      [](hid_t /*owner*/, const char* name, const H5A_info_t* /*info*/, void* out) -> herr_t {
-        static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-        return 0;
-      },
-      &names));
-  Hdf5Attributes found;
-  for (const std::string& name : names) {
-    const Id attribute = check.read(H5Aopen(owner, name.c_str(), H5P_DEFAULT), H5Aclose);
-    const Id type(H5Aget_type(attribute), H5Tclose);
-    const Id space(H5Aget_space(attribute), H5Sclose);
-    if (H5Sget_simple_extent_npoints(space) != 1 || H5Tis_variable_str(type) > 0) continue;
-    const H5T_class_t kind = H5Tget_class(type);
-    if (kind == H5T_STRING) found[name] = read_text_attribute(object, name);
-    if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;
-    double value = 0;
-    check.read(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value));
-    found[name] = value;
-  }
-  return found;
-}
-
 void Hdf5File::flush() {
   if (H5Fflush(id_, H5F_SCOPE_LOCAL) < 0) fail<ResourceError>("write", path_, "");
 }
@@ -442,10 +292,8 @@ void Hdf5File::close() {
   template void Hdf5File::write(const std::string&, std::span<const T>, Shape);                         \
   template void Hdf5File::make_extendible<T>(const std::string&, std::uint64_t, const Shape&, Storage); \
   template void Hdf5File::append(const std::string&, std::span<const T>);                               \
-  template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>);  \
   template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
-  template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;               \
-  template std::vector<T> Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;
+  template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;
 TREAD_HDF5_TYPE(double)
 TREAD_HDF5_TYPE(float)
 TREAD_HDF5_TYPE(std::int64_t)
