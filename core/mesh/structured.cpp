@@ -168,12 +168,26 @@ Patch fill_layered(const PatchSides& s, std::span<const double> layers, std::spa
   return patch;
 }
 
+SectionBuilder::Cell SectionBuilder::cell_of(Point2 point) {
+  constexpr double kWidth = 16 * kMerge;
+  return {static_cast<std::int64_t>(std::floor(point.x / kWidth)),
+          static_cast<std::int64_t>(std::floor(point.y / kWidth))};
+}
+
 int SectionBuilder::find(Point2 point) const {
-  for (int n = 0; n < section_.nodes(); ++n)
-    if (std::abs(section_.p[index(n)] - point.x) < kMerge &&
-        std::abs(section_.q[index(n)] - point.y) < kMerge)
-      return n;
-  return -1;
+  int first = -1;
+  const Cell low = cell_of({point.x - kMerge, point.y - kMerge});
+  const Cell high = cell_of({point.x + kMerge, point.y + kMerge});
+  for (std::int64_t x = low.x; x <= high.x; ++x)
+    for (std::int64_t y = low.y; y <= high.y; ++y) {
+      const auto cell = nodes_in_.find({x, y});
+      if (cell == nodes_in_.end()) continue;
+      for (const int n : cell->second)
+        if (std::abs(section_.p[index(n)] - point.x) < kMerge &&
+            std::abs(section_.q[index(n)] - point.y) < kMerge && (first < 0 || n < first))
+          first = n;
+    }
+  return first;
 }
 
 void SectionBuilder::add(const Patch& patch) {
@@ -184,6 +198,7 @@ void SectionBuilder::add(const Patch& patch) {
       n = section_.nodes();
       section_.p.push_back(point.x);
       section_.q.push_back(point.y);
+      nodes_in_[cell_of(point)].push_back(n);
     }
     node.push_back(n);
   }

@@ -1,6 +1,9 @@
 #pragma once
 // Structured patches of quads and the sections of rail and wheel that they make up.
 
+#include <compare>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,8 +66,17 @@ class SectionBuilder {
   Section take() { return std::move(section_); }
 
  private:
+  /// A square of the plane, some times as wide as the distance at which nodes merge.
+  struct Cell {
+    std::int64_t x, y;
+    auto operator<=>(const Cell&) const = default;
+  };
+  static Cell cell_of(Point2 point);
+  /// The first node at the point, or -1.
   int find(Point2 point) const;
+
   Section section_;
+  std::map<Cell, std::vector<int>> nodes_in_;  ///< by cell, so that a point is compared with few nodes
 };
 
 /// Rotates the section and its tangents about the origin by `angle` [rad], counter-clockwise.

@@ -313,7 +313,8 @@ Chapter cost_chapter(const Run& run) {
   q.add_text("Threads", std::to_string(threads()), "",
              fmt::format("instruction set {}", run.model.internal->instruction_set()));
   q.add_text("Peak memory", bytes_text(peak_memory()), "",
-             fmt::format("estimate: {}", bytes_text(peak_bytes(run.model))));
+             fmt::format("estimate: {}", bytes_text(peak_bytes(run.model, run.results.seconds_preload +
+                                                                              run.results.seconds_rolling))));
   chapter.blocks.emplace_back(q.take());
   chapter.blocks.emplace_back(phase_table(run.model));
   chapter.blocks.emplace_back(field_table(run.model));

@@ -56,8 +56,8 @@ Estimate estimate(Model& model) {
   if (model.scene.corrugation) model.apply_corrugation(model.scene.corrugation->centre.value_or(0));
   Estimate e;
   e.elements = model.elements();
-  e.memory = peak_bytes(model);
   e.preload_seconds = seconds_of_preload(model);
+  e.memory = peak_bytes(model, e.seconds());
   e.disk = disk_use(model, 0);
   if (!model.scene.motion) return e;
   e.limit = step_limit(model);
@@ -67,6 +67,7 @@ Estimate estimate(Model& model) {
   const auto fields = make_node_fields(model);
   e.rolling_seconds =
       kStepOverhead * seconds_of([&] { fields->internal_force_and_move({}); }) * static_cast<double>(e.steps);
+  e.memory = peak_bytes(model, e.seconds());
   return e;
 }
 

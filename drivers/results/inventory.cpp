@@ -13,6 +13,9 @@ namespace tread {
 
 namespace {
 
+/// Program, libraries, histories and report, as measured on scenes whose fields are small.
+constexpr std::int64_t kProgramBytes = 25'000'000;
+
 /// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
 /// arrays, file and its image.
 std::int64_t frame_memory(const Model& model) {
@@ -119,11 +122,13 @@ std::int64_t checkpoint_bytes(const Model& model) {
   return saved_bytes(StepFeatures(model, 0));
 }
 
-std::int64_t peak_bytes(const Model& model) {
-  std::int64_t always = 0;
+std::int64_t peak_bytes(const Model& model, double seconds) {
+  const bool checkpoints = seconds >= model.scene.output.checkpoint_interval;
+  std::int64_t always = kProgramBytes;
   std::int64_t preload = 0;
   std::int64_t rolling = 0;
   for (const FieldBytes& field : all_fields(model)) {
+    if (field.field == RunField::checkpoint && !checkpoints) continue;
     const FieldLife life = info_of(field.field).life;
     (life == FieldLife::always ? always : life == FieldLife::preload ? preload : rolling) += field.bytes;
   }

@@ -46,7 +46,9 @@ Table field_table(const Model& model);
 /// Bytes of the fields in a checkpoint, without samples and patch.h5 [B].
 std::int64_t checkpoint_bytes(const Model& model);
 
-/// Largest sum of fields that are alive at one time, solver and model included: an estimate. [B]
-std::int64_t peak_bytes(const Model& model);
+/// Largest sum of fields that are alive at one time, with the solver, the program and its libraries: an
+/// estimate of a run that takes `seconds` of the clock, and so keeps checkpoints or ends before the first.
+/// [B]
+std::int64_t peak_bytes(const Model& model, double seconds);
 
 }  // namespace tread

@@ -112,8 +112,10 @@ void add_rail(Keys& keys) {
       "rail.head_material", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::head_material),
       "Material of the finely divided head, for example one that yields; empty: that of the rail. "
       "A box has no head"));
-  keys.push_back(or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
-                                {"CN60", "box"}, "Cross-section; also a file of two columns (y, z)")));
+  keys.push_back(
+      or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile), {"CN60", "box"},
+                     "Cross-section; also a file of two columns (y, z), which replaces the "
+                     "surface of the head: the section below stays that of CN60")));
   keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
                         {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio));
   keys.push_back(quantity("rail.length", {Effect::mesh}, at(&Scene::rail, &RailSpec::length), kLength, "m",

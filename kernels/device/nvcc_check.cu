@@ -4,6 +4,7 @@
 
 #include "kernels/contact/friction/coulomb.hpp"
 #include "kernels/contact/friction/falling.hpp"
+#include "kernels/contact/friction/point_response.hpp"
 #include "kernels/contact/friction/table.hpp"
 #include "kernels/element/element_body.hpp"
 #include "kernels/element/law_body.hpp"
@@ -102,6 +103,14 @@ __global__ void frictions(Law law, ElasticStick stick, const Sliding* sliding, c
   const double friction = law.advance(state[i], sliding[i]);
   traction[i] = stick.advance(traction[i], slip, friction * pressure[i], 0).traction;
 }
+
+/// Responses of contact points to the velocities of an iteration.
+__global__ void responses(PointSprings springs, double dt, const PointStep<double>* step,
+                          const PointVelocity<double>* velocity, PointTraction<double>* traction) {
+  const int i = thread_index();
+  traction[i] = respond(step[i], springs, dt, velocity[i], traction[i]);
+}
+
 /// Instantiates the kernels of all laws.
 template <class Real, template <class> class... Law>
 int law_kernels(LawList<Law...> /*laws*/) {

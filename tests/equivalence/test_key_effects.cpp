@@ -197,7 +197,7 @@ std::uint64_t cost_bits(const Model& model, double dt) {
   constexpr double kSteps = 1000;
   Hash hash;
   hash.add(static_cast<std::uint64_t>(model.elements()));
-  hash.add(static_cast<std::uint64_t>(peak_bytes(model)));
+  hash.add(static_cast<std::uint64_t>(peak_bytes(model, 0)));
   hash.add(dt);
   hash.add(model.contact ? model.contact->reach() : 0.0);
   const DiskUse disk = disk_use(model, model.scene.motion->duration / kSteps);

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
@@ -88,6 +90,18 @@ TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
   EXPECT_FALSE(has(coarse, "corrugation.depth")) << coarse;
   EXPECT_TRUE(has(warnings(" --set \"corrugation.depth=8 mm\""), "look at the units of corrugation.depth"));
   EXPECT_TRUE(has(call("check --json -t 1 " + scene("smooth.toml")).out, "\"warnings\": []"));
+}
+
+TEST_F(Commands, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
+  constexpr std::int64_t kNeeded = 300'000'000'000;  // [B]
+  if (machine_memory() > kNeeded) GTEST_SKIP() << "this machine could hold the mesh";
+  for (const char* command : {"check ", "mesh "}) {
+    const Outcome outcome =
+        call(command + scene("sphere-on-block.toml") + " --set 'scene.element_size=0.05 mm'");
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_TRUE(has(outcome.errors, "elements, which need at least 305")) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "raise scene.element_size")) << outcome.errors;
+  }
 }
 
 TEST_F(Commands, ShippedScenesHaveNamesInEveryFolder) {
