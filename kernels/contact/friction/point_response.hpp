@@ -1,5 +1,5 @@
 #pragma once
-// Traction of a point of the patch under the motion of a step. [theory.md, Contact, eqs. 9b and 10]
+// Traction of a point of the patch under the motion of a step. [theory.md, eqs. 9b and 10]
 
 #include "core/inline.hpp"
 #include "kernels/contact/friction/elastic_stick.hpp"
