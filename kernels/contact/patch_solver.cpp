@@ -16,6 +16,9 @@ constexpr int kMaxIterations = 300;
 constexpr double kTolerance = 3e-7;  ///< last change of a traction / largest pressure
 /// Growth of a traction's change from which on the compliances are taken as too small.
 constexpr double kDivergence = 100;
+/// Change of a closing speed in a step that no contact reaches: that of a pressure that jumps by 0.2 GPa
+/// [m/s].
+constexpr double kSpare = 5;
 /// Points from which on threads share the work: below, waiting for one another takes longer.
 constexpr std::size_t kWorthSharing = 2048;
 static_assert(kLinkedNodes == 2 * kSupport);
@@ -41,6 +44,27 @@ Vec3 vector(const PatchVector& v) {
 
 Traction slip_of(const ContactPoint& point, const Vec3& velocity) {
   return {dot(velocity, point.along), dot(velocity, point.across)};
+}
+
+/// Velocity of the wheel against the rail at a point without contact. [m/s]
+Vec3 free_velocity(const ContactPoint& point, const BodyFrame& wheel, const NodeMotion& motion) {
+  Vec3 free =
+      wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin);
+  for (std::size_t k = 0; k < kSupport; ++k) {
+    free += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
+                                              motion.velocity.at(point.wheel_slot[k]));
+    free -= point.rail_weight[k] * motion.velocity.at(point.rail_slot[k]);
+  }
+  return free;
+}
+
+/// Removes points that were apart and stay so unless they close by more than kSpare faster than in the step
+/// before. The search may find more or fewer of them, which the bits do not show.
+void remove_open(std::vector<ContactPoint>& points, double dt) {
+  std::erase_if(points, [&](const ContactPoint& point) {
+    const double closing = dot(point.velocity_before, point.normal) + kSpare;
+    return point.pressure_before <= 0 && point.gap >= 0.5 * dt * closing;
+  });
 }
 
 }  // namespace
@@ -76,23 +100,17 @@ void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame&
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& point = points[i];
-    Vec3 free =
-        wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin);
-    const auto tie = [&](std::size_t k, double weight, const Node& node, const Vec3& velocity) {
+    const auto tie = [&](std::size_t k, double weight, const Node& node) {
       const int n = number(node);
       node_[i * kLinkedNodes + k] = n;
       node_weight_[i * kLinkedNodes + k] = weight * nodes_[static_cast<std::size_t>(n)].mobility;
-      free += weight * velocity;
     };
     for (std::size_t k = 0; k < kSupport; ++k) {
-      const double c = point.wheel_cosine[k / 4];
-      const double s = point.wheel_sine[k / 4];
-      tie(k, point.wheel_weight[k], {point.wheel_slot[k], true, c, s, 0},
-          globalise(c, s, motion.velocity.at(point.wheel_slot[k])));
-      tie(kSupport + k, -point.rail_weight[k], {point.rail_slot[k], false, 1, 0, 0},
-          motion.velocity.at(point.rail_slot[k]));
+      tie(k, point.wheel_weight[k],
+          {point.wheel_slot[k], true, point.wheel_cosine[k / 4], point.wheel_sine[k / 4], 0});
+      tie(kSupport + k, -point.rail_weight[k], {point.rail_slot[k], false, 1, 0, 0});
     }
-    free_[i] = padded(free);
+    free_[i] = padded(free_velocity(point, wheel, motion));
   }
   impulse_.resize(points.size());
   change_.resize(nodes_.size());
@@ -268,6 +286,7 @@ void PatchSolver::set_speeds(std::vector<ContactPoint>& points) const {
 
 void PatchSolver::solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
                         const BodyFrame& wheel, const NodeMotion& motion, double dt) {
+  remove_open(points, dt);
   link(points, wheel, motion);
   fill_tiles(points, dt);
   std::visit([&](auto& of) { advance(points, of, dt); }, friction);

@@ -34,7 +34,7 @@ class PatchSolver {
 
   /// Sets pressure, shear, closing and slip speed of the points for a step of length dt [s] from their gap,
   /// motion and tractions before it, and adds the impulses to the motion. Moves the states of the friction
-  /// law on; a point that carries no pressure forgets its state.
+  /// law on; a point without pressure forgets its state. Removes points that were apart and stay so.
   void solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
              const BodyFrame& wheel, const NodeMotion& motion, double dt);
 
