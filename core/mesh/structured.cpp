@@ -178,9 +178,9 @@ int SectionBuilder::find(Point2 point) const {
   int first = -1;
   const Cell low = cell_of({point.x - kMerge, point.y - kMerge});
   const Cell high = cell_of({point.x + kMerge, point.y + kMerge});
-  for (std::int64_t x = low.x; x <= high.x; ++x)
-    for (std::int64_t y = low.y; y <= high.y; ++y) {
-      const auto cell = nodes_in_.find({x, y});
+  for (std::int64_t x = low[0]; x <= high[0]; ++x)
+    for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+      const auto cell = nodes_in_.find(Cell{x, y});
       if (cell == nodes_in_.end()) continue;
       for (const int n : cell->second)
         if (std::abs(section_.p[index(n)] - point.x) < kMerge &&

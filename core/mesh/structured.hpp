@@ -1,7 +1,7 @@
 #pragma once
 // Structured patches of quads and the sections of rail and wheel that they make up.
 
-#include <compare>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -66,11 +66,8 @@ class SectionBuilder {
   Section take() { return std::move(section_); }
 
  private:
-  /// A square of the plane, some times as wide as the distance at which nodes merge.
-  struct Cell {
-    std::int64_t x, y;
-    auto operator<=>(const Cell&) const = default;
-  };
+  /// Numbers along x and y of a square of the plane, some times as wide as the distance at which nodes merge.
+  using Cell = std::array<std::int64_t, 2>;
   static Cell cell_of(Point2 point);
   /// The first node at the point, or -1.
   int find(Point2 point) const;

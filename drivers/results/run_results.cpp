@@ -310,8 +310,8 @@ void add_rolling_contact(const RunResults& r, Json& json) {
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r,
                          const std::vector<std::string>& warnings) {
   Json json = {{"title", resolved.scene.title}, {"quality", resolved.scene.quality}};
-  for (const auto& [name, value] : root_attributes(resolved.scene))
-    std::visit([&](const auto& stated) { json[name] = stated; }, value);
+  for (const auto& attribute : root_attributes(resolved.scene))
+    std::visit([&](const auto& stated) { json[attribute.first] = stated; }, attribute.second);
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
   json["steps"] = r.steps;
