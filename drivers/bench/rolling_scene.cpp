@@ -13,8 +13,7 @@ namespace tread {
 RollingScene::RollingScene(const Scene& scene, const Progress& progress) {
   if (!scene.motion)
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
-  require_memory(scene);
-  model_ = std::make_unique<Model>(scene);
+  model_ = std::make_unique<Model>(scene, std::nullopt, require_memory);
   preload_ = solve_preload(*model_, steady_motion(*model_),
                            [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); });
   if (scene.corrugation)

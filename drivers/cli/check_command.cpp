@@ -26,9 +26,8 @@ struct CheckOptions {
 
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
-  require_memory(resolved.scene);
   const std::optional<Advice> advice = advise(resolved, options.advice);
-  Model model(resolved.scene);
+  Model model(resolved.scene, {}, require_memory);
   const Estimate cost = estimate(model);
   if (options.json) {
     Json json = check_json(model, cost);

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "drivers/cli/command_table.hpp"
 #include "drivers/cli/commands.hpp"
+#include "drivers/cli/exit_codes.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/cli/wrong_word.hpp"
 #include "drivers/process/host.hpp"
@@ -22,9 +23,14 @@
 
 namespace {
 
-constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 2 wrong input; 3 numerical stop or failed bound; 4 missing resource; "
-    "75 stopped, `tread resume` continues.";
+/// "Exit codes: 0 done; 2 wrong input; ...".
+std::string exit_codes() {
+  std::string text = "Exit codes:";
+  const char* between = " ";
+  for (const auto& [code, meaning] : tread::kExitCodes)
+    text += fmt::format("{}{} {}", std::exchange(between, "; "), static_cast<int>(code), meaning);
+  return text + ".";
+}
 
 std::string version_line() {
   return std::string("tread ") + tread::program_version();
@@ -79,7 +85,7 @@ int run(int argc, char** argv) {
   CLI::App app{"transient wheel-rail rolling contact"};
   app.set_help_flag("-h,--help", "print this help and exit");
   app.require_subcommand(1);
-  app.footer(kExitCodes);
+  app.footer(exit_codes());
   std::string command_line = "tread";
   for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);

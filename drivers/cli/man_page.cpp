@@ -7,18 +7,12 @@
 #include <cctype>
 #include <utility>
 
+#include "drivers/cli/exit_codes.hpp"
 #include "drivers/process/version.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr std::array<std::pair<int, const char*>, 5> kExitCodes = {
-    {{0, "The work is done."},
-     {2, "The input is wrong: scene, options or files."},
-     {3, "A numerical stop, or a bound of `verify` or `bench compare` that fails."},
-     {4, "The machine refuses a resource: memory, disk, a file."},
-     {75, "The run was stopped; `tread resume` goes on."}}};
 
 constexpr std::array<std::pair<const char*, const char*>, 5> kEnvironment = {
     {{"TREAD_BACKEND", "Library that runs the threads, tbb or openmp; --backend overrides it."},
@@ -90,7 +84,8 @@ std::string arguments(const CommandEntry& command) {
 /// Exit codes, and the environment on the page of the program.
 std::string exit_and_environment(bool of_program) {
   std::string text = ".SH EXIT STATUS\n";
-  for (const auto& [code, meaning] : kExitCodes) text += fmt::format(".TP\n.B {}\n{}\n", code, roff(meaning));
+  for (const auto& [code, meaning] : kExitCodes)
+    text += fmt::format(".TP\n.B {}\n{}\n", static_cast<int>(code), roff(meaning));
   if (!of_program) return text;
   text += ".SH ENVIRONMENT\n";
   for (const auto& [name, meaning] : kEnvironment)

@@ -23,8 +23,7 @@ std::string as_key(const std::string& word) {
 
 std::string wrong_word(const CommandEntry& command, const std::vector<std::string>& typed,
                        const std::vector<std::string>& unknown) {
-  // Of the words that are left over, the one that was typed first: a misspelt option leaves its value over,
-  // too.
+  // The word typed first among those left over: a misspelt option leaves its value over, too.
   const auto found = std::find_first_of(typed.begin(), typed.end(), unknown.begin(), unknown.end());
   const std::string word = found == typed.end() ? unknown.front() : *found;
   const std::string name = command.name(" ");

@@ -37,16 +37,10 @@ FrictionLaw friction_of(const ContactSpec& spec) {
 
 }  // namespace
 
-MeshCount count_mesh(const Scene& scene) {
-  const Model model(scene, Model::BlocksAlone());
-  return {model.elements(), model.nodes()};
-}
-
-Model::Model(const Scene& source, BlocksAlone /*scope*/) : scene(source), sizes(mesh_sizes(source)) {
+Model::Model(const Scene& source, std::optional<double> corrugation_centre, const AcceptMesh& accept)
+    : scene(source), sizes(mesh_sizes(source)) {
   build_blocks();
-}
-
-Model::Model(const Scene& source, std::optional<double> corrugation_centre) : Model(source, BlocksAlone()) {
+  if (accept) accept({elements(), nodes()}, sizes);
   tie_blocks();
   const Corrugation shape = corrugation_centre ? corrugate(*corrugation_centre) : Corrugation();
   build_operators();

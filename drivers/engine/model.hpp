@@ -3,6 +3,7 @@
 // absent here too.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,14 +30,14 @@ struct MeshCount {
   std::int64_t nodes = 0;
 };
 
-/// Size of a scene's mesh, from its sections and stations alone: the fields of its nodes are not made.
-/// InputError where the scene cannot be meshed.
-MeshCount count_mesh(const Scene& scene);
+/// Looks at the size of a mesh before the fields of its nodes are made, and throws if it is too large.
+using AcceptMesh = std::function<void(const MeshCount& count, const MeshSizes& sizes)>;
 
 struct Model {
   /// The smooth rail without `corrugation_centre`; with it the rail as apply_corrugation() leaves it [m].
-  /// InputError where the scene cannot be meshed.
-  explicit Model(const Scene& scene, std::optional<double> corrugation_centre = {});
+  /// InputError where the scene cannot be meshed, and what `accept` throws.
+  explicit Model(const Scene& scene, std::optional<double> corrugation_centre = {},
+                 const AcceptMesh& accept = {});
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -81,10 +82,6 @@ struct Model {
   void apply_corrugation(double centre);
 
  private:
-  friend MeshCount count_mesh(const Scene& scene);
-  struct BlocksAlone {};
-  Model(const Scene& scene, BlocksAlone);
-
   int add(SweptBlock block);
   void build_blocks();
   void tie_blocks();

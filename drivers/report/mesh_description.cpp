@@ -159,8 +159,7 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
 
 void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
   use_threads(options.threads);
-  require_memory(resolved.scene);
-  const Model model(resolved.scene);
+  const Model model(resolved.scene, {}, require_memory);
   const std::vector<BlockMeasures> blocks = measure_blocks(model);
   const StepLimit limit = step_limit(model);
   if (!options.output.empty()) write_mesh(model, options.output);

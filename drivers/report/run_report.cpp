@@ -17,7 +17,6 @@
 #include "drivers/report/surface_figures.hpp"
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/inventory.hpp"
-#include "drivers/results/run_warnings.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
@@ -124,7 +123,7 @@ Chapter result_chapter(const Run& run) {
                                            {"Steps", grouped(r.steps), ""}});
   }
   std::vector<Comparison> theory = hertz_comparisons(run.model, r);
-  const JsonRecord summary = parse_json(summary_json(run.model, run.resolved, r, {}), "summary");
+  const JsonRecord summary = parse_json(summary_json(run.model, run.resolved, r), "summary");
   for (const References& references : run.references) {
     const std::vector<Comparison> rows = comparisons(references, false, run.model, r, summary);
     if (!rows.empty())
@@ -369,9 +368,10 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   Run run{model, resolved, results};
   find_references(run);
   Report report{resolved.scene.title, subtitle(run), {}, provenance.command};
-  if (const std::vector<std::string> warnings = run_warnings(model, results); !warnings.empty()) {
+  if (!results.warnings.empty()) {
     report.chapters.push_back({"Warnings", {}});
-    for (const std::string& warning : warnings) report.chapters.back().blocks.emplace_back(Text{warning});
+    for (const std::string& warning : results.warnings)
+      report.chapters.back().blocks.emplace_back(Text{warning});
   }
   report.chapters.push_back(result_chapter(run));
   if (run.rolled()) {

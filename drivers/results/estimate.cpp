@@ -48,6 +48,16 @@ double seconds_of_preload(const Model& model) {
   return applications * seconds_of_one_force(model) + (model.scene.start() == "rolling" ? kRunIn : 0.0);
 }
 
+/// Adds step and rolling time.
+void add_motion(const Model& model, Estimate& e) {
+  e.limit = step_limit(model);
+  e.dt = model.scene.motion->step_safety * e.limit.stable_step;
+  e.steps = step_count(model.scene, e.dt);
+  const auto fields = make_node_fields(model);
+  e.rolling_seconds =
+      kStepOverhead * seconds_of([&] { fields->internal_force_and_move({}); }) * static_cast<double>(e.steps);
+}
+
 }  // namespace
 
 Estimate estimate(Model& model) {
@@ -57,16 +67,8 @@ Estimate estimate(Model& model) {
   Estimate e;
   e.elements = model.elements();
   e.preload_seconds = seconds_of_preload(model);
-  e.memory = peak_bytes(model, e.seconds());
-  e.disk = disk_use(model, 0);
-  if (!model.scene.motion) return e;
-  e.limit = step_limit(model);
-  e.dt = model.scene.motion->step_safety * e.limit.stable_step;
-  e.steps = step_count(model.scene, e.dt);
+  if (model.scene.motion) add_motion(model, e);
   e.disk = disk_use(model, e.dt);
-  const auto fields = make_node_fields(model);
-  e.rolling_seconds =
-      kStepOverhead * seconds_of([&] { fields->internal_force_and_move({}); }) * static_cast<double>(e.steps);
   e.memory = peak_bytes(model, e.seconds());
   return e;
 }

@@ -14,15 +14,14 @@ std::int64_t least_bytes(const MeshCount& count) {
   return static_cast<std::int64_t>(kVectors * 3 * sizeof(double) * static_cast<double>(count.nodes));
 }
 
-void require_memory(const Scene& scene) {
-  const MeshCount count = count_mesh(scene);
+void require_memory(const MeshCount& count, const MeshSizes& sizes) {
   const std::int64_t needed = least_bytes(count);
   const std::int64_t there = machine_memory();
   if (needed <= there) return;
-  throw ResourceError(fmt::format(
-      "the scene has {} elements, which need at least {} of memory; this machine has {}; raise "
-      "scene.element_size ({:.3g} mm) or shorten solution_zone.length",
-      grouped(count.elements), bytes_text(needed), bytes_text(there), 1e3 * mesh_sizes(scene).contact));
+  throw ResourceError(
+      fmt::format("the scene has {} elements, which need at least {} of memory; this machine has {}; raise "
+                  "scene.element_size ({:.3g} mm) or shorten solution_zone.length",
+                  grouped(count.elements), bytes_text(needed), bytes_text(there), 1e3 * sizes.contact));
 }
 
 }  // namespace tread

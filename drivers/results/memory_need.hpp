@@ -3,7 +3,6 @@
 
 #include <cstdint>
 
-#include "core/scene.hpp"
 #include "drivers/engine/model.hpp"
 
 namespace tread {
@@ -11,8 +10,8 @@ namespace tread {
 /// Fields that every run of a mesh of this size has in its preload [B].
 std::int64_t least_bytes(const MeshCount& count);
 
-/// Throws ResourceError where the scene's mesh needs more memory than the machine has; the message states
-/// both, the number of elements, and the keys that lower it. InputError where the scene cannot be meshed.
-void require_memory(const Scene& scene);
+/// Throws ResourceError where the mesh needs more memory than the machine has; the message states both, the
+/// number of elements, and the keys that lower it. The AcceptMesh of models that are made for a user.
+void require_memory(const MeshCount& count, const MeshSizes& sizes);
 
 }  // namespace tread

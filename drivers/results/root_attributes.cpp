@@ -1,5 +1,8 @@
 #include "drivers/results/root_attributes.hpp"
 
+#include <nlohmann/json.hpp>
+#include <variant>
+
 #include "drivers/process/version.hpp"
 
 namespace tread {
@@ -18,6 +21,11 @@ Hdf5Attributes root_attributes(const Scene& scene) {
     attributes["friction_coefficient"] = scene.contact->largest_friction();
   }
   return attributes;
+}
+
+void add_attributes(const Hdf5Attributes& attributes, Json& json) {
+  for (const auto& attribute : attributes)
+    std::visit([&](const auto& value) { json[attribute.first] = value; }, attribute.second);
 }
 
 }  // namespace tread

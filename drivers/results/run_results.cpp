@@ -307,11 +307,9 @@ void add_rolling_contact(const RunResults& r, Json& json) {
 
 }  // namespace
 
-std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r,
-                         const std::vector<std::string>& warnings) {
+std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
   Json json = {{"title", resolved.scene.title}, {"quality", resolved.scene.quality}};
-  for (const auto& attribute : root_attributes(resolved.scene))
-    std::visit([&](const auto& stated) { json[attribute.first] = stated; }, attribute.second);
+  add_attributes(root_attributes(resolved.scene), json);
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
   json["steps"] = r.steps;
@@ -327,7 +325,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["element_steps_per_s"] =
       r.seconds_rolling > 0 ? static_cast<double>(model.elements() * r.own_steps()) / r.seconds_rolling : 0.0;
   json["preload_residual"] = r.preload.residual;
-  json["warnings"] = warnings;
+  json["warnings"] = r.warnings;
   if (model.contact) add_static_contact(model, r, json);
   if (r.samples.empty()) return json_text(json);  // a static scene
   if (model.contact) add_rolling_contact(r, json);

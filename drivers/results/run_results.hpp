@@ -82,6 +82,7 @@ struct RunResults {
   double momentum_error = 0;        ///< [-]
   double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
   double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
+  std::vector<std::string> warnings;               ///< sentences for the user (run_warnings.hpp)
   double frictional_work_decrease = 0;             ///< largest fall between two samples, 0 when monotone [J]
 };
 
@@ -96,8 +97,6 @@ double creepage_of_work(const std::vector<Sample>& samples, double first, double
 /// 0.005 where the traction is small.
 bool traction_is_steady(const RunResults& results);
 
-/// `warnings`: sentences for the user (run_warnings.hpp).
-std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results,
-                         const std::vector<std::string>& warnings);
+std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
 
 }  // namespace tread

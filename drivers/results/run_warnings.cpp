@@ -19,8 +19,8 @@ std::string steadiness_warning(const Model& model, const RunResults& r) {
   const double half = 0.5 * r.traction_drift;
   return fmt::format(
       "F_L / F_N goes from {:.4f} to {:.4f} along the steady stretch (x = {:.3f} to {:.3f} m): traction and "
-      "creepage "
-      "are not steady there; a smaller motion.traction.ramp or a later solution_zone.start gives it the way",
+      "creepage are not steady there; a smaller motion.traction.ramp or a later solution_zone.start gives it "
+      "the way",
       r.traction_coefficient - half, r.traction_coefficient + half, r.steady_first, r.steady_last);
 }
 
@@ -29,8 +29,7 @@ std::string hourglass_warning(const std::string& body, const DeformationEnergy& 
   if (whole <= 0 || energy.hourglass <= kHourglass * whole) return "";
   return fmt::format(
       "{:.0f} % of the energy in the body '{}' is in hourglass modes: above {:.0f} % the elements are too "
-      "coarse "
-      "for its deformation; a smaller scene.element_size resolves it",
+      "coarse for its deformation; a smaller scene.element_size resolves it",
       100 * energy.hourglass / whole, body, 100 * kHourglass);
 }
 

@@ -100,19 +100,11 @@ std::vector<ResultItem> columns_of(const fs::path& path) {
   return items;
 }
 
-/// Size of all files in a folder, or of a file [B].
-std::int64_t bytes_of(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored)) return static_cast<std::int64_t>(fs::file_size(path, ignored));
-  std::int64_t sum = 0;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, ignored))
-    if (entry.is_regular_file(ignored)) sum += static_cast<std::int64_t>(entry.file_size(ignored));
-  return sum;
-}
-
 ResultFile look_at_file(const fs::path& path, Hdf5Attributes& attributes) {
   const std::string name = path.filename();
-  ResultFile file{name, bytes_of(path), content_of_name(name), "", {}};
+  std::error_code ignored;
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(path, ignored));
+  ResultFile file{name, bytes, content_of_name(name), "", {}};
   const std::string ending = path.extension();
   try {
     if (ending == ".h5" || ending == ".hdf") file.items = datasets_of(path, attributes);
@@ -134,7 +126,7 @@ ResultFile look_at_frames(const fs::path& folder, Hdf5Attributes& attributes) {
   ResultFile file;
   if (!steps.empty()) file = look_at_file(step_file(folder, steps.back(), ".hdf"), attributes);
   file.name = folder.filename().string() + "/";
-  file.bytes = bytes_of(folder);
+  file.bytes = folder_bytes(folder);
   file.content = fmt::format("{} frames, datasets of the last one", steps.size());
   return file;
 }
@@ -142,7 +134,7 @@ ResultFile look_at_frames(const fs::path& folder, Hdf5Attributes& attributes) {
 ResultFile look_at_states(const fs::path& folder) {
   const std::size_t states = steps_in(folder, ".h5").size();
   return {folder.filename().string() + "/",
-          bytes_of(folder),
+          folder_bytes(folder),
           fmt::format("{} states for `tread {}`", states,
                       folder.filename() == kForkFolder ? "run --from" : "resume"),
           "",

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "drivers/results/root_attributes.hpp"
 #include "drivers/run/result_listing.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
@@ -11,13 +12,6 @@
 namespace tread {
 
 namespace {
-
-Json attributes_json(const Hdf5Attributes& attributes) {
-  Json json = Json::object();
-  for (const auto& [name, value] : attributes)
-    std::visit([&, key = name](const auto& stated) { json[key] = stated; }, value);
-  return json;
-}
 
 Json file_json(const ResultFile& file) {
   Json json = {{"name", file.name}, {"bytes", file.bytes}, {"content", file.content}};
@@ -35,9 +29,10 @@ Json file_json(const ResultFile& file) {
 void print_json(const ResultListing& listing) {
   Json json = {{"state", listing.state},
                {"complete", listing.complete},
-               {"attributes", attributes_json(listing.attributes)},
+               {"attributes", Json::object()},
                {"files", Json::array()},
                {"runs", Json::array()}};
+  add_attributes(listing.attributes, json["attributes"]);
   for (const ResultFile& file : listing.files) json["files"].push_back(file_json(file));
   for (const ResultRun& run : listing.runs)
     json["runs"].push_back({{"name", run.name}, {"state", run.state}});

@@ -133,7 +133,7 @@ void Rolling::notice_busy_cores() {
 void Rolling::check_disk() {
   const std::optional<double>& disk = model_->scene.output.disk_limit;
   if (!disk) return;
-  if (const std::int64_t bytes = session_->folder.bytes(); static_cast<double>(bytes) > *disk)
+  if (const std::int64_t bytes = folder_bytes(session_->folder.path()); static_cast<double>(bytes) > *disk)
     end<ResourceError>(fmt::format("{} has {}, more than output.disk_limit = {}",
                                    session_->folder.path().string(), bytes_text(bytes),
                                    bytes_text(static_cast<std::int64_t>(*disk))));
@@ -289,7 +289,7 @@ std::string Rolling::status() const {
   json["rolling_s"] = seconds();
   json["left_s"] = per_step * static_cast<double>(end_ - simulation_->steps());
   json["frames"] = frames_->count();
-  json["folder_bytes"] = session_->folder.bytes();
+  json["folder_bytes"] = folder_bytes(session_->folder.path());
   json["checkpoint_time_s"] = written_ ? Json(written_->time) : Json();
   return json_text(json);
 }

@@ -111,10 +111,10 @@ void RunFolder::show_status(const std::string& json) const {
   }
 }
 
-std::int64_t RunFolder::bytes() const {
+std::int64_t folder_bytes(const fs::path& folder) {
   std::int64_t sum = 0;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_, ignored))
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, ignored))
     if (entry.is_regular_file(ignored)) sum += static_cast<std::int64_t>(entry.file_size(ignored));
   return sum;
 }

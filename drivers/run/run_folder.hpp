@@ -15,6 +15,9 @@ inline constexpr const char* kCheckpointFolder = "checkpoint";  ///< checkpoint 
 /// Last part of the path: "run" of "out/run" and of "out/run/".
 std::string folder_name(const std::filesystem::path& folder);
 
+/// Size of all files in a folder [B].
+std::int64_t folder_bytes(const std::filesystem::path& folder);
+
 /// Returns true if a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 
@@ -45,9 +48,6 @@ class RunFolder {
 
   /// Replaces status.json; a status that cannot be written is left out.
   void show_status(const std::string& json) const;
-
-  /// Size of all files in the folder [B].
-  std::int64_t bytes() const;
 
  private:
   std::filesystem::path path_;

@@ -135,7 +135,8 @@ void choose_step(const RunSession& session, const Model& model, RunResults& resu
 void leave_results(RunSession& session, const Model& model, RunResults& results) {
   evaluate(model, results);
   leave_surface(model, results, session.folder.path());
-  const std::string summary = summary_json(model, session.resolved, results, run_warnings(model, results));
+  results.warnings = run_warnings(model, results);
+  const std::string summary = summary_json(model, session.resolved, results);
   write_text_file(session.folder / "summary.json", summary);
   write_run_report(session.folder / "report.html", model, session.resolved, results,
                    {session.options.program, session.order.command});
@@ -174,11 +175,12 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   keep_scene(session.folder.path(), session.resolved);
   session.enter("mesh", "begins");
   const ResolvedScene made = resolve_scene(session.order.scene, session.order.overrides);
-  require_memory(made.scene);
   RunResults results;
   results.origin = session.order.origin;
   if (checkpoint) unpack_results(*checkpoint, results);
-  Model model = checkpoint ? Model(made.scene, deepest_line(made.scene, results)) : Model(made.scene);
+  const std::optional<double> deepest =
+      checkpoint ? std::optional(deepest_line(made.scene, results)) : std::nullopt;
+  Model model(made.scene, deepest, require_memory);
   adopt_later_values(model, session.resolved.scene);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
@@ -210,7 +212,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
     throw ResourceError(
         fmt::format("{}; with more room {} leaves the results", error.what(), session.resume_command()));
   }
-  for (const std::string& warning : run_warnings(model, results))
+  for (const std::string& warning : results.warnings)
     if (std::find(of_mesh.begin(), of_mesh.end(), warning) == of_mesh.end())
       session.progress.say("[warning] " + warning);
   session.checkpoints.clear();

@@ -105,11 +105,7 @@ Hdf5Attributes Hdf5File::attributes(const std::string& object) const {
 #define TREAD_HDF5_TYPE(T)                                                                             \
   template void Hdf5File::write_attribute(const std::string&, const std::string&, std::span<const T>); \
   template std::vector<T> Hdf5File::read_attribute<T>(const std::string&, const std::string&) const;
-TREAD_HDF5_TYPE(double)
-TREAD_HDF5_TYPE(float)
-TREAD_HDF5_TYPE(std::int64_t)
-TREAD_HDF5_TYPE(std::int32_t)
-TREAD_HDF5_TYPE(std::uint8_t)
+TREAD_FOR_HDF5_TYPES(TREAD_HDF5_TYPE)
 #undef TREAD_HDF5_TYPE
 
 }  // namespace tread

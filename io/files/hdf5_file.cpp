@@ -294,11 +294,7 @@ void Hdf5File::close() {
   template void Hdf5File::append(const std::string&, std::span<const T>);                               \
   template std::vector<T> Hdf5File::read<T>(const std::string&) const;                                  \
   template std::vector<T> Hdf5File::read_row<T>(const std::string&, std::uint64_t) const;
-TREAD_HDF5_TYPE(double)
-TREAD_HDF5_TYPE(float)
-TREAD_HDF5_TYPE(std::int64_t)
-TREAD_HDF5_TYPE(std::int32_t)
-TREAD_HDF5_TYPE(std::uint8_t)
+TREAD_FOR_HDF5_TYPES(TREAD_HDF5_TYPE)
 #undef TREAD_HDF5_TYPE
 
 }  // namespace tread

@@ -80,6 +80,9 @@ hid_t type_of() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
 
+/// Calls a macro with each type that a file holds.
+#define TREAD_FOR_HDF5_TYPES(use) use(double) use(float) use(std::int64_t) use(std::int32_t) use(std::uint8_t)
+
 /// Number of values of a shape.
 std::uint64_t count(const Shape& shape);
 

@@ -96,7 +96,7 @@ LibraryEntry highspeed_slab_2014_calibrated() {
   return {"highspeed-slab-2014-calibrated",
           "highspeed-slab-2014",
           "highspeed-slab-2014 with two other values, chosen for the paper's forces over corrugation D "
-          "([the paper's figures](../records/paper.md)). The paper does not state the wheel's place at the "
+          "([the paper's figures](../records/paper.md)).\nThe paper does not state the wheel's place at the "
           "start.",
           {
               {"fastenings.damping", "100 kN s/m", "fits F_N over corrugation D; Table 1: 200 kN s/m"},

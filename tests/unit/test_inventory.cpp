@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "core/error.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/memory_need.hpp"
@@ -236,7 +237,12 @@ TEST(Quality, PaperHasThePapersElements) {
 TEST(Memory, TheMeshIsCountedWithoutItsFields) {
   const Scene scene = small_track();
   const Model model(scene);
-  const MeshCount count = count_mesh(scene);
+  MeshCount count;
+  const auto refuse = [&](const MeshCount& offered, const MeshSizes& /*sizes*/) {
+    count = offered;
+    throw ResourceError("too large");
+  };
+  EXPECT_THROW(Model(scene, {}, refuse), ResourceError);
   EXPECT_EQ(count.elements, model.elements());
   EXPECT_EQ(count.nodes, model.nodes());
 }
@@ -250,7 +256,7 @@ TEST(Memory, CheckpointsCountInRunsThatLastLongEnough) {
 TEST(Memory, ARunNeedsMoreThanTheLeast) {
   const Scene scene = small_track();
   const Model model(scene);
-  const std::int64_t least = least_bytes(count_mesh(scene));
+  const std::int64_t least = least_bytes({model.elements(), model.nodes()});
   EXPECT_LT(least, peak_bytes(model, 0));
   EXPECT_GT(least, peak_bytes(model, 0) / 8);
 }

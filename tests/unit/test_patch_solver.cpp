@@ -344,7 +344,7 @@ TEST(PatchSolver, PointsThatPullTheirNodeBothWaysStillConverge) {
     if (point.pressure == 0) ++open;
   }
   EXPECT_LT(open, kPoints);
-  EXPECT_GT(patch.iterations(), 0);
+  EXPECT_LT(patch.iterations(), 300);  // it converged before the solver gave up
 }
 
 /// Velocities and pressures of a patch that is large enough for the threads to share it.

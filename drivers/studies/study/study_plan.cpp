@@ -212,8 +212,7 @@ void project_cost(StudyPlan& plan, bool retry) {
     const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point});
     Built& built = first->second;
     if (is_new) {
-      require_memory(point.resolved.scene);
-      Model model(keeping_scene(plan, point));
+      Model model(keeping_scene(plan, point), {}, require_memory);
       if (model.contact) built.reach = model.contact->reach();
       point.cost = estimate(model);
     } else if (const PlannedPoint& same = *built.point; same.cost) {
