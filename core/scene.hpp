@@ -21,7 +21,7 @@ namespace tread {
 struct WheelSpec {
   std::string shape = "half_wheelset";  ///< "half_wheelset" or "tyre" (a ring: profile of one arc)
   std::string material = "steel";       ///< one of Scene::materials
-  std::string profile = "LMA";          ///< "LMA", "arc", "cylinder", or a file of two columns (y, z)
+  std::string profile = "LMA";          ///< built in ("LMA", "S1002"), "arc", "cylinder", or a file
   double diameter = 0.86;               ///< [m]
   double lateral_offset = 6.5e-3;  ///< rail centre line in wheel coordinates, positive to the field side [m]
   double mass = 586;               ///< mass that web or brake rings are sized to reach [kg] (half_wheelset)
@@ -35,15 +35,19 @@ struct WheelSpec {
   std::string bore = "free";   ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
   /// Tread of a guided tyre beyond the run, before and behind it; absent: the whole ring. [m]
   std::optional<double> overhang;
-  std::vector<double> profile_y;  ///< first column of the profile's file, in its order [m]
-  std::vector<double> profile_z;  ///< second column [m]
+  double profile_shift = 0;       ///< added to y of the profile's file [m]
+  double profile_smoothing = 0;   ///< largest deviation of a spline from the file's points; 0: none [m]
+  std::vector<double> profile_y;  ///< of the profile's file, growing, to the field side [m]
+  std::vector<double> profile_z;  ///< towards the flange tip [m]
+  std::string profile_reading;    ///< sentence on what the file holds and what was changed
 };
 
 /// [rail]
 struct RailSpec {
   std::string material = "steel";      ///< one of Scene::materials
   std::string head_material;           ///< of the finely divided head; empty: `material`
-  std::string profile = "CN60";        ///< "CN60", "box", or a file of two columns (y, z)
+  std::string profile = "CN60";        ///< built in ("CN60", "60E1" ...), "box", or a file of a head
+  std::string section = "CN60";        ///< built-in rail that a head from a file belongs to
   double inclination = 1.0 / 40;       ///< [-]
   double length = 15.2;                ///< [m]
   double origin = 6.1;                 ///< distance of x = 0 (initial wheel position A) from the left end [m]
@@ -51,8 +55,12 @@ struct RailSpec {
   double width = 0.060;                ///< [m] (box)
   double height = 0.060;               ///< [m] (box)
   double crown_radius = 0;             ///< radius of the running surface across the rail, 0 = flat [m] (box)
-  std::vector<double> profile_y;       ///< first column of the profile's file, in its order [m]
-  std::vector<double> profile_z;       ///< second column [m]
+  double profile_shift = 0;            ///< added to y of the profile's file [m]
+  bool profile_mirrored = false;       ///< y of the profile's file changes its sign
+  double profile_smoothing = 0;        ///< largest deviation of a spline from the file's points; 0: none [m]
+  std::vector<double> profile_y;       ///< of the profile's file, growing, to the field side [m]
+  std::vector<double> profile_z;       ///< upwards [m]
+  std::string profile_reading;         ///< sentence on what the file holds and what was changed
 };
 
 /// Hold of the fastenings on the rail's foot in a horizontal direction.
@@ -100,6 +108,18 @@ struct SlabSpec {
   double thickness = 0.20;         ///< [m]
   double mortar_thickness = 0.03;  ///< [m]
   double offset = 0;               ///< y of the slab's middle from the rail's centre line [m]
+};
+
+/// [sleepers]: one under each fastening, half of it on this side of the track's middle, on ballast
+struct SleeperSpec {
+  std::string material = "concrete";  ///< one of Scene::materials
+  double width = 0.26;                ///< along x [m]
+  double length = 1.3;                ///< of the half, across [m]
+  double height = 0.2;                ///< [m]
+  double offset = -0.1;               ///< y of the half's middle from the rail's centre line [m]
+  double stiffness = 50e6;            ///< of the bed under the half, vertical [N/m]
+  double damping = 50e3;              ///< of the bed under the half, vertical [N s/m]
+  int hanging = 0;                    ///< the sleeper without a bed, counted along x from 1; 0: none
 };
 
 /// [vehicle]
@@ -228,14 +248,28 @@ struct ForkSpec {
   std::optional<double> at;
 };
 
+/// [probe.NAME]: a point of a body whose motion or stress the histories hold
+struct ProbeSpec {
+  std::string body = "rail";        ///< "rail", "wheel" (a point that turns with the wheel) or "axle_box"
+  double x = 0;                     ///< of the rail's point, or where the wheel's point meets the rail [m]
+  double y = 0;                     ///< across, from the rail's centre line [m]
+  double depth = 0;                 ///< below the running surface [m]
+  std::string quantity = "motion";  ///< "motion", "stress" or "all"
+
+  bool has_motion() const { return quantity != "stress"; }
+  bool has_stress() const { return quantity != "motion"; }
+};
+
 /// [output]
 struct OutputSpec {
-  double history_interval = 1e-5;     ///< [s]
-  double progress_interval = 2;       ///< wall clock [s]
-  double checkpoint_interval = 600;   ///< wall clock [s]
-  int frames = 40;                    ///< for ParaView; 0: none
-  std::string frame_cells = "faces";  ///< "faces" or "elements"
-  std::optional<double> disk_limit;   ///< of the run's folder [B]
+  double history_interval = 1e-5;      ///< [s]
+  double progress_interval = 2;        ///< wall clock [s]
+  double checkpoint_interval = 600;    ///< wall clock [s]
+  bool fastening_forces = false;       ///< of each fastening, in the histories
+  std::optional<double> stress_depth;  ///< down to which the histories hold the stress under the patch [m]
+  int frames = 40;                     ///< for ParaView; 0: none
+  std::string frame_cells = "faces";   ///< "faces" or "elements"
+  std::optional<double> disk_limit;    ///< of the run's folder [B]
 };
 
 /// [stop]: what ends a run before its duration, besides errors
@@ -261,6 +295,7 @@ struct Scene {
   std::optional<RailSpec> rail;
   std::optional<FasteningSpec> fastenings;
   std::optional<SlabSpec> slab_track;
+  std::optional<SleeperSpec> sleepers;
   std::optional<VehicleSpec> vehicle;
   std::optional<LoadSpec> load;
   std::optional<ContactSpec> contact;
@@ -270,6 +305,7 @@ struct Scene {
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
   std::optional<ForkSpec> forks;
+  std::map<std::string, ProbeSpec, std::less<>> probes;  ///< by name
   OutputSpec output;
   StopSpec stop;
 

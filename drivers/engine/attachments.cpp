@@ -66,7 +66,7 @@ double middle_of_foot(const SweptBlock& rail) {
                 rail.section.p[static_cast<std::size_t>(foot.back())]);
 }
 
-/// Calls `act` with x and y [m] of each spring-damper of the fastenings.
+/// Calls `act` with the number of the fastening, x and y [m] of each of its spring-dampers.
 template <class Act>
 void each_spring_damper(const Scene& scene, const SweptBlock& rail, const Act& act) {
   const FasteningSpec& f = *scene.fastenings;
@@ -74,7 +74,8 @@ void each_spring_damper(const Scene& scene, const SweptBlock& rail, const Act& a
   for (int i = 0; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       for (int row = 0; row < f.rows; ++row)
-        act(f.position(i) + f.column_offset(column) - scene.rail->origin, middle + f.row_offset(row));
+        act(static_cast<std::size_t>(i), f.position(i) + f.column_offset(column) - scene.rail->origin,
+            middle + f.row_offset(row));
 }
 
 /// Indices of the values within `reach` of `at`; where there are none, that of the nearest.
@@ -93,18 +94,44 @@ std::vector<int> within(int count, const Value& value, double at, double reach) 
 }  // namespace
 
 std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
-                                                       const SweptBlock* slab) {
+                                                       const std::vector<const SweptBlock*>& below) {
   const FasteningSpec& f = *scene.fastenings;
   const int groups = f.columns * f.rows;
   std::vector<SpringDampers::Element> elements;
-  each_spring_damper(scene, rail, [&](double x, double y) {
+  each_spring_damper(scene, rail, [&](std::size_t i, double x, double y) {
     const Attachment foot = attach(rail, "foot", x, y);
-    const Attachment below = slab ? attach(*slab, "top", x, y) : Attachment{};
-    elements.push_back({foot, below, f.stiffness / groups, f.damping / groups, 2});
+    const Attachment support = below[i] ? attach(*below[i], "top", x, y) : Attachment{};
+    elements.push_back({foot, support, f.stiffness / groups, f.damping / groups, 2});
     for (const auto& [component, hold] : {std::pair(0, &f.along), std::pair(1, &f.across)})
       if (hold->kind == "elastic")
         elements.push_back({foot, {}, hold->stiffness / groups, hold->damping / groups, component});
   });
+  return elements;
+}
+
+std::size_t elements_of_fastening(const FasteningSpec& f) {
+  std::size_t directions = 1;
+  for (const FootHold* hold : {&f.along, &f.across})
+    if (hold->kind == "elastic") ++directions;
+  return directions * static_cast<std::size_t>(f.columns * f.rows);
+}
+
+std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, const SweptBlock& sleeper) {
+  const std::vector<int>& bottom = sleeper.section.paths.at("bottom");
+  const std::size_t columns = bottom.size() - 1;
+  const double middle = 0.5 * (sleeper.stations.front() + sleeper.stations.back());
+  const double count = 2 * static_cast<double>(columns);
+  std::vector<SpringDampers::Element> elements;
+  for (std::size_t i = 0; i < columns; ++i) {
+    const double y = 0.5 * (sleeper.section.p[static_cast<std::size_t>(bottom[i])] +
+                            sleeper.section.p[static_cast<std::size_t>(bottom[i + 1])]);
+    for (const double side : {-0.25, 0.25})
+      elements.push_back({attach(sleeper, "bottom", middle + side * spec.width, y),
+                          {},
+                          spec.stiffness / count,
+                          spec.damping / count,
+                          2});
+  }
   return elements;
 }
 
@@ -123,7 +150,8 @@ std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail
         nodes.push_back({foot[static_cast<std::size_t>(i)], station});
   };
   if (f.held_at == "springs") {
-    each_spring_damper(scene, rail, [&](double at_x, double at_y) { hold(at_x, at_y, 0, 0); });
+    each_spring_damper(scene, rail,
+                       [&](std::size_t /*i*/, double at_x, double at_y) { hold(at_x, at_y, 0, 0); });
     return nodes;
   }
   for (int i = 0; i < f.count; ++i)

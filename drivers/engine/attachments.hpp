@@ -17,10 +17,17 @@ Attachment attach(const SweptBlock& block, const std::string& path, double x, do
 /// Attachment at (x, y) [m] on the running surface. InputError if it lies beyond the block.
 Attachment attach_to_surface(const SweptBlock& block, double x, double y);
 
-/// Spring-dampers of the scene's fastenings under the block `rail`: vertical ones on `slab` or, if that is
-/// null, on rigid ground; along and across where they are elastic, to the ground.
+/// Spring-dampers of the scene's fastenings under the block `rail`, fastening by fastening: vertical ones on
+/// the block `below` of each or, if that is null, on rigid ground; along and across where they are elastic,
+/// to the ground.
 std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
-                                                       const SweptBlock* slab);
+                                                       const std::vector<const SweptBlock*>& below);
+
+/// Number of spring-dampers of a fastening.
+std::size_t elements_of_fastening(const FasteningSpec& fastening);
+
+/// Vertical spring-dampers of a bed, spread evenly under the block of a half sleeper, to the ground.
+std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, const SweptBlock& sleeper);
 
 /// A node of the rail's foot: of the section, and its station.
 struct FootNode {

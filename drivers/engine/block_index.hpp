@@ -10,7 +10,8 @@ struct BlockIndex {
   int rail_cap = -1;   ///< carries the running surface
   int rail_base = -1;  ///< tied under the cap
   int slab = -1;
-  int tread = -1;  ///< carries the tread surface
+  std::vector<int> sleepers;  ///< along x, one a fastening; empty: absent
+  int tread = -1;             ///< carries the tread surface
   int disc = -1;
   int axle = -1;
 

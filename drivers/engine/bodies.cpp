@@ -44,6 +44,7 @@ std::int64_t bytes_of(const T& array) {
 const char* updated_blocks(const Model& model) {
   const bool wheel = model.wheelset.has_value();
   if (model.index.slab >= 0) return wheel ? "rail, slab (vertically), wheel" : "rail, slab (vertically)";
+  if (!model.index.sleepers.empty()) return wheel ? "rail, sleepers, wheel" : "rail, sleepers";
   if (model.index.rail_cap < 0) return "wheel";
   return wheel ? "rail, wheel" : "rail";
 }

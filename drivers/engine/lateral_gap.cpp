@@ -4,27 +4,12 @@
 
 namespace tread {
 
-namespace {
-
-/// z of a profile at p.
-double height(const SurfaceProfile& profile, double p) {
-  const int edge = profile.edge_at(p);
-  double eta = (p - profile.edge_p(edge, 0)) / (profile.edge_p(edge, 1) - profile.edge_p(edge, 0));
-  for (int i = 0; i < 4; ++i) {
-    const auto at = profile.evaluate(edge, eta, SurfaceKind::exact);
-    eta -= (at.p - p) / at.dp;
-  }
-  return profile.evaluate(edge, eta, SurfaceKind::exact).q;
-}
-
-}  // namespace
-
 LateralGap lateral_gap(const SurfaceProfile& rail, const SurfaceProfile& wheel) {
   constexpr double kHalfWidth = 5e-3;
   constexpr int kSamples = 400;
   const double first = std::max(rail.first_p(), wheel.first_p());
   const double last = std::min(rail.last_p(), wheel.last_p());
-  const auto gap = [&](double p) { return -height(rail, p) - height(wheel, p); };
+  const auto gap = [&](double p) { return -rail.q_at(p) - wheel.q_at(p); };
   double lowest = first;
   for (int i = 0; i <= kSamples; ++i) {
     const double p = first + (last - first) * i / kSamples;

@@ -53,6 +53,7 @@ Model::Model(const Scene& source, std::optional<double> corrugation_centre, cons
 void Model::build_blocks() {
   if (scene.rail) build_rail();
   if (scene.slab_track) build_slab();
+  if (scene.sleepers) build_sleepers();
   if (scene.wheel) build_wheel();
   if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
 }
@@ -71,8 +72,19 @@ void Model::build_operators() {
 
 void Model::build_connectors() {
   const auto block = [&](int b) { return b >= 0 ? &mesh.blocks[static_cast<std::size_t>(b)] : nullptr; };
-  if (scene.fastenings && scene.rail)
-    fastenings.emplace(fastening_elements(scene, *block(index.rail_foot()), block(index.slab)));
+  if (scene.fastenings && scene.rail) {
+    std::vector<const SweptBlock*> below(static_cast<std::size_t>(scene.fastenings->count),
+                                         block(index.slab));
+    for (std::size_t i = 0; i < index.sleepers.size(); ++i) below[i] = block(index.sleepers[i]);
+    std::vector<SpringDampers::Element> elements =
+        fastening_elements(scene, *block(index.rail_foot()), below);
+    if (scene.sleepers)
+      for (std::size_t i = 0; i < below.size(); ++i)
+        if (static_cast<int>(i) + 1 != scene.sleepers->hanging)
+          for (SpringDampers::Element& element : bed_elements(*scene.sleepers, *below[i]))
+            elements.push_back(std::move(element));
+    fastenings.emplace(std::move(elements));
+  }
   if (scene.hammer && scene.rail)
     hammer = attach_to_surface(*block(index.rail_cap), scene.hammer->position, 0);
 }
@@ -133,6 +145,19 @@ void Model::build_slab() {
       make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes), materials, left, segments);
   block.vertical_only = true;
   index.slab = add(std::move(block));
+}
+
+void Model::build_sleepers() {
+  const SleeperSpec& spec = *scene.sleepers;
+  const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
+  const Section section = sleeper_section(spec, foot, sizes);
+  const int elements = std::max(2, static_cast<int>(std::lround(spec.width / sizes.slab)));
+  for (int i = 0; i < scene.fastenings->count; ++i) {
+    const double middle = scene.fastenings->position(i) - scene.rail->origin;
+    index.sleepers.push_back(add(make_swept_block(fmt::format("sleeper {}", i + 1), Sweep::extruded, section,
+                                                  {scene.material(spec.material)}, middle - 0.5 * spec.width,
+                                                  {{elements, spec.width / elements, 0}})));
+  }
 }
 
 void Model::build_wheel() {

@@ -55,8 +55,8 @@ struct Model {
   std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
   std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
 
-  std::optional<SpringDampers> fastenings;
-  std::optional<Attachment> hammer;  ///< the struck point of the rail's crown
+  std::optional<SpringDampers> fastenings;  ///< and behind them the bed of the sleepers
+  std::optional<Attachment> hammer;         ///< the struck point of the rail's crown
   std::optional<SpinningBody> wheelset;
   std::optional<GuidedBore> guide;  ///< carries load and torque in place of journal and torque
   Journal journal;                  ///< carries vehicle or load; empty without either
@@ -91,6 +91,7 @@ struct Model {
   void build_rail();
   void build_wheel();
   void build_slab();
+  void build_sleepers();
   void build_internal();
   void build_mass();
   void set_damping();

@@ -37,6 +37,17 @@ std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, dou
   return supports;
 }
 
+/// Fastenings as one spring-damper each, on rigid sleepers.
+void add_sleepers(const Scene& scene, int more_spans, TrackBeam& beam) {
+  const FasteningSpec& f = *scene.fastenings;
+  const SleeperSpec& spec = *scene.sleepers;
+  for (int i = -more_spans; i < f.count; ++i) {
+    const bool hangs = i + 1 == spec.hanging;
+    const BeamSleeper sleeper{sleeper_mass(scene), hangs ? 0 : spec.stiffness, hangs ? 0 : spec.damping};
+    beam.support_on_sleeper(f.position(i) - scene.rail->origin, f.stiffness, f.damping, sleeper);
+  }
+}
+
 }  // namespace
 
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
@@ -66,6 +77,11 @@ std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
   return holds;
 }
 
+double sleeper_mass(const Scene& scene) {
+  const SleeperSpec& spec = *scene.sleepers;
+  return scene.material(spec.material).density * spec.width * spec.length * spec.height;
+}
+
 double head_spread(const Scene& scene, const BeamProperties& properties) {
   if (!scene.fastenings || properties.depth == 0) return 0;
   return head_spread(properties.depth, scene.rail_material().poissons_ratio,
@@ -76,9 +92,14 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
   const std::vector<BeamSupport> supports = rail_supports(scene, more_spans);
   const RailSpec& rail = *scene.rail;
   const double more = scene.fastenings ? more_spans * scene.fastenings->spacing : 0;
-  TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided);
+  constexpr double kElement = 0.01;  // [m]
+  TrackBeam beam(properties, -rail.origin - more, rail.length + more, BeamEnds::guided, kElement,
+                 scene.sleepers.has_value());
   beam.spread_head_load(head_spread(scene, properties));
-  for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
+  if (scene.sleepers)
+    add_sleepers(scene, more_spans, beam);
+  else
+    for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
   if (!properties.has_foot()) return beam;
   for (const BeamSupport& s : rail_foot_supports(scene, more_spans))
     beam.support_foot(s.x, s.stiffness, s.damping);

@@ -23,13 +23,16 @@ std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans =
 /// The stretches over which the fastenings hold the foot along x: pads or columns; none where they do not.
 std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans = 0);
 
+/// Mass of a half sleeper of the scene [kg].
+double sleeper_mass(const Scene& scene);
+
 /// Spread of forces on the head before the fastenings see them: at the wave number of a span; 0 for a
 /// line or without [fastenings]. [m]
 double head_spread(const Scene& scene, const BeamProperties& properties);
 
-/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, the foot held along
-/// x as they hold it, forces on the head spread by `head_spread`; to its left it goes on for so many more
-/// spans. InputError without [rail].
+/// The rail of a scene: its section, its length, its fastenings' columns on rigid ground, or one
+/// spring-damper a fastening on a rigid sleeper, the foot held along x as they hold it, forces on the head
+/// spread by `head_spread`; to its left it goes on for so many more spans. InputError without [rail].
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans = 0);
 
 }  // namespace tread

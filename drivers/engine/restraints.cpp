@@ -18,6 +18,7 @@ class Restraints {
     for (const int b : bodies_.index.rail())
       if (!scene_.pulse) hold_rail(block(b));  // under a pulse it is a free bar
     if (bodies_.index.slab >= 0) hold_slab(block(bodies_.index.slab));
+    for (const int b : bodies_.index.sleepers) hold_sleeper(block(b));
     if (scene_.plane_strain)
       for (const SweptBlock& body : bodies_.mesh.blocks) hold_all(body, 1);
     if (bodies_.index.axle >= 0)
@@ -66,6 +67,11 @@ class Restraints {
   void hold_slab(const SweptBlock& body) {
     for (int c = 0; c < 2; ++c) hold_all(body, c);
     hold_path(body, "bottom", 2);
+  }
+
+  void hold_sleeper(const SweptBlock& body) {
+    hold_all(body, 0);
+    hold_path(body, "left", 1);
   }
 
   void release_secondary_nodes() {

@@ -175,6 +175,11 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   const std::vector<double> rest = beam.static_state(0, out.force);
   const std::vector<double>& state = passage.beam_state();
   const std::vector<double>& rate = passage.beam_rate();
+  if (model.scene.sleepers)
+    for (int i = 0; i < model.scene.fastenings->count; ++i) {
+      const double x = model.scene.fastenings->position(i) - model.scene.rail->origin;
+      out.sleepers.push_back({beam.sleeper(state, x) - beam.sleeper(rest, x), beam.sleeper(rate, x)});
+    }
   const int last = beam.nodes() - 1;
   for (int i = 0; i <= last; ++i) {
     // What stays under the wheel has the rate -v d/dx.

@@ -61,6 +61,13 @@ struct RunIn {
   double left = 0, pitch = 0;     ///< of the sections [m]
   std::vector<Section> sections;  ///< at least two
 
+  /// A sleeper's deflection beyond the static state, and its speed, downwards.
+  struct Sleeper {
+    double deflection = 0;  ///< [m]
+    double speed = 0;       ///< [m/s]
+  };
+  std::vector<Sleeper> sleepers;  ///< along x; empty: the track has none
+
   void list_state(StateList& list) {
     list.add("force", force);
     list.add("wheel_speed", wheel_speed);
@@ -72,6 +79,7 @@ struct RunIn {
     list.add("left", left);
     list.add("pitch", pitch);
     list.add_records("sections", std::span(sections));
+    list.add_records("sleepers", std::span(sleepers));
   }
 };
 

@@ -6,6 +6,11 @@
 
 namespace tread {
 
+std::int64_t sample_count(const Scene& scene) {
+  if (!scene.motion) return 0;
+  return static_cast<std::int64_t>(std::ceil(scene.motion->duration / scene.output.history_interval)) + 1;
+}
+
 std::vector<PhaseInfo> Sampling::phases() const {
   const std::vector<RunField> reads = {RunField::displacement, RunField::velocity, RunField::force};
   return {{StepPhase::energies, "all features, at samples and every few steps", reads, {RunField::samples}},
@@ -13,10 +18,7 @@ std::vector<PhaseInfo> Sampling::phases() const {
 }
 
 std::vector<FieldBytes> Sampling::fields() const {
-  if (!model_->scene.motion) return {};
-  const double samples = model_->scene.motion->duration / model_->scene.output.history_interval;
-  const std::int64_t count = static_cast<std::int64_t>(std::ceil(samples)) + 1;
-  return {{RunField::samples, count * static_cast<std::int64_t>(sizeof(Sample))}};
+  return {{RunField::samples, sample_count(model_->scene) * static_cast<std::int64_t>(sizeof(Sample))}};
 }
 
 void Sampling::apply(StepPhase phase, StepState& step) {

@@ -9,6 +9,9 @@
 
 namespace tread {
 
+/// Samples that the scene's histories hold; 0 without motion.
+std::int64_t sample_count(const Scene& scene);
+
 class Sampling final : public Feature {
  public:
   /// Keeps references. `features`: whose values make a sample; `held`: restrained unknowns that would move.

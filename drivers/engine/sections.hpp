@@ -12,6 +12,9 @@ namespace tread {
 
 RailSections rail_sections(const Scene& scene, const MeshSizes& sizes);
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
+/// A half sleeper under the lowest point of the foot of `rail`; its path "left" lies in the track's middle.
+Section sleeper_section(const SleeperSpec& sleeper, const Section& rail, const MeshSizes& sizes);
+
 /// The slab's top touches the lowest point of the foot of `rail`; the fastenings span what is left.
 Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes);
 Section tyre_section(const Scene& scene, const MeshSizes& sizes);

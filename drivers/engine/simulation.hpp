@@ -40,6 +40,8 @@ class Simulation final : private RunEnd {
   void observe(PhaseClock* clock) { clock_ = clock; }
   bool sampled() const { return sampled_; }
   const Sample& sample() const { return features_.sampling().sample(); }
+  /// Values of the last sample that the scene asks for, and their columns.
+  const Measurements& measurements() const { return features_.measurements(); }
 
   /// Returns true if all displacements and velocities are finite.
   bool finite() const { return fields_->finite(); }

@@ -58,6 +58,18 @@ void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<doubl
   if (model.ties) model.ties->follow({field.data()});
 }
 
+/// Adds to the sleepers' vertical motion what `value` has of each, downwards: [m] or [m/s].
+void add_to_sleepers(const Model& model, const RunIn& run_in, double RunIn::Sleeper::*value,
+                     AlignedVector<double>& field) {
+  for (std::size_t i = 0; i < run_in.sleepers.size(); ++i) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.sleepers[i])];
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node)
+        field[static_cast<std::size_t>(dof(block.base + block.slot(node, station), 2))] -=
+            run_in.sleepers[i].*value;
+  }
+}
+
 void move_deflection(const Model& model, double speed, const StartFields& fields) {
   // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
   // du/dx in the track.
@@ -104,6 +116,7 @@ void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const 
   if (!run_in) return;
   add_to_rail(
       model, [&](double x) { return run_in->at(x).displacement; }, fields.displacement);
+  add_to_sleepers(model, *run_in, &RunIn::Sleeper::deflection, fields.displacement);
   fields.wheel.origin.z -= run_in->at(0).displacement.deflection;
 }
 
@@ -116,9 +129,11 @@ void start_wheel(const Model& model, const std::optional<RunIn>& run_in, const S
   fields.wheel.spin = speed / model.wheel_radius();
   const bool deflected = model.scene.start() != "rigid";
   if (deflected) move_deflection(model, speed, fields);
-  if (run_in)
+  if (run_in) {
     add_to_rail(
         model, [&](double x) { return run_in->at(x).rate; }, fields.velocity);
+    add_to_sleepers(model, *run_in, &RunIn::Sleeper::speed, fields.velocity);
+  }
   if (run_in) bend_axle(model, run_in->bending_speed, fields);
   if (deflected) roll_freely(model, fields);
   if (!motion || motion->creepage == 0) return;

@@ -53,6 +53,7 @@ StepFeatures::StepFeatures(const Model& model, double patch_y) {
   std::vector<Feature*> sampled;
   for (const std::unique_ptr<Feature>& feature : all_) sampled.push_back(feature.get());
   sampling_ = add<Sampling>(model, std::move(sampled), bodies_->held());
+  measurements_ = add<Measurements>(model, patch_y);
   for (const std::unique_ptr<Feature>& feature : all_)
     for (const PhaseInfo& info : feature->phases())
       by_phase_[static_cast<std::size_t>(info.phase)].push_back(feature.get());

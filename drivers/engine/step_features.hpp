@@ -10,6 +10,7 @@
 #include "drivers/engine/features/surface_record.hpp"
 #include "drivers/engine/features/vehicle.hpp"
 #include "drivers/engine/features/wheel_motion.hpp"
+#include "drivers/engine/measurements.hpp"
 #include "drivers/engine/sampling.hpp"
 
 namespace tread {
@@ -36,6 +37,7 @@ class StepFeatures {
   void list_state(StateList& list);
 
   const Sampling& sampling() const { return *sampling_; }
+  const Measurements& measurements() const { return *measurements_; }
   const WheelMotion* wheel() const { return wheel_; }      ///< null: absent
   const Vehicle* vehicle() const { return vehicle_; }      ///< null: absent
   const SurfaceRecord* record() const { return record_; }  ///< null: absent
@@ -49,6 +51,7 @@ class StepFeatures {
   std::array<std::vector<Feature*>, kStepPhases> by_phase_;
   Bodies* bodies_ = nullptr;
   Sampling* sampling_ = nullptr;
+  Measurements* measurements_ = nullptr;
   WheelMotion* wheel_ = nullptr;
   Vehicle* vehicle_ = nullptr;
   SurfaceRecord* record_ = nullptr;

@@ -67,6 +67,12 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     slab.remark = fmt::format("{:.1f} kg/m of half track", slab.mass / model.scene.rail->length);
     bodies.push_back(slab);
   }
+  if (!model.index.sleepers.empty()) {
+    BodyMass sleepers = sum_of("half sleepers", model.index.sleepers, blocks);
+    sleepers.remark =
+        fmt::format("{:.1f} kg each", sleepers.mass / static_cast<double>(model.index.sleepers.size()));
+    bodies.push_back(sleepers);
+  }
   return bodies;
 }
 

@@ -59,7 +59,8 @@ template <class View>
 std::vector<Layer> layers_of(const Model& model, const View& view) {
   const BlockIndex& index = model.index;
   const std::vector<std::pair<const char*, std::vector<int>>> groups = {
-      {"slab and rail", {index.slab, index.rail_base}},
+      {"sleepers", index.sleepers},
+      {index.slab >= 0 ? "slab and rail" : "rail", {index.slab, index.rail_base}},
       {index.rail_base >= 0 ? "rail head" : "rail", {index.rail_cap}},
       {"disc and axle", {index.axle, index.disc}},
       {"tread", {index.tread}}};
@@ -134,6 +135,9 @@ Figure creepage_figure(const Model& model, const RunResults& r, const std::vecto
                                  curve("mean of 28 nodes around the tread", model, r,
                                        [](const Sample& s) { return 100 * s.creepage_mean; })},
                                 levels, 280));
+  figure.panels.push_back(
+      panel("Spin [1/m]", {curve("spin creepage", model, r, [](const Sample& s) { return s.spin_creepage; })},
+            {}, 90));
   figure.caption +=
       "The single node vibrates when it enters the patch and once a turn again; the mean filters that out.";
   return figure;

@@ -11,6 +11,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/hammer_figures.hpp"
+#include "drivers/report/measurement_figures.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/report/report_figures.hpp"
 #include "drivers/report/report_references.hpp"
@@ -73,6 +74,7 @@ KeyFigures rolling_figures(const Run& run) {
       run.on_corrugation() && r.evaluated_first > 0 ? "over the corrugation" : "over the evaluated stretch";
   KeyFigures figures = {{fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
                         {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
+                        {"Dynamic factor", readable(r.dynamic_factor(), 3), ""},
                         {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
                         {"F_L / F_N, steady", readable(r.traction_coefficient, 3), ""},
                         {"Creepage, steady", readable(100 * r.creepage, 3), "%"},
@@ -378,12 +380,16 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     Chapter forces{"Forces", {}};
     if (run.in_sight()) forces.blocks.emplace_back(force_figure(model, results));
     forces.blocks.emplace_back(passage_figure(model, results));
+    if (Figure spectrum = spectrum_figure(results); !spectrum.panels.empty())
+      forces.blocks.emplace_back(std::move(spectrum));
     report.chapters.push_back(std::move(forces));
     report.chapters.push_back(
         {"Creepage", {creepage_figure(model, results, creepage_levels(run.references))}});
     if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
     report.chapters.push_back(patch_chapter(run));
   }
+  if (Chapter measured = measurement_chapter(model, results); !measured.blocks.empty())
+    report.chapters.push_back(std::move(measured));
   if (model.hammer && !results.samples.empty())
     report.chapters.push_back({"Hammer", {blow_figure(results), receptance_figure(model.scene, results)}});
   report.chapters.push_back(energy_chapter(run));

@@ -1,5 +1,6 @@
 #include "drivers/results/disk_use.hpp"
 
+#include "drivers/engine/step_features.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/inventory.hpp"
 #include "drivers/results/run_results.hpp"
@@ -28,11 +29,13 @@ DiskUse disk_use(const Model& model, double dt) {
       model.contact
           ? kPatchShare * rows * static_cast<double>(PatchFile::sample_bytes(model.contact->nodes()))
           : 0;
-  const double values = rows * static_cast<double>(history_channels(model).size());
+  const auto measured = static_cast<double>(StepFeatures(model, 0).measurements().channels().size());
+  const double values = rows * (static_cast<double>(history_channels(model).size()) + measured);
   use.results += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)) + patch);
   constexpr int kAtOnce = 3;
   const std::int64_t state =
-      checkpoint_bytes(model) + static_cast<std::int64_t>(rows * sizeof(Sample) + patch);
+      checkpoint_bytes(model) +
+      static_cast<std::int64_t>(rows * (sizeof(Sample) + sizeof(double) * measured) + patch);
   use.checkpoints = kAtOnce * state;
   if (model.scene.forks) use.forks = state;
   use.results += use.forks;

@@ -14,40 +14,50 @@ namespace tread {
 
 namespace {
 
-const std::vector<double>& checked(const std::vector<double>& row, const std::vector<Channel>& channels) {
-  for (std::size_t i = 0; i < row.size(); ++i)
-    if (!std::isfinite(row[i]))
-      throw NumericalError(
-          fmt::format("'{}' is not a finite number at t = {:.6e} s", channels[i].name, row[0]));
-  return row;
+std::vector<Channel> channels_of(const Model& model, const MeasuredRows& measured) {
+  std::vector<Channel> channels = history_channels(model);
+  for (const MeasuredChannel& column : measured.channels()) channels.push_back(column.channel);
+  return channels;
 }
 
 }  // namespace
 
-GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& directory)
+GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& directory,
+                           const RunResults& results)
     : model_(&model),
       directory_(directory),
-      channels_(history_channels(model)),
+      channels_(channels_of(model, results.measured)),
       histories_(directory, channels_, root_attributes(model.scene)) {
   if (model.contact)
     patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene));
 }
 
 GrowingFiles::GrowingFiles(const Model& model, const std::filesystem::path& directory,
-                           const std::vector<Sample>& samples, const std::string& patch)
+                           const RunResults& results, const std::string& patch)
     : model_(&model),
       directory_(directory),
-      channels_(history_channels(model)),
+      channels_(channels_of(model, results.measured)),
       histories_(directory, channels_, root_attributes(model.scene)) {
-  for (const Sample& sample : samples) histories_.append(history_row(model, sample));
+  for (std::size_t i = 0; i < results.samples.size(); ++i)
+    histories_.append(row_of(results.samples[i], results.measured.row(i)));
   if (!model.contact) return;
   write_text_file(directory / kPatchFile, patch);
   patch_.emplace(directory / kPatchFile, model.contact->nodes(), root_attributes(model.scene),
-                 samples.size());
+                 results.samples.size());
 }
 
-void GrowingFiles::append(const Sample& sample) {
-  histories_.append(checked(history_row(*model_, sample), channels_));
+std::vector<double> GrowingFiles::row_of(const Sample& sample, std::span<const double> measured) const {
+  std::vector<double> row = history_row(*model_, sample);
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (!std::isfinite(row[i]))
+      throw NumericalError(
+          fmt::format("'{}' is not a finite number at t = {:.6e} s", channels_[i].name, row[0]));
+  row.insert(row.end(), measured.begin(), measured.end());
+  return row;
+}
+
+void GrowingFiles::append(const Sample& sample, std::span<const double> measured) {
+  histories_.append(row_of(sample, measured));
   if (patch_) patch_->append(sample.time, sample.wheel_x, model_->contact->nodes());
 }
 

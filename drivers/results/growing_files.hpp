@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,17 @@ inline constexpr const char* kPatchFile = "patch.h5";
 
 class GrowingFiles {
  public:
-  /// Starts all files afresh.
-  GrowingFiles(const Model& model, const std::filesystem::path& directory);
+  /// Starts all files afresh. `results`: states the measured columns.
+  GrowingFiles(const Model& model, const std::filesystem::path& directory, const RunResults& results);
 
-  /// Restores the files to the state in which patch_bytes() returned `patch`: cut back to the samples,
-  /// whatever happened to them since.
-  GrowingFiles(const Model& model, const std::filesystem::path& directory, const std::vector<Sample>& samples,
+  /// Restores the files to the state in which patch_bytes() returned `patch`: cut back to the samples of
+  /// `results`, whatever happened to them since.
+  GrowingFiles(const Model& model, const std::filesystem::path& directory, const RunResults& results,
                const std::string& patch);
 
-  /// Appends a sample. Throws NumericalError if a value is not finite; such a value does not reach a file.
-  void append(const Sample& sample);
+  /// Appends a sample and its measured values. Throws NumericalError if a value of the sample is not finite;
+  /// such a value does not reach a file.
+  void append(const Sample& sample, std::span<const double> measured);
 
   /// Bytes of patch.h5 with all samples so far; empty without contact.
   std::string patch_bytes();
@@ -33,6 +35,8 @@ class GrowingFiles {
   void close();
 
  private:
+  std::vector<double> row_of(const Sample& sample, std::span<const double> measured) const;
+
   const Model* model_;
   std::filesystem::path directory_;
   std::vector<Channel> channels_;

@@ -8,6 +8,7 @@
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
 
@@ -47,6 +48,10 @@ const std::vector<Column>& wheel_columns() {
        [](const Sample& s) { return s.creepage_node; }},
       {{"creepage_mean", "-", "eq. (3), mean of 28 points around the tread"},
        [](const Sample& s) { return s.creepage_mean; }},
+      {{"lateral_creepage", "-", "mean lateral speed of the wheelset over its forward speed"},
+       [](const Sample& s) { return s.lateral_creepage; }},
+      {{"spin_creepage", "1/m", "rotation of the wheel about the rail's outward normal, over the way"},
+       [](const Sample& s) { return s.spin_creepage; }},
       {{"torque", "N m", "on the axle"}, [](const Sample& s) { return s.torque; }},
       {{"wheel_speed", "m/s", "mean forward speed of the wheelset"},
        [](const Sample& s) { return s.wheel_speed; }},
@@ -283,8 +288,36 @@ void add_static_contact(const Model& model, const RunResults& r, Json& json) {
   json["wheelset_inertia_kg_m2"] = model.wheelset->inertia();
 }
 
+/// Root mean squares of F_N in one-third octaves over the evaluated stretch.
+Json octaves_json(const RunResults& r) {
+  const ForceSpectrum spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
+  Json list = Json::array();
+  for (std::size_t i = 0; i < spectrum.bands.size(); ++i)
+    list.push_back({{"frequency_Hz", spectrum.bands[i].nominal}, {"rms_N", spectrum.rms[i]}});
+  return list;
+}
+
+/// Statistics of each measured column over the evaluated stretch, or over the whole run without contact.
+Json measured_json(const Model& model, const RunResults& r) {
+  Json json = Json::object();
+  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  for (std::size_t c = 0; c < r.measured.columns(); ++c) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < r.samples.size(); ++i)
+      if ((!model.contact || evaluated(r.samples[i])) && std::isfinite(r.measured.row(i)[c]))
+        values.push_back(r.measured.row(i)[c]);
+    const Channel& channel = r.measured.channels()[c].channel;
+    json[channel.name] = statistics_json(statistics(values));
+    json[channel.name]["unit"] = channel.unit;
+    json[channel.name]["description"] = channel.description;
+  }
+  return json;
+}
+
 void add_rolling_contact(const RunResults& r, Json& json) {
   json["vertical_force_N"] = statistics_json(r.vertical_force);
+  json["dynamic_factor"] = r.dynamic_factor();
+  json["vertical_force_third_octaves"] = octaves_json(r);
   json["longitudinal_force_N"] = statistics_json(r.longitudinal_force);
   json["evaluated_x_m"] = {r.evaluated_first, r.evaluated_last};
   json["steady_x_m"] = {r.steady_first, r.steady_last};
@@ -329,6 +362,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   if (model.contact) add_static_contact(model, r, json);
   if (r.samples.empty()) return json_text(json);  // a static scene
   if (model.contact) add_rolling_contact(r, json);
+  if (r.measured.columns() > 0) json["measured"] = measured_json(model, r);
   json["energy_error"] = r.energy_error;
   if (model.contact) json["energy_error_over_frictional_work"] = r.energy_error_of_work;
   json["energy_by_body_J"] = Json::array();

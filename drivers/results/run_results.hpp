@@ -11,6 +11,7 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/results/measured_rows.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/surface_results.hpp"
 #include "io/files/history_file.hpp"
@@ -38,6 +39,7 @@ struct RunResults {
   Preload preload;
   StepLimit limit;
   std::vector<Sample> samples;
+  MeasuredRows measured;  ///< as many rows as there are samples, or no columns
   std::int64_t steps = 0;
   std::optional<ForkOrigin> origin;  ///< of a fork; its times count from there
   double dt = 0;
@@ -52,6 +54,11 @@ struct RunResults {
   std::vector<PatchSample> instants;            ///< of patch.h5, for the report
   std::vector<PatchSample> movie;               ///< the same along the evaluated stretch
 
+  /// Largest F_N over the evaluated stretch by the static wheel load [-]; 0 without load.
+  double dynamic_factor() const {
+    const double load = -preload.contact.force_on_rail.z;
+    return load > 0 ? vertical_force.max / load : 0;
+  }
   /// Steps that this run took itself.
   std::int64_t own_steps() const { return steps - (origin ? origin->steps : 0); }
 

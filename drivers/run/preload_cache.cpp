@@ -69,10 +69,15 @@ StateList fields_of(Preload& preload) {
 Preload unpack_preload(const SealedContent& content, const Model& model) {
   Preload preload;
   preload.displacement.resize(static_cast<std::size_t>(3 * model.mesh.slots));
-  const auto sections = content.find(fmt::format("{}/run_in/sections", kGroup));
-  if (sections != content.end()) {
-    const std::size_t values = std::get<std::vector<double>>(sections->second).size();
-    preload.run_in.emplace().sections.resize(values / (sizeof(RunIn::Section) / sizeof(double)));
+  const auto make_room = [&]<class Record>(const char* name, std::vector<Record>& records) {
+    const auto& values =
+        sealed_entry<std::vector<double>>(content, fmt::format("{}/run_in/{}", kGroup, name));
+    records.resize(values.size() / (sizeof(Record) / sizeof(double)));
+  };
+  if (content.contains(fmt::format("{}/run_in/sections", kGroup))) {
+    preload.run_in.emplace();
+    make_room("sections", preload.run_in->sections);
+    make_room("sleepers", preload.run_in->sleepers);
   }
   unpack(content, kGroup, fields_of(preload));
   return preload;

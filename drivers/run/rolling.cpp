@@ -38,7 +38,8 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
 void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
-  files_.emplace(*model_, session_->folder.path());
+  results_->measured = MeasuredRows(simulation_->measurements().channels());
+  files_.emplace(*model_, session_->folder.path(), *results_);
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
 }
 
@@ -46,7 +47,9 @@ void Rolling::go_on(const SealedContent& checkpoint) {
   simulation_.emplace(*model_, results_->preload.contact.centre.y, results_->dt);
   unpack_state(checkpoint, *model_, *simulation_);
   const auto patch = checkpoint.find("patch.h5");
-  files_.emplace(*model_, session_->folder.path(), results_->samples,
+  results_->measured = MeasuredRows(simulation_->measurements().channels(), unpack_measured(checkpoint),
+                                    results_->samples.size());
+  files_.emplace(*model_, session_->folder.path(), *results_,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
   written_ = Mark{simulation_->steps(), simulation_->time()};
@@ -83,11 +86,18 @@ void Rolling::step_to_the_end() {
     if (simulation_->steps() == fork_step_) keep_for_forks();
     simulation_->step();
     if (simulation_->sampled()) {
-      results_->samples.push_back(simulation_->sample());
-      files_->append(simulation_->sample());
+      keep_sample();
     }
     look();
   }
+}
+
+void Rolling::keep_sample() {
+  const Sample& sample = simulation_->sample();
+  const double before = results_->samples.empty() ? sample.time : results_->samples.back().time;
+  results_->samples.push_back(sample);
+  results_->measured.append(simulation_->measurements().values(), sample.time - before);
+  files_->append(sample, results_->measured.row(results_->samples.size() - 1));
 }
 
 /// Handles writing, signals, requests and limits between two steps.

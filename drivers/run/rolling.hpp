@@ -36,6 +36,7 @@ class Rolling {
     double time;  ///< [s]
   };
   void step_to_the_end();
+  void keep_sample();
   void look();
   void check_penetration();
   void check_disk();

@@ -50,6 +50,7 @@ void check_mesh(const SealedContent& content, const Model& model) {
 }
 
 const std::string kSamples = "samples";
+const std::string kMeasured = "measured";
 const std::string kFormat = "made/format";
 const std::string kVersion = "made/version";
 
@@ -171,6 +172,9 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
   StateList samples;
   samples.add_records(kSamples, std::span(results.samples));
   pack(samples, "histories", content);
+  MeasuredRows::Kept measured = results.measured.kept();
+  pack_texts(kMeasured + "/names", measured.names, content);
+  content[kMeasured + "/values"] = std::move(measured.values);
   pack(simulation.state(), "state", content);
   if (!patch.empty()) content["patch.h5"] = std::move(patch);
   return content;
@@ -187,6 +191,11 @@ void unpack_results(const SealedContent& content, RunResults& results) {
   StateList samples;
   samples.add_records(kSamples, std::span(results.samples));
   unpack(content, "histories", samples);
+}
+
+MeasuredRows::Kept unpack_measured(const SealedContent& content) {
+  return {unpack_texts(content, kMeasured + "/names"),
+          sealed_entry<std::vector<double>>(content, kMeasured + "/values")};
 }
 
 void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation) {

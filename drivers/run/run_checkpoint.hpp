@@ -17,7 +17,7 @@ namespace tread {
 
 /// Number of the names and meanings in a checkpoint. It rises whenever one of them changes; checkpoints of
 /// another format are refused.
-inline constexpr std::int64_t kCheckpointFormat = 2;
+inline constexpr std::int64_t kCheckpointFormat = 3;
 
 /// Everything that a run was asked for.
 struct RunOrder {
@@ -50,6 +50,9 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
 /// Restores the entries that pack_run() took from `results`: all that Model and Simulation need to be made
 /// again.
 void unpack_results(const SealedContent& content, RunResults& results);
+
+/// The measured values of `results` as pack_run() took them; their columns are those of that run.
+MeasuredRows::Kept unpack_measured(const SealedContent& content);
 
 /// Restores the state of the simulation and of the model's parts. Throws InputError if the checkpoint was
 /// made on another mesh.

@@ -14,15 +14,30 @@ constexpr double kFirst = 0.125;  ///< place of the first fastening [m]
 }  // namespace
 
 std::vector<VerifyInput> track_inputs() {
-  return {{"element_size", &kLength, "mm", 6e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
-          {"spacing", &kLength, "m", 0.65, {0.3, 1}, "the distance between fastenings"},
-          {"stiffness", &kStiffness, "MN/m", 22e6, {1e6, 1e9}, "a fastening's stiffness"},
-          {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e6}, "a fastening's damping"},
-          {"held", nullptr, "", 1, {0, 1}, "1: the foot is held along x, 0: it moves freely"},
-          {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"}};
+  return {
+      {"element_size", &kLength, "mm", 6e-3, {1e-3, 6e-3}, "the elements' size in the contact surface"},
+      {"spacing", &kLength, "m", 0.65, {0.3, 1}, "the distance between fastenings"},
+      {"stiffness", &kStiffness, "MN/m", 22e6, {1e6, 1e9}, "a fastening's stiffness"},
+      {"damping", &kViscousDamping, "kN s/m", 200e3, {0, 1e6}, "a fastening's damping"},
+      {"sleepers", nullptr, "", 0, {0, 1}, "1: the fastenings stand on sleepers, 0: on rigid ground"},
+      {"bed_stiffness", &kStiffness, "MN/m", 50e6, {1e6, 1e12}, "the bed's stiffness under a half sleeper"},
+      {"bed_damping", &kViscousDamping, "kN s/m", 50e3, {0, 1e9}, "the bed's damping under a half sleeper"},
+      {"held", nullptr, "", 1, {0, 1}, "1: the foot is held along x, 0: it moves freely"},
+      {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"}};
 }
 
 std::string track_text(const VerifyInputs& inputs, double element_size) {
+  std::string sleepers;
+  if (inputs["sleepers"] > 0)
+    sleepers = fmt::format(R"([material.concrete]
+youngs_modulus = "35 GPa"
+poissons_ratio = 0.2
+density = "2400 kg/m3"
+[sleepers]
+stiffness = "{} N/m"
+damping = "{} N s/m"
+)",
+                           inputs["bed_stiffness"], inputs["bed_damping"]);
   return fmt::format(
       R"([scene]
 based_on = "highspeed-slab-2014"
@@ -36,9 +51,10 @@ stiffness = "{k} N/m"
 damping = "{c} N s/m"
 along = "{along}"
 held_at = "{held_at}"
-)",
-      fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]), fmt::arg("c", inputs["damping"]),
-      fmt::arg("spacing", inputs["spacing"]), fmt::arg("along", inputs["held"] > 0 ? "held" : "free"),
+{sleepers})",
+      fmt::arg("sleepers", sleepers), fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]),
+      fmt::arg("c", inputs["damping"]), fmt::arg("spacing", inputs["spacing"]),
+      fmt::arg("along", inputs["held"] > 0 ? "held" : "free"),
       fmt::arg("held_at", inputs["over_pad"] > 0 ? "pad" : "springs"),
       fmt::arg("count", 1 + static_cast<int>(std::floor((kRail - 2 * kFirst) / inputs["spacing"] + 1e-9))));
 }

@@ -8,11 +8,12 @@
 
 namespace tread {
 
-/// Inputs element_size, spacing, stiffness and damping of the fastenings, and where they hold the foot.
+/// Inputs element_size, spacing, stiffness and damping of the fastenings, sleepers and their bed, and where
+/// the fastenings hold the foot.
 std::vector<VerifyInput> track_inputs();
 
-/// Scene text: wheelset, vehicle and rail of the paper, as many fastenings as the rail takes, no slab. Tables
-/// may follow.
+/// Scene text: wheelset, vehicle and rail of the paper, as many fastenings as the rail takes, no slab, with
+/// or without sleepers. Tables may follow.
 std::string track_text(const VerifyInputs& inputs, double element_size);
 
 }  // namespace tread

@@ -151,8 +151,9 @@ Panel receptance_panel(const std::string& place, const Strike& strike, const Tra
   return {"log10 of [m/N]", {section, head, theory}, {}, 240, std::nullopt};
 }
 
-/// Deflection under a force and the beam's own weight [m].
-double loaded_deflection(const TrackBeam& beam, const BeamProperties& rail, double force, double gravity) {
+/// Deflection under a force and the own weight of beam and sleepers [m].
+double loaded_deflection(const TrackBeam& beam, const BeamProperties& rail, double force,
+                         const Scene& scene) {
   // By reciprocity the weight's deflection at 0 is the weight times the area of the line under a unit force
   // there.
   const std::vector<double> line = beam.static_state(0, 1);
@@ -160,7 +161,8 @@ double loaded_deflection(const TrackBeam& beam, const BeamProperties& rail, doub
   double area = 0;
   for (int i = 0; i < kParts; ++i)
     area += beam.deflection(line, beam.left() + beam.length() * (i + 0.5) / kParts) * beam.length() / kParts;
-  return force * beam.deflection(line, 0) + rail.mass * gravity * area;
+  const double bed = scene.sleepers ? scene.gravity * sleeper_mass(scene) / scene.sleepers->stiffness : 0;
+  return force * beam.deflection(line, 0) + rail.mass * scene.gravity * area + bed;
 }
 
 void add_static(const VerifyInputs& inputs, const ProgressText& progress, CaseResult& result) {
@@ -181,8 +183,9 @@ duration = "1 ms"
   const BeamProperties rail = timoshenko(rail_beam_section(scene), scene.rail_material());
   const TrackBeam beam = rail_beam(scene, rail);
   const double force = model.wheel_load();
-  const double theory = loaded_deflection(beam, rail, force, scene.gravity);
-  const double winkler = scene.fastenings->stiffness / scene.fastenings->spacing;
+  const double theory = loaded_deflection(beam, rail, force, scene);
+  const double bed = scene.sleepers ? 1 / scene.sleepers->stiffness : 0;
+  const double winkler = 1 / (1 / scene.fastenings->stiffness + bed) / scene.fastenings->spacing;
   const double line = force * std::pow(winkler / (4 * rail.bending_stiffness), 0.25) / (2 * winkler);
   result.findings.push_back({"deflection of the cross-section under the wheel", "mm",
                              1e3 * RailAxis(model).deflection_at(0, preload.displacement.data()),

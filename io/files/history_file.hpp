@@ -7,17 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/channel.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/files/output_file.hpp"
 
 namespace tread {
-
-/// A column of the histories.
-struct Channel {
-  std::string name;         ///< snake_case, unique
-  std::string unit;         ///< SI unit, "-" without one
-  std::string description;  ///< one line for the reader of run.h5
-};
 
 /// Writes rows of channel values to DIR/histories.csv (header `time [s],vertical_force [N],...`) and to the
 /// datasets /histories/<channel> of DIR/run.h5 with attributes `unit` and `description`. Rows gather in

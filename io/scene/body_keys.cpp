@@ -224,6 +224,34 @@ void add_slab(Keys& keys) {
                                "Material of the layer under the slabs"));
 }
 
+void add_sleepers(Keys& keys) {
+  const auto length = [&](const char* name, double SleeperSpec::*member, const char* unit, Bounds range,
+                          const char* description) {
+    keys.push_back(
+        quantity(name, {Effect::mesh}, at(&Scene::sleepers, member), kLength, unit, range, description));
+  };
+  length("sleepers.width", &SleeperSpec::width, "m", above(0, 10), "Width of a sleeper along x");
+  length("sleepers.length", &SleeperSpec::length, "m", above(0, 10),
+         "Length of a half sleeper, from the track's middle to its end");
+  length("sleepers.height", &SleeperSpec::height, "m", above(0, 10), "Height of a sleeper");
+  length("sleepers.offset", &SleeperSpec::offset, "m", from(-10, 10),
+         "y of the half sleeper's middle from the rail's centre line");
+  keys.push_back(material_name("sleepers.material", {Effect::preload, Effect::cost},
+                               at(&Scene::sleepers, &SleeperSpec::material), "Material of the sleepers"));
+  keys.push_back(
+      quantity("sleepers.stiffness", {Effect::preload, Effect::cost},
+               at(&Scene::sleepers, &SleeperSpec::stiffness), kStiffness, "MN/m", above(0, 1e12),
+               "Vertical stiffness of the bed under a half sleeper: ballast, ground and pads under "
+               "the sleeper in series"));
+  keys.push_back(quantity("sleepers.damping", {Effect::preload, Effect::cost},
+                          at(&Scene::sleepers, &SleeperSpec::damping), kViscousDamping, "kN s/m",
+                          from(0, 1e9), "Vertical damping of the bed under a half sleeper"));
+  keys.push_back(number("sleepers.hanging", {Effect::preload, Effect::cost},
+                        at(&Scene::sleepers, &SleeperSpec::hanging), {0, 10000},
+                        "The sleeper that hangs on the rail without a bed, counted along x from 1; 0: none",
+                        Kind::integer));
+}
+
 void add_vehicle_and_load(Keys& keys) {
   keys.push_back(quantity("vehicle.sprung_mass", {Effect::preload, Effect::cost},
                           at(&Scene::vehicle, &VehicleSpec::sprung_mass), kMass, "kg", above(0, 1e5),

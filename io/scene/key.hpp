@@ -86,6 +86,14 @@ struct SceneTable {
 
 /// Begins the path of every material's table: "material.steel".
 inline constexpr std::string_view kMaterialTables = "material.";
+/// Begins the path of every probe's table: "probe.midspan".
+inline constexpr std::string_view kProbeTables = "probe.";
+
+/// Names that a scene gives to its own tables.
+struct TableNames {
+  std::vector<std::string> materials;
+  std::vector<std::string> probes;
+};
 
 /// The number that the field holds; nothing where it is not a number or not set.
 std::optional<double> number_at(const Field& field);

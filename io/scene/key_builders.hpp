@@ -61,6 +61,16 @@ std::function<Field(Scene&)> at(const std::string& material, Member Material::*m
   };
 }
 
+/// A member of the probe of that name.
+template <class Member>
+std::function<Field(Scene&)> at(const std::string& probe, Member ProbeSpec::*member) {
+  return [probe, member](Scene& scene) -> Field {
+    const auto found = scene.probes.find(probe);
+    if (found == scene.probes.end()) return std::monostate{};
+    return &(found->second.*member);
+  };
+}
+
 Key quantity(std::string path, Effects effects, std::function<Field(Scene&)> locate, const Quantity& of,
              std::string unit, Bounds range, std::string description);
 Key number(std::string path, Effects effects, std::function<Field(Scene&)> locate, Bounds range,

@@ -79,24 +79,29 @@ SceneTable always(std::string name, std::string description) {
 
 }  // namespace
 
-Keys make_keys(const std::vector<std::string>& materials) {
+Keys make_keys(const TableNames& names) {
   Keys keys;
   add_general(keys);
-  for (const std::string& name : materials) add_material(keys, name);
+  for (const std::string& name : names.materials) add_material(keys, name);
   add_wheel(keys);
   add_rail(keys);
   add_fastenings(keys);
   add_slab(keys);
+  add_sleepers(keys);
   add_vehicle_and_load(keys);
   add_contact(keys);
   add_motion(keys);
   add_corrugation(keys);
   add_wear(keys);
-  add_impacts_and_output(keys);
-  for (const SceneTable& table : make_tables(materials))
+  add_impacts(keys);
+  for (const std::string& name : names.probes) add_probe(keys, name);
+  add_output(keys);
+  for (const SceneTable& table : make_tables(names))
     if (table.removable()) keys.push_back(presence_of(table, keys));
   return keys;
 }
+
+namespace {
 
 SceneTable material_table(const std::string& name) {
   return {.name = std::string(kMaterialTables) + name,
@@ -108,18 +113,37 @@ SceneTable material_table(const std::string& name) {
           .exists = [name](const Scene& scene) { return scene.materials.contains(name); }};
 }
 
-std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
+SceneTable probe_table(const std::string& name) {
+  return {
+      .name = std::string(kProbeTables) + name,
+      .description =
+          "A point of a body whose motion or stress the histories hold, in columns that begin with the "
+          "probe's name. Accelerations are means over the interval between two samples, without aliasing. "
+          "The name consists of letters, digits, _ and -.",
+      .create = [name](Scene& scene) { scene.probes[name] = {}; },
+      .remove = [name](Scene& scene) { scene.probes.erase(name); },
+      .exists = [name](const Scene& scene) { return scene.probes.contains(name); }};
+}
+
+}  // namespace
+
+std::vector<SceneTable> make_tables(const TableNames& names) {
   std::vector<SceneTable> tables = {always("scene", "Title, base and fineness of the scene."),
                                     always("solution_zone", "The finely divided part of the rail.")};
-  for (const std::string& name : materials) tables.push_back(material_table(name));
+  for (const std::string& name : names.materials) tables.push_back(material_table(name));
   const std::vector<SceneTable> others = {
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
       component("rail", &Scene::rail, "The flexible rail, or a block or bar in its place."),
       component("fastenings", &Scene::fastenings,
-                "Groups of spring-dampers under the rail; they stand on the slab, or on rigid ground where "
-                "there is "
-                "none."),
+                "Groups of spring-dampers under the rail; they stand on the slab or on sleepers, or on rigid "
+                "ground "
+                "where there is neither."),
       component("slab", &Scene::slab_track, "Slabs with filled gaps on mortar, moving vertically."),
+      component(
+          "sleepers", &Scene::sleepers,
+          "Elastic sleepers under the fastenings, on ballast or another bed of spring-dampers; half of each "
+          "lies on this side of the track's middle, which is a plane of symmetry. They bend in the plane "
+          "across the track. Not together with [slab]."),
       component("vehicle", &Scene::vehicle, "Masses and primary suspension on the wheelset."),
       component("load", &Scene::load, "A force on the wheel in place of a vehicle."),
       component("contact", &Scene::contact, "Contact and friction between wheel and rail."),
@@ -137,29 +161,44 @@ std::vector<SceneTable> make_tables(const std::vector<std::string>& materials) {
       component("forks", &Scene::forks,
                 "A kept state, from which runs over other corrugations begin. "
                 "[Long runs](../explanation/long-runs.md)"),
-      always("output", "Intervals of samples, progress lines, checkpoints and frames."),
-      always("stop", "Limits that end a run before its duration. [Long runs](../explanation/long-runs.md)"),
   };
   tables.insert(tables.end(), others.begin(), others.end());
+  for (const std::string& name : names.probes) tables.push_back(probe_table(name));
+  tables.push_back(always("output", "Intervals of samples, progress lines, checkpoints and frames."));
+  tables.push_back(
+      always("stop", "Limits that end a run before its duration. [Long runs](../explanation/long-runs.md)"));
   return tables;
 }
 
-std::string_view material_of(std::string_view path) {
-  if (!path.starts_with(kMaterialTables)) return "";
-  const std::string_view rest = path.substr(kMaterialTables.size());
-  const std::string_view name = rest.substr(0, rest.find('.'));
+std::string_view named_table_of(std::string_view path) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
-  return std::all_of(name.begin(), name.end(), allowed) ? name : "";
+  for (const std::string_view kind : {kMaterialTables, kProbeTables}) {
+    if (!path.starts_with(kind)) continue;
+    const std::string_view table = path.substr(0, path.find('.', kind.size()));
+    const std::string_view name = table.substr(kind.size());
+    if (!name.empty() && std::all_of(name.begin(), name.end(), allowed)) return table;
+  }
+  return "";
 }
 
-Keys material_keys(std::string_view name) {
+Keys named_keys(std::string_view table) {
   Keys keys;
-  if (name.empty()) return keys;
-  add_material(keys, std::string(name));
-  keys.push_back(presence_of(material_table(std::string(name)), keys));
+  if (table.empty()) return keys;
+  if (table.starts_with(kMaterialTables))
+    add_material(keys, std::string(table.substr(kMaterialTables.size())));
+  else
+    add_probe(keys, std::string(table.substr(kProbeTables.size())));
+  keys.push_back(presence_of(*named_table(table), keys));
   return keys;
+}
+
+std::optional<SceneTable> named_table(std::string_view table) {
+  if (table.empty()) return std::nullopt;
+  if (table.starts_with(kMaterialTables))
+    return material_table(std::string(table.substr(kMaterialTables.size())));
+  return probe_table(std::string(table.substr(kProbeTables.size())));
 }
 
 }  // namespace tread::keys

@@ -1,6 +1,7 @@
 #pragma once
-// The tables and keys of a scene with given materials. Private to the schema.
+// The tables and keys of a scene with given materials and probes. Private to the schema.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,27 +14,32 @@ using Keys = std::vector<Key>;
 
 /// Adds the keys of the material of that name.
 void add_material(Keys& keys, const std::string& name);
+/// Adds the keys of the probe of that name.
+void add_probe(Keys& keys, const std::string& name);
 void add_wheel(Keys& keys);
 void add_rail(Keys& keys);
 void add_fastenings(Keys& keys);
 void add_slab(Keys& keys);
+void add_sleepers(Keys& keys);
 void add_vehicle_and_load(Keys& keys);
 void add_contact(Keys& keys);
 void add_motion(Keys& keys);
 void add_corrugation(Keys& keys);
 void add_wear(Keys& keys);
-void add_impacts_and_output(Keys& keys);
+void add_impacts(Keys& keys);
+void add_output(Keys& keys);
 
-/// All keys, and all tables, of a scene with these materials, in the order of documentation.
-Keys make_keys(const std::vector<std::string>& materials);
-std::vector<SceneTable> make_tables(const std::vector<std::string>& materials);
+/// All keys, and all tables, of a scene with these materials and probes, in the order of documentation.
+Keys make_keys(const TableNames& names);
+std::vector<SceneTable> make_tables(const TableNames& names);
 
-/// The material that the path, "material.steel" or "material.steel.density", belongs to; "" for other paths
-/// and for names that are not letters, digits, _ and -.
-std::string_view material_of(std::string_view path);
+/// The table of a material or probe, "material.steel", to which "material.steel" and "material.steel.density"
+/// belong; "" for other paths and for names that are not letters, digits, _ and -.
+std::string_view named_table_of(std::string_view path);
 
-/// The keys of the material of that name, that of its presence included; none for "".
-Keys material_keys(std::string_view name);
-SceneTable material_table(const std::string& name);
+/// The keys of the table of a material or probe, that of its presence included; none for "".
+Keys named_keys(std::string_view table);
+/// The table of a material or probe; nothing for "".
+std::optional<SceneTable> named_table(std::string_view table);
 
 }  // namespace tread::keys

@@ -166,7 +166,7 @@ void add_wear(Keys& keys) {
                           above(0, 10), "Longest wave that wear changes"));
 }
 
-void add_impacts_and_output(Keys& keys) {
+void add_impacts(Keys& keys) {
   keys.push_back(
       required(quantity("pulse.velocity", {Effect::motion}, at(&Scene::pulse, &PulseSpec::velocity), kSpeed,
                         "m/s", {-1000, 1000}, "Initial velocity along x of the bar's left end")));
@@ -183,6 +183,33 @@ void add_impacts_and_output(Keys& keys) {
                           from(0, 100),
                           "Time of the state; absent: 20 mm before the patch meets the corrugation, or the "
                           "solution zone of a smooth rail"));
+}
+
+void add_probe(Keys& keys, const std::string& name) {
+  const std::string table = std::string(kProbeTables) + name;
+  const auto placed = [&](const char* key, double ProbeSpec::*member, const char* unit, Bounds range,
+                          const char* description) {
+    return only_with(
+        table + ".body", std::vector<std::string>{"rail", "wheel"},
+        quantity(table + key, {Effect::output}, at(name, member), kLength, unit, range, description));
+  };
+  keys.push_back(choice(table + ".body", {Effect::output}, at(name, &ProbeSpec::body),
+                        {"rail", "wheel", "axle_box"},
+                        "Body of the point: the rail; the wheel's rim, a point that turns with it; or the "
+                        "axle box, which moves as the journal does in the mean"));
+  keys.push_back(placed(".x", &ProbeSpec::x, "m", from(-1000, 1000),
+                        "Place along the rail; of a point of the wheel: where it would meet the rail in free "
+                        "rolling"));
+  keys.push_back(placed(".y", &ProbeSpec::y, "mm", {-0.2, 0.2}, "Place across, from the rail's centre line"));
+  keys.push_back(placed(".depth", &ProbeSpec::depth, "mm", from(0, 0.3),
+                        "Depth below the running surface at that place"));
+  keys.push_back(choice(table + ".quantity", {Effect::output}, at(name, &ProbeSpec::quantity),
+                        {"motion", "stress", "all"},
+                        "Displacement, velocity and acceleration; or the stress of the element about the "
+                        "point; or both. A point of the wheel has stress alone, the axle box motion alone"));
+}
+
+void add_output(Keys& keys) {
   keys.push_back(quantity("output.history_interval", {Effect::output},
                           at(&Scene::output, &OutputSpec::history_interval), kTime, "s", above(0, 100),
                           "Simulated time between samples of the histories"));
@@ -192,6 +219,15 @@ void add_impacts_and_output(Keys& keys) {
   keys.push_back(quantity("output.checkpoint_interval", {Effect::process},
                           at(&Scene::output, &OutputSpec::checkpoint_interval), kTime, "min", above(0, 1e7),
                           "Wall-clock time between checkpoints"));
+  keys.push_back(with_table(
+      "fastenings",
+      flag("output.fastening_forces", {Effect::output}, at(&Scene::output, &OutputSpec::fastening_forces),
+           "The histories hold the vertical force of each fastening on the rail")));
+  keys.push_back(with_table(
+      "contact", quantity("output.stress_depth", {Effect::output},
+                          at(&Scene::output, &OutputSpec::stress_depth), kLength, "mm", above(0, 0.1),
+                          "Depth under the running surface down to which the histories hold the largest Von "
+                          "Mises stress of the rail under the patch; none: they do not")));
   keys.push_back(
       number("output.frames", {Effect::output}, at(&Scene::output, &OutputSpec::frames), {0, 1e6},
              "Frames for ParaView, evenly over the duration from the first step to the last; 0: none",

@@ -38,6 +38,7 @@ class Checker {
               "the pulse is longer than the bar");
     }
     if (scene_.rail && scene_.hammer) check_hammer(*scene_.rail, *scene_.hammer);
+    for (const auto& [name, probe] : scene_.probes) check_probe(std::string(kProbeTables) + name, probe);
     return std::move(problems_);
   }
 
@@ -66,6 +67,10 @@ class Checker {
     const Scene& s = scene_;
     require(!s.fastenings || s.rail, {"fastenings"}, "fastenings need a rail; add [rail]");
     require(!s.slab_track || s.fastenings, {"slab"}, "a slab needs fastenings; add [fastenings]");
+    require(!s.sleepers || s.fastenings, {"sleepers"}, "sleepers need fastenings; add [fastenings]");
+    require(
+        !s.sleepers || !s.slab_track, {"sleepers", "slab"},
+        "fastenings stand on sleepers or on a slab; state slab.present = false or sleepers.present = false");
     require(!s.vehicle || s.wheel, {"vehicle"}, "a vehicle needs a wheel; add [wheel]");
     require(!s.load || s.wheel, {"load"}, "a load needs a wheel; add [wheel]");
     require(!s.vehicle || !s.load, {"load", "vehicle"},
@@ -108,6 +113,7 @@ class Checker {
     for (const MaterialUse& use : material_uses(scene_))
       if (!knows(use.name) && missing.insert(use.name).second) report_missing(use);
     if (scene_.slab_track) check_slab(*scene_.slab_track);
+    if (scene_.sleepers && scene_.fastenings) check_sleepers(*scene_.sleepers, *scene_.fastenings);
   }
 
   bool knows(const std::string& material) const { return scene_.materials.contains(material); }
@@ -117,8 +123,8 @@ class Checker {
     for (const auto& [name, material] : scene_.materials) names.push_back(name);
     const std::string similar = similar_text(use.name, names);
     require(false, {std::string(kMaterialTables) + use.name, use.key},
-            fmt::format("the {} needs [material.{}]; the scene's materials: {}{}", use.part, use.name,
-                        scene_.material_names(),
+            fmt::format("the {} {} [material.{}]; the scene's materials: {}{}", use.part,
+                        use.part.ends_with('s') ? "need" : "needs", use.name, scene_.material_names(),
                         similar.empty() ? "" : fmt::format(" (did you mean {}?)", similar)));
   }
 
@@ -140,6 +146,21 @@ class Checker {
       for (const std::string& name : names) keys.push_back(std::string(kMaterialTables) + name + key);
     require(std::all_of(names.begin(), names.end(), damped_as_first), keys,
             "slab, gap filler and mortar are damped as one body; state the same damping for all three");
+  }
+
+  void check_sleepers(const SleeperSpec& sleepers, const FasteningSpec& fastenings) {
+    require(fastenings.count == 1 || sleepers.width < fastenings.spacing,
+            {"sleepers.width", "fastenings.spacing"}, "neighbouring sleepers overlap");
+    require(fastenings.pad_length <= sleepers.width + kLengthTolerance,
+            {"sleepers.width", "fastenings.pad_length"}, "the pad is longer than the sleeper is wide");
+    require(sleepers.hanging <= fastenings.count, {"sleepers.hanging", "fastenings.count"},
+            fmt::format("there is no sleeper {}: the fastenings, and their sleepers, count {}",
+                        sleepers.hanging, fastenings.count));
+    const double inner = sleepers.offset - 0.5 * sleepers.length;
+    const double outer = sleepers.offset + 0.5 * sleepers.length;
+    require(inner <= -0.5 * fastenings.pad_width && outer >= 0.5 * fastenings.pad_width,
+            {"sleepers.offset", "sleepers.length"},
+            fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m", inner, outer));
   }
 
   void check_friction(const ContactSpec& contact) {
@@ -269,12 +290,35 @@ class Checker {
   }
 
   void check_hammer(const RailSpec& rail, const HammerSpec& hammer) {
+    check_on_rail(rail, hammer.position, {"hammer.position", "rail.length", "rail.origin"},
+                  "the struck point");
+  }
+
+  void check_on_rail(const RailSpec& rail, double x, std::vector<std::string> keys, const char* point) {
     const double left = -rail.origin;
     const double right = rail.length - rail.origin;
-    require(hammer.position >= left - kLengthTolerance && hammer.position <= right + kLengthTolerance,
-            {"hammer.position", "rail.length", "rail.origin"},
-            fmt::format("the struck point, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m",
-                        hammer.position, left, right));
+    require(x >= left - kLengthTolerance && x <= right + kLengthTolerance, std::move(keys),
+            fmt::format("{}, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m", point, x, left, right));
+  }
+
+  void check_probe(const std::string& table, const ProbeSpec& probe) {
+    require(scene_.motion.has_value(), {table}, "a probe needs [motion]: histories follow a motion");
+    if (probe.body == "rail") {
+      require(scene_.rail.has_value(), {table + ".body"}, "a point of the rail needs [rail]");
+      if (scene_.rail) check_on_rail(*scene_.rail, probe.x, {table + ".x", table}, "the probe");
+    } else if (probe.body == "wheel") {
+      require(scene_.wheel.has_value(), {table + ".body"}, "a point of the wheel needs [wheel]");
+      require(probe.quantity == "stress", {table + ".quantity", table},
+              "a point that turns with the wheel has stress alone; state quantity = \"stress\"; the axle box "
+              "has motion");
+    } else {
+      require(scene_.vehicle || scene_.load, {table + ".body"},
+              "the axle box belongs to a journal that carries [vehicle] or [load]");
+      require(!scene_.wheel || scene_.wheel->bore == "free", {table + ".body", "wheel.bore"},
+              "a guided bore has no axle box");
+      require(probe.quantity == "motion", {table + ".quantity", table},
+              "the axle box has motion alone; state quantity = \"motion\"");
+    }
   }
 
   /// A thin ring that spins strains by rho v^2 / E.

@@ -181,7 +181,7 @@ class SceneBuilder {
 
   /// Creates the components that the highest level to mention them wants.
   void choose_tables() {
-    for (const SceneTable& table : scene_tables(mentioned_materials())) {
+    for (const SceneTable& table : scene_tables(mentioned_names())) {
       const auto found = mentioned_.find(table.name);
       if (found == mentioned_.end() || !table.removable()) continue;
       if (wants(table, found->second.level)) {
@@ -192,10 +192,12 @@ class SceneBuilder {
     }
   }
 
-  std::vector<std::string> mentioned_materials() const {
-    std::vector<std::string> names;
-    for (const auto& [table, origin] : mentioned_)
-      if (table.starts_with(kMaterialTables)) names.push_back(table.substr(kMaterialTables.size()));
+  TableNames mentioned_names() const {
+    TableNames names;
+    for (const auto& [table, origin] : mentioned_) {
+      if (table.starts_with(kMaterialTables)) names.materials.push_back(table.substr(kMaterialTables.size()));
+      if (table.starts_with(kProbeTables)) names.probes.push_back(table.substr(kProbeTables.size()));
+    }
     return names;
   }
 

@@ -123,9 +123,9 @@ std::string library_section(const LibraryEntry& entry) {
 }  // namespace
 
 std::string scene_reference() {
-  const std::vector<std::string> any_material = {"NAME"};
-  const std::vector<SceneTable> tables = scene_tables(any_material);
-  const std::vector<Key> keys = scene_keys(any_material);
+  const TableNames any_name = {{"NAME"}, {"NAME"}};
+  const std::vector<SceneTable> tables = scene_tables(any_name);
+  const std::vector<Key> keys = scene_keys(any_name);
   Scene everything;
   for (const SceneTable& table : tables) {
     if (table.removable()) table.create(everything);

@@ -18,53 +18,63 @@ bool starts_with_table(std::string_view path, std::string_view table) {
 }  // namespace
 
 const std::vector<std::string>& usual_materials() {
-  static const std::vector<std::string> names = {"steel", "slab", "gap_filler", "mortar"};
+  static const std::vector<std::string> names = {"steel", "slab", "gap_filler", "mortar", "concrete"};
   return names;
 }
 
-std::vector<Key> scene_keys(const std::vector<std::string>& materials) {
-  return keys::make_keys(materials);
+namespace {
+
+TableNames usual_names() {
+  return {usual_materials(), {}};
+}
+
+}  // namespace
+
+std::vector<Key> scene_keys(const TableNames& names) {
+  return keys::make_keys(names);
 }
 
 std::vector<Key> scene_keys(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const auto& [name, material] : scene.materials) names.push_back(name);
+  TableNames names;
+  for (const auto& [name, material] : scene.materials) names.materials.push_back(name);
+  for (const auto& [name, probe] : scene.probes) names.probes.push_back(name);
   return keys::make_keys(names);
 }
 
 const std::vector<Key>& scene_keys() {
-  static const std::vector<Key> keys = keys::make_keys(usual_materials());
+  static const std::vector<Key> keys = keys::make_keys(usual_names());
   return keys;
 }
 
-std::vector<SceneTable> scene_tables(const std::vector<std::string>& materials) {
-  return keys::make_tables(materials);
+std::vector<SceneTable> scene_tables(const TableNames& names) {
+  return keys::make_tables(names);
 }
 
 const std::vector<SceneTable>& scene_tables() {
-  static const std::vector<SceneTable> tables = keys::make_tables(usual_materials());
+  static const std::vector<SceneTable> tables = keys::make_tables(usual_names());
   return tables;
 }
 
 std::optional<Key> find_key(std::string_view path) {
-  const std::string_view material = keys::material_of(path);
-  const std::vector<Key> own = keys::material_keys(material);
-  const std::vector<Key>& all = material.empty() ? scene_keys() : own;
+  const std::string_view named = keys::named_table_of(path);
+  const std::vector<Key> own = keys::named_keys(named);
+  const std::vector<Key>& all = named.empty() ? scene_keys() : own;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Key& key) { return key.path == path; });
   return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 std::optional<SceneTable> table_of(std::string_view path) {
-  const std::string_view material = keys::material_of(path);
-  if (!material.empty()) return keys::material_table(std::string(material));
+  const std::string_view named = keys::named_table_of(path);
+  if (!named.empty()) return keys::named_table(named);
   const auto holds = [&](const SceneTable& table) { return starts_with_table(path, table.name); };
   const auto found = std::find_if(scene_tables().begin(), scene_tables().end(), holds);
   return found == scene_tables().end() ? std::nullopt : std::optional(*found);
 }
 
 bool is_table(std::string_view path) {
-  const std::string_view material = keys::material_of(path);
-  if (!material.empty()) return path.size() == kMaterialTables.size() + material.size();
+  const std::string_view named = keys::named_table_of(path);
+  if (!named.empty()) return path == named;
+  if (kProbeTables == std::string(path) + ".") return true;
   const auto below = [&](const Key& key) { return key.path != path && starts_with_table(key.path, path); };
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);
 }
@@ -102,9 +112,9 @@ bool applies(const Key& key, const Scene& scene) {
 
 std::string names_in(std::string_view table) {
   std::vector<std::string> names;
-  const std::string_view material = keys::material_of(table);
-  const std::vector<Key> own = keys::material_keys(material);
-  for (const Key& key : material.empty() ? scene_keys() : own) {
+  const std::string_view named = keys::named_table_of(table);
+  const std::vector<Key> own = keys::named_keys(named);
+  for (const Key& key : named.empty() ? scene_keys() : own) {
     if (!table.empty() && (key.path == table || !starts_with_table(key.path, table))) continue;
     const std::size_t start = table.empty() ? 0 : table.size() + 1;
     const std::string name = key.path.substr(start, key.path.find('.', start) - start);

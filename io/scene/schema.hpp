@@ -12,25 +12,28 @@
 
 namespace tread {
 
-/// Names that the parts of a scene give their materials by default: "steel", "slab", "gap_filler", "mortar".
+/// Names that the parts of a scene give their materials by default: "steel", "slab", "gap_filler", "mortar",
+/// "concrete".
 const std::vector<std::string>& usual_materials();
 
-/// All keys of a scene with these materials, in the order of documentation, each table's keys together.
-std::vector<Key> scene_keys(const std::vector<std::string>& materials);
-/// The same for the materials of a scene.
+/// All keys of a scene with these materials and probes, in the order of documentation, each table's keys
+/// together.
+std::vector<Key> scene_keys(const TableNames& names);
+/// The same for the materials and probes of a scene.
 std::vector<Key> scene_keys(const Scene& scene);
-/// The same for the usual materials.
+/// The same for the usual materials, without probes.
 const std::vector<Key>& scene_keys();
 
-/// All tables of a scene with these materials, in the order of documentation.
-std::vector<SceneTable> scene_tables(const std::vector<std::string>& materials);
-/// The same for the usual materials.
+/// All tables of a scene with these materials and probes, in the order of documentation.
+std::vector<SceneTable> scene_tables(const TableNames& names);
+/// The same for the usual materials, without probes.
 const std::vector<SceneTable>& scene_tables();
 
-/// The key at the path, of a material of any name, too; nothing where there is none.
+/// The key at the path, of a material or probe of any name, too; nothing where there is none.
 std::optional<Key> find_key(std::string_view path);
 
-/// The table that the path names or lies in, of a material of any name, too; nothing where there is none.
+/// The table that the path names or lies in, of a material or probe of any name, too; nothing where there is
+/// none.
 std::optional<SceneTable> table_of(std::string_view path);
 
 /// Returns true if keys lie below the path: "motion.traction".

@@ -52,8 +52,7 @@ std::string similar_path(std::string_view unknown) {
   std::vector<std::string> paths;
   for (const Key& key : scene_keys()) paths.push_back(key.path);
   for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
-  const std::string_view material = keys::material_of(unknown);
-  for (const Key& key : keys::material_keys(material)) paths.push_back(key.path);
+  for (const Key& key : keys::named_keys(keys::named_table_of(unknown))) paths.push_back(key.path);
   std::string near = similar_text(unknown, paths);
   if (!near.empty()) return near;
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };

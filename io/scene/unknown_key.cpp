@@ -18,9 +18,8 @@ struct Purpose {
 };
 
 constexpr std::array kPurposes = {
-    Purpose{{"sleeper", "sleepers", "tie", "ties", "ballast", "ballasted"},
-            "there are no sleepers; leave out [slab] and let fastenings.stiffness and "
-            "fastenings.damping be those of pad and bed in series"},
+    Purpose{{"sleeper", "tie", "ties", "ballast", "ballasted"},
+            "[sleepers] holds sleepers on ballast, with stiffness and damping of the bed; leave out [slab]"},
     Purpose{{"plasticity", "plastic", "yield", "yield_stress", "hardening"},
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
     Purpose{{"gpu", "cuda", "device"}, "there is no GPU; -t states the threads of the processor"},
@@ -39,9 +38,8 @@ constexpr std::array kPurposes = {
     Purpose{{"weld", "joint", "squat", "dent", "defect", "dip", "roughness", "irregularity"},
             "[corrugation] with kind = \"table\" reads depths along the rail, "
             "kind = \"random\" makes a roughness"},
-    Purpose{{"probe", "probes", "sensor", "sensors"},
-            "there are no probes; output.frames writes the surfaces, docs/reference/results.md lists the "
-            "histories"},
+    Purpose{{"probe", "probes", "sensor", "sensors", "accelerometer"},
+            "a probe has a table of its own, [probe.NAME], with body, x, y, depth and quantity"},
     Purpose{{"bogie", "car", "carbody", "primary_suspension"},
             "[vehicle] holds one sprung mass on a suspension"},
     Purpose{{"mass_scaling"},
@@ -62,7 +60,8 @@ constexpr std::array kPurposes = {
     Purpose{{"spin", "spin_creepage"}, "spin follows from profiles and inclination"},
     Purpose{{"receptance", "impact_hammer"}, "[hammer] strikes the rail; the report shows the receptance"},
     Purpose{{"spectrum", "spectra", "fft", "octave"},
-            "`tread roughness` and `tread develop` leave spectra; forces: FFT of histories.csv"},
+            "the report shows the spectrum of F_N, summary.json its one-third octaves; `tread roughness` and "
+            "`tread develop` leave those of surfaces"},
     Purpose{{"noise", "acoustic", "sound"},
             "there is no noise; the frames hold the surface velocities of an acoustic model"},
     Purpose{{"implicit", "solver"},
@@ -84,6 +83,7 @@ std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) 
   const auto dot = path.rfind('.');
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
   if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
+  if (parent + "." == kProbeTables) return "a probe's name consists of letters, digits, _ and -";
   const std::string what = is_a_table ? "table" : "key";
   const std::string instead =
       instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));

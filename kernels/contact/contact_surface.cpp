@@ -83,6 +83,16 @@ LineCell SurfaceProfile::cell(int edge) const {
           length(edge - 1),      length(edge), length(edge + 1)};
 }
 
+double SurfaceProfile::q_at(double p) const {
+  const int edge = edge_at(p);
+  double eta = (p - edge_p(edge, 0)) / (edge_p(edge, 1) - edge_p(edge, 0));
+  for (int i = 0; i < 4; ++i) {
+    const Point at = evaluate(edge, eta, SurfaceKind::exact);
+    eta -= (at.p - p) / at.dp;
+  }
+  return evaluate(edge, eta, SurfaceKind::exact).q;
+}
+
 SurfaceProfile::Point SurfaceProfile::evaluate(int edge, double eta, SurfaceKind kind) const {
   const Edge& e = edges_[static_cast<std::size_t>(edge)];
   if (kind == SurfaceKind::facets) {

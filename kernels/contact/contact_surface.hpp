@@ -52,6 +52,9 @@ class SurfaceProfile {
   /// Point at parameter eta in [0, 1] of an edge; straight between the nodes for facets.
   Point evaluate(int edge, double eta, SurfaceKind kind) const;
 
+  /// q of the exact surface at p [m]; the last edge is prolonged beyond the surface.
+  double q_at(double p) const;
+
   /// Edge whose span contains p (the first or last one beyond the ends); constant time.
   int edge_at(double p) const;
   double first_p() const { return edges_.front().p[0]; }

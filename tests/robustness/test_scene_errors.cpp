@@ -47,10 +47,9 @@ TEST(SceneErrors, Names) {
   expect_messages({
       {"[rail]\nlenght = \"3 m\"", "x.toml:4:1: rail.lenght: unknown key (did you mean rail.length?)"},
       {"[rail]\n  friction = 0.4", "x.toml:4:3: rail.friction: unknown key (did you mean contact.friction?)"},
-      {"[sleepers]\nspacing = \"0.6 m\"",
-       "x.toml:3:2: sleepers: unknown table: there are no sleepers; leave out [slab] and let "
-       "fastenings.stiffness and fastenings.damping be those of pad and bed in series "
-       "(docs/can-and-cannot.md)"},
+      {"[ballast]\nstiffness = \"20 MN/m\"",
+       "x.toml:3:2: ballast: unknown table: [sleepers] holds sleepers on ballast, with stiffness and damping "
+       "of the bed; leave out [slab] (docs/can-and-cannot.md)"},
       {"[wheel]\nflat = \"40 mm\"",
        "x.toml:4:1: wheel.flat: unknown key: the wheel is round; corrugation.kind = \"table\" puts the depth "
        "on the rail, once a turn (docs/can-and-cannot.md)"},
@@ -73,7 +72,7 @@ TEST(SceneErrors, Names) {
   });
   expect_part(error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
               "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
-              "highspeed-slab-2014-calibrated), got "
+              "highspeed-slab-2014-calibrated, ballasted-cn60), got "
               "the string");
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contract.hpp"
+
 namespace tread {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 /// derivatives. [Friedman, Kosmatka, An improved two-node Timoshenko beam finite element, Comput. Struct. 47
 /// (1993)]
 struct BeamShape {
-  using Values = std::array<double, static_cast<std::size_t>(2 * TrackBeam::kPerNode)>;
+  using Values = std::array<double, static_cast<std::size_t>(2 * TrackBeam::kOfBeam)>;
   Values deflection{}, slope{};    ///< w, dw/dx
   Values rotation{}, curvature{};  ///< theta, dtheta/dx
 };
@@ -52,15 +54,8 @@ BeamShape beam_shape(double xi, double l, double phi) {
   return s;
 }
 
-void add_outer(BandMatrix<double>& matrix, int first, double factor, const BeamShape::Values& v) {
-  for (int i = 0; i < static_cast<int>(v.size()); ++i)
-    for (int j = 0; j <= i; ++j)
-      matrix.at(first + i, first + j) +=
-          factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
-}
-
-constexpr int kBand = 2 * TrackBeam::kPerNode - 1;
-constexpr int kFoot = 2;  // of a node's unknowns
+constexpr int kFoot = 2;     // of a node's unknowns
+constexpr int kSleeper = 3;  // of a node's unknowns, where there are sleepers
 
 int element_count(double length, double element) {
   return std::max(2, static_cast<int>(std::ceil(length / element - 1e-9)));
@@ -69,22 +64,25 @@ int element_count(double length, double element) {
 }  // namespace
 
 TrackBeam::TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
-                     double element)
+                     double element, bool sleepers)
     : left_(left),
       length_(length),
       pitch_(length / element_count(length, element)),
+      per_node_(sleepers ? kOfBeam + 1 : kOfBeam),
       elements_(element_count(length, element)),
       phi_(properties.shear_stiffness > 0
                ? 12 * properties.bending_stiffness / (properties.shear_stiffness * pitch_ * pitch_)
                : 0),
       foot_(properties.has_foot() ? properties.foot : 0),
       held_(properties.bending_stiffness),
-      stiffness_(kPerNode * (elements_ + 1), kBand),
+      stiffness_(per_node_ * (elements_ + 1), 2 * per_node_ - 1),
       damping_(stiffness_),
       mass_(stiffness_) {
   for (int e = 0; e < elements_; ++e) add_element(properties, e);
   if (!properties.has_foot())
     for (int node = 0; node <= elements_; ++node) hold(node, kFoot);
+  if (sleepers)
+    for (int node = 0; node <= elements_; ++node) hold(node, kSleeper);
   for (const int node : {0, elements_}) {
     if (ends == BeamEnds::pinned) hold(node, 0);
     if (ends != BeamEnds::guided) continue;
@@ -93,11 +91,19 @@ TrackBeam::TrackBeam(const BeamProperties& properties, double left, double lengt
   }
 }
 
+void TrackBeam::add_outer(BandMatrix<double>& matrix, int first, double factor,
+                          const BeamShape::Values& v) const {
+  for (int i = 0; i < static_cast<int>(v.size()); ++i)
+    for (int j = 0; j <= i; ++j)
+      matrix.at(unknown(first, i), unknown(first, j)) +=
+          factor * v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(j)];
+}
+
 void TrackBeam::hold(int node, int component) {
-  const int unknown = kPerNode * node + component;
-  stiffness_.restrain(unknown, held_);
-  damping_.restrain(unknown, 0);
-  mass_.restrain(unknown, 0);
+  const int held = per_node_ * node + component;
+  stiffness_.restrain(held, held_);
+  damping_.restrain(held, 0);
+  mass_.restrain(held, 0);
 }
 
 void TrackBeam::add_element(const BeamProperties& properties, int element) {
@@ -111,7 +117,7 @@ void TrackBeam::add_element(const BeamProperties& properties, int element) {
       const double weight = 0.5 * pitch_ * kWeight[k];
       BeamShape::Values shear{};
       for (std::size_t i = 0; i < shear.size(); ++i) shear[i] = s.slope[i] - s.rotation[i];
-      const int first = kPerNode * element;
+      const int first = per_node_ * element;
       add_outer(stiffness_, first, weight * properties.bending_stiffness, s.curvature);
       add_outer(stiffness_, first, weight * properties.shear_stiffness, shear);
       add_outer(mass_, first, weight * properties.mass, s.deflection);
@@ -126,7 +132,7 @@ void TrackBeam::add_element(const BeamProperties& properties, int element) {
 TrackBeam::Place TrackBeam::place(double x) const {
   const double at = (x - left_) / pitch_;
   const int element = std::clamp(static_cast<int>(at), 0, elements_ - 1);
-  return {kPerNode * element, at - element};
+  return {per_node_ * element, at - element};
 }
 
 TrackBeam::Shape TrackBeam::shape(double x) const {
@@ -140,8 +146,8 @@ std::vector<double> TrackBeam::head_load(double x) const {
   std::vector<double> load(static_cast<std::size_t>(stiffness_.size()));
   const auto add = [&](double at, double share) {
     const Shape s = shape(std::clamp(at, left_, left_ + length_));
-    for (std::size_t i = 0; i < s.value.size(); ++i)
-      load[static_cast<std::size_t>(s.first) + i] += share * s.value[i];
+    for (int i = 0; i < 2 * kOfBeam; ++i)
+      load[static_cast<std::size_t>(unknown(s.first, i))] += share * s.value[static_cast<std::size_t>(i)];
   };
   if (spread_ == 0) {
     add(x, 1);
@@ -161,6 +167,33 @@ void TrackBeam::support(double x, double stiffness, double damping) {
   const Shape s = shape(x);
   add_outer(stiffness_, s.first, stiffness, s.value);
   add_outer(damping_, s.first, damping, s.value);
+}
+
+void TrackBeam::support_on_sleeper(double x, double stiffness, double damping, const BeamSleeper& sleeper) {
+  TREAD_EXPECT(per_node_ > kOfBeam);
+  const Shape s = shape(x);
+  const int at = s.first + kSleeper;  // of the element's left node
+  // Held until now.
+  stiffness_.at(at, at) = sleeper.stiffness + stiffness;
+  damping_.at(at, at) = sleeper.damping + damping;
+  mass_.at(at, at) = sleeper.mass;
+  add_outer(stiffness_, s.first, stiffness, s.value);
+  add_outer(damping_, s.first, damping, s.value);
+  for (int i = 0; i < 2 * kOfBeam; ++i) {
+    const int row = std::max(at, unknown(s.first, i));
+    const int column = std::min(at, unknown(s.first, i));
+    stiffness_.at(row, column) -= stiffness * s.value[static_cast<std::size_t>(i)];
+    damping_.at(row, column) -= damping * s.value[static_cast<std::size_t>(i)];
+  }
+  sleepers_.push_back(x);
+}
+
+double TrackBeam::sleeper(const std::vector<double>& state, double x) const {
+  TREAD_EXPECT(!sleepers_.empty());
+  const double nearest = *std::min_element(sleepers_.begin(), sleepers_.end(), [&](double a, double b) {
+    return std::abs(a - x) < std::abs(b - x);
+  });
+  return state[static_cast<std::size_t>(place(nearest).first + kSleeper)];
 }
 
 void TrackBeam::support_foot(double x, double stiffness, double damping) {
@@ -188,33 +221,34 @@ std::vector<double> TrackBeam::static_state(double x, double force) const {
 }
 
 SectionMotion TrackBeam::motion(const std::vector<double>& state, int node) const {
-  const auto first = static_cast<std::size_t>(kPerNode * node);
+  const auto first = static_cast<std::size_t>(per_node_ * node);
   return {state[first], state[first + 1], state[first + kFoot] + foot_ * state[first + 1]};
 }
 
 double TrackBeam::deflection(const std::vector<double>& state, double x) const {
   const Shape s = shape(x);
   double sum = 0;
-  for (std::size_t i = 0; i < s.value.size(); ++i)
-    sum += s.value[i] * state[static_cast<std::size_t>(s.first) + i];
+  for (int i = 0; i < 2 * kOfBeam; ++i)
+    sum += s.value[static_cast<std::size_t>(i)] * state[static_cast<std::size_t>(unknown(s.first, i))];
   return sum;
 }
 
 std::complex<double> TrackBeam::receptance(double x_force, double x, double frequency) const {
   const double omega = 2 * std::numbers::pi * frequency;
-  BandMatrix<std::complex<double>> factor(stiffness_.size(), kBand);
+  BandMatrix<std::complex<double>> factor(stiffness_.size(), stiffness_.band());
   factor.add(1.0, stiffness_);
   factor.add({0, omega}, damping_);
   factor.add(-omega * omega, mass_);
   factor.factorise();
   std::vector<std::complex<double>> load(static_cast<std::size_t>(factor.size()));
   const Shape s = shape(x_force);
-  for (std::size_t i = 0; i < s.value.size(); ++i) load[static_cast<std::size_t>(s.first) + i] = s.value[i];
+  for (int i = 0; i < 2 * kOfBeam; ++i)
+    load[static_cast<std::size_t>(unknown(s.first, i))] = s.value[static_cast<std::size_t>(i)];
   const auto state = factor.solve(std::move(load));
   const Shape t = shape(x);
   std::complex<double> sum;
-  for (std::size_t i = 0; i < t.value.size(); ++i)
-    sum += t.value[i] * state[static_cast<std::size_t>(t.first) + i];
+  for (int i = 0; i < 2 * kOfBeam; ++i)
+    sum += t.value[static_cast<std::size_t>(i)] * state[static_cast<std::size_t>(unknown(t.first, i))];
   return sum;
 }
 

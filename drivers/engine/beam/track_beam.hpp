@@ -33,19 +33,31 @@ inline SectionMotion operator-(const SectionMotion& a, const SectionMotion& b) {
   return a + -1 * b;
 }
 
+/// A rigid sleeper on its bed.
+struct BeamSleeper {
+  double mass = 0;       ///< [kg]
+  double stiffness = 0;  ///< [N/m]
+  double damping = 0;    ///< [N s/m]
+};
+
 /// Finite elements with the cubic shape functions that solve the static beam exactly and the consistent mass
 /// of deflection and rotation; along x the centroid moves linearly within an element. Unknowns: (w, rotation,
-/// motion of the foot along x) of node after node. The foot of a beam that is rigid along x does not move
-/// along. [theory.md, eqs. B1, B1a]
+/// motion of the foot along x) of node after node, and the deflection of a sleeper under the node where the
+/// beam can have sleepers. The foot of a beam that is rigid along x does not move along. [theory.md, eqs. B1,
+/// B1a]
 class TrackBeam {
  public:
-  static constexpr int kPerNode = 3;  ///< unknowns of a node
+  static constexpr int kOfBeam = 3;  ///< unknowns of a node without those of a sleeper
   /// From `left` on, elements no longer than `element` [m].
   TrackBeam(const BeamProperties& properties, double left, double length, BeamEnds ends,
-            double element = 0.01);
+            double element = 0.01, bool sleepers = false);
 
   /// A spring-damper to ground at x [N/m], [N s/m].
   void support(double x, double stiffness, double damping);
+
+  /// A spring-damper at x to a rigid mass [kg] that stands on another one [N/m], [N s/m]. Only on a beam with
+  /// sleepers.
+  void support_on_sleeper(double x, double stiffness, double damping, const BeamSleeper& sleeper);
 
   /// The same along x at the foot.
   void support_foot(double x, double stiffness, double damping);
@@ -70,6 +82,9 @@ class TrackBeam {
   std::vector<double> static_state(double x, double force) const;
   /// Motion of the section at a node, of nodal values or their rates.
   SectionMotion motion(const std::vector<double>& state, int node) const;
+  /// Deflection of the sleeper under the support nearest to x, of nodal values or their rates. Only on a beam
+  /// with sleepers.
+  double sleeper(const std::vector<double>& state, double x) const;
   /// w of the axis.
   double deflection(const std::vector<double>& state, double x) const;
 
@@ -93,19 +108,25 @@ class TrackBeam {
   /// Weights of the nodal values in w at x, and of a force at x in the nodal loads.
   struct Shape {
     int first = 0;  ///< unknown of the first of the values
-    std::array<double, static_cast<std::size_t>(2 * kPerNode)> value{};
+    std::array<double, static_cast<std::size_t>(2 * kOfBeam)> value{};
   };
   Shape shape(double x) const;
+  /// Unknown of an element's i-th value.
+  int unknown(int first, int i) const { return first + (i < kOfBeam ? i : i - kOfBeam + per_node_); }
+  void add_outer(BandMatrix<double>& matrix, int first, double factor,
+                 const std::array<double, static_cast<std::size_t>(2 * kOfBeam)>& v) const;
   void add_element(const BeamProperties& properties, int element);
   void hold(int node, int component);
   int modes_below(double omega) const;
 
   double left_, length_, pitch_;
+  int per_node_;  ///< unknowns of a node
   int elements_;
-  double phi_;         ///< 12 E I / (kappa G A l^2)
-  double foot_;        ///< distance from the centroid down to the foot [m]
-  double held_;        ///< stiffness that stands in for a held unknown's [N m/rad], [N/m]
-  double spread_ = 0;  ///< of a force on the head [m]
+  double phi_;                    ///< 12 E I / (kappa G A l^2)
+  double foot_;                   ///< distance from the centroid down to the foot [m]
+  double held_;                   ///< stiffness that stands in for a held unknown's [N m/rad], [N/m]
+  double spread_ = 0;             ///< of a force on the head [m]
+  std::vector<double> sleepers_;  ///< x of the supports on sleepers [m]
   BandMatrix<double> stiffness_, damping_, mass_;
 };
 

@@ -102,6 +102,7 @@ void WheelMotion::end_sample(const StepState& step, Sample& sample) const {
   const MeanMotion mean = relative_to_frame(motion);
   sample.wheel_speed = motion.wheel.velocity.x + mean.velocity.x;
   sample.wheel_spin = motion.wheel.spin + mean.spin;
+  sample.lateral_creepage = sample.wheel_speed != 0 ? mean.velocity.y / std::abs(sample.wheel_speed) : 0.0;
   sample.creepage_node = creepage(creepage_points_.front(), motion, mean);
   double sum = 0;
   for (const CreepagePoint& point : creepage_points_) sum += creepage(point, motion, mean);

@@ -61,8 +61,20 @@ void WheelRailContact::end_sample(const StepState& /*step*/, Sample& sample) con
   sample.max_pressure = contact_->nodes().max_pressure();
   sample.max_shear = contact_->nodes().max_shear();
   sample.max_penetration = totals.max_penetration;
+  sample.spin_creepage = -mean_normal().y / contact_->options().wheel_radius;
   const Corrugation& corrugation = contact_->corrugation();
   sample.corrugation_depth = corrugation.depth(sample.wheel_x, corrugation.centre());
+}
+
+/// Pressure-weighted mean of the normals into the rail; zero without contact.
+Vec3 WheelRailContact::mean_normal() const {
+  Vec3 sum;
+  double force = 0;
+  for (const ContactPoint& point : contact_->points()) {
+    sum += point.pressure * point.area * point.normal;
+    force += point.pressure * point.area;
+  }
+  return force > 0 ? 1 / force * sum : Vec3{};
 }
 
 }  // namespace tread

@@ -24,6 +24,7 @@ class WheelRailContact final : public Feature {
  private:
   void search(const StepState& step);
   void add_tractions(StepState& step);
+  Vec3 mean_normal() const;
 
   Contact* contact_;
   const double* inverse_mass_;

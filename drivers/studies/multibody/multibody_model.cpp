@@ -35,6 +35,11 @@ void require_parts(const Scene& scene) {
   need(scene.rail && scene.fastenings, "rail on fastenings ([rail], [fastenings])");
   need(scene.contact.has_value(), "[contact]");
   need(scene.motion && scene.motion->speed > 0, "speed ([motion])");
+  if (scene.sleepers)
+    throw InputError(
+        "tread multibody: the approach knows no sleepers; state sleepers.present = false, and "
+        "fastenings.stiffness "
+        "and fastenings.damping of pad and bed in series");
 }
 
 BeamVehicle lumped_vehicle(const Scene& scene) {

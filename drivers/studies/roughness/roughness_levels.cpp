@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 
 #include "core/error.hpp"
+#include "core/math/spectrum.hpp"
 #include "core/parallel/each_item.hpp"
 
 namespace tread {
@@ -19,44 +20,6 @@ constexpr double kSamplesInWave = 2.5;
 
 double edge(double decibels_tenth) {
   return std::pow(10.0, decibels_tenth);
-}
-
-/// Mean squares of the lines k = 0 ... lines - 1, k waves in the segment [m2].
-std::vector<double> spectrum(const double* height, std::size_t count, std::size_t lines) {
-  const auto n = static_cast<double>(count);
-  double mean = 0;
-  double moment = 0;
-  for (std::size_t j = 0; j < count; ++j) {
-    mean += height[j] / n;
-    moment += height[j] * (static_cast<double>(j) - 0.5 * (n - 1));
-  }
-  const double slope = 12 * moment / (n * (n * n - 1));
-
-  // All lines run side by side, each with its own turning pointer.
-  std::vector<double> real(lines), imaginary(lines), c(lines, 1.0), s(lines, 0.0), turn_c, turn_s;
-  for (std::size_t k = 0; k < lines; ++k) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(k) / n;
-    turn_c.push_back(std::cos(angle));
-    turn_s.push_back(std::sin(angle));
-  }
-  double window_squares = 0;
-  for (std::size_t j = 0; j < count; ++j) {
-    const double at = static_cast<double>(j);
-    const double window = 0.5 * (1 - std::cos(2 * std::numbers::pi * (at + 0.5) / n));
-    window_squares += window * window;
-    const double value = window * (height[j] - mean - slope * (at - 0.5 * (n - 1)));
-    for (std::size_t k = 0; k < lines; ++k) {
-      real[k] += value * c[k];
-      imaginary[k] += value * s[k];
-      const double next = c[k] * turn_c[k] - s[k] * turn_s[k];
-      s[k] = s[k] * turn_c[k] + c[k] * turn_s[k];
-      c[k] = next;
-    }
-  }
-  std::vector<double> squares(lines);
-  for (std::size_t k = 0; k < lines; ++k)
-    squares[k] = 2 * (real[k] * real[k] + imaginary[k] * imaginary[k]) / (n * window_squares);
-  return squares;
 }
 
 }  // namespace
@@ -115,7 +78,7 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
   std::vector<std::vector<double>> spectra(segments);
   each_item(segments, [&](std::size_t i) {
     const std::size_t first = gaps > 0 ? i * way / gaps : 0;
-    spectra[i] = spectrum(profile.height.data() + first, count, lines);
+    spectra[i] = power_lines(std::span(profile.height).subspan(first, count), lines);
   });
   levels.segments = static_cast<int>(segments);
   for (const RoughnessBand& band : bands) {
@@ -124,13 +87,8 @@ RoughnessLevels roughness_levels(const RoughnessProfile& profile, double segment
       continue;
     }
     double square = 0;
-    for (std::size_t k = 1; k < lines; ++k) {
-      const double low = std::max((static_cast<double>(k) - 0.5) * line, 1 / band.longest());
-      const double high = std::min((static_cast<double>(k) + 0.5) * line, 1 / band.shortest());
-      if (high <= low) continue;
-      for (const std::vector<double>& s : spectra)
-        square += s[k] * (high - low) / line / static_cast<double>(segments);
-    }
+    for (const std::vector<double>& s : spectra)
+      square += band_power(s, line, 1 / band.longest(), 1 / band.shortest()) / static_cast<double>(segments);
     levels.level.emplace_back(10 * std::log10(square / (kReference * kReference)));
   }
   return levels;

@@ -1,0 +1,31 @@
+#pragma once
+// Power spectrum of an evenly sampled record, and its sums over bands. [theory.md, Roughness levels]
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace tread {
+
+/// Mean squares of the lines k = 0 ... lines - 1, k waves in the record, in the square of the values' unit.
+/// Mean and trend are taken off, and Hann's window weights the record.
+std::vector<double> power_lines(std::span<const double> values, std::size_t lines);
+
+/// Mean square within a band of frequency of a spectrum whose lines are `spacing` apart, all three in one
+/// unit. A line that lies between two bands counts in both by its parts; the mean does not count.
+double band_power(const std::vector<double>& lines, double spacing, double low, double high);
+
+/// A one-third octave band: its middle as the standards name it, and its exact middle, 10^(n/10).
+/// [IEC 61260-1]
+struct ThirdOctave {
+  double nominal = 0;
+  double middle = 0;
+
+  double low() const;
+  double high() const;
+};
+
+/// Bands whose edges lie within [low, high], the lowest first.
+std::vector<ThirdOctave> third_octaves(double low, double high);
+
+}  // namespace tread

@@ -1,0 +1,36 @@
+#include "drivers/results/force_spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tread {
+
+ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last) {
+  constexpr std::size_t kLeast = 16;      // samples
+  constexpr double kWaves = 4;            // in the stretch, at least
+  constexpr double kSamplesInWave = 2.5;  // at least
+  constexpr double kHighest = 20e3;       // [Hz]
+  std::vector<double> force;
+  double begin = 0;
+  double end = 0;
+  for (const Sample& s : samples) {
+    if (s.wheel_x < first || s.wheel_x > last) continue;
+    if (force.empty()) begin = s.time;
+    end = s.time;
+    force.push_back(s.vertical_force);
+  }
+  ForceSpectrum spectrum;
+  if (force.size() < kLeast) return spectrum;
+  const auto count = static_cast<double>(force.size());
+  const double interval = (end - begin) / (count - 1);
+  spectrum.spacing = 1 / (count * interval);
+  const double highest = std::min(kHighest, 1 / (kSamplesInWave * interval));
+  const auto lines = static_cast<std::size_t>(highest / spectrum.spacing) + 2;
+  spectrum.square = power_lines(force, std::min(lines, force.size() / 2 + 1));
+  spectrum.bands = third_octaves(kWaves * spectrum.spacing, highest);
+  for (const ThirdOctave& band : spectrum.bands)
+    spectrum.rms.push_back(std::sqrt(band_power(spectrum.square, spectrum.spacing, band.low(), band.high())));
+  return spectrum;
+}
+
+}  // namespace tread

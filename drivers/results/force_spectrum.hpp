@@ -1,0 +1,22 @@
+#pragma once
+// Spectrum of the vertical contact force over a stretch of the way.
+
+#include <vector>
+
+#include "core/math/spectrum.hpp"
+#include "drivers/engine/features/sample.hpp"
+
+namespace tread {
+
+struct ForceSpectrum {
+  double spacing = 0;              ///< of the lines [Hz]
+  std::vector<double> square;      ///< mean squares of the lines from 0 Hz on [N2]
+  std::vector<ThirdOctave> bands;  ///< of frequency [Hz] that hold four waves and 2.5 samples a wave
+  std::vector<double> rms;         ///< root mean square of F_N by band [N]
+};
+
+/// Spectrum of F_N with the wheel between two places [m]; without lines where fewer than 16 samples lie
+/// there.
+ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last);
+
+}  // namespace tread

@@ -1,0 +1,161 @@
+// Probes, forces of fastenings and stress under the patch, on small scenes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/results/measured_rows.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+/// A scene a few steps after its static state.
+struct Rolled {
+  Model model;
+  Preload preload;
+  Simulation simulation;
+
+  explicit Rolled(const std::vector<std::string>& overrides, int steps = 1)
+      : model(samples::tyre_scene(overrides)),
+        preload(solve_preload(model, steady_motion(model), [](const std::string& /*text*/) {})),
+        simulation(model, preload, 1e-7) {
+    simulation.set_sampling_interval(1);
+    for (int i = 0; i < steps; ++i) simulation.step();
+  }
+
+  double value(const std::string& name) const {
+    const MeasuredRows rows(simulation.measurements().channels());
+    const std::size_t column = rows.column(name);
+    EXPECT_LT(column, rows.columns()) << name;
+    return simulation.measurements().values()[column];
+  }
+};
+
+const std::vector<std::string> kCoarse = {"scene.element_size=8 mm"};
+
+std::vector<std::string> with(std::vector<std::string> more) {
+  more.insert(more.end(), kCoarse.begin(), kCoarse.end());
+  return more;
+}
+
+TEST(Measurements, ASceneThatAsksForNothingHasNone) {
+  const Rolled rolled(kCoarse);
+  EXPECT_TRUE(rolled.simulation.measurements().channels().empty());
+  EXPECT_TRUE(rolled.simulation.measurements().phases().empty());
+}
+
+TEST(Measurements, ProbeOnTheRailSinksUnderTheWheel) {
+  const Rolled rolled(with({"probe.under.x=0 m", "probe.ahead.x=0.25 m", "probe.deep.depth=30 mm"}));
+  EXPECT_LT(rolled.value("under_displacement_z"), -5e-5);
+  EXPECT_LT(rolled.value("under_displacement_z"), rolled.value("deep_displacement_z"));
+  EXPECT_LT(rolled.value("deep_displacement_z"), 0);
+  EXPECT_GT(rolled.value("ahead_displacement_z"), -5e-6);
+}
+
+TEST(Measurements, StressUnderThePatchIsCompressionNearThePressure) {
+  const Rolled rolled(
+      with({"probe.under.quantity=stress", "probe.rim.body=wheel", "probe.rim.quantity=stress"}));
+  for (const char* probe : {"under", "rim"}) {
+    const double vertical = rolled.value(std::string(probe) + "_stress_zz");
+    EXPECT_LT(vertical, -0.3 * rolled.preload.max_pressure) << probe;
+    EXPECT_GT(vertical, -1.2 * rolled.preload.max_pressure) << probe;
+  }
+}
+
+TEST(Measurements, AxleBoxMovesWithTheWheel) {
+  const Rolled rolled({"scene.element_size=8 mm", "probe.box.body=axle_box"}, 20);
+  EXPECT_NEAR(rolled.value("box_velocity_x"), 300 / 3.6, 0.01);
+  EXPECT_NEAR(rolled.value("box_displacement_x"), 20 * 1e-7 * 300 / 3.6, 1e-5);
+  EXPECT_LT(rolled.value("box_displacement_z"), -1e-5);
+}
+
+TEST(Measurements, FasteningsCarryTheLoad) {
+  const Rolled rolled(
+      with({"rail.support=fastenings", "rail.height=150 mm", "fastenings.count=3",
+            "fastenings.spacing=0.15 m", "fastenings.first=0.05 m", "fastenings.pad_width=40 mm",
+            "fastenings.pad_length=60 mm", "fastenings.stiffness=20 MN/m", "fastenings.damping=1 kN s/m",
+            "motion.start=rigid", "output.fastening_forces=true"}));
+  const std::span<const double> forces = rolled.simulation.measurements().values();
+  ASSERT_EQ(forces.size(), 3);
+  const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
+  const double rail = 9.81 * 7790 * 0.4 * 0.08 * 0.15;  // weight [N]
+  EXPECT_NEAR(sum, rolled.model.wheel_load() + rail, 1e-3 * sum);
+}
+
+TEST(Measurements, StressIsLargestBelowTheSurface) {
+  const Rolled rolled({"scene.element_size=2 mm", "output.stress_depth=20 mm"});
+  const std::vector<MeasuredChannel>& channels = rolled.simulation.measurements().channels();
+  const std::span<const double> stress = rolled.simulation.measurements().values();
+  ASSERT_GT(stress.size(), 5);
+  for (std::size_t i = 1; i < channels.size(); ++i) EXPECT_GT(channels[i].at, channels[i - 1].at);
+  // Hertz: about 0.6 of the largest pressure, half a semi-axis deep.
+  const auto peak = std::max_element(stress.begin(), stress.end());
+  const double depth = channels[static_cast<std::size_t>(peak - stress.begin())].at;
+  const HertzPatch& hertz = rolled.model.hertz_patch;
+  EXPECT_NEAR(*peak, 0.6 * hertz.max_pressure, 0.1 * hertz.max_pressure);
+  EXPECT_GT(depth, 0.2 * hertz.semi_axis_y);
+  EXPECT_LT(depth, 0.8 * hertz.semi_axis_y);
+}
+
+TEST(Measurements, AProbeOutsideItsBodyIsRefused) {
+  const auto error_of = [](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      const Model model(samples::tyre_scene(with(overrides)));
+      const Measurements measurements(model, 0);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(error_of({"probe.p.depth=70 mm"}).find("probe.p: 70 mm below"), std::string::npos);
+  EXPECT_NE(error_of({"probe.p.y=60 mm"}).find("probe.p: y = 60 mm lies beyond"), std::string::npos);
+}
+
+TEST(ProbeKeys, AreCheckedAgainstTheScene) {
+  const auto problem = [](const std::vector<std::string>& overrides) -> std::string {
+    try {
+      samples::tyre_scene(overrides);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(problem({"probe.p.x=0.4 m"}).find("is not on the rail"), std::string::npos);
+  EXPECT_NE(problem({"probe.p.body=wheel"}).find("has stress alone"), std::string::npos);
+  EXPECT_NE(problem({"probe.p.body=axle_box", "probe.p.quantity=all"}).find("has motion alone"),
+            std::string::npos);
+  EXPECT_NE(problem({"probe.p.body=axle_box", "probe.p.x=1 m"}).find("has an effect only with"),
+            std::string::npos);
+  EXPECT_NE(problem({"probe.p.dpth=1 mm"}).find("did you mean"), std::string::npos);
+  EXPECT_NE(problem({"probe.a b=1"}).find("a probe's name consists of"), std::string::npos);
+  EXPECT_NE(problem({"output.fastening_forces=true"}).find("[fastenings]"), std::string::npos);
+}
+
+TEST(MeasuredRows, RatesAreMeansOverTheInterval) {
+  MeasuredRows rows({{{"v", "m/s", ""}}, {{"a", "m/s2", ""}, 0}});
+  rows.append(std::vector<double>{1, 0}, 0);
+  rows.append(std::vector<double>{3, 0}, 0.5);
+  EXPECT_TRUE(std::isnan(rows.row(0)[1]));
+  EXPECT_DOUBLE_EQ(rows.row(1)[1], 4);
+}
+
+TEST(MeasuredRows, FindsColumnsOfAnotherRunByName) {
+  MeasuredRows there({{{"a", "m", ""}}, {{"b", "m", ""}}});
+  there.append(std::vector<double>{1, 2}, 0);
+  there.append(std::vector<double>{3, 4}, 0);
+  const MeasuredRows here({{{"b", "m", ""}}, {{"c", "m", ""}}}, there.kept(), 2);
+  EXPECT_EQ(here.row(1)[0], 4);
+  EXPECT_TRUE(std::isnan(here.row(1)[1]));
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,148 @@
+// Sleepers under the fastenings: as finite elements in a scene, and as rigid masses under the beam.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/engine/attachments.hpp"
+#include "drivers/engine/beam/track_beam.hpp"
+#include "drivers/engine/preload.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kPad = 100e6;                            // [N/m]
+constexpr BeamSleeper kSleeper{160, 50e6, 0};             // [kg], [N/m]
+constexpr BeamProperties kRail{.bending_stiffness = 6e6,  // [N m2]
+                               .shear_stiffness = 2e8,
+                               .mass = 60};
+
+/// A beam on five supports, with or without sleepers.
+template <class Support>
+TrackBeam supported(bool sleepers, const Support& support) {
+  TrackBeam beam(kRail, 0, 3, BeamEnds::free, 0.05, sleepers);
+  for (int i = 0; i < 5; ++i) support(beam, 0.3 + 0.6 * i);
+  return beam;
+}
+
+TrackBeam on_sleepers() {
+  return supported(true, [](TrackBeam& beam, double x) { beam.support_on_sleeper(x, kPad, 0, kSleeper); });
+}
+
+/// Stiffness of pad, sleeper and bed at a frequency [N/m].
+double dynamic_stiffness(double frequency) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  const double below = kSleeper.stiffness - omega * omega * kSleeper.mass;
+  return kPad * below / (kPad + below);
+}
+
+TEST(BeamOnSleepers, RespondsAsOnTheirDynamicStiffness) {
+  for (const double frequency : {0.0, 60.0, 300.0, 1200.0}) {
+    const TrackBeam condensed = supported(
+        false, [&](TrackBeam& beam, double x) { beam.support(x, dynamic_stiffness(frequency), 0); });
+    for (const double x : {0.9, 1.23}) {
+      const double ours = on_sleepers().receptance(1.23, x, frequency).real();
+      const double theirs = condensed.receptance(1.23, x, frequency).real();
+      EXPECT_NEAR(ours / theirs, 1, 1e-8) << frequency << " Hz, x = " << x;
+    }
+  }
+}
+
+TEST(BeamOnSleepers, ASleeperTakesItsShareOfTheDeflection) {
+  const TrackBeam beam = on_sleepers();
+  const std::vector<double> state = beam.static_state(1.5, 1e5);
+  const double rail = beam.deflection(state, 1.5);
+  EXPECT_NEAR(beam.sleeper(state, 1.4), rail * kPad / (kPad + kSleeper.stiffness), 1e-9);
+}
+
+std::vector<std::string> ballasted(std::vector<std::string> more = {}) {
+  std::vector<std::string> overrides = {"scene.element_size=8 mm",
+                                        "rail.support=fastenings",
+                                        "rail.height=150 mm",
+                                        "rail.length=1.5 m",
+                                        "rail.origin=0.75 m",
+                                        "fastenings.count=3",
+                                        "fastenings.spacing=0.6 m",
+                                        "fastenings.first=0.15 m",
+                                        "fastenings.pad_width=40 mm",
+                                        "fastenings.damping=1 kN s/m",
+                                        "material.concrete.youngs_modulus=35 GPa",
+                                        "material.concrete.poissons_ratio=0.2",
+                                        "material.concrete.density=2400 kg/m3",
+                                        "sleepers.stiffness=40 MN/m"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
+/// Static forces of the beds, along x, upwards [N].
+std::vector<double> bed_forces(const Model& model, const Preload& preload) {
+  const std::vector<SpringDampers::Element>& elements = model.fastenings->elements();
+  const ConstNodeField u = preload.displacement.data();
+  std::size_t at = elements_of_fastening(*model.scene.fastenings) * model.index.sleepers.size();
+  const std::size_t beds = model.index.sleepers.size() - (model.scene.sleepers->hanging > 0 ? 1 : 0);
+  const std::size_t group = (elements.size() - at) / beds;
+  std::vector<double> forces(beds);
+  for (double& force : forces)
+    for (std::size_t k = 0; k < group; ++k, ++at) force -= elements[at].stiffness * elements[at].stretch(u);
+  return forces;
+}
+
+Preload at_rest(Model& model) {
+  return solve_preload(model, SteadyMotion{}, [](const std::string& /*text*/) {});
+}
+
+double mass_of(const Model& model, const std::vector<int>& blocks) {
+  double mass = 0;
+  for (const int b : blocks) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
+    for (std::int64_t slot = block.base; slot < block.base + block.slots(); ++slot)
+      mass += model.mass[static_cast<std::size_t>(slot)];
+  }
+  return mass;
+}
+
+TEST(Sleepers, BedsCarryWheelRailAndSleepers) {
+  Model model(samples::tyre_scene(ballasted()));
+  ASSERT_EQ(model.index.sleepers.size(), 3);
+  EXPECT_NEAR(mass_of(model, model.index.sleepers), 3 * 2400 * 0.26 * 1.3 * 0.2, 1e-6);
+  const std::vector<double> forces = bed_forces(model, at_rest(model));
+  const double weight =
+      model.scene.gravity * (mass_of(model, model.index.sleepers) + mass_of(model, model.index.rail()));
+  EXPECT_NEAR(forces[0] + forces[1] + forces[2], model.wheel_load() + weight, 1e-3 * model.wheel_load());
+  EXPECT_NEAR(forces[0], forces[2], 5e-3 * forces[1]);
+  EXPECT_GT(forces[1], forces[0]);
+}
+
+TEST(Sleepers, AHangingOneLeavesTheLoadToItsNeighbours) {
+  Model whole(samples::tyre_scene(ballasted()));
+  Model hanging(samples::tyre_scene(ballasted({"sleepers.hanging=2"})));
+  const Preload before = at_rest(whole);
+  const Preload after = at_rest(hanging);
+  EXPECT_GT(after.rail_deflection, 1.2 * before.rail_deflection);
+  EXPECT_GT(bed_forces(hanging, after)[0], 1.2 * bed_forces(whole, before)[0]);
+}
+
+TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
+  const auto problem = [](const std::vector<std::string>& more) -> std::string {
+    try {
+      samples::tyre_scene(ballasted(more));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(problem({}), "");
+  EXPECT_NE(problem({"sleepers.width=0.7 m"}).find("neighbouring sleepers overlap"), std::string::npos);
+  EXPECT_NE(problem({"sleepers.width=0.1 m"}).find("the pad is longer"), std::string::npos);
+  EXPECT_NE(problem({"sleepers.hanging=4"}).find("there is no sleeper 4"), std::string::npos);
+  EXPECT_NE(problem({"sleepers.offset=2 m"}).find("the pad does not lie on the sleeper"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tread
