@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
-
 namespace tread {
 
 namespace {
@@ -38,9 +36,10 @@ void check(const SectionSize& size, double depth, const std::string& name) {
         fmt::format("{}: element sizes {} and {} m, band half width {} m, {} layers: all have to be positive",
                     name, size.surface, size.coarse, size.band_half_width, size.fine_layers));
   if (size.fine_layers * size.surface > depth)
-    throw InputError(
-        fmt::format("{}: {} layers of {} m do not fit into {} m below the surface; reduce element_size", name,
-                    size.fine_layers, size.surface, depth));
+    throw MeshSizeError(fmt::format(
+        "{}: {} layers of {:.4g} mm do not fit into {:.4g} mm below the surface; an element_size of "
+        "{:.4g} mm at most fits",
+        name, size.fine_layers, 1e3 * size.surface, 1e3 * depth, 1e3 * depth / size.fine_layers));
 }
 
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size) {
@@ -110,7 +109,7 @@ std::vector<double> nested(std::span<const double> fine, std::span<const double>
                            const std::string& name) {
   const int edges = static_cast<int>(coarse.size()) - 1, last = static_cast<int>(fine.size()) - 1;
   if (edges > last)
-    throw InputError(
+    throw MeshSizeError(
         fmt::format("{}: {} coarse elements meet {} fine ones along the tie; give a larger coarse size or a "
                     "smaller element_size",
                     name, edges, last));

@@ -6,7 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace tread {
+
+/// Elements too large for a body.
+struct MeshSizeError : InputError {
+  using InputError::InputError;
+};
 
 /// Element sizes of a section with a running surface.
 struct SectionSize {
@@ -24,7 +31,8 @@ struct SectionSize {
   double layer_weight(double p, double left, double right) const;
 };
 
-/// Throws InputError if a size is not positive or the layers do not fit into `depth` [m]; `name` is the body.
+/// Throws InputError if a size is not positive, MeshSizeError if the layers do not fit into `depth` [m];
+/// `name` is the body.
 void check(const SectionSize& size, double depth, const std::string& name);
 
 /// Increasing parameters that contain every break and whose spacing follows size(parameter).
@@ -42,7 +50,7 @@ std::vector<double> from_below(std::span<const double> depths);
 
 /// Fine interface nodes that nest in coarse ones: fine.size() abscissae close to the wanted `fine`. Every
 /// value of `coarse` occurs exactly, and the fine nodes divide each coarse edge evenly. Both lists increase
-/// and share their ends. Throws InputError if there are fewer fine than coarse edges.
+/// and share their ends. Throws MeshSizeError if there are fewer fine than coarse edges.
 std::vector<double> nested(std::span<const double> fine, std::span<const double> coarse,
                            const std::string& name);
 

@@ -9,7 +9,7 @@
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
 #include "drivers/report/scene_check.hpp"
-#include "drivers/results/memory_need.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "drivers/studies/dial/dial_advice.hpp"
 #include "io/text/json.hpp"
 
@@ -27,7 +27,7 @@ struct CheckOptions {
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
   const std::optional<Advice> advice = advise(resolved, options.advice);
-  Model model(resolved.scene, {}, require_memory);
+  Model model = scene_model(resolved.scene, resolved);
   const Estimate cost = estimate(model);
   if (options.json) {
     Json json = check_json(model, cost);

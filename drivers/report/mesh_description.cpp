@@ -9,8 +9,8 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/frame_files.hpp"
-#include "drivers/results/memory_need.hpp"
 #include "drivers/results/root_attributes.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
@@ -165,7 +165,7 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
 
 void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
   use_threads(options.threads);
-  const Model model(resolved.scene, {}, require_memory);
+  const Model model = scene_model(resolved.scene, resolved);
   const std::vector<BlockMeasures> blocks = measure_blocks(model);
   const StepLimit limit = step_limit(model);
   if (!options.output.empty()) write_mesh(model, options.output);

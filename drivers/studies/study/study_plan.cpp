@@ -13,7 +13,7 @@
 
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
-#include "drivers/results/memory_need.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
@@ -212,7 +212,7 @@ void project_cost(StudyPlan& plan, bool retry) {
     const auto [first, is_new] = known.try_emplace(model_content(plan, point), Built{&point});
     Built& built = first->second;
     if (is_new) {
-      Model model(keeping_scene(plan, point), {}, require_memory);
+      Model model = scene_model(keeping_scene(plan, point), point.resolved);
       if (model.contact) built.reach = model.contact->reach();
       point.cost = estimate(model);
     } else if (const PlannedPoint& same = *built.point; same.cost) {
