@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -117,7 +118,9 @@ int main(int argc, char** argv) {
     tread::give_back_large_arrays();
     return run(argc, argv);
   } catch (const tread::Error& error) {
-    fmt::print(stderr, "tread: {}\n", error.what());
+    // An error of the command line names the command, "tread run: ...".
+    const bool named = std::string_view(error.what()).starts_with("tread ");
+    fmt::print(stderr, "{}{}\n", named ? "" : "tread: ", error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr,

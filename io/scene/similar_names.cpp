@@ -51,6 +51,9 @@ std::string similar_text(std::string_view text, const std::vector<std::string>& 
 std::string similar_path(std::string_view unknown) {
   std::vector<std::string> paths;
   for (const Key& key : scene_keys()) paths.push_back(key.path);
+  for (const Key& key : scene_keys())  // tables within tables: "motion.traction"
+    if (const auto dot = key.path.rfind('.'); key.path.find('.') < dot)
+      paths.push_back(key.path.substr(0, dot));
   for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
   for (const Key& key : keys::named_keys(keys::named_table_of(unknown))) paths.push_back(key.path);
   std::string near = similar_text(unknown, paths);

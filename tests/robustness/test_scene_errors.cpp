@@ -53,6 +53,8 @@ TEST(SceneErrors, Names) {
       {"[wheel]\nflat = \"40 mm\"",
        "x.toml:4:1: wheel.flat: unknown key: the wheel is round; corrugation.kind = \"table\" puts the depth "
        "on the rail, once a turn (docs/can-and-cannot.md)"},
+      {"[motion]\ntractoin = { mu = 0.1 }",
+       "x.toml:4:1: motion.tractoin: unknown table (did you mean motion.traction?)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
       {"[material.stel]",
        "x.toml:3:11: material.stel: has no effect, because no part is of it; the parts state wheel.material "
