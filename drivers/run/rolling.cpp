@@ -82,7 +82,9 @@ void Rolling::to_the_end() {
 void Rolling::step_to_the_end() {
   const int most = model_->scene.stop.steps;
   while (simulation_->steps() < end_) {
-    if (most > 0 && simulation_->steps() >= most) end<ResourceError>(fmt::format("stop.steps = {}", most));
+    if (most > 0 && simulation_->steps() >= most)
+      end<ResourceError>(
+          fmt::format("stop.steps = {} ends the run here, and each `tread resume` at once", most));
     if (simulation_->steps() == fork_step_) keep_for_forks();
     simulation_->step();
     if (simulation_->sampled()) {
@@ -229,8 +231,13 @@ template <class E>
 std::string Rolling::how_to_go_on() const {
   if (!written_)
     return fmt::format("there is no checkpoint yet: {} starts again", session_->resume_command());
-  std::string last = fmt::format("the last checkpoint is that of {}: {} goes on from there",
-                                 instant(written_->time, written_->steps), session_->resume_command());
+  std::string last =
+      fmt::format("the last checkpoint is that of {}: ", instant(written_->time, written_->steps));
+  const int most = model_->scene.stop.steps;
+  if (most > 0 && written_->steps >= most)
+    return last + fmt::format("`tread resume {} --set stop.steps=0` goes on to the end",
+                              session_->folder.path().string());
+  last += session_->resume_command() + " goes on from there";
   if (!std::is_same_v<E, NumericalError>) return last;
   return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";
 }

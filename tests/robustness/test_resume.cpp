@@ -54,7 +54,10 @@ class Resume : public ProgramTest {
 
 TEST_F(Resume, StoppedTwiceAndOnOtherThreads) {
   EXPECT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
-  EXPECT_TRUE(has(errors(), "stop.steps = 700; ") && has(errors(), "tread resume")) << errors();
+  const std::string way_on = fmt::format("`tread resume {} --set stop.steps=0` goes on", folder_.string());
+  EXPECT_TRUE(has(errors(), "stop.steps = 700 ends the run here") && has(errors(), way_on)) << errors();
+  EXPECT_EQ(call(resume()), 4);  // the limit holds until it is lifted
+  EXPECT_TRUE(has(errors(), "stop.steps = 700 ends the run here") && has(errors(), way_on)) << errors();
   EXPECT_EQ(
       call(fmt::format("resume {} -t 2 --set stop.steps=1501", folder_.string()), "OMP_WAIT_POLICY=passive"),
       4);
