@@ -21,6 +21,7 @@ void write_manual(const CommandEntry& program, const std::filesystem::path& fold
   };
   for (const auto& [name, text] : man_pages(program)) write("man1", name, text);
   write("bash", "tread", bash_completion(program));
+  write("zsh", "_tread", zsh_completion(program));
   write("fish", "tread.fish", fish_completion(program));
 }
 
@@ -29,8 +30,8 @@ void write_manual(const CommandEntry& program, const std::filesystem::path& fold
 void add_manual(CLI::App& app, const std::string& /*command_line*/) {
   auto folder = std::make_shared<std::string>();
   CLI::App& command =
-      *app.add_subcommand("manual", "man pages, and completion for bash and fish, into a directory");
-  command.add_option("-o,--output", *folder, "directory for man1, bash and fish")->required();
+      *app.add_subcommand("manual", "man pages, and completion for bash, zsh and fish, into a directory");
+  command.add_option("-o,--output", *folder, "directory for man1, bash, zsh and fish")->required();
   command.callback([&app, folder] { write_manual(command_table(app), *folder); });
 }
 

@@ -46,6 +46,11 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+/// A word with its meaning, as zsh's _describe takes it.
+std::string described(const std::string& word, const std::string& meaning) {
+  return quoted(word + ":" + meaning);
+}
+
 /// Cases of `case "$command $previous"` for options with a value: one case a command for free values, one an
 /// option with choices.
 std::string bash_values(const CommandEntry& program) {
@@ -94,6 +99,56 @@ _tread() {{
 complete -o default -F _tread tread
 )",
                      paths, cases, bash_values(program));
+}
+
+std::string zsh_completion(const CommandEntry& program) {
+  std::string paths, cases, values;
+  for_each(program, [&](const CommandEntry& command) {
+    const std::string path = path_of(command);
+    if (!path.empty()) paths += (paths.empty() ? "" : " | ") + quoted(path);
+    std::string words, options;
+    for (const CommandEntry& part : command.commands) words += " " + described(part.words.back(), part.text);
+    for (const OptionEntry& positional : command.positionals)
+      for (const std::string& choice : positional.choices) words += " " + quoted(choice);
+    for (const OptionEntry& option : command.options) {
+      for (const std::string& name : option.names) options += " " + described(name, option.text);
+      if (option.value.empty()) continue;
+      for (const std::string& name : option.names)
+        values += fmt::format("    {}) values=({}); free=1 ;;\n", quoted(path + " " + name),
+                              fmt::join(option.choices, " "));
+    }
+    cases +=
+        fmt::format("    {})\n      commands=({})\n      options=({}) ;;\n", quoted(path), words, options);
+  });
+  return fmt::format(R"(#compdef tread
+# zsh completion for tread, written by `tread manual`.
+_tread() {{
+  local place= next= i free=0
+  local -a commands options values
+  for ((i = 2; i < CURRENT; ++i)); do
+    next=${{place:+$place }}${{words[i]}}
+    case $next in
+    {0}) place=$next ;;
+    esac
+  done
+  case "$place ${{words[CURRENT - 1]}}" in
+{2}  esac
+  if (( $#values )); then
+    compadd -a values
+    return
+  fi
+  case $place in
+{1}  esac
+  if (( ! free )) && [[ ${{words[CURRENT]}} == -* ]]; then
+    _describe -o option options
+    return
+  fi
+  (( free || ! $#commands )) || _describe command commands
+  _files
+}}
+_tread "$@"
+)",
+                     paths, cases, values);
 }
 
 std::string fish_completion(const CommandEntry& program) {

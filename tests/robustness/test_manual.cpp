@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <set>
 #include <string>
@@ -49,6 +50,23 @@ class Manual : public testing::Test {
     return content_of(folder_ / "offered");
   }
 
+  /// Words that zsh offers there; nothing where this machine has no zsh.
+  std::optional<std::string> offered_by_zsh(const std::string& line) const {
+    const std::string command = fmt::format(
+        "compadd() {{ print -- ${{(P)2}} }}; _files() {{ print files }}; "
+        "_describe() {{ local word; for word in ${{(P)@[-1]}}; do print -rn -- \"${{word%%:*}} \"; done; "
+        "print; }}; "
+        "words=(tread {1}); CURRENT=$#words; source {0}/zsh/_tread >{0}/offered",
+        folder_.string(), line);
+    const int code = samples::wait_for(samples::child([&] {
+      ::execlp("zsh", "zsh", "-f", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    }));
+    if (code == 127) return std::nullopt;
+    EXPECT_EQ(code, 0) << line;
+    return content_of(folder_ / "offered");
+  }
+
   samples::Program program_;
   const fs::path& folder_ = program_.folder;
 };
@@ -64,6 +82,7 @@ std::vector<std::string> matches(const std::string& text, const std::string& pat
 
 TEST_F(Manual, HoldsEveryCommandAndOption) {
   const std::string fish = content_of(folder_ / "fish/tread.fish");
+  const std::string zsh = content_of(folder_ / "zsh/_tread");
   std::vector<std::string> commands = {""};
   std::size_t options = 0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -79,12 +98,14 @@ TEST_F(Manual, HoldsEveryCommandAndOption) {
         commands.push_back(command.empty() ? part : command + " " + part);
         EXPECT_TRUE(has(words, part)) << words;
         EXPECT_TRUE(has(fish, " -a " + part + " ")) << part;
+        EXPECT_TRUE(has(zsh, " '" + part + ":")) << part;
       }
     for (const std::string& option : matches(text.substr(0, list), R"(\n  (?:-[a-z],)?(--[a-z-]+))")) {
       ++options;
       EXPECT_TRUE(has(man, option)) << command << " " << option;
       EXPECT_TRUE(has(flags, option)) << command << " " << option;
       EXPECT_TRUE(has(fish, fmt::format(" -l {} ", option.substr(2)))) << command << " " << option;
+      EXPECT_TRUE(has(zsh, " '" + option + ":")) << command << " " << option;
     }
   }
   EXPECT_GT(commands.size(), 20U);
@@ -98,6 +119,20 @@ TEST_F(Manual, CompletionOffersValuesAndLeavesFilesToTheShell) {
   EXPECT_EQ(offered("run x.toml --ov"), "--overwrite\n");
   EXPECT_EQ(offered("run x.toml -o ''"), "\n");
   EXPECT_EQ(offered("run ''"), "\n");
+}
+
+TEST_F(Manual, CompletionOfZshOffersTheSame) {
+  EXPECT_TRUE(content_of(folder_ / "zsh/_tread").starts_with("#compdef tread\n"));
+  const auto values = offered_by_zsh("run x.toml --quality ''");
+  if (!values) GTEST_SKIP() << "this machine has no zsh";
+  EXPECT_EQ(*values, "draft standard paper\n");
+  EXPECT_EQ(offered_by_zsh("bench compare --by ''"), "rate limit instructions\n");
+  EXPECT_EQ(offered_by_zsh("ctl out ''"), "status checkpoint frame stop \nfiles\n");
+  EXPECT_TRUE(has(*offered_by_zsh("run x.toml --"), "--overwrite "));
+  EXPECT_TRUE(has(*offered_by_zsh("be"), "bench "));
+  EXPECT_TRUE(has(*offered_by_zsh("bench ''"), "kernels "));
+  EXPECT_EQ(offered_by_zsh("run x.toml -o ''"), "files\n");
+  EXPECT_EQ(offered_by_zsh("run ''"), "files\n");
 }
 
 TEST_F(Manual, IsTheSameEveryTime) {
