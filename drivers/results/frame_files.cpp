@@ -29,14 +29,21 @@ const char* mesh_name(VtkCells kind) {
   return kind == VtkCells::faces ? "mesh-faces.hdf" : "mesh-elements.hdf";
 }
 
-/// Rows of the contact's surface grid by node of the rail's section; -1: none.
-std::vector<int> rows_of_nodes(const Section& section, const SurfaceGrid& grid) {
-  std::vector<int> rows(static_cast<std::size_t>(section.nodes()), -1);
+/// Row of the contact's surface grid at a node of the rail's section, and the tangent across the surface
+/// there.
+struct SurfaceRow {
+  int row = -1;  ///< -1: none
+  Vec3 across;   ///< unit vector to the field side
+};
+
+std::vector<SurfaceRow> rows_of_nodes(const Section& section, const SurfaceGrid& grid) {
+  std::vector<SurfaceRow> rows(static_cast<std::size_t>(section.nodes()));
   for (int row = 0; row < grid.rows(); ++row) {
     const bool last = row + 1 == grid.rows();
     const SurfaceEdge& edge =
         section.surface[static_cast<std::size_t>(grid.first_edge + row - (last ? 1 : 0))];
-    rows[static_cast<std::size_t>(edge.node[last ? 1 : 0])] = row;
+    const auto [y, z] = edge.tangent[last ? 1 : 0];
+    rows[static_cast<std::size_t>(edge.node[last ? 1 : 0])] = {row, {0, y, z}};
   }
   return rows;
 }
@@ -74,7 +81,7 @@ VtkCells frame_cells(const Scene& scene) {
 
 FrameBytes frame_bytes(const VtkGrid& grid) {
   constexpr std::int64_t kOfPoint =
-      (3 + 3 + 3 + 1) * sizeof(float);             // place, displacement, velocity, pressure
+      (3 + 3 + 3) * sizeof(float);  // place, displacement, velocity; contact fields vanish when compressed
   constexpr std::int64_t kOfCell = sizeof(float);  // stress
   constexpr std::int64_t kOfMeshPoint = 3 * sizeof(double);
   constexpr std::int64_t kOfMeshCell = 8 + 1 + 4 + 4 + 8;  // offset, type, block, material, pitch
@@ -199,24 +206,44 @@ std::vector<VtkArray> FrameFiles::arrays() const {
     append(displacement.values, u);
     append(velocity.values, v);
   }
-  return {std::move(displacement), std::move(velocity), contact_pressure(), von_mises_stress()};
+  std::vector<VtkArray> all = contact_arrays();
+  all.insert(all.begin(), {std::move(displacement), std::move(velocity)});
+  all.push_back(von_mises_stress());
+  return all;
 }
 
-VtkArray FrameFiles::contact_pressure() const {
-  VtkArray array{
-      "contact pressure [Pa]", "Pa", "on the rail's running surface, average at the node", 1, false, {}};
-  array.values.assign(grid_.points.size(), 0.0F);
-  if (!model_->contact) return array;
+/// Pressure, shear stress and slip of the contact on the rail's running surface; zero elsewhere.
+std::vector<VtkArray> FrameFiles::contact_arrays() const {
+  std::vector<VtkArray> arrays = {
+      {"contact pressure [Pa]", "Pa", "on the rail's running surface, average at the node", 1, false, {}},
+      {"contact shear stress [Pa]", "Pa", "on the rail, average at the node", 3, false, {}},
+      {"slip velocity [m s-1]",
+       "m/s",
+       "of the wheel against the rail, mean of the touching points",
+       3,
+       false,
+       {}}};
+  for (VtkArray& array : arrays)
+    array.values.assign(grid_.points.size() * static_cast<std::size_t>(array.components), 0.0F);
+  if (!model_->contact) return arrays;
   const int rail = model_->contact->options().rail_block;
   const Section& section = model_->mesh.blocks[static_cast<std::size_t>(rail)].section;
-  const std::vector<int> rows = rows_of_nodes(section, at_.patch.grid());
+  const std::vector<SurfaceRow> rows = rows_of_nodes(section, at_.patch.grid());
+  const auto put = [](VtkArray& array, std::size_t point, const Vec3& value) {
+    for (int i = 0; i < 3; ++i)
+      array.values[3 * point + static_cast<std::size_t>(i)] = static_cast<float>(value[i]);
+  };
   for (std::size_t i = 0; i < grid_.points.size(); ++i) {
     const auto [block, node, station] = grid_.points[i];
     if (block != rail || station < at_.patch.first() || station > at_.patch.last()) continue;
-    const int row = rows[static_cast<std::size_t>(node)];
-    if (row >= 0) array.values[i] = static_cast<float>(at_.patch.at(station, row).pressure);
+    const auto& [row, across] = rows[static_cast<std::size_t>(node)];
+    if (row < 0) continue;
+    const NodalContact& at = at_.patch.at(station, row);
+    arrays[0].values[i] = static_cast<float>(at.pressure);
+    put(arrays[1], i, at.shear.along * Vec3{1, 0, 0} + at.shear.across * across);
+    put(arrays[2], i, at.slip_speed.along * Vec3{1, 0, 0} + at.slip_speed.across * across);
   }
-  return array;
+  return arrays;
 }
 
 VtkArray FrameFiles::von_mises_stress() const {

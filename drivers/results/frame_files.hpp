@@ -57,7 +57,7 @@ class FrameFiles {
   void write_copy();
   void write_series() const;
   std::vector<VtkArray> arrays() const;
-  VtkArray contact_pressure() const;
+  std::vector<VtkArray> contact_arrays() const;
   VtkArray von_mises_stress() const;
   std::vector<float> points() const;
 

@@ -50,7 +50,8 @@ for time, entry in zip(times, listed):
     data = Fetch(reader)
     row = min(rows, key=lambda r: abs(r["time [s]"] - time))
     points, values = data.GetPointData(), data.GetCellData()
-    expected = {"displacement [m]": 3, "velocity [m s-1]": 3, "contact pressure [Pa]": 1}
+    expected = {"displacement [m]": 3, "velocity [m s-1]": 3, "contact pressure [Pa]": 1,
+                "contact shear stress [Pa]": 3, "slip velocity [m s-1]": 3}
     for name, components in expected.items():
         array = points.GetArray(name)
         require(array is not None, f"no array '{name}'")
@@ -64,6 +65,8 @@ for time, entry in zip(times, listed):
 
     largest = points.GetArray("contact pressure [Pa]").GetRange()[1]
     near(largest, row["max_pressure [Pa]"], 0.05, f"largest pressure at {time:g} s")
+    shear = points.GetArray("contact shear stress [Pa]").GetRange(-1)[1]
+    near(shear, row["max_shear [Pa]"], 0.05, f"largest shear stress at {time:g} s")
     stress = values.GetArray("von Mises stress [Pa]").GetRange()
     require(0 <= stress[0] and 1e8 < stress[1] < 2e9, f"stress from {stress[0]:g} to {stress[1]:g} Pa")
 

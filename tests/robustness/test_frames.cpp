@@ -53,6 +53,29 @@ class Frames : public testing::TestWithParam<const char*> {
     files.write();
   }
 
+  /// Shear stress and slip lie in the surface where the wheel presses, and friction is no larger than f p.
+  void expect_contact_vectors(const Hdf5File& file, const std::vector<float>& pressure) {
+    const std::vector<float> shear = file.read<float>("/VTKHDF/PointData/contact shear stress [Pa]");
+    const std::vector<float> slip = file.read<float>("/VTKHDF/PointData/slip velocity [m s-1]");
+    ASSERT_EQ(shear.size(), 3 * pressure.size());
+    ASSERT_EQ(slip.size(), 3 * pressure.size());
+    const double f = model_.scene.contact->largest_friction();
+    double largest = 0, fastest = 0;
+    for (std::size_t i = 0; i < pressure.size(); ++i) {
+      const double size = std::hypot(shear[3 * i], shear[3 * i + 1], shear[3 * i + 2]);
+      EXPECT_LE(size, 1.0001 * f * pressure[i]);
+      EXPECT_LE(std::abs(shear[3 * i + 2]), 0.5 * size);  // the running band is nearly level
+      largest = std::max(largest, size);
+      const double speed = std::hypot(slip[3 * i], slip[3 * i + 1], slip[3 * i + 2]);
+      EXPECT_TRUE(pressure[i] > 0 || speed == 0);
+      fastest = std::max(fastest, speed);
+    }
+    EXPECT_NEAR(largest, model_.contact->nodes().max_shear(), 1e-5 * largest);
+    EXPECT_GT(largest, 0);
+    EXPECT_GT(fastest, 0);
+    EXPECT_LT(fastest, 0.1 * model_.scene.motion->speed);
+  }
+
   static constexpr std::int64_t kSteps = 40;
   samples::TemporaryFolder temporary_;
   const fs::path& folder_ = temporary_.path;
@@ -81,6 +104,7 @@ TEST_P(Frames, ShowTheMotion) {
 
   EXPECT_FLOAT_EQ(*std::max_element(p.begin(), p.end()),
                   static_cast<float>(model_.contact->nodes().max_pressure()));
+  expect_contact_vectors(file, p);
   const double speed = model_.scene.motion->speed;
   const BodyFrame& wheel = simulation_->wheel();
   double largest_error = 0;
