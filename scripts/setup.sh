@@ -1,9 +1,9 @@
-# Sourced by ./run and ./test: sets `root`; installs what the build needs; builds.
+# Sourced by ./run and ./test: sets `root`; installs what the build of the program needs; builds.
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev
-  libfmt-dev libgtest-dev libtbb-dev nlohmann-json3-dev)
+  libfmt-dev libtbb-dev nlohmann-json3-dev)
 
 # die MESSAGE...: one line each; the exit code says that the machine lacks something.
 die() {
@@ -49,7 +49,9 @@ install_packages() {
 build() {
   local preset=$1 target=$2 folder=$root/build/release
   mkdir -p "$folder"
-  if [[ ! -f $folder/build.ninja || $(cat "$folder/preset" 2>/dev/null) != "$preset" ]]; then
+  # A folder configured without GoogleTest has no tests: ./test configures it anew.
+  if [[ ! -f $folder/build.ninja || $(cat "$folder/preset" 2>/dev/null) != "$preset" ||
+    ($target == all && ! -d $folder/tests) ]]; then
     (cd "$root" && logged build/configure.log cmake --preset "$preset") || die "The build cannot be configured."
     echo "$preset" >"$folder/preset"
   fi
