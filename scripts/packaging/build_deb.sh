@@ -6,6 +6,7 @@ set -euo pipefail
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../setup.sh"
 
 packages+=(dpkg-dev file)
+[[ ! -e $root/.git ]] || packages+=(git) # the program states its commit
 install_packages
 build=$root/build/package
 folder=$(realpath -m "${1:-$build}")
