@@ -5,6 +5,6 @@ set -euo pipefail
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 results=${1:?which folder? see the head of this file}
 
-cp "$results/dial.svg" "$root/docs/records/dial/corrugation-d.svg"
+cp "$results/figures/errors.svg" "$root/docs/records/dial/corrugation-d.svg"
 cp "$results/dial.jsonl" "$root/share/dial/highspeed-slab-2014.jsonl"
 "$root/scripts/put_between_marks.sh" "$root/docs/records/dial.md" 'tread dial' < "$results/results.md"

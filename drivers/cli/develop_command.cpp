@@ -4,6 +4,7 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
+#include "drivers/cli/program_name.hpp"
 #include "drivers/studies/develop/develop.hpp"
 
 namespace tread {
@@ -11,7 +12,7 @@ namespace tread {
 void add_develop(CLI::App& app, const std::string& command_line) {
   auto state = std::make_shared<SceneCommand<DevelopOptions>>();
   DevelopOptions& options = state->options;
-  options.command = command_line;
+  options.origin = {program_name(), command_line};
   CLI::App& command = *app.add_subcommand(
       "develop",
       "corrugation growth: passages that wear the rail one after another; continues a stopped one");

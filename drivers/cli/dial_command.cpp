@@ -4,13 +4,14 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
+#include "drivers/cli/program_name.hpp"
 #include "drivers/studies/dial/dial_study.hpp"
 
 namespace tread {
 
 void add_dial(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<DialOptions>();
-  options->common.command = command_line;
+  options->common.origin = {program_name(), command_line};
   CLI::App& command = *app.add_subcommand("dial", "cost and error of the settings of a passage");
   or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"))
       ->required();

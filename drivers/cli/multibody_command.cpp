@@ -4,6 +4,7 @@
 
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/common_options.hpp"
+#include "drivers/cli/program_name.hpp"
 #include "drivers/studies/multibody/multibody_study.hpp"
 
 namespace tread {
@@ -11,7 +12,7 @@ namespace tread {
 void add_multibody(CLI::App& app, const std::string& command_line) {
   auto state = std::make_shared<SceneCommand<MultibodyOptions>>();
   MultibodyOptions& options = state->options;
-  options.command = command_line;
+  options.origin = {program_name(), command_line};
   CLI::App& command =
       add_scene_command(app, "multibody", "run the scene by the multi-body approach, in about a second",
                         run_multibody_study, state);

@@ -19,6 +19,7 @@ Figure blow_figure(const RunResults& r) {
     displacement.y.push_back(1e6 * s.hammer_displacement);
   }
   Figure figure;
+  figure.name = "blow";
   figure.title = "Blow on the rail head";
   figure.x_label = "Time [ms]";
   figure.panels = {panel("Force [kN]", {std::move(force)}, {}, 110),
@@ -47,6 +48,7 @@ Figure receptance_figure(const Scene& scene, const RunResults& r) {
     amplitude.y.push_back(std::log10(std::abs(record.receptance(f))));
   }
   Figure figure;
+  figure.name = "receptance";
   figure.title = "Receptance of the struck point";
   figure.x_label = "Frequency [Hz]";
   figure.panels = {panel("log10 of [m/N]", {std::move(amplitude)}, {}, 260)};

@@ -9,17 +9,18 @@
 
 namespace tread {
 
-Chapter provenance_chapter(const ResolvedScene& resolved, const Provenance& provenance) {
+void state_provenance(Report& report, const std::string& scene, const Provenance& provenance) {
+  report.footer = provenance.command;
   const std::string date = fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)));
   const std::string machine = fmt::format("{}, {}, {} cores", host_name(), processor_name(), machine_cores());
-  return {"Provenance",
-          {Table{"",
-                 {{"Quantity"}, {"Value"}},
-                 {{"Program", provenance.program},
-                  {"Command", provenance.command},
-                  {"Scene", resolved.name},
-                  {"Finished", date},
-                  {"Machine", machine}}}}};
+  report.chapters.push_back({"Provenance",
+                             {Table{"",
+                                    {{"Quantity"}, {"Value"}},
+                                    {{"Program", provenance.program},
+                                     {"Command", provenance.command},
+                                     {"Scene", scene},
+                                     {"Finished", date},
+                                     {"Machine", machine}}}}});
 }
 
 }  // namespace tread

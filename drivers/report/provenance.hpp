@@ -4,17 +4,17 @@
 #include <string>
 
 #include "io/report/report.hpp"
-#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
-/// Origin of a run's results that neither scene nor results state.
+/// Origin of the results of a run or a study that neither scene nor results state.
 struct Provenance {
   std::string program;  ///< name, version and commit
   std::string command;  ///< command as typed
 };
 
-/// Chapter of program, command, scene, date and machine; the last two are those of this process.
-Chapter provenance_chapter(const ResolvedScene& resolved, const Provenance& provenance);
+/// Ends the report with the command as its footer and a chapter of program, command, scene, date and machine;
+/// the last two are those of this process. `scene`: name of the scene's file.
+void state_provenance(Report& report, const std::string& scene, const Provenance& provenance);
 
 }  // namespace tread

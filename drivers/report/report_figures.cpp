@@ -36,8 +36,9 @@ Range whole_way(const Model& model, const RunResults& r) {
   return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
 }
 
-Figure over_the_way(std::string title, const Model& model, const RunResults& r) {
+Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
   Figure figure;
+  figure.name = std::move(name);
   figure.title = std::move(title);
   figure.x_label = abscissa_label(model);
   figure.x_range = whole_way(model, r);
@@ -85,6 +86,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
   const Corrugation& corrugation = model.contact->corrugation();
   const double f = scene.contact->largest_friction();
   Figure figure;
+  figure.name = "forces";
   figure.title =
       corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
   figure.x_label = abscissa_label(model);
@@ -105,7 +107,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
 
 Figure passage_figure(const Model& model, const RunResults& r) {
   const double f = model.scene.contact->largest_friction();
-  Figure figure = over_the_way("Forces over the whole way", model, r);
+  Figure figure = over_the_way("passage", "Forces over the whole way", model, r);
   figure.panels.push_back(
       panel("F_N [kN]", {curve("F_N", model, r, [](const Sample& s) { return 1e-3 * s.vertical_force; })},
             {{1e-3 * model.wheel_load(), "static"}}, 200));
@@ -128,7 +130,7 @@ Figure passage_figure(const Model& model, const RunResults& r) {
 }
 
 Figure creepage_figure(const Model& model, const RunResults& r, const std::vector<Marker>& levels) {
-  Figure figure = over_the_way("Longitudinal creepage", model, r);
+  Figure figure = over_the_way("creepage", "Longitudinal creepage", model, r);
   figure.panels.push_back(panel("Creepage [%]",
                                 {curve("at the node that starts in the patch", model, r,
                                        [](const Sample& s) { return 100 * s.creepage_node; }),
@@ -144,7 +146,7 @@ Figure creepage_figure(const Model& model, const RunResults& r, const std::vecto
 }
 
 Figure patch_figure(const Model& model, const RunResults& r) {
-  Figure figure = over_the_way("Contact patch", model, r);
+  Figure figure = over_the_way("patch", "Contact patch", model, r);
   figure.panels.push_back(
       panel("Area [mm²]",
             {curve("in contact", model, r, [](const Sample& s) { return 1e6 * s.patch_area; }),
@@ -164,7 +166,7 @@ Figure patch_figure(const Model& model, const RunResults& r) {
 }
 
 Figure energy_figure(const Model& model, const RunResults& r) {
-  Figure figure = over_the_way("Energy by kind, change since the start", model, r);
+  Figure figure = over_the_way("energy", "Energy by kind, change since the start", model, r);
   const EnergyLedger& start = r.samples.front().energy;
   const auto kind = [&](const char* label, double EnergyLedger::*member, Stroke stroke = Stroke::solid) {
     return curve(
@@ -205,10 +207,11 @@ Drawings section_drawings(const Model& model) {
     const double up = block.sweep == Sweep::revolved ? height : 0;
     return section_layer(block.name, block.section, block.sweep, {0, up});
   });
-  Drawings drawings;
+  Drawings sections{"mesh-sections", {}};
+  std::vector<Drawing>& drawings = sections.drawings;
   if (!model.contact) {
     drawings.push_back({"Cross-section", layers, std::nullopt, 300});
-    return drawings;
+    return sections;
   }
   drawings.push_back(
       {"Cross-section under the wheel", layers, std::nullopt, model.index.axle >= 0 ? 920.0 : 440.0});
@@ -216,7 +219,7 @@ Drawings section_drawings(const Model& model) {
     drawings.push_back({"Rail and wheel rim", layers, Window{{-0.1, -0.19}, {0.1, 0.07}}, 360});
   drawings.push_back({"Around the patch", layers, Window{{-0.032, -0.022}, {0.032, 0.022}},
                       model.index.axle >= 0 ? 520.0 : 440.0});
-  return drawings;
+  return sections;
 }
 
 Drawings side_drawings(const Model& model) {
@@ -228,14 +231,15 @@ Drawings side_drawings(const Model& model) {
       for (double& radius : without_flange.section.q) radius = std::min(radius, height);
     return side_layer(block.name, without_flange, {0, 0, height});
   });
-  if (!model.contact) return {{"Side view", layers, std::nullopt, 920}};
+  if (!model.contact) return {"mesh-side", {{"Side view", layers, std::nullopt, 920}}};
   std::vector<Layer> track = layers;
   std::erase_if(track,
                 [](const Layer& layer) { return layer.label == "tread" || layer.label == "disc and axle"; });
   const double zone = model.scene.motion ? model.scene.zone_start : 0;
-  return {{"Side view of the stations, x = -0.5 to 0.5 m", layers, Window{{-0.5, -0.3}, {0.5, 0.5}}, 440},
-          {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
-           440}};
+  return {"mesh-side",
+          {{"Side view of the stations, x = -0.5 to 0.5 m", layers, Window{{-0.5, -0.3}, {0.5, 0.5}}, 440},
+           {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
+            440}}};
 }
 
 }  // namespace tread

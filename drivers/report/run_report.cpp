@@ -18,6 +18,7 @@
 #include "drivers/report/surface_figures.hpp"
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/inventory.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
@@ -369,7 +370,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
                       const RunResults& results, const Provenance& provenance) {
   Run run{model, resolved, results};
   find_references(run);
-  Report report{resolved.scene.title, subtitle(run), {}, provenance.command};
+  Report report{resolved.scene.title, subtitle(run), {}, {}};
   if (!results.warnings.empty()) {
     report.chapters.push_back({"Warnings", {}});
     for (const std::string& warning : results.warnings)
@@ -397,7 +398,7 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
   report.chapters.push_back(model_chapter(run));
   report.chapters.push_back(cost_chapter(run));
   report.chapters.push_back(scene_chapter(run));
-  report.chapters.push_back(provenance_chapter(resolved, provenance));
+  state_provenance(report, resolved.name, provenance);
   write_report(path, report);
 }
 

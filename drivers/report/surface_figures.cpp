@@ -60,6 +60,7 @@ Figure surface_figure(const Model& model, const RunResults& r) {
   const SurfaceResults& s = r.surface;
   const Corrugation& corrugation = model.contact->corrugation();
   Figure figure;
+  figure.name = "surface";
   figure.title = "Largest stresses and frictional work of the passage on the patch's longitudinal axis";
   figure.x_label = "Position on the rail [m]";
   const Range way = {s.axis.front().x, s.axis.back().x};
@@ -92,8 +93,10 @@ Figure surface_figure(const Model& model, const RunResults& r) {
 }
 
 Figure snapshots_figure(const Model& model, const RunResults& r) {
-  return snapshots_figure(
+  Figure figure = snapshots_figure(
       {axes(model), r.surface.axis_row, *model.scene.contact, model.contact->corrugation(), r.instants});
+  figure.name = "patch-instants";
+  return figure;
 }
 
 Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
@@ -107,16 +110,17 @@ Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
           half = std::max({half, std::abs(corner[0]), std::abs(corner[1] - r.surface.axis_y)});
   }
   const double y = r.surface.axis_y;
-  Drawings drawings;
+  Drawings drawings{"stick-slip", {}};
   for (std::size_t k = 0; k < r.instants.size(); ++k)
-    drawings.push_back({fmt::format("{}  x = {:.3f} m", instant_name(k), r.instants[k].wheel_x),
-                        stick_and_slip(surface, r.instants[k]), Window{{-half, y - half}, {half, y + half}},
-                        kWidth});
+    drawings.drawings.push_back({fmt::format("{}  x = {:.3f} m", instant_name(k), r.instants[k].wheel_x),
+                                 stick_and_slip(surface, r.instants[k]),
+                                 Window{{-half, y - half}, {half, y + half}}, kWidth});
   return drawings;
 }
 
 PatchMovie patch_movie(const Model& model, const RunResults& r) {
   PatchMovie movie;
+  movie.name = "patch-movie";
   movie.title = "The patch on its way";
   movie.x_label = "Along the rail from the wheel's axis [mm]";
   movie.y_label = "Across the rail [mm]";

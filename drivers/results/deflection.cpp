@@ -75,6 +75,7 @@ void write_deflection(const std::filesystem::path& path, const Deflection& d) {
 
 Figure deflection_figure(const Deflection& d) {
   Figure figure;
+  figure.name = "deflection";
   figure.title = "Vertical displacement of the rail's running surface";
   figure.x_label = "From the wheel, ahead positive [m]";
   figure.panels.push_back(

@@ -16,6 +16,7 @@
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/step_files.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/text/json.hpp"
 
 namespace tread {
@@ -131,6 +132,14 @@ ResultFile look_at_frames(const fs::path& folder, Hdf5Attributes& attributes) {
   return file;
 }
 
+ResultFile look_at_figures(const fs::path& folder) {
+  return {folder.filename().string() + "/",
+          folder_bytes(folder),
+          fmt::format("figures of the report, .svg and .csv: {}", fmt::join(figures_in(folder), ", ")),
+          "",
+          {}};
+}
+
 ResultFile look_at_states(const fs::path& folder) {
   const std::size_t states = steps_in(folder, ".h5").size();
   return {folder.filename().string() + "/",
@@ -207,6 +216,8 @@ void add_folder(const fs::path& path, ResultListing& listing) {
   const std::string name = path.filename();
   if (name == "frames")
     listing.files.push_back(look_at_frames(path, listing.attributes));
+  else if (name == kFigureFolder)
+    listing.files.push_back(look_at_figures(path));
   else if (name == kCheckpointFolder || name == kForkFolder)
     listing.files.push_back(look_at_states(path));
   else if (fs::exists(path / "status.json") || fs::exists(path / "summary.json"))

@@ -17,17 +17,18 @@
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
-#include "drivers/results/memory_need.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/run_warnings.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/rolling.hpp"
 #include "drivers/run/run_session.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
 
@@ -180,7 +181,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   if (checkpoint) unpack_results(*checkpoint, results);
   const std::optional<double> deepest =
       checkpoint ? std::optional(deepest_line(made.scene, results)) : std::nullopt;
-  Model model(made.scene, deepest, require_memory);
+  Model model = scene_model(made.scene, made, deepest);
   adopt_later_values(model, session.resolved.scene);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
@@ -228,6 +229,7 @@ void remove_results(const std::filesystem::path& directory) {
                            "run.h5", "histories.csv", kPatchFile, "scene.files.json"})
     std::filesystem::remove(directory / name, ignored);
   FrameFiles::remove(directory);
+  remove_figures(directory / kFigureFolder);
 }
 
 /// A run is not thrown away by mistake, finished or not.

@@ -53,6 +53,7 @@ struct Figure {
   std::vector<Band> bands;
   std::optional<Range> x_range;  ///< range of the abscissa; absent: the range of the curves
   std::string caption;
+  std::string name = {};  ///< name of its files; empty: it has none
 };
 
 /// A `figure` element: title, legend, SVG, caption. chart.js adds reading and zooming.

@@ -9,6 +9,7 @@
 
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 
 namespace tread {
 
@@ -16,16 +17,8 @@ namespace {
 
 constexpr int kColours = 4;
 constexpr double kMargin = 8;  ///< [px]
+constexpr double kKey = 17;    ///< height of a key of the legend in an SVG file [px]
 constexpr double kBar = 26;    ///< height of the strip that holds the scale bar [px]
-
-bool touches(const Polygon& polygon, const Window& window) {
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(),
-                                                 [i](const auto& a, const auto& b) { return a[i] < b[i]; });
-    if ((*high)[i] < window.low[i] || (*low)[i] > window.high[i]) return false;
-  }
-  return true;
-}
 
 Window bounds(const std::vector<Layer>& layers) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -92,7 +85,57 @@ std::string legend_html(const std::vector<Layer>& layers) {
   return "<div class=\"legend\">" + html + "</div>\n";
 }
 
+/// A drawing as an `svg` element with its scale bar.
+struct DrawnMesh {
+  std::string svg;
+  double width, height;  ///< [px]
+};
+
+DrawnMesh drawn(const Drawing& drawing) {
+  const Window window = drawing.window ? *drawing.window : bounds(drawing.layers);
+  const double width = std::max(window.high[0] - window.low[0], 1e-9);
+  const View view{window, (drawing.width - 2 * kMargin) / width};
+  const double height = 2 * kMargin + (window.high[1] - window.low[1]) * view.scale;
+  std::string shapes;
+  int colour = 0;
+  for (const Layer& layer : drawing.layers) {
+    shapes += fmt::format("<path class=\"cells d{}\" d=\"{}\"/>\n", colour % kColours,
+                          path_data(layer.cells, view, "Z"));
+    shapes += fmt::format("<path class=\"lines d{}\" d=\"{}\"/>\n", colour++ % kColours,
+                          path_data(layer.lines, view, ""));
+  }
+  return {
+      fmt::format("<svg viewBox=\"0 0 {0:.0f} {1:.1f}\"><svg width=\"{0:.0f}\" height=\"{2:.1f}\">\n{3}</svg>"
+                  "{4}</svg>\n",
+                  drawing.width, height + kBar, height, shapes, scale_bar(view, height + kBar)),
+      drawing.width, height + kBar};
+}
+
+/// Legend of a drawing in an SVG file, one key below another from `top` on.
+std::string legend_svg(const std::vector<Layer>& layers, double left, double top) {
+  std::string svg;
+  int colour = 0;
+  for (const Layer& layer : layers) {
+    svg += fmt::format(
+        "<rect class=\"cells d{}\" x=\"{:.0f}\" y=\"{:.1f}\" width=\"14\" height=\"10\"/>"
+        "<text x=\"{:.0f}\" y=\"{:.1f}\">{}</text>\n",
+        colour % kColours, left, top + kKey * colour, left + 20, top + kKey * colour + 9,
+        svg_text(layer.label));
+    ++colour;
+  }
+  return svg;
+}
+
 }  // namespace
+
+bool touches(const Polygon& polygon, const Window& window) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(),
+                                                 [i](const auto& a, const auto& b) { return a[i] < b[i]; });
+    if ((*high)[i] < window.low[i] || (*low)[i] > window.high[i]) return false;
+  }
+  return true;
+}
 
 Layer section_layer(std::string label, const Section& section, Sweep sweep, std::array<double, 2> origin) {
   Layer layer{std::move(label), {}, {}};
@@ -132,24 +175,31 @@ Layer side_layer(std::string label, const SweptBlock& block, const Vec3& origin)
 }
 
 std::string drawing_html(const Drawing& drawing) {
-  const Window window = drawing.window ? *drawing.window : bounds(drawing.layers);
-  const double width = std::max(window.high[0] - window.low[0], 1e-9);
-  const View view{window, (drawing.width - 2 * kMargin) / width};
-  const double height = 2 * kMargin + (window.high[1] - window.low[1]) * view.scale;
-  std::string shapes;
-  int colour = 0;
-  for (const Layer& layer : drawing.layers) {
-    shapes += fmt::format("<path class=\"cells d{}\" d=\"{}\"/>\n", colour % kColours,
-                          path_data(layer.cells, view, "Z"));
-    shapes += fmt::format("<path class=\"lines d{}\" d=\"{}\"/>\n", colour++ % kColours,
-                          path_data(layer.lines, view, ""));
-  }
   return fmt::format(
-      "<figure class=\"drawing\" style=\"flex-basis:{0:.0f}px\">\n<figcaption>{1}</figcaption>\n"
-      "<svg viewBox=\"0 0 {0:.0f} {2:.1f}\"><svg width=\"{0:.0f}\" height=\"{3:.1f}\">\n{4}</svg>{5}</svg>\n"
-      "{6}</figure>\n",
-      drawing.width, html_text(drawing.title), height + kBar, height, shapes, scale_bar(view, height + kBar),
-      legend_html(drawing.layers));
+      "<figure class=\"drawing\" "
+      "style=\"flex-basis:{:.0f}px\">\n<figcaption>{}</figcaption>\n{}{}</figure>\n",
+      drawing.width, html_text(drawing.title), drawn(drawing).svg, legend_html(drawing.layers));
+}
+
+std::string drawings_svg(const Drawings& drawings) {
+  constexpr double kTitle = 24;
+  constexpr double kGap = 24;
+  std::string shapes;
+  double left = 0, top = 0, bottom = 0, right = kPageWidth;
+  for (const Drawing& drawing : drawings.drawings) {
+    const DrawnMesh mesh = drawn(drawing);
+    if (left > 0 && left + mesh.width > kPageWidth) left = 0, top = bottom;
+    shapes += fmt::format(
+        "<text x=\"{0:.1f}\" y=\"{1:.1f}\" font-weight=\"bold\">{2}</text>\n"
+        "<svg x=\"{3:.1f}\" y=\"{4:.1f}\" width=\"{5:.1f}\" height=\"{6:.1f}\">{7}</svg>\n{8}",
+        left + kMargin, top + 17, svg_text(drawing.title), left, top + kTitle, mesh.width, mesh.height,
+        mesh.svg, legend_svg(drawing.layers, left + kMargin, top + kTitle + mesh.height + 4));
+    const auto keys = static_cast<double>(drawing.layers.size());
+    bottom = std::max(bottom, top + kTitle + mesh.height + kKey * keys + kGap);
+    right = std::max(right, left + mesh.width);
+    left += mesh.width + kGap;
+  }
+  return svg_file(right, bottom, shapes);
 }
 
 }  // namespace tread

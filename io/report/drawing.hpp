@@ -27,11 +27,20 @@ struct Window {
   std::array<double, 2> high;
 };
 
+/// Returns true if the rectangle about the polygon and the window have a point in common.
+bool touches(const Polygon& polygon, const Window& window);
+
 struct Drawing {
   std::string title;
   std::vector<Layer> layers;
   std::optional<Window> window;  ///< shown window; absent: everything
   double width = 440;            ///< width [px of a page 920 px wide]
+};
+
+/// Drawings side by side if the page is wide enough.
+struct Drawings {
+  std::string name;  ///< name of their files; empty: they have none
+  std::vector<Drawing> drawings;
 };
 
 /// Quads of a section seen along x, y to the right and z up: an extruded section at `origin` (y, z), a
@@ -45,5 +54,8 @@ Layer side_layer(std::string label, const SweptBlock& block, const Vec3& origin 
 
 /// A `figure` element: title, SVG with a scale bar, legend.
 std::string drawing_html(const Drawing& drawing);
+
+/// The drawings with titles and legends as a self-contained SVG file.
+std::string drawings_svg(const Drawings& drawings);
 
 }  // namespace tread

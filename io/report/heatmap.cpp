@@ -7,7 +7,6 @@
 
 #include "io/report/chart.hpp"
 #include "io/report/markup.hpp"
-#include "io/report/picture.hpp"
 #include "io/report/shades.hpp"
 
 namespace tread {
@@ -180,11 +179,11 @@ class Plot {
   double low_ = 0, high_ = 1;
 };
 
-Picture picture(const Heatmap& map) {
+}  // namespace
+
+Picture heatmap_picture(const Heatmap& map) {
   return {Plot(map).shapes(), kTop + kPlotHeight + kBottom};
 }
-
-}  // namespace
 
 std::string heatmap_html(const Heatmap& map) {
   const std::string legend = map.marked_label.empty() ? ""
@@ -192,7 +191,7 @@ std::string heatmap_html(const Heatmap& map) {
                                                         "width=\"26\" height=\"8\"><path class=\"outline\" "
                                                         "d=\"M0 4H26\"/></svg>" +
                                                             html_text(map.marked_label) + "</span></div>\n";
-  return picture_html(picture(map), map.title, map.caption, legend);
+  return picture_html(heatmap_picture(map), map.title, map.caption, legend);
 }
 
 std::string heatmap_svg(const Heatmap& map) {
@@ -201,7 +200,7 @@ std::string heatmap_svg(const Heatmap& map) {
     legend =
         fmt::format("<path class=\"outline\" d=\"M{0:.0f} 14h26\"/><text x=\"{1:.0f}\" y=\"18\">{2}</text>\n",
                     kLeft + kPlotWidth - 210, kLeft + kPlotWidth - 178, svg_text(map.marked_label));
-  return picture_svg(picture(map), map.title, kLeft, legend);
+  return picture_svg(heatmap_picture(map), map.title, kLeft, legend);
 }
 
 }  // namespace tread

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/report/picture.hpp"
+
 namespace tread {
 
 /// A value from another source, drawn over the cells in their colours.
@@ -31,9 +33,13 @@ struct Heatmap {
   std::vector<HeatLine> lines;
   std::vector<HeatDot> dots;
   std::string caption;
+  std::string name = {};  ///< name of its files; empty: it has none
 
   double at(std::size_t ix, std::size_t iy) const { return values[iy * x.size() + ix]; }
 };
+
+/// The cells with axes and colour scale, without title and caption.
+Picture heatmap_picture(const Heatmap& map);
 
 /// A `figure` element: title, SVG with a colour scale, caption.
 std::string heatmap_html(const Heatmap& map);

@@ -9,7 +9,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/report/heatmap.hpp"
 #include "io/report/markup.hpp"
+#include "io/report/picture.hpp"
 #include "io/report/shades.hpp"
 #include "io/text/json.hpp"
 
@@ -113,6 +115,45 @@ std::string data(const PatchMovie& movie) {
   return text;
 }
 
+/// The frame in which the first field is largest.
+const MovieFrame& fullest_frame(const PatchMovie& movie) {
+  const auto largest = [](const MovieFrame& frame) {
+    float most = 0;
+    for (const float value : frame.fields.front()) most = std::max(most, value);
+    return most;
+  };
+  return *std::max_element(movie.frames.begin(), movie.frames.end(),
+                           [&](const MovieFrame& a, const MovieFrame& b) { return largest(a) < largest(b); });
+}
+
+/// Map of a field about the patch; its outline encloses the places that slip.
+Heatmap field_map(const PatchMovie& movie, const MovieFrame& frame, std::size_t field) {
+  const std::size_t count = movie.y.size();
+  const Rows rows = rows_in_contact(movie);
+  std::size_t first = frame.x.size(), last = 0;  // stations in contact
+  for (std::size_t node = 0; node < frame.state.size(); ++node)
+    if (frame.state[node] != 0) {
+      first = std::min(first, node / count);
+      last = std::max(last, node / count + 1);
+    }
+  if (first >= last) first = 0, last = frame.x.size();
+  first = first > 0 ? first - 1 : 0;
+  last = std::min(last + 1, frame.x.size());
+  Heatmap map;
+  map.x_label = movie.x_label;
+  map.y_label = movie.y_label;
+  map.value_label = movie.labels[field];
+  for (std::size_t i = first; i < last; ++i) map.x.push_back(frame.x[i] - frame.centre);
+  for (std::size_t row = rows.first; row < rows.last; ++row) map.y.push_back(movie.y[row]);
+  for (std::size_t row = rows.first; row < rows.last; ++row)
+    for (std::size_t i = first; i < last; ++i) {
+      const float value = frame.fields[field][i * count + row];
+      map.values.push_back(std::isfinite(value) ? value : 0);
+      map.marked.push_back(frame.state[i * count + row] == 2);
+    }
+  return map;
+}
+
 }  // namespace
 
 std::string movie_html(const PatchMovie& movie) {
@@ -127,6 +168,19 @@ std::string movie_html(const PatchMovie& movie) {
       "<div class=\"views\"><canvas class=\"plan\"></canvas><canvas class=\"relief\"></canvas></div>\n"
       "<script type=\"application/json\">{}</script>\n<p class=\"caption\">{}</p>\n</figure>\n",
       html_text(movie.title), movie.frames.size() - 1, data(movie), html_text(movie.caption));
+}
+
+std::string movie_svg(const PatchMovie& movie) {
+  if (movie.frames.empty()) return svg_file(kPageWidth, 0, "");
+  check(movie);
+  const MovieFrame& frame = fullest_frame(movie);
+  Picture all;
+  for (std::size_t field = 0; field < movie.labels.size(); ++field) {
+    const Picture map = heatmap_picture(field_map(movie, frame, field));
+    all.shapes += fmt::format("<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", all.height, map.shapes);
+    all.height += map.height;
+  }
+  return picture_svg(all, fmt::format("{}: {}; red: slips", movie.title, frame.note), 10);
 }
 
 }  // namespace tread

@@ -23,10 +23,14 @@ struct PatchMovie {
   std::vector<double> y;            ///< ordinates of the rows [mm]
   std::vector<MovieFrame> frames;
   std::string caption;
+  std::string name = {};  ///< name of its files; empty: it has none
 };
 
 /// A `figure` element. patch_movie.js draws it and lets the reader choose instant and field, and turn the
 /// relief. Values are kept to 1/255 of a field's largest.
 std::string movie_html(const PatchMovie& movie);
+
+/// A self-contained SVG file: maps of all fields at the instant at which the first field is largest.
+std::string movie_svg(const PatchMovie& movie);
 
 }  // namespace tread

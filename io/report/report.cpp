@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/files/output_file.hpp"
 #include "io/report/assets.hpp"
 #include "io/report/markup.hpp"
 
@@ -71,7 +70,7 @@ std::string html(const PatchMovie& movie) {
 
 std::string html(const Drawings& drawings) {
   std::string out = "<div class=\"drawings\">\n";
-  for (const Drawing& drawing : drawings) out += drawing_html(drawing);
+  for (const Drawing& drawing : drawings.drawings) out += drawing_html(drawing);
   return out + "</div>\n";
 }
 
@@ -118,10 +117,6 @@ std::string report_html(const Report& report) {
       "<footer>{5}</footer>\n<script>\n{6}</script>\n</body>\n</html>\n",
       html_text(report.title), kReportStyle, html_text(report.subtitle), nav, body, html_text(report.footer),
       kReportScript, kFigureStyle);
-}
-
-void write_report(const std::filesystem::path& path, const Report& report) {
-  write_text_file(path, report_html(report));
 }
 
 }  // namespace tread

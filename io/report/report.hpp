@@ -1,7 +1,6 @@
 #pragma once
 // A report in one HTML file that needs no network and prints well.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -42,7 +41,6 @@ struct KeyFigure {
 };
 
 using KeyFigures = std::vector<KeyFigure>;
-using Drawings = std::vector<Drawing>;  ///< drawings side by side if the page is wide enough
 
 using Block = std::variant<Text, KeyFigures, Table, Figure, Drawings, Heatmap, Reliefs, PatchMovie, Scatter>;
 
@@ -72,8 +70,5 @@ Table comparison_table(std::string title, const std::string& reference, const st
 
 /// The report as HTML. All text is plain; "F_N" and the like are set with subscripts.
 std::string report_html(const Report& report);
-
-/// Writes the report. Throws ResourceError; an older file stays until the new one is complete.
-void write_report(const std::filesystem::path& path, const Report& report);
 
 }  // namespace tread

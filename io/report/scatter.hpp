@@ -24,6 +24,7 @@ struct Scatter {
   std::string x_label, y_label;  ///< labels with units
   std::vector<ScatterPanel> panels;
   std::string caption;
+  std::string name = {};  ///< name of its files; empty: it has none
 };
 
 /// A `figure` element: title, SVG, caption. Dots that are not above zero are left out.

@@ -1,5 +1,8 @@
 #include "io/text/text.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cctype>
 
 namespace tread {
@@ -8,6 +11,12 @@ std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return text;
+}
+
+std::string csv_cell(const std::string& text) {
+  std::string quoted = text;
+  std::replace(quoted.begin(), quoted.end(), '"', '\'');
+  return text.find_first_of(",\"\n") == std::string::npos ? text : fmt::format("\"{}\"", quoted);
 }
 
 }  // namespace tread

@@ -1,11 +1,15 @@
 #pragma once
 // Small operations on text.
 
+#include <string>
 #include <string_view>
 
 namespace tread {
 
 /// Without the white space at either end.
 std::string_view trimmed(std::string_view text);
+
+/// A cell of a CSV file, quoted if necessary.
+std::string csv_cell(const std::string& text);
 
 }  // namespace tread

@@ -241,9 +241,9 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
   EXPECT_TRUE(content("multibody.csv").starts_with("time [s],wheel_x [m],vertical_force [N],"));
   EXPECT_TRUE(content("map.csv").starts_with("speed [m/s],wavelength [m],"));
   for (const char* part :
-       {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz"})
+       {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz", "Provenance"})
     EXPECT_TRUE(has(content("report.html"), part)) << part;
-  EXPECT_TRUE(has(content("map.svg"), "xmlns"));
+  EXPECT_TRUE(has(content("figures/map.svg"), "xmlns"));
   // Its own curve is a run's history: the fit finds the spring that it was made with.
   std::ofstream(folder_ / "histories.csv") << content("multibody.csv");
   const Outcome fitted =
@@ -339,14 +339,25 @@ TEST_F(Commands, WrongWordsAreNamed) {
         {"bench kernels --kernels x",
          "tread bench kernels: there is no option --kernels; did you mean --kernel?"},
         {"run x.toml y.toml", "tread run: 'y.toml' was not expected here; `tread run --help` shows how"},
-        {"run", "tread: tread run: scene is required; `tread run --help` shows how"},
+        {"run", "tread run: scene is required; `tread run --help` shows how"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
         {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
     const Outcome outcome = call(wrong);
     EXPECT_EQ(outcome.code, 2) << wrong;
     EXPECT_TRUE(has(outcome.errors, answer)) << wrong << outcome.errors;
+    EXPECT_FALSE(has(outcome.errors, "tread: tread")) << wrong << outcome.errors;
   }
+}
+
+TEST_F(Commands, ElementsThatDoNotFitNameTheirLine) {
+  const fs::path scene = folder_ / "large.toml";
+  std::ofstream(scene) << "[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"14 mm\"\n";
+  const Outcome outcome = call("check " + scene.string());
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(has(outcome.errors, scene.string() + ":3: scene.element_size = 14 mm: rail: 2 layers of 14 mm"))
+      << outcome.errors;
+  EXPECT_TRUE(has(outcome.errors, "element_size of 12 mm at most")) << outcome.errors;
 }
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {

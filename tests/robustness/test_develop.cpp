@@ -54,11 +54,13 @@ class Develop : public ProgramTest {
 
 TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
   const fs::path whole = root_ / "whole";
-  for (const char* name : {"profiles/0000.txt", "profiles/0001.txt", "profiles/0002.txt", "work/0000.csv",
-                           "work/0002.csv", "spectra.csv", "growth.csv", "growth.svg", "profile.svg"})
+  for (const char* name :
+       {"profiles/0000.txt", "profiles/0001.txt", "profiles/0002.txt", "work/0000.csv", "work/0002.csv",
+        "spectra.csv", "growth.csv", "figures/growth.svg", "figures/profile.csv"})
     EXPECT_TRUE(fs::exists(whole / name)) << name;
   EXPECT_TRUE(has(content_of(whole / "profiles.csv"), "depth_after_2 [m]"));
-  EXPECT_TRUE(has(content_of(whole / "report.html"), "What the model leaves out"));
+  for (const char* part : {"What the model leaves out", "Provenance"})
+    EXPECT_TRUE(has(content_of(whole / "report.html"), part)) << part;
   const JsonRecord result = read_json(whole / "development.json");
   EXPECT_EQ(number_in(result, "passages"), 2);
   EXPECT_GT(number_in(result, "real_passages"), 1);

@@ -39,9 +39,10 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   const std::string axes = "--axis \"scene.element_size=12 mm,8 mm\" --axis motion.start=rigid";
   ASSERT_EQ(call(tyres(axes)), 0) << errors();
   EXPECT_TRUE(has(program_.out(), "against element_size=8mm")) << program_.out();
-  for (const char* name :
-       {"dial.csv", "dial.jsonl", "dial.svg", "effects.csv", "results.md", "sweep.csv", "report.html"})
+  for (const char* name : {"dial.csv", "dial.jsonl", "figures/errors.svg", "figures/errors.csv",
+                           "effects.csv", "results.md", "sweep.csv", "report.html"})
     EXPECT_TRUE(fs::exists(runs_ / name)) << name;
+  EXPECT_TRUE(has(content_of(runs_ / "report.html"), "Provenance"));
   const std::vector<JsonRecord> rows = read_json_lines(runs_ / "dial.jsonl");
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(text_in(rows[3], "point"), "start=rigid");

@@ -86,6 +86,27 @@ TEST_F(ResultsCommand, FilesDatasetsAndUnitsAreListed) {
   EXPECT_TRUE(has(output(), "  pressure       ")) << output();
 }
 
+/// Each figure of the report is a picture and a table with units; --overwrite removes those of the former
+/// run.
+TEST_F(ResultsCommand, FiguresOfTheReportAreFiles) {
+  const fs::path figures = folder("run") / "figures";
+  const std::string listed = file_in(listing("run"), "figures/")["content"];
+  const auto charts = {"creepage", "energy", "forces", "passage", "patch", "surface"};
+  for (const char* name : charts) {
+    EXPECT_TRUE(has(listed, name)) << listed;
+    const std::string table = content_of(figures / (std::string(name) + ".csv"));
+    EXPECT_TRUE(has(table.substr(0, table.find('\n')), " [m]")) << table.substr(0, 200);
+    EXPECT_TRUE(content_of(figures / (std::string(name) + ".svg")).starts_with("<svg ")) << name;
+  }
+  for (const char* name :
+       {"deflection", "mesh-sections", "mesh-side", "patch-instants", "patch-movie", "stick-slip"})
+    EXPECT_TRUE(has(listed, name) && fs::exists(figures / (std::string(name) + ".csv"))) << listed;
+  ASSERT_EQ(call(run("again")), 0) << errors();
+  std::ofstream(folder("again") / "figures/old.svg") << "of the former run";
+  ASSERT_EQ(call(run("again", "--overwrite")), 0) << errors();
+  EXPECT_FALSE(fs::exists(folder("again") / "figures/old.svg"));
+}
+
 /// Every file that a run leaves is listed, and the page of results names it.
 TEST_F(ResultsCommand, NothingIsLeftOut) {
   const std::string page = content_of(fs::path(TREAD_SOURCE_DIR) / "docs/reference/results.md");

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "drivers/process/host.hpp"
+#include "drivers/process/version.hpp"
 #include "io/text/json.hpp"
 #include "tests/program.hpp"
 
@@ -57,7 +59,11 @@ TEST_F(Sweep, RunsEveryPointOnce) {
   const std::string csv = content_of(runs_ / "sweep.csv");
   EXPECT_TRUE(has(csv, "point,state,pulse.velocity [m/s],pulse.length [m],")) << csv;
   EXPECT_TRUE(has(csv, "\"velocity=2m_s,length=0.1m\",done,2,0.1,")) << csv;
-  EXPECT_TRUE(has(content_of(runs_ / "report.html"), "velocity=2m_s,length=0.1m"));
+  const std::string report = content_of(runs_ / "report.html");
+  EXPECT_TRUE(has(report, "velocity=2m_s,length=0.1m"));
+  for (const std::string& origin :
+       {std::string("Provenance"), std::string(program_version()), file.string(), host_name()})
+    EXPECT_TRUE(has(report, origin)) << origin;
 
   const auto written = fs::last_write_time(runs_ / "velocity=1m_s,length=0.1m/summary.json");
   ASSERT_EQ(sweep(file), 0) << errors();
@@ -168,6 +174,8 @@ TEST_F(Sweep, ThePaperSharesPassagesBetweenFigures) {
   EXPECT_TRUE(has(errors(), "[paper] 0 of ")) << errors();
   for (const char* name : {"fig15.csv", "fig15.svg", "fig18.csv", "fig18.svg", "report.html"})
     EXPECT_TRUE(fs::exists(runs_ / name)) << name;
+  EXPECT_TRUE(has(content_of(runs_ / "report.html"), "Provenance"));
+  EXPECT_FALSE(fs::exists(runs_ / "figures"));  // they are the files named above
   EXPECT_TRUE(has(program_.out(), "not run: corrugation D")) << program_.out();
   const std::string numbers = content_of(runs_ / "numbers.csv");
   EXPECT_TRUE(has(numbers, "\"Largest F_N over corrugation D\",kN,193.19,,")) << numbers;

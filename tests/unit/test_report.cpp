@@ -198,7 +198,7 @@ TEST(Report, IsOneFileThatNeedsNoNetwork) {
   Report report{"Title <1>", "subtitle", {}, "footer"};
   report.chapters = {
       {"Forces", {Text{"a < b"}, one_curve({0, 1}, {0, 1}), KeyFigures{{"largest", "1", "kN"}}}},
-      {"Mesh", {Drawings{Drawing{}}, Table{"t", {{"key"}}, {{"value"}}}}}};
+      {"Mesh", {Drawings{"", {Drawing{}}}, Table{"t", {{"key"}}, {{"value"}}}}}};
   const std::string html = report_html(report);
   EXPECT_EQ(count(html, "<section"), 2U);
   EXPECT_EQ(count(html, "src="), 0U);

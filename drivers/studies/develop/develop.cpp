@@ -6,22 +6,21 @@
 #include "drivers/studies/develop/development_folder.hpp"
 #include "drivers/studies/develop/development_report.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 
 namespace tread {
 
 namespace {
 
-void leave(const DevelopmentFolder& folder, const Development& development, const Scene& scene,
-           const std::string& command) {
+void leave(const DevelopmentFolder& folder, const Development& development, const ResolvedScene& resolved,
+           const Provenance& origin) {
   const RunFolder& place = folder.folder();
   write_text_file(place / "profiles.csv", profiles_csv(development));
   write_text_file(place / "spectra.csv", spectra_csv(development));
   write_text_file(place / "growth.csv", growth_csv(development));
   write_text_file(place / "development.json", development_json(development));
-  write_text_file(place / "growth.svg", figure_svg(growth_figure(development)));
-  write_text_file(place / "profile.svg", figure_svg(profile_figure(development)));
-  write_report(place / "report.html", development_report(development, scene, command));
+  write_report(place / "report.html", development_report(development, resolved, origin));
 }
 
 std::string passage_text(const Development& development) {
@@ -49,7 +48,7 @@ void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
     const WornProfile before = development.profile;
     development.add(folder.pass(number, &before, progress));
     progress.say(passage_text(development));
-    leave(folder, development, resolved.scene, options.command);
+    leave(folder, development, resolved, options.origin);
   }
   folder.keep_profile(options.passages, development.profile);
   if (options.json)

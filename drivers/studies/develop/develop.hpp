@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "drivers/report/provenance.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
@@ -15,7 +16,7 @@ struct DevelopOptions {
   int threads = 0;               ///< of a passage; 0: all
   bool json = false;             ///< instead of a table
   bool quiet = false;
-  std::string command;  ///< as typed, for the report
+  Provenance origin;
 };
 
 /// Runs the passages that the folder lacks and leaves profiles/, work/, profiles.csv, spectra.csv,

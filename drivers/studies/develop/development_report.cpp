@@ -33,8 +33,9 @@ const WornProfile& profile_after(const Development& d, std::size_t passages) {
   return passages < d.passages.size() ? d.passages[passages].profile : d.profile;
 }
 
-Figure along_the_rail(std::string title, std::vector<Panel> panels) {
+Figure along_the_rail(std::string name, std::string title, std::vector<Panel> panels) {
   Figure figure;
+  figure.name = std::move(name);
   figure.title = std::move(title);
   figure.x_label = "Along the rail [m]";
   figure.panels = std::move(panels);
@@ -45,10 +46,50 @@ Series heights(const WornProfile& profile, std::string label, Stroke stroke) {
   return {std::move(label), places(profile), scaled(profile.depth, -1e6), stroke};
 }
 
+/// Growth rate by wavelength: by the work of the first and the last passage, and from the profiles.
+Figure growth_figure(const Development& d) {
+  Series first{"by the work of the first passage", {}, {}, Stroke::solid};
+  Series last{"by that of the last", {}, {}, Stroke::dashed};
+  Series measured{"from first and last profile", {}, {}, Stroke::dotted};
+  const std::vector<BandOutcome> bands = outcome(d);
+  for (std::size_t i = bands.size(); i-- > 0;) {
+    const BandOutcome& b = bands[i];
+    if (!b.telling) continue;
+    for (auto [series, value] : {std::pair{&first, b.first_growth}, std::pair{&last, b.last_growth},
+                                 std::pair{&measured, b.growth}}) {
+      series->x.push_back(1e3 * b.wavelength);
+      series->y.push_back(kMillion * value);
+    }
+  }
+  Figure figure;
+  figure.name = "growth";
+  figure.title = "Logarithmic growth by wavelength";
+  figure.x_label = "Wavelength [mm]";
+  figure.panels.push_back({"Per million passages",
+                           {std::move(first), std::move(last), std::move(measured)},
+                           {{0, ""}},
+                           260,
+                           std::nullopt});
+  figure.caption = "Above zero waves grow: the frictional work is larger in their troughs.";
+  return figure;
+}
+
+Figure profile_figure(const Development& d) {
+  return along_the_rail(
+      "profile", "Running surface",
+      {{"Height [µm]",
+        {heights(d.plan.start, "at the start", Stroke::dashed),
+         heights(d.profile, fmt::format("after {} passages", d.passages.size()), Stroke::solid)},
+        {},
+        220,
+        std::nullopt}});
+}
+
 /// Work of a passage and its uneven part, over the profile.
 Figure work_figure(const Development& d, std::size_t number) {
   const WornPassage& passage = d.passages[number];
   return along_the_rail(
+      number == 0 ? "work-first" : "work-last",
       fmt::format("Passage {}: work beyond that of the smooth rail", number + 1),
       {{"Height [µm]", {heights(passage.profile, "rail", Stroke::solid)}, {}, 130, std::nullopt},
        {"Work [J/m²]",
@@ -61,6 +102,7 @@ Figure work_figure(const Development& d, std::size_t number) {
 
 Figure spectrum_figure(const Development& d) {
   Figure figure;
+  figure.name = "spectrum";
   figure.title = "Depth in one-third octave bands";
   figure.x_label = "Wavelength [mm]";
   Panel panel{"Root mean square [µm]", {}, {}, 220, std::nullopt};
@@ -204,43 +246,6 @@ Table growth_table(const Development& d) {
   return table;
 }
 
-Figure growth_figure(const Development& d) {
-  Series first{"by the work of the first passage", {}, {}, Stroke::solid};
-  Series last{"by that of the last", {}, {}, Stroke::dashed};
-  Series measured{"from first and last profile", {}, {}, Stroke::dotted};
-  const std::vector<BandOutcome> bands = outcome(d);
-  for (std::size_t i = bands.size(); i-- > 0;) {
-    const BandOutcome& b = bands[i];
-    if (!b.telling) continue;
-    for (auto [series, value] : {std::pair{&first, b.first_growth}, std::pair{&last, b.last_growth},
-                                 std::pair{&measured, b.growth}}) {
-      series->x.push_back(1e3 * b.wavelength);
-      series->y.push_back(kMillion * value);
-    }
-  }
-  Figure figure;
-  figure.title = "Logarithmic growth by wavelength";
-  figure.x_label = "Wavelength [mm]";
-  figure.panels.push_back({"Per million passages",
-                           {std::move(first), std::move(last), std::move(measured)},
-                           {{0, ""}},
-                           260,
-                           std::nullopt});
-  figure.caption = "Above zero waves grow: the frictional work is larger in their troughs.";
-  return figure;
-}
-
-Figure profile_figure(const Development& d) {
-  return along_the_rail(
-      "Running surface",
-      {{"Height [µm]",
-        {heights(d.plan.start, "at the start", Stroke::dashed),
-         heights(d.profile, fmt::format("after {} passages", d.passages.size()), Stroke::solid)},
-        {},
-        220,
-        std::nullopt}});
-}
-
 std::string verdict(const Development& d) {
   const std::optional<BandOutcome> band = deepest(outcome(d));
   if (d.passages.empty()) return "No passage has worn the rail yet.";
@@ -255,12 +260,12 @@ std::string verdict(const Development& d) {
   return text + ".";
 }
 
-Report development_report(const Development& d, const Scene& scene, const std::string& command) {
+Report development_report(const Development& d, const ResolvedScene& resolved, const Provenance& provenance) {
+  const Scene& scene = resolved.scene;
   Report report;
   report.title = scene.title.empty() ? "Development of a corrugation" : scene.title;
   report.subtitle =
       fmt::format("{} simulated passages at {} km/h", d.passages.size(), readable(3.6 * scene.motion->speed));
-  report.footer = command;
   report.chapters.push_back(
       {"Growth",
        {key_figures(d), Text{verdict(d)}, growth_figure(d), growth_table(d),
@@ -276,6 +281,7 @@ Report development_report(const Development& d, const Scene& scene, const std::s
   if (d.passages.size() > 1) work.blocks.emplace_back(work_figure(d, d.passages.size() - 1));
   report.chapters.push_back(std::move(work));
   report.chapters.push_back({"What the model leaves out", {Text{left_out()}}});
+  state_provenance(report, resolved.name, provenance);
   return report;
 }
 

@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "drivers/report/provenance.hpp"
 #include "drivers/studies/develop/development.hpp"
-#include "io/report/report.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
@@ -22,13 +23,9 @@ std::string development_json(const Development& development);
 
 Table growth_table(const Development& development);
 
-/// Growth rate by wavelength: by the work of the first and the last passage, and from the profiles.
-Figure growth_figure(const Development& development);
-
-Figure profile_figure(const Development& development);
-
-/// Report of a development. `scene`: scene that begins it; `command`: as typed.
-Report development_report(const Development& development, const Scene& scene, const std::string& command);
+/// Report of a development that begins with the scene.
+Report development_report(const Development& development, const ResolvedScene& resolved,
+                          const Provenance& provenance);
 
 /// One sentence that says if the work feeds or alleviates the deepest waves.
 std::string verdict(const Development& development);

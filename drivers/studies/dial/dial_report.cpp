@@ -137,17 +137,17 @@ Scatter dial_picture(const DialTable& table, DialCost cost) {
     for (const DialRow* row : front) panel.dots.push_back(dot(*row, true));
     picture.panels.push_back(std::move(panel));
   }
+  picture.name = "errors";
   picture.caption = fmt::format("Error against {}. Full dots: nothing measured is both as cheap and as near.",
                                 table.reference);
   return picture;
 }
 
-Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command) {
+Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const Provenance& provenance) {
   const DialTable& table = outcome.table;
   Report report;
   report.title = plan.study.title.empty() ? plan.study.name : plan.study.title;
   report.subtitle = fmt::format("{} runs · reference {}", table.rows.size(), table.reference);
-  report.footer = command;
   Chapter advice{"Which setting", {titled("Cheapest for an error", advice_table(table, outcome.cost))}};
   advice.blocks.emplace_back(dial_picture(table, outcome.cost));
   report.chapters.push_back(std::move(advice));
@@ -155,6 +155,7 @@ Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std:
   if (!outcome.effects.rows.empty()) report.chapters.push_back(effect_chapter(outcome.effects));
   report.chapters.push_back(curve_chapter(outcome.runs));
   report.chapters.push_back({"Points", {point_table(plan)}});
+  state_provenance(report, plan.study.scene.string(), provenance);
   return report;
 }
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "drivers/report/provenance.hpp"
 #include "drivers/studies/dial/dial_table.hpp"
 #include "drivers/studies/study/study_plan.hpp"
-#include "io/report/report.hpp"
 
 namespace tread {
 
@@ -33,6 +33,6 @@ struct DialOutcome {
 /// Its tables with their titles, for docs/records/dial.md.
 std::string dial_markdown(const DialOutcome& outcome);
 
-Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const std::string& command);
+Report dial_report(const DialOutcome& outcome, const StudyPlan& plan, const Provenance& provenance);
 
 }  // namespace tread

@@ -12,6 +12,7 @@
 #include "drivers/studies/dial/dial_report.hpp"
 #include "drivers/studies/study/study_report.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
 
@@ -137,9 +138,8 @@ void leave_results(const DialOptions& options, const DialDesign& design, const S
   write_text_file(folder / "dial.csv", dial_csv(outcome.table));
   write_text_file(folder / "dial.jsonl", dial_lines(outcome.table));
   write_text_file(folder / "results.md", dial_markdown(outcome));
-  write_text_file(folder / "dial.svg", scatter_svg(dial_picture(outcome.table, outcome.cost)));
   if (!outcome.effects.rows.empty()) write_text_file(folder / "effects.csv", dial_csv(outcome.effects));
-  write_report(folder / "report.html", dial_report(outcome, plan, options.common.command));
+  write_report(folder / "report.html", dial_report(outcome, plan, options.common.origin));
   if (options.common.json)
     fmt::print("{}", dial_lines(outcome.table));
   else

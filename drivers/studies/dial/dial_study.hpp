@@ -18,8 +18,8 @@ struct DialOptions {
   StudyOptions common;
 };
 
-/// Runs the points that are not done and leaves dial.csv, dial.jsonl, dial.svg, effects.csv, results.md,
-/// sweep.csv and report.html; prints errors and the cheapest settings. Throws and returns what run_study()
+/// Runs the points that are not done and leaves dial.csv, dial.jsonl, effects.csv, results.md, sweep.csv and
+/// report.html; prints errors and the cheapest settings. Throws and returns what run_study()
 /// does; InputError for a reference that is not of the same passage.
 std::optional<Error> turn_dial(const DialOptions& options);
 

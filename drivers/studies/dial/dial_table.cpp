@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "drivers/studies/study/study_figures.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {

@@ -25,8 +25,9 @@ Series curve(std::string label, const std::vector<MultibodySample>& samples, dou
   return series;
 }
 
-Figure over_the_way(std::string title, const MultibodyModel& model, const Range& range) {
+Figure over_the_way(std::string name, std::string title, const MultibodyModel& model, const Range& range) {
   Figure figure;
+  figure.name = std::move(name);
   figure.title = std::move(title);
   figure.x_label = "Position of the wheel [m]";
   figure.x_range = range;
@@ -49,10 +50,79 @@ std::vector<double> kilonewtons(std::vector<double> values) {
   return values;
 }
 
+/// F_N over the corrugation or the solution zone.
+Figure passage_figure(const MultibodyOutcome& o) {
+  const MultibodyResult& r = o.result;
+  const bool smooth = o.model.corrugation.smooth();
+  Figure near = over_the_way(
+      "forces", smooth ? "Vertical force over the solution zone" : "Vertical force over the corrugation",
+      o.model, in_sight(o));
+  near.panels.push_back(
+      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 280));
+  if (!smooth)
+    near.panels.push_back(panel(
+        "Rail surface [mm]",
+        {curve("running surface under the wheel", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
+  return near;
+}
+
+/// F_N of the transient run and of both springs.
+Figure calibration_figure(const MultibodyOutcome& o) {
+  const Calibration& c = *o.calibration;
+  Figure figure = over_the_way("calibration", "Vertical force: transient run and multi-body model", o.model,
+                               {c.first, c.last});
+  figure.panels.push_back(
+      panel("F_N [kN]",
+            {{"transient run", c.x, kilonewtons(c.run.values), Stroke::solid},
+             {"multi-body, Hertz spring", c.x, kilonewtons(c.before.values), Stroke::dashed},
+             {"multi-body, fitted spring", c.x, kilonewtons(c.after.values), Stroke::solid}},
+            {at_rest(o.model)}, 300));
+  return figure;
+}
+
+/// Largest F_N over static against speed and wavelength.
+Heatmap response_heatmap(const MultibodyOutcome& o) {
+  const ResponseMap& map = *o.map;
+  Heatmap heat;
+  heat.name = "map";
+  heat.title = "Largest F_N over static, depth " + readable(1e3 * o.model.scene.corrugation->depth) + " mm";
+  heat.x_label = "Speed [km/h]";
+  heat.y_label = "Wavelength [mm]";
+  heat.value_label = "max F_N / static";
+  for (const double v : map.axes.speed.values) heat.x.push_back(3.6 * v);
+  for (const double w : map.axes.wavelength.values) heat.y.push_back(1e3 * w);
+  for (std::size_t j = 0; j < heat.y.size(); ++j)
+    for (std::size_t i = 0; i < heat.x.size(); ++i) {
+      heat.values.push_back(map.at(i, j).max);
+      heat.marked.push_back(map.at(i, j).loss_of_contact > 0);
+    }
+  const bool lost = std::find(heat.marked.begin(), heat.marked.end(), true) != heat.marked.end();
+  if (lost) heat.marked_label = "border of contact loss";
+  constexpr int kPoints = 200;
+  for (const double frequency : {400.0, 600.0, 800.0, 1000.0, 1200.0, 1600.0, 2000.0, 3000.0}) {
+    HeatLine line{{}, {}, fmt::format("{:.0f} Hz", frequency)};
+    for (int i = 0; i <= kPoints; ++i) {
+      const double speed = heat.x.front() + (heat.x.back() - heat.x.front()) * i / kPoints;
+      line.x.push_back(speed);
+      line.y.push_back(1e3 * speed / 3.6 / frequency);
+    }
+    heat.lines.push_back(std::move(line));
+  }
+  for (const MapDot& dot : o.dots)
+    heat.dots.push_back({3.6 * dot.speed, 1e3 * dot.wavelength, dot.max, readable(dot.max, 3)});
+  heat.caption = fmt::format(
+      "{} passages over the corrugation's first {} mm, less half a wave at each end; {} beam. Dashed: one "
+      "passing frequency v / L.{}{}",
+      map.points.size(), readable(1e3 * o.model.scene.corrugation->length), name_of(o.model.theory),
+      lost ? "" : " Contact is lost nowhere.",
+      o.dots.empty() ? "" : " Dots: transient runs, in the colour of their own value, which stands beside.");
+  return heat;
+}
+
 Chapter passage_chapter(const MultibodyOutcome& o) {
   const MultibodyResult& r = o.result;
   Chapter chapter{"Forces", {passage_figure(o)}};
-  Figure motion = over_the_way("Deflections", o.model, in_sight(o));
+  Figure motion = over_the_way("deflections", "Deflections", o.model, in_sight(o));
   motion.panels.push_back(
       panel("Downwards [mm]",
             {curve("wheel", r.samples, &MultibodySample::wheel, 1e3),
@@ -60,7 +130,7 @@ Chapter passage_chapter(const MultibodyOutcome& o) {
             {}, 200));
   chapter.blocks.emplace_back(std::move(motion));
   Figure far =
-      over_the_way("Vertical force from x = 0 on", o.model, {r.samples.front().x, r.samples.back().x});
+      over_the_way("way", "Vertical force from x = 0 on", o.model, {r.samples.front().x, r.samples.back().x});
   far.panels.push_back(
       panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 180));
   chapter.blocks.emplace_back(std::move(far));
@@ -95,6 +165,7 @@ Chapter calibration_chapter(const MultibodyOutcome& o) {
   chapter.blocks.emplace_back(calibration_table(c, o.model));
   chapter.blocks.emplace_back(calibration_figure(o));
   Figure search;
+  search.name = "calibration-search";
   search.title = "Difference from the run against the spring";
   search.x_label = "C / Hertz";
   search.panels.push_back(panel("Root mean square [kN]",
@@ -158,78 +229,12 @@ Chapter model_chapter(const MultibodyOutcome& o) {
 
 }  // namespace
 
-Figure passage_figure(const MultibodyOutcome& o) {
-  const MultibodyResult& r = o.result;
-  const bool smooth = o.model.corrugation.smooth();
-  Figure near =
-      over_the_way(smooth ? "Vertical force over the solution zone" : "Vertical force over the corrugation",
-                   o.model, in_sight(o));
-  near.panels.push_back(
-      panel("F_N [kN]", {curve("F_N", r.samples, &MultibodySample::force, 1e-3)}, {at_rest(o.model)}, 280));
-  if (!smooth)
-    near.panels.push_back(panel(
-        "Rail surface [mm]",
-        {curve("running surface under the wheel", r.samples, &MultibodySample::roughness, -1e3)}, {}, 90));
-  return near;
-}
-
-Figure calibration_figure(const MultibodyOutcome& o) {
-  const Calibration& c = *o.calibration;
-  Figure figure =
-      over_the_way("Vertical force: transient run and multi-body model", o.model, {c.first, c.last});
-  figure.panels.push_back(
-      panel("F_N [kN]",
-            {{"transient run", c.x, kilonewtons(c.run.values), Stroke::solid},
-             {"multi-body, Hertz spring", c.x, kilonewtons(c.before.values), Stroke::dashed},
-             {"multi-body, fitted spring", c.x, kilonewtons(c.after.values), Stroke::solid}},
-            {at_rest(o.model)}, 300));
-  return figure;
-}
-
-Heatmap response_heatmap(const MultibodyOutcome& o) {
-  const ResponseMap& map = *o.map;
-  Heatmap heat;
-  heat.title = "Largest F_N over static, depth " + readable(1e3 * o.model.scene.corrugation->depth) + " mm";
-  heat.x_label = "Speed [km/h]";
-  heat.y_label = "Wavelength [mm]";
-  heat.value_label = "max F_N / static";
-  for (const double v : map.axes.speed.values) heat.x.push_back(3.6 * v);
-  for (const double w : map.axes.wavelength.values) heat.y.push_back(1e3 * w);
-  for (std::size_t j = 0; j < heat.y.size(); ++j)
-    for (std::size_t i = 0; i < heat.x.size(); ++i) {
-      heat.values.push_back(map.at(i, j).max);
-      heat.marked.push_back(map.at(i, j).loss_of_contact > 0);
-    }
-  const bool lost = std::find(heat.marked.begin(), heat.marked.end(), true) != heat.marked.end();
-  if (lost) heat.marked_label = "border of contact loss";
-  constexpr int kPoints = 200;
-  for (const double frequency : {400.0, 600.0, 800.0, 1000.0, 1200.0, 1600.0, 2000.0, 3000.0}) {
-    HeatLine line{{}, {}, fmt::format("{:.0f} Hz", frequency)};
-    for (int i = 0; i <= kPoints; ++i) {
-      const double speed = heat.x.front() + (heat.x.back() - heat.x.front()) * i / kPoints;
-      line.x.push_back(speed);
-      line.y.push_back(1e3 * speed / 3.6 / frequency);
-    }
-    heat.lines.push_back(std::move(line));
-  }
-  for (const MapDot& dot : o.dots)
-    heat.dots.push_back({3.6 * dot.speed, 1e3 * dot.wavelength, dot.max, readable(dot.max, 3)});
-  heat.caption = fmt::format(
-      "{} passages over the corrugation's first {} mm, less half a wave at each end; {} beam. Dashed: one "
-      "passing frequency v / L.{}{}",
-      map.points.size(), readable(1e3 * o.model.scene.corrugation->length), name_of(o.model.theory),
-      lost ? "" : " Contact is lost nowhere.",
-      o.dots.empty() ? "" : " Dots: transient runs, in the colour of their own value, which stands beside.");
-  return heat;
-}
-
-Report multibody_report(const MultibodyOutcome& o, const std::string& command) {
+Report multibody_report(const MultibodyOutcome& o, const std::string& scene, const Provenance& provenance) {
   const MultibodyResult& r = o.result;
   Report report;
   report.title = o.model.scene.title;
   report.subtitle = fmt::format("Multi-body approach · {:.4g} km/h · {} beam{}", 3.6 * o.model.speed,
                                 name_of(o.model.theory), o.filter_gain ? " · contact filter" : "");
-  report.footer = command;
   Chapter result{"Result", {}};
   result.blocks.emplace_back(KeyFigures{{"Largest F_N", readable(1e-3 * r.force.max), "kN"},
                                         {"Smallest F_N", readable(1e-3 * r.force.min), "kN"},
@@ -242,6 +247,7 @@ Report multibody_report(const MultibodyOutcome& o, const std::string& command) {
   if (o.calibration) report.chapters.push_back(calibration_chapter(o));
   if (o.map) report.chapters.push_back(map_chapter(o));
   report.chapters.push_back(model_chapter(o));
+  state_provenance(report, scene, provenance);
   return report;
 }
 

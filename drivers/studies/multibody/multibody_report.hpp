@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/report/provenance.hpp"
 #include "drivers/studies/multibody/response_map.hpp"
-#include "io/report/report.hpp"
 
 namespace tread {
 
@@ -34,15 +34,8 @@ std::string passage_csv(const MultibodyModel& model, const MultibodyResult& resu
 std::string calibration_csv(const Calibration& calibration);
 std::string map_csv(const ResponseMap& map);
 
-/// F_N over the corrugation or the solution zone.
-Figure passage_figure(const MultibodyOutcome& outcome);
-
-/// F_N of the transient run and of both springs.
-Figure calibration_figure(const MultibodyOutcome& outcome);
-
-/// Largest F_N over static against speed and wavelength.
-Heatmap response_heatmap(const MultibodyOutcome& outcome);
-
-Report multibody_report(const MultibodyOutcome& outcome, const std::string& command);
+/// `scene`: name of the scene's file.
+Report multibody_report(const MultibodyOutcome& outcome, const std::string& scene,
+                        const Provenance& provenance);
 
 }  // namespace tread

@@ -9,6 +9,7 @@
 #include "drivers/run/scene_content.hpp"
 #include "drivers/studies/multibody/multibody_report.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/units.hpp"
 
@@ -49,16 +50,10 @@ void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
   keep_scene(directory, resolved);
   write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
   write_text_file(directory / "summary.json", multibody_json(outcome));
-  write_text_file(directory / "multibody.svg", figure_svg(passage_figure(outcome)));
-  if (outcome.calibration) {
+  if (outcome.calibration)
     write_text_file(directory / "calibration.csv", calibration_csv(*outcome.calibration));
-    write_text_file(directory / "calibration.svg", figure_svg(calibration_figure(outcome)));
-  }
-  if (outcome.map) {
-    write_text_file(directory / "map.csv", map_csv(*outcome.map));
-    write_text_file(directory / "map.svg", heatmap_svg(response_heatmap(outcome)));
-  }
-  write_report(directory / "report.html", multibody_report(outcome, options.command));
+  if (outcome.map) write_text_file(directory / "map.csv", map_csv(*outcome.map));
+  write_report(directory / "report.html", multibody_report(outcome, resolved.name, options.origin));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/process/machine.hpp"
+#include "drivers/report/provenance.hpp"
 #include "io/scene/scene_reader.hpp"
 
 namespace tread {
@@ -23,7 +24,7 @@ struct MultibodyOptions {
   ThreadOptions threads;
   bool json = false;  ///< the summary on stdout instead of a table
   bool quiet = false;
-  std::string command;  ///< the command line, for the report
+  Provenance origin;
 };
 
 /// Rolls, fits and maps as asked, prints a table or JSON, writes the files. InputError, NumericalError.

@@ -15,6 +15,7 @@
 #include "drivers/studies/paper/paper_verdicts.hpp"
 #include "drivers/studies/study/study_report.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 
 namespace tread {
@@ -70,11 +71,10 @@ Text missing_passages(const PaperFigure& figure, const PassageRuns& runs) {
 }
 
 Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& runs, const StudyPlan& plan,
-                    const std::vector<FinishedRun>& finished, const std::string& command) {
+                    const std::vector<FinishedRun>& finished, const Provenance& provenance) {
   Report report;
   report.title = "The paper's figures";
   report.subtitle = fmt::format("{} of {} passages done", finished.size(), plan.points.size());
-  report.footer = command;
   report.chapters.push_back({"Conclusions", {verdict_table(runs)}});
   report.chapters.push_back({"Numbers", {number_table(runs)}});
   for (const PaperFigure& figure : figures) {
@@ -84,6 +84,7 @@ Report paper_report(const std::vector<PaperFigure>& figures, const PassageRuns& 
     report.chapters.push_back(std::move(chapter));
   }
   report.chapters.push_back({"Passages", {result_table(finished)}});
+  state_provenance(report, plan.study.scene.string(), provenance);
   return report;
 }
 
@@ -114,7 +115,7 @@ std::optional<Error> reproduce_paper(const PaperOptions& options) {
     write_text_file(plan.folder / "results.md",
                     markdown(number_table(runs)) + "\n" + markdown(verdict_table(runs)));
     write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, finished));
-    write_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.command));
+    write_report(plan.folder / "report.html", paper_report(figures, runs, plan, finished, common.origin));
     if (common.json)
       fmt::print("{}", sweep_json(plan, finished));
     else

@@ -12,6 +12,7 @@
 #include "drivers/studies/roughness/level_figure.hpp"
 #include "drivers/studies/roughness/roughness_levels.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"

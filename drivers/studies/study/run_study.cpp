@@ -162,8 +162,8 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   choose_processes(plan, options);
   if (options.output.empty() && !options.list)
     throw InputError("-o is missing: the folder for the runs; --list shows them without it");
-  const std::string resume_command = fmt::format("`{}`", options.command);
-  const std::string command = command_word(options.command);
+  const std::string resume_command = fmt::format("`{}`", options.origin.command);
+  const std::string command = command_word(options.origin.command);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first run", fmt::format("tread: stopped at once; the "
                                                                                "runs go on from their last "

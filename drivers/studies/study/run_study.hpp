@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/report/provenance.hpp"
 #include "drivers/studies/study/study_plan.hpp"
 
 namespace tread {
@@ -22,7 +23,7 @@ struct StudyOptions {
   bool list = false;                   ///< true for points and cost alone
   bool json = false;                   ///< true for JSON in place of a table
   bool quiet = false;
-  std::string command;  ///< command as typed, for the report
+  Provenance origin;
 };
 
 /// Adds the options' overrides and `no_share` to the study. Throws InputError if a point varies an overridden

@@ -11,6 +11,7 @@
 
 #include "core/math/interpolation.hpp"
 #include "drivers/report/figure_parts.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -105,6 +106,7 @@ Figure curves_figure(const CurvesSpec& spec, const std::vector<FinishedRun>& all
   Figure figure;
   figure.title = spec.title;
   figure.x_label = spec.x_label;
+  figure.name = spec.name;
   std::optional<Range> way;
   for (const CurvePanel& wanted : spec.panels) {
     std::vector<Series> curves;
@@ -173,12 +175,6 @@ std::vector<TrendPanel> fluctuation_panels() {
           {"F_L [kN]", three("F_L", "longitudinal_force_N"), 1e-3},
           {"Von Mises [MPa]", three("Von Mises stress", von_mises), 1e-6},
           {"Work [mJ]", three("frictional work", work), 1e3}};
-}
-
-std::string csv_cell(const std::string& text) {
-  std::string quoted = text;
-  std::replace(quoted.begin(), quoted.end(), '"', '\'');
-  return text.find_first_of(",\"\n") == std::string::npos ? text : fmt::format("\"{}\"", quoted);
 }
 
 std::string figure_csv(const Figure& figure) {

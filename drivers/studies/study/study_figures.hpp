@@ -27,6 +27,7 @@ struct CurvesSpec {
   std::vector<CurvePanel> panels;
   bool whole_way = false;   ///< true: from the start; false: the corrugation or the solution zone
   bool on_the_rail = true;  ///< true if lengths on the abscissa are places on the rail, not distances
+  std::string name = {};    ///< name of the figure's files; empty: it has none
 };
 
 /// Overlays the runs' curves, with the corrugation and the fastenings if these are common to all runs. Runs
@@ -53,9 +54,6 @@ Figure trend_figure(std::string title, std::string x_label, const std::vector<Tr
 
 /// Forces, Von Mises stress and frictional work with their fluctuation over the evaluated stretch.
 std::vector<TrendPanel> fluctuation_panels();
-
-/// A cell of a CSV file, quoted if necessary.
-std::string csv_cell(const std::string& text);
 
 /// The figure's curves as columns over one abscissa. If the curves have different abscissae, at most 1000
 /// places are written, with values interpolated between samples.

@@ -12,6 +12,7 @@
 #include "io/report/markup.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -70,6 +71,7 @@ std::optional<Chapter> trend_chapter(const StudyPlan& plan, const std::vector<Fi
   Figure figure = trend_figure("Mean and fluctuation over the evaluated stretch",
                                fmt::format("{} [{}]", key, unit_of(key)), fluctuation_panels(), places);
   if (figure.panels.empty()) return std::nullopt;
+  figure.name = "trends";
   figure.caption =
       "Von Mises stress and frictional work of a cell of 1.1 mm x 1.1 mm: on the patch's longitudinal axis.";
   return Chapter{"Trends", {std::move(figure)}};
@@ -80,7 +82,9 @@ void add_curves(const CurvesSpec& spec, const std::vector<FinishedRun>& runs, Ch
   for (std::size_t first = 0; first < runs.size(); first += kMostCurves) {
     const std::size_t last = std::min(runs.size(), first + kMostCurves);
     const auto at = [&](std::size_t i) { return runs.begin() + static_cast<std::ptrdiff_t>(i); };
-    chapter.blocks.emplace_back(curves_figure(spec, {at(first), at(last)}));
+    Figure figure = curves_figure(spec, {at(first), at(last)});
+    if (first > 0) figure.name += fmt::format("-{}", first / kMostCurves + 1);
+    chapter.blocks.emplace_back(std::move(figure));
   }
 }
 
@@ -166,15 +170,17 @@ Table result_table(const std::vector<FinishedRun>& runs) {
 
 Chapter curve_chapter(const std::vector<FinishedRun>& rolled) {
   Chapter chapter{"Curves", {}};
-  CurvesSpec forces{"Contact forces", "Position of the wheel [m]", {}};
+  CurvesSpec forces{.title = "Contact forces", .panels = {}, .name = "forces"};
   forces.panels.push_back({"F_N [kN]", {.y = {"vertical_force", "N"}, .y_scale = 1e-3}, "F_N, "});
   forces.panels.push_back({"F_L [kN]", {.y = {"longitudinal_force", "N"}, .y_scale = 1e-3}, "F_L, "});
   add_curves(forces, rolled, chapter);
-  CurvesSpec creepage{"Longitudinal creepage, mean of 28 nodes", "Position of the wheel [m]", {}};
+  CurvesSpec creepage{.title = "Longitudinal creepage, mean of 28 nodes", .panels = {}, .name = "creepage"};
   creepage.panels.push_back({"Creepage [%]", {.y = {"creepage_mean", "-"}, .y_scale = 100}, "", 200});
   add_curves(creepage, rolled, chapter);
-  CurvesSpec surface{
-      "What the passage leaves on the patch's longitudinal axis", "Position on the rail [m]", {}};
+  CurvesSpec surface{.title = "What the passage leaves on the patch's longitudinal axis",
+                     .x_label = "Position on the rail [m]",
+                     .panels = {},
+                     .name = "surface"};
   const auto along = [](const char* name, const char* unit, double scale) {
     return RunCurve{.file = "surface_axis.csv", .x = {"x", "m"}, .y = {name, unit}, .y_scale = scale};
   };
@@ -201,12 +207,12 @@ Table point_table(const StudyPlan& plan) {
   return table;
 }
 
-Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command) {
+Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
+                    const Provenance& provenance) {
   Report report;
   report.title = plan.study.title.empty() ? plan.study.name : plan.study.title;
   report.subtitle = fmt::format("{} of {} points done · {}", runs.size(), plan.points.size(),
                                 plan.study.scene.filename().string());
-  report.footer = command;
   Chapter results{"Results", {result_table(runs)}};
   results.blocks.emplace_back(Text{
       "Forces, creepage and stresses: largest and smallest over the evaluated stretch, a corrugation less "
@@ -220,6 +226,7 @@ Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
                [](const FinishedRun& run) { return run.rolled(); });
   if (!rolled.empty()) report.chapters.push_back(curve_chapter(rolled));
   report.chapters.push_back({"Points", {point_table(plan)}});
+  state_provenance(report, plan.study.scene.string(), provenance);
   return report;
 }
 

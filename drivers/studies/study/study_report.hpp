@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "drivers/report/provenance.hpp"
 #include "drivers/studies/study/finished_run.hpp"
 #include "drivers/studies/study/study_plan.hpp"
-#include "io/report/report.hpp"
 
 namespace tread {
 
@@ -35,6 +35,7 @@ Chapter curve_chapter(const std::vector<FinishedRun>& rolled);
 /// State and values of the points.
 Table point_table(const StudyPlan& plan);
 
-Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs, const std::string& command);
+Report sweep_report(const StudyPlan& plan, const std::vector<FinishedRun>& runs,
+                    const Provenance& provenance);
 
 }  // namespace tread

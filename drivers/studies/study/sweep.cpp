@@ -4,6 +4,7 @@
 
 #include "drivers/studies/study/study_report.hpp"
 #include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 
 namespace tread {
@@ -14,7 +15,7 @@ std::optional<Error> sweep(const SweepOptions& options) {
   return run_study(study, options.common, [&](const StudyPlan& plan) {
     const std::vector<FinishedRun> runs = finished_runs(plan);
     write_text_file(plan.folder / "sweep.csv", sweep_csv(plan, runs));
-    write_report(plan.folder / "report.html", sweep_report(plan, runs, options.common.command));
+    write_report(plan.folder / "report.html", sweep_report(plan, runs, options.common.origin));
     if (options.common.json)
       fmt::print("{}", sweep_json(plan, runs));
     else
