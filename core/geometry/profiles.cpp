@@ -7,26 +7,13 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry/rounded_corner.hpp"
 
 namespace tread {
 
 namespace {
 
 constexpr double mm = 1e-3;
-
-Point2 unit(Point2 a) {
-  return (1 / norm(a)) * a;
-}
-
-/// Continues `curve`, which ends on the line through `corner`, along that line and around the corner with the
-/// given radius. The arc ends at the tangent point of the line from `corner` to `next`.
-void round_corner(PlaneCurve& curve, Point2 corner, Point2 next, double radius) {
-  const Point2 in = unit(corner - curve.end()), out = unit(next - corner);
-  const double turn = std::atan2(cross(in, out), dot(in, out));
-  const double cut = radius * std::tan(std::abs(turn) / 2);
-  const Point2 centre = corner + (-cut) * in + std::copysign(radius, turn) * Point2{-in.y, in.x};
-  curve.line_to(corner + (-cut) * in).arc_to(corner + cut * out, centre);
-}
 
 /// Tangent circle between a straight face and the web's arc.
 struct Fillet {
@@ -98,7 +85,7 @@ PlaneCurve cn60_lower() {
 }
 
 RailProfile cn60_under(PlaneCurve running) {
-  RailProfile rail = {std::move(running), cn60_lower(), {}, 176 * mm};
+  RailProfile rail = {std::move(running), cn60_lower(), {}, 176 * mm, 16.5 * mm};
   const std::vector<double> s = rail.lower.joints(0, rail.lower.length());
   const auto middle = [&](std::size_t i) { return 0.5 * (s[i] + s[i + 1]); };
   rail.rounding = {middle(0), middle(2), middle(4), middle(8), middle(10)};
@@ -121,33 +108,49 @@ RailProfile cn60() {
   return cn60_under(std::move(running));
 }
 
-RailProfile rail_with_head(std::span<const double> y, std::span<const double> z) {
+RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section) {
+  constexpr double kDeepest = 18 * mm;    // of the table's points
+  constexpr double kNarrowest = 27 * mm;  // half a worn head
+  constexpr double kOverhang = 1.5 * mm;  // of a head that has flowed beyond the side face
+  constexpr double kJoin = 20 * mm;       // depth at which the straight lines meet the side faces
   const PlaneCurve measured = curve_through(y, z, "rail profile");
   const double crown = measured.at(measured.at_x(0)).position.y;
   std::vector<double> kept_y, kept_z;
   for (std::size_t i = 0; i < y.size(); ++i)
-    if (z[i] - crown > -18 * mm) {
+    if (z[i] - crown > -kDeepest) {
       kept_y.push_back(y[i]);
       kept_z.push_back(z[i] - crown);
     }
-  if (kept_y.size() < 3 || kept_y.front() > -30 * mm || kept_y.back() < 30 * mm ||
-      kept_y.front() < -37 * mm || kept_y.back() > 37 * mm)
-    throw InputError(
-        fmt::format("rail profile: the table spans y = {:.1f} ... {:.1f} mm above 18 mm below the crown; it "
-                    "has to end between 30 and "
-                    "37 mm on either side of the centre line (is y measured in the stated unit and from the "
-                    "centre line?)",
-                    kept_y.empty() ? 0 : kept_y.front() / mm, kept_y.empty() ? 0 : kept_y.back() / mm));
+  const Point2 high = section.lower.start(), low = section.running.end();
+  const auto side = [&](double depth) {
+    return Point2{high.x + (low.x - high.x) * (depth + high.y) / (high.y - low.y), -depth};
+  };
+  const double widest = side(kDeepest).x + kOverhang;
+  if (kept_y.size() < 3)
+    throw InputError("rail profile: fewer than 3 points lie less than 18 mm below the point at y = 0");
+  if (kept_y.front() > -kNarrowest || kept_y.back() < kNarrowest || kept_y.front() < -widest ||
+      kept_y.back() > widest) {
+    const double middle = (kept_y.front() + kept_y.back()) / 2, half = (kept_y.back() - kept_y.front()) / 2;
+    throw InputError(fmt::format(
+        "rail profile: the table spans y = {:.1f} ... {:.1f} mm above 18 mm below the crown; it has to end "
+        "between {:.1f} and {:.1f} mm on either side of the middle: {}",
+        kept_y.front() / mm, kept_y.back() / mm, kNarrowest / mm, widest / mm,
+        half >= kNarrowest && half <= widest
+            ? fmt::format(
+                  "its own middle is y = {:.1f} mm, which rail.profile_shift = \"{:.1f} mm\" corrects",
+                  middle / mm, -middle / mm)
+            : "are the units right, is the whole head measured, and does rail.section name the rail?"));
+  }
 
-  const Cn60Head head = cn60_head();
   const auto left = [](Point2 a) { return Point2{-a.x, a.y}; };
-  PlaneCurve running(left(side_face(head, -kRailSideDepth)));
-  running.line_to(left(side_face(head, -20 * mm)))
+  PlaneCurve running(left(low));
+  running.line_to(left(side(kJoin)))
       .line_to({kept_y.front(), kept_z.front()})
       .append(curve_through(kept_y, kept_z, "rail profile"))
-      .line_to(side_face(head, -20 * mm))
-      .line_to(side_face(head, -kRailSideDepth));
-  return cn60_under(std::move(running));
+      .line_to(side(kJoin))
+      .line_to(low);
+  section.running = std::move(running);
+  return section;
 }
 
 WheelProfile lma() {

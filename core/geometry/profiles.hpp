@@ -19,7 +19,8 @@ struct RailProfile {
   /// Parameters on `lower` of the middles of its roundings: head corner, web top, web bottom, foot edge top
   /// and bottom.
   std::array<double, 5> rounding = {};
-  double height = 0;  ///< crown top to foot bottom [m]
+  double height = 0;     ///< crown top to foot bottom [m]
+  double web_width = 0;  ///< least thickness of the web [m]
 };
 
 /// Depth of the ends of RailProfile::running below the crown [m].
@@ -29,10 +30,10 @@ inline constexpr double kRailSideDepth = 30e-3;
 /// with the standard.
 RailProfile cn60();
 
-/// CN60 with the head's surface from a measured table (y increasing, z up) [m]; z is shifted so that the
+/// `section` with the head's surface from a measured table (y increasing, z up) [m]; z is shifted so that the
 /// surface passes through the origin. Points deeper than 18 mm are left out; straight lines join the table to
 /// the side faces. Throws InputError if the table does not reach across the head.
-RailProfile rail_with_head(std::span<const double> y, std::span<const double> z);
+RailProfile rail_with_head(std::span<const double> y, std::span<const double> z, RailProfile section);
 
 /// Wheel axes: y across (field side positive, flange negative), z towards the flange tip, origin on the
 /// nominal rolling circle; the radius is D / 2 + z.
@@ -46,6 +47,10 @@ WheelProfile lma();
 /// A measured or designed wheel profile (y increasing, z towards the flange tip) [m]; z is shifted so that
 /// the surface passes through the origin. Throws InputError if the table does not contain y = 0.
 WheelProfile wheel_from_table(std::span<const double> y, std::span<const double> z);
+
+/// S1002 from the flange's back to the field side, y = -70 ... 60 mm. The chamfer beyond 60 mm is cut off.
+/// [UIC 510-2; EN 13715]
+WheelProfile s1002();
 
 /// Wheel profile of |y| <= width / 2 [m] with a crown of radius `crown_radius` [m] that bulges outward; 0
 /// means a cylinder.

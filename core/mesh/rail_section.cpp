@@ -71,8 +71,7 @@ CoarseTie coarse_tie(const RailProfile& rail, const SectionSize& size) {
   tie.s_end = rail.lower.first(0, rail.rounding[0],
                                [](const CurvePoint& point) { return -kTieDepth - point.position.y; });
   tie.end = rail.lower.at(tie.s_end).position.x;
-  const double web_width = 16.5e-3;
-  tie.middle = count_of(web_width, size.coarse, 2);
+  tie.middle = count_of(rail.web_width, size.coarse, 2);
   tie.strip = 0.95 * rail.lower.at(rail.rounding[1]).position.x;
   tie.wing = count_of(tie.end - tie.strip, size.coarse, 1);
   tie.x = evenly(-tie.end, -tie.strip, tie.wing);

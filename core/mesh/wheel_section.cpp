@@ -38,6 +38,17 @@ std::vector<Point2> along(const PlaneCurve& curve, double from, double to, int c
   return positions(curve, evenly(from, to, count));
 }
 
+/// Breaks for graded() on a curve without the joints that would leave an element shorter than about a third
+/// of `size` [m] at an end.
+std::vector<double> wide_breaks(const PlaneCurve& curve, double from, double to, double size) {
+  const double least = std::min(0.35 * size, 3e-3);
+  std::vector<double> result = {from};
+  for (const double s : curve.joints(from, to))
+    if (s - from > least && to - s > least) result.push_back(s);
+  result.push_back(to);
+  return result;
+}
+
 void append(std::vector<double>& line, std::span<const double> more) {
   line.insert(line.end(), more.begin() + 1, more.end());
 }
@@ -61,6 +72,12 @@ Flange find_flange(const PlaneCurve& profile) {
   flange.present = face < length;
   if (!flange.present) return flange;
   flange.tip_front = falls(flange.tip_back, kFront);
+  constexpr double kSmooth = 4e-3;  // least length of the flange's tip between these slopes
+  if (flange.tip_front - flange.tip_back < kSmooth)
+    throw InputError(fmt::format(
+        "wheel profile: the flange's tip at y = {:.1f} mm leans by 7 and by 30 degrees within {:.2g} mm: the "
+        "points are rough there; state wheel.profile_smoothing, for example \"0.1 mm\"",
+        1e3 * profile.at(flange.tip_back).position.x, 1e3 * (flange.tip_front - flange.tip_back)));
   flange.root =
       profile.first(face + 1e-4, length, [&](const CurvePoint& point) { return point.tangent.y + steep; });
   if (!(flange.root < length) || profile.at(flange.root).position.x > 0)
@@ -88,7 +105,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
   };
   const auto flange_size = [&](double) { return std::max(kFlangeSize, kFlangeRatio * size.surface); };
 
-  const auto tread = graded(breaks_on(profile, flange.root, profile.length()), column);
+  const auto tread = graded(wide_breaks(profile, flange.root, profile.length(), kFlangeSize), column);
   const Point2 root = profile.at(flange.root).position;
   const Point2 low_left = {profile.start().x, -kTieDepth}, low_right = {profile.end().x, -kTieDepth};
   PlaneCurve outline(low_left);
@@ -108,8 +125,9 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
   std::vector<double> surface = {flange.root};
   std::vector<double> wanted;
   if (flange.present) {
-    surface = graded(breaks_on(profile, flange.tip_back, flange.tip_front), flange_size);
-    const auto front = graded(breaks_on(profile, flange.tip_front, flange.root), flange_size);
+    surface = graded(wide_breaks(profile, flange.tip_back, flange.tip_front, flange_size(0)), flange_size);
+    const auto front =
+        graded(wide_breaks(profile, flange.tip_front, flange.root, flange_size(0)), flange_size);
     PatchSides sides;
     sides.top = positions(profile, surface);
     sides.right = positions(profile, front);

@@ -8,14 +8,16 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/geometry/built_in_profiles.hpp"
 #include "core/geometry/profiles.hpp"
+#include "core/geometry/touching.hpp"
 #include "core/mesh/structured.hpp"
 
 namespace tread {
 
 namespace {
 
-/// Columns of h stand where the patch can lie: CN60 and LMA touch between -12 and +6 mm from the crown.
+/// Columns of h stand where the patch can lie, about `band_centre`.
 SectionSize section_size(const MeshSizes& sizes, double coarse, double band_centre) {
   SectionSize size;
   size.surface = sizes.contact;
@@ -32,23 +34,52 @@ constexpr double kLeastRailCoarse = 8e-3;
 
 constexpr double kWheelToRailCoarse =
     1.4;  ///< disc elements may be larger than those of the rail's web and foot
-constexpr double kBandCentre = -2e-3;
-
 WheelProfile wheel_profile(const WheelSpec& wheel) {
   if (!wheel.profile_y.empty()) return wheel_from_table(wheel.profile_y, wheel.profile_z);
   if (wheel.profile == "arc") return crowned(wheel.width, wheel.crown_radius);
   if (wheel.profile == "cylinder") return crowned(wheel.width, 0);
-  return lma();
+  return built_in_wheel(wheel.profile);
+}
+
+RailProfile rail_profile(const RailSpec& rail) {
+  if (rail.profile_y.empty()) return built_in_rail(rail.profile);
+  return rail_with_head(rail.profile_y, rail.profile_z, built_in_rail(rail.section));
+}
+
+constexpr double kUsualBand = -2e-3;  ///< CN60 and LMA touch between -12 and +6 mm: one band for all offsets
+
+/// Middles of the fine bands on rail and wheel, each in its section's own coordinate p [m].
+struct Bands {
+  double rail = 0, wheel = 0;
+};
+
+/// The bands lie about the place where the rigid profiles touch. InputError if the rail is too steep there.
+Bands bands_of(const Scene& scene, const RailProfile& rail) {
+  if (!scene.wheel) return {kUsualBand, kUsualBand};
+  const WheelSpec& wheel = *scene.wheel;
+  if (scene.rail->profile == "CN60" && (wheel.profile == "LMA" || wheel.shape == "tyre"))
+    return {kUsualBand, kUsualBand};
+  const Touching place =
+      touching(rail.running, scene.rail->inclination, wheel_profile(wheel).surface, wheel.lateral_offset);
+  constexpr double kSteepest = 0.5;
+  if (std::abs(place.slope) > kSteepest)
+    throw InputError(fmt::format(
+        "wheel.lateral_offset = {:.2f} mm: the profiles touch at y = {:.1f} mm from the rail's middle, where "
+        "the rail leans by {:.0f} degrees; the patch has to lie where it leans by {:.0f} degrees at most: "
+        "shift the wheel, or the profiles by wheel.profile_shift and rail.profile_shift",
+        1e3 * wheel.lateral_offset, 1e3 * place.y, std::atan(std::abs(place.slope)) * 180 / std::numbers::pi,
+        std::atan(kSteepest) * 180 / std::numbers::pi));
+  return {place.on_rail.x, place.y};
 }
 
 }  // namespace
 
 RailSections rail_sections(const Scene& scene, const MeshSizes& sizes) {
   const RailSpec& rail = *scene.rail;
-  const RailProfile profile =
-      rail.profile_y.empty() ? cn60() : rail_with_head(rail.profile_y, rail.profile_z);
-  return make_rail_sections(profile, rail.inclination,
-                            section_size(sizes, std::max(sizes.section, kLeastRailCoarse), kBandCentre));
+  const RailProfile profile = rail_profile(rail);
+  return make_rail_sections(
+      profile, rail.inclination,
+      section_size(sizes, std::max(sizes.section, kLeastRailCoarse), bands_of(scene, profile).rail));
 }
 
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes) {
@@ -112,7 +143,7 @@ class WheelBuilder {
  public:
   WheelBuilder(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan)
       : profile_(wheel_profile(*scene.wheel)),
-        size_(section_size(sizes, kWheelToRailCoarse * sizes.section, kBandCentre)),
+        size_(section_size(sizes, kWheelToRailCoarse * sizes.section, wheel_band(scene))),
         plan_(plan),
         density_(scene.wheel_material().density) {
     shape.diameter = scene.wheel->diameter;
@@ -136,6 +167,11 @@ class WheelBuilder {
   }
 
  private:
+  static double wheel_band(const Scene& scene) {
+    const bool rail = scene.rail && scene.rail->profile != "box";
+    return rail ? bands_of(scene, rail_profile(*scene.rail)).wheel : kUsualBand;
+  }
+
   /// Elements between two stations are straight: a polygon's volume is that of the body times sin(d) / d.
   static double polygon(const std::vector<Segment>& segments) {
     double sum = 0;

@@ -179,7 +179,7 @@ TEST(CurveThrough, RefusesTablesThatAreNotProfiles) {
   EXPECT_THROW(curve_through(std::vector<double>{0, 1, 2, std::nan("")}, z, "p"), InputError);
   EXPECT_THROW(curve_through(std::vector<double>{0, 1}, std::vector<double>{0, 1}, "p"), InputError);
   EXPECT_THROW(wheel_from_table(std::vector<double>{1, 2, 3, 4}, z), InputError);
-  EXPECT_THROW(rail_with_head(std::vector<double>{-0.01, 0, 0.01, 0.02}, z), InputError);
+  EXPECT_THROW(rail_with_head(std::vector<double>{-0.01, 0, 0.01, 0.02}, z, cn60()), InputError);
   EXPECT_THROW(crowned(0.06, 0.02), InputError);
 }
 
@@ -193,7 +193,7 @@ TEST(RailWithHead, RecoversTheProfileItWasSampledFrom) {
     y.push_back(p.x);
     z.push_back(p.y + 0.5);
   }
-  const RailProfile rail = rail_with_head(y, z);
+  const RailProfile rail = rail_with_head(y, z, cn60());
   for (double at = -35 * mm; at < 35 * mm; at += 0.1 * mm)
     EXPECT_NEAR(rail.running.at(rail.running.at_x(at)).position.y,
                 exact.running.at(exact.running.at_x(at)).position.y, std::abs(at) < 24.5 * mm ? 3e-8 : 2e-5);

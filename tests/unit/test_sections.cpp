@@ -253,7 +253,7 @@ TEST(RailSection, TakesAMeasuredHead) {
     y.push_back(p.x);
     z.push_back(p.y - 0.05 * mm * std::exp(-std::pow((p.x + 5 * mm) / (10 * mm), 2)));  // some wear
   }
-  const RailProfile worn = rail_with_head(y, z);
+  const RailProfile worn = rail_with_head(y, z, cn60());
   const SectionSize size = size_of(1.5, 9);
   const RailSections rail = make_rail_sections(worn, 0.025, size);
   EXPECT_GT(worst_quality(rail.cap), 0.5);
