@@ -125,6 +125,7 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z,
   const auto side = [&](double depth) {
     return Point2{high.x + (low.x - high.x) * (depth + high.y) / (high.y - low.y), -depth};
   };
+  constexpr double kWhole = 4 * mm;  // a head less narrow than this is not worn at its sides
   const double widest = side(kDeepest).x + kOverhang;
   if (kept_y.size() < 3)
     throw InputError("rail profile: fewer than 3 points lie less than 18 mm below the point at y = 0");
@@ -135,7 +136,7 @@ RailProfile rail_with_head(std::span<const double> y, std::span<const double> z,
         "rail profile: the table spans y = {:.1f} ... {:.1f} mm above 18 mm below the crown; it has to end "
         "between {:.1f} and {:.1f} mm on either side of the middle: {}",
         kept_y.front() / mm, kept_y.back() / mm, kNarrowest / mm, widest / mm,
-        half >= kNarrowest && half <= widest
+        half >= widest - kWhole && half <= widest
             ? fmt::format(
                   "its own middle is y = {:.1f} mm, which rail.profile_shift = \"{:.1f} mm\" corrects",
                   middle / mm, -middle / mm)

@@ -41,9 +41,13 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   const auto line = [&](const char* name, const std::string& value) {
     text += fmt::format("{:<10}{}\n", name, value);
   };
-  if (const std::optional<RailSpec>& rail = model.scene.rail; rail && !rail->profile_y.empty())
-    line("Rail", fmt::format("{} replaces the surface of the head; the section below stays that of CN60",
-                             rail->profile));
+  if (const std::optional<WheelSpec>& wheel = model.scene.wheel; wheel && !wheel->profile_y.empty())
+    line("Wheel", fmt::format("{}: {}", wheel->profile, wheel->profile_reading));
+  if (const std::optional<RailSpec>& rail = model.scene.rail; rail && !rail->profile_y.empty()) {
+    line("Rail", fmt::format("{}: {}", rail->profile, rail->profile_reading));
+    line("",
+         fmt::format("replaces the surface of the head; the section below stays that of {}", rail->section));
+  }
   if (e.steps > 0) {
     line("Step", fmt::format("{:.4e} s = {:g} of the stable step", e.dt, model.scene.motion->step_safety));
     line("", e.limit.reason);

@@ -52,6 +52,23 @@ void add_material(Keys& keys, const std::string& name) {
                "1e-4 s leaves too; none: at all frequencies"));
 }
 
+namespace {
+
+/// The keys of `table` that change the points of its profile's file.
+template <class Part>
+void add_profile_file(Keys& keys, const std::string& table, std::optional<Part> Scene::*part,
+                      double Part::*shift, double Part::*smoothing) {
+  const std::string profile = table + ".profile";
+  keys.push_back(with_file(profile, quantity(profile + "_shift", {Effect::mesh}, at(part, shift), kLength,
+                                             "mm", {-0.2, 0.2}, "Added to y of the file's points")));
+  keys.push_back(with_file(
+      profile, quantity(profile + "_smoothing", {Effect::mesh}, at(part, smoothing), kLength, "mm", {0, 1e-3},
+                        "Largest distance of a smoothing spline from the file's points; 0: the points are "
+                        "interpolated")));
+}
+
+}  // namespace
+
 void add_wheel(Keys& keys) {
   const auto half_wheelset = [](Key key) {
     return only_with("wheel.shape", "half_wheelset", std::move(key));
@@ -61,10 +78,12 @@ void add_wheel(Keys& keys) {
                         {"half_wheelset", "tyre"}, "Half a wheelset with its axle, or a plain ring"));
   keys.push_back(material_name("wheel.material", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::material),
                                "Material of the wheel or wheelset"));
-  keys.push_back(or_file(choice(
-      "wheel.profile", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::profile), {"LMA", "arc", "cylinder"},
-      "Profile of the tread; a half wheelset takes LMA or a file of two columns (y, z), a "
-      "tyre takes arc or cylinder")));
+  keys.push_back(or_file(
+      choice("wheel.profile", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::profile),
+             {"LMA", "S1002", "arc", "cylinder"},
+             "Profile of the tread; a half wheelset takes LMA (TB/T 449), S1002 (EN 13715) or a file (two "
+             "columns, SIMPACK, MiniProf, columns under a header), a tyre takes arc or cylinder")));
+  add_profile_file(keys, "wheel", &Scene::wheel, &WheelSpec::profile_shift, &WheelSpec::profile_smoothing);
   keys.push_back(quantity("wheel.diameter", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::diameter), kLength,
                           "m", {0.1, 3}, "Diameter at the nominal rolling circle"));
   keys.push_back(quantity("wheel.lateral_offset", {Effect::mesh},
@@ -113,9 +132,19 @@ void add_rail(Keys& keys) {
       "Material of the finely divided head, for example one that yields; empty: that of the rail. "
       "A box has no head"));
   keys.push_back(
-      or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile), {"CN60", "box"},
-                     "Cross-section; also a file of two columns (y, z), which replaces the "
-                     "surface of the head: the section below stays that of CN60")));
+      or_file(choice("rail.profile", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile),
+                     {"CN60", "60E1", "60E2", "49E1", "box"},
+                     "Cross-section: CN60 (GB 2585), a rail of EN 13674-1, or a box; also a file (two "
+                     "columns, SIMPACK, MiniProf, columns under a header), which replaces the surface of the "
+                     "head of `section`")));
+  keys.push_back(with_file("rail.profile",
+                           choice("rail.section", {Effect::mesh}, at(&Scene::rail, &RailSpec::section),
+                                  {"CN60", "60E1", "60E2", "49E1"}, "Rail whose head the file replaces")));
+  keys.push_back(
+      with_file("rail.profile",
+                flag("rail.profile_mirrored", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile_mirrored),
+                     "The file's y counts to the gauge side: its sign and the order are turned")));
+  add_profile_file(keys, "rail", &Scene::rail, &RailSpec::profile_shift, &RailSpec::profile_smoothing);
   keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
                         {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio));
   keys.push_back(quantity("rail.length", {Effect::mesh}, at(&Scene::rail, &RailSpec::length), kLength, "m",

@@ -12,6 +12,7 @@ bool Bounds::contains(double value) const {
 }
 
 std::string Condition::alternatives() const {
+  if (names_file) return "a file";
   std::string text;
   for (const std::string& value : values) text += fmt::format("{}\"{}\"", text.empty() ? "" : " or ", value);
   return text;

@@ -46,13 +46,15 @@ struct Bounds {
   bool contains(double value) const;
 };
 
-/// The key has an effect only where the table `key` is present (no `values`) or the text key `key` has one of
-/// these values.
+/// The key has an effect only where the table `key` is present (no `values`), the text key `key` has one of
+/// these values, or, with `names_file`, that text key names a file.
 struct Condition {
   std::string key;
   std::vector<std::string> values;
+  bool names_file = false;
 
-  /// The values, "\"sine\" or \"random\"".
+  bool needs_table() const { return values.empty() && !names_file; }
+  /// The values, "\"sine\" or \"random\"", or "a file".
   std::string alternatives() const;
 };
 

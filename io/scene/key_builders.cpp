@@ -77,6 +77,11 @@ Key with_table(std::string table, Key key) {
   return only_with(std::move(table), std::vector<std::string>{}, std::move(key));
 }
 
+Key with_file(std::string other, Key key) {
+  key.only_with = {std::move(other), {}, true};
+  return key;
+}
+
 Key only_with(std::string condition, std::string value, Key key) {
   return only_with(std::move(condition), std::vector<std::string>{std::move(value)}, std::move(key));
 }

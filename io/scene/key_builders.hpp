@@ -89,6 +89,8 @@ Key or_file(Key key);
 Key only_with(std::string condition, std::vector<std::string> values, Key key);
 Key only_with(std::string condition, std::string value, Key key);
 Key with_table(std::string table, Key key);
+/// A key with an effect only where the text key `other` names a file.
+Key with_file(std::string other, Key key);
 Key instead_of(std::string other, Key key);
 
 }  // namespace tread::keys

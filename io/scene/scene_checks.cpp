@@ -204,7 +204,7 @@ class Checker {
               {"wheel.overhang", "motion.duration"},
               "the wheel rolls on most of its ring; leave the overhang out");
     } else {
-      require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA or a file");
+      require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA, S1002 or a file");
     }
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,7 +13,7 @@
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
 #include "io/scene/problems.hpp"
-#include "io/scene/profile_checks.hpp"
+#include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
@@ -258,12 +259,12 @@ class SceneBuilder {
     if (found == settings_.end() || std::holds_alternative<std::monostate>(field)) return;
     const Setting& setting = found->second;
     if (!applies(key, scene_)) {
-      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.values.empty());
+      const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table());
       if (setting.origin.level == Level::library || unclear) return;
       report(setting.origin.place, key.path,
-             key.only_with.values.empty() ? fmt::format("has no effect without [{}]", key.only_with.key)
-                                          : fmt::format("has an effect only with {} = {}", key.only_with.key,
-                                                        key.only_with.alternatives()));
+             key.only_with.needs_table() ? fmt::format("has no effect without [{}]", key.only_with.key)
+                                         : fmt::format("has an effect only with {} = {}", key.only_with.key,
+                                                       key.only_with.alternatives()));
       return;
     }
     try {
@@ -286,38 +287,51 @@ class SceneBuilder {
       keep(read_columns("corrugation.file", {.needs_units = true, .increasing = true}),
            scene_.corrugation->table_x, scene_.corrugation->table_depth);
     if (scene_.wheel)
-      keep(read_profile("wheel.profile", wheel_profile_fault), scene_.wheel->profile_y,
-           scene_.wheel->profile_z);
+      read_profile("wheel.profile",
+                   {true, false, scene_.wheel->profile_shift, scene_.wheel->profile_smoothing},
+                   *scene_.wheel);
     if (scene_.rail)
-      keep(read_profile("rail.profile", rail_profile_fault), scene_.rail->profile_y, scene_.rail->profile_z);
+      read_profile(
+          "rail.profile",
+          {false, scene_.rail->profile_mirrored, scene_.rail->profile_shift, scene_.rail->profile_smoothing},
+          *scene_.rail);
   }
 
-  /// The profile that the key names; one with mistaken axes is a problem.
-  TwoColumns read_profile(const std::string& path, std::string (*fault_of)(const TwoColumns&)) {
-    TwoColumns columns = read_columns(path, {.increasing = true});
-    const std::string fault = bad_.count(path) ? "" : fault_of(columns);
-    if (!fault.empty())
-      report(place_of(path), path,
-             fmt::format("{}: {}", *std::get<std::string*>(find_key(path)->locate(scene_)), fault));
+  /// The profile that the key names, if it names a file.
+  template <class Part>
+  void read_profile(const std::string& path, const ProfileWish& wish, Part& part) {
+    read_file_of(path, [&](const std::string& text, const std::string& name) {
+      UnderstoodProfile profile = profile_of(text, name, wish, ColumnAxes::as_documented, problems_);
+      part.profile_reading = reading_of(profile);
+      part.profile_y = std::move(profile.y);
+      part.profile_z = std::move(profile.z);
+    });
+  }
+
+  /// The columns of the file that the key names; empty where it names none.
+  TwoColumns read_columns(const std::string& path, const TableRules& rules) {
+    TwoColumns columns;
+    read_file_of(path, [&](const std::string& text, const std::string& name) {
+      columns = parse_two_columns(text, name, rules, problems_);
+    });
     return columns;
   }
 
-  /// The file that the key names; empty where it names none.
-  TwoColumns read_columns(const std::string& path, const TableRules& rules) {
+  /// Calls `read` with text and name of the file that the key names; what it reports is a problem of the key.
+  void read_file_of(const std::string& path,
+                    const std::function<void(const std::string&, const std::string&)>& read) {
     const std::optional<Key> key = find_key(path);
     const std::string& name = *std::get<std::string*>(key->locate(scene_));
     const bool is_name = std::find(key->allowed.begin(), key->allowed.end(), name) != key->allowed.end();
-    if (name.empty() || is_name || bad_.count(path)) return {};
+    if (name.empty() || is_name || bad_.count(path)) return;
     try {
       const std::size_t known_problems = problems_.size();
       const auto given = source_.files.find(name);
       std::string& text = files_[name] = given != source_.files.end() ? given->second : read_table_text(name);
-      TwoColumns columns = parse_two_columns(text, name, rules, problems_);
+      read(text, name);
       if (problems_.size() > known_problems) bad_.insert(path);
-      return columns;
     } catch (const InputError& error) {
       report(place_of(path), path, error.what());
-      return {};
     }
   }
 

@@ -83,7 +83,7 @@ std::string meaning_of(const Key& key) {
   std::string text = key.description;
   if (key.only_with.key.empty()) return text;
   const Condition& condition = key.only_with;
-  return text + (condition.values.empty()
+  return text + (condition.needs_table()
                      ? fmt::format(" (only with `[{}]`)", condition.key)
                      : fmt::format(" (only with `{} = {}`)", condition.key, condition.alternatives()));
 }

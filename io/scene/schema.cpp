@@ -103,11 +103,12 @@ std::string usual_user(std::string_view material) {
 bool applies(const Key& key, const Scene& scene) {
   if (key.only_with.key.empty()) return true;
   if (!table_of(key.only_with.key)->exists(scene)) return false;
-  const std::vector<std::string>& values = key.only_with.values;
-  if (values.empty()) return true;
+  if (key.only_with.needs_table()) return true;
   Scene copy = scene;
-  const Field field = find_key(key.only_with.key)->locate(copy);
-  return std::find(values.begin(), values.end(), *std::get<std::string*>(field)) != values.end();
+  const std::optional<Key> other = find_key(key.only_with.key);
+  const std::string& value = *std::get<std::string*>(other->locate(copy));
+  const std::vector<std::string>& values = key.only_with.names_file ? other->allowed : key.only_with.values;
+  return (std::find(values.begin(), values.end(), value) != values.end()) != key.only_with.names_file;
 }
 
 std::string names_in(std::string_view table) {

@@ -1,9 +1,11 @@
 // Every key of a scene, changed in turn: what changes in the bits is what the key states (Effects), no less
 // and no more.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/built_in_profiles.hpp"
 #include "core/math/hash.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
@@ -141,6 +144,11 @@ const BaseScene& base_scene(const std::string& name) {
        {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
         {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
          "solution_zone.start=0 m", "solution_zone.length=10 mm", "motion.duration=0.1 ms"}}},
+      {"worn",
+       {"[scene]\ntitle = \"worn\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
+        {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
+         "solution_zone.start=0 m", "solution_zone.length=10 mm", "motion.duration=0.1 ms",
+         "wheel.profile=tread.txt", "rail.profile=head.txt"}}},
       {"struck rail",
        {"[scene]\ntitle = \"struck\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n"
         "[hammer]\nposition = \"0 m\"\nforce = \"1 kN\"\nduration = \"20 us\"\n"
@@ -158,6 +166,16 @@ const BaseScene& base_scene(const std::string& name) {
   return kScenes.at(name);
 }
 
+/// Columns of a built-in profile with some waviness; a rail is worn on one side.
+std::string worn_columns(const PlaneCurve& curve, double from, double to) {
+  std::string text = "# y [mm]  z [mm]\n";
+  for (double y = from; y <= to; y += 0.5) {
+    const double wear = 0.1 * std::exp(-std::pow((y + 10) / 8, 2)) + 0.01 * std::sin(y * y);
+    text += fmt::format("{:g} {:.6f}\n", y, 1e3 * curve.at(curve.at_x(1e-3 * y)).position.y - wear);
+  }
+  return text;
+}
+
 Scene resolve(const std::string& name, const Overrides& more) {
   const BaseScene& base = base_scene(name);
   Overrides overrides = base.overrides;
@@ -166,7 +184,9 @@ Scene resolve(const std::string& name, const Overrides& more) {
   source.files = {{"/nowhere/depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.02\n100 0\n"},
                   {"/nowhere/other_depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.03\n100 0\n"},
                   {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
-                  {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"}};
+                  {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"},
+                  {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
+                  {"/nowhere/head.txt", worn_columns(built_in_rail("CN60").running, -35, 35)}};
   return resolve_scene(source, overrides).scene;
 }
 
@@ -289,6 +309,8 @@ const std::vector<Change>& changes() {
        {"material.light.youngs_modulus=205.9 GPa", "material.light.poissons_ratio=0.3",
         "material.light.density=7600 kg/m3", "rail.material=light"}},
       {"wheel.profile", "cylinder"},
+      {"wheel.profile_shift", "1 mm", "worn"},
+      {"wheel.profile_smoothing", "0.02 mm", "worn"},
       {"wheel.diameter", "0.87 m"},
       {"wheel.lateral_offset", "1 mm"},
       {"wheel.mass", "600 kg", "wheelset"},
@@ -303,6 +325,10 @@ const std::vector<Change>& changes() {
       {"rail.material", "hard", "track", {"motion.start=moving"}},
       {"rail.head_material", "steel", "struck rail", {}, {"material.hard.present=false"}},
       {"rail.profile", "CN60", "track", {"scene.element_size=11 mm"}},
+      {"rail.section", "60E1", "worn"},
+      {"rail.profile_mirrored", "true", "worn"},
+      {"rail.profile_shift", "1 mm", "worn"},
+      {"rail.profile_smoothing", "0.02 mm", "worn"},
       {"rail.inclination", "0.01", "wheelset"},
       {"rail.length", "1.3 m"},
       {"rail.origin", "0.62 m"},

@@ -20,6 +20,7 @@
 #include "io/files/output_file.hpp"
 #include "io/files/sealed_file.hpp"
 #include "io/files/step_files.hpp"
+#include "io/scene/profile_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/json.hpp"
@@ -102,6 +103,21 @@ void read_table(const std::string& bytes) {
     }
 }
 
+/// In every format, as wheel and as rail.
+void read_profile(const std::string& bytes) {
+  for (const char* name : {"a.prw", "a.whl", "a.txt"})
+    for (const bool wheel : {true, false}) try {
+        std::vector<Problem> problems;
+        const ProfileWish wish{wheel, !wheel, 1e-3, 1e-5};
+        const UnderstoodProfile profile = profile_of(bytes, name, wish, ColumnAxes::any, problems);
+        require(profile.y.size() == profile.z.size(), "columns of a profile");
+        for (std::size_t i = 1; i < profile.y.size(); ++i)
+          require(profile.y[i] > profile.y[i - 1], "a profile that folds back");
+        require(profile.largest_deviation() <= 1.001e-5, "a deviation beyond the stated one");
+      } catch (const Error&) {
+      }
+}
+
 void read_roughness(const std::string& bytes) {
   try {
     const TwoColumns rows = read_two_columns(written("rail.txt", bytes), {true, true, {}});
@@ -177,6 +193,27 @@ std::vector<std::string> table_seeds() {
   return {"# x [m]  d [mm]\n0 0\n0.01 0.02\n0.02, 0\n", "1;2\n3;4\n5;-6e-1 # end\n"};
 }
 
+/// A wheel with a flange and a rail's head, in the formats.
+std::vector<std::string> profile_seeds() {
+  std::string wheel, rail;
+  for (double y = -68; y <= 60; y += 2)
+    wheel += fmt::format("{:g} {:.4f}\n", y, y < -40 ? 28 - 0.08 * (y + 55) * (y + 55) : -0.03 * y);
+  for (double y = -36; y <= 36; y += 1.5) rail += fmt::format("{:g} {:.4f}\n", y, -0.006 * y * y);
+  const auto simpack = [](int type, const std::string& rows) {
+    return fmt::format(
+        "header.begin\n type = {}\nheader.end\nspline.begin\n units.len.f = 1000\n shift.y = 0\n mirror.y = "
+        "0\n"
+        " point.begin\n{} point.end\nspline.end\n",
+        type, rows);
+  };
+  return {simpack(1, wheel),
+          simpack(0, rail),
+          "MPTypeNo=101\nXOffset=0\nColumnDef=X,Y\n\n" + wheel,
+          "MINIPROF 101\nStock.:\n\n" + rail,
+          "a wheel in mm\n65\n" + wheel,
+          "# y [mm] z [mm]\n" + rail};
+}
+
 std::vector<std::string> roughness_seeds() {
   std::string text = "# x [m]  r [um]\n";
   for (int i = 0; i < 60; ++i) text += fmt::format("{:g} {}\n", 1e-3 * i, (i * i) % 7);
@@ -209,11 +246,10 @@ std::vector<std::string> run_folder_seeds() {
 }  // namespace
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {{"scene", read_scene_text, scene_seeds},
-                                          {"table", read_table, table_seeds},
-                                          {"roughness", read_roughness, roughness_seeds},
-                                          {"checkpoint", read_checkpoint, checkpoint_seeds},
-                                          {"run_folder", read_run_folder, run_folder_seeds}};
+  static const std::vector<Target> all = {
+      {"scene", read_scene_text, scene_seeds},           {"table", read_table, table_seeds},
+      {"profile", read_profile, profile_seeds},          {"roughness", read_roughness, roughness_seeds},
+      {"checkpoint", read_checkpoint, checkpoint_seeds}, {"run_folder", read_run_folder, run_folder_seeds}};
   return all;
 }
 

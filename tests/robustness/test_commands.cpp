@@ -327,6 +327,31 @@ TEST_F(Commands, RoughnessNamesTheBrokenLine) {
   EXPECT_EQ(call("roughness --segment 2 " + file.string()).code, 2);
 }
 
+TEST_F(Commands, ProfileShowsWritesAndMeets) {
+  const fs::path clean = folder_ / "clean.txt", svg = folder_ / "s.svg";
+  const Outcome built_in =
+      call(fmt::format("profile S1002 --against 60E1 -o {} --svg {}", clean.string(), svg.string()));
+  EXPECT_EQ(built_in.code, 0) << built_in.errors;
+  EXPECT_TRUE(has(built_in.out, "height Sh 28.00 mm, thickness Sd 32.50 mm")) << built_in.out;
+  EXPECT_TRUE(has(built_in.out, "area 76.70 cm2, height 172 mm, I_y 3038")) << built_in.out;
+  EXPECT_TRUE(has(built_in.out, "wheel.lateral_offset")) << built_in.out;
+  EXPECT_TRUE(has(content("s.svg"), "Curvature"));
+  EXPECT_TRUE(has(content("s-touching.svg"), "place of contact"));
+  // The clean columns read back, also after they were mirrored and turned.
+  const Outcome again = call(fmt::format("profile {} --wheel --smoothing '0.01 mm' --json", clean.string()));
+  EXPECT_EQ(again.code, 0) << again.errors;
+  EXPECT_TRUE(has(again.out, "\"mirrored\": false")) << again.out;
+  EXPECT_TRUE(has(again.out, "\"largest_deviation_m\": 9.")) << again.out;
+  EXPECT_TRUE(has(call("profile " + clean.string()).errors, "state --wheel or --rail"));
+  EXPECT_TRUE(
+      has(call(fmt::format("profile {} --rail --section 60E3", clean.string())).errors, "choose from"));
+  EXPECT_EQ(call(fmt::format("profile {} --rail --wheel", clean.string())).code, 2);
+  EXPECT_EQ(call("profile LMA --against S1002").code, 2);
+  EXPECT_EQ(call("profile LMA --against CN60 --inclination steep").code, 2);
+  EXPECT_EQ(call("profile S1002 --smoothing 1").code, 0);  // nothing to smooth: built in
+  EXPECT_EQ(call(fmt::format("profile {} --wheel --smoothing 1", clean.string())).code, 2);
+}
+
 TEST_F(Commands, WrongWordsAreNamed) {
   for (const auto& [wrong, answer] :
        {std::pair{"rum x.toml", "there is no command 'rum'; did you mean 'run'?"},

@@ -110,7 +110,7 @@ TEST(SceneErrors, Types) {
       {"[rail.length]\nvalue = 3",
        "x.toml:3:7: rail.length: got a table; expected a length, such as \"1 m\" (units: m, cm, mm, um, km)"},
       {"[wheel]\nprofile = \"LMAA\"",
-       "x.toml:4:1: wheel.profile: \"LMAA\" is unknown; did you mean \"LMA\"? choose from: LMA, arc, "
+       "x.toml:4:1: wheel.profile: \"LMAA\" is unknown; did you mean \"LMA\"? choose from: LMA, S1002, arc, "
        "cylinder, or a "
        "file"},
       {"[corrugation]\nkind = \"square\"",
@@ -209,7 +209,7 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "friction 0.5"},
       {"[wheel]\nshape = \"tyre\"", "x.toml:4:1: wheel.shape: a tyre has the profile arc or cylinder"},
       {"[wheel]\nprofile = \"arc\"",
-       "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA or a file"},
+       "x.toml:4:1: wheel.profile: a half wheelset has the profile LMA, S1002 or a file"},
   });
 }
 
@@ -255,6 +255,10 @@ TEST(SceneErrors, ComponentsThatLackOthers) {
 
 TEST(SceneErrors, KeysWithoutEffect) {
   expect_messages({
+      {"[rail]\nsection = \"60E1\"",
+       "x.toml:4:1: rail.section: has an effect only with rail.profile = a file"},
+      {"[wheel]\nprofile_smoothing = \"0.1 mm\"",
+       "x.toml:4:1: wheel.profile_smoothing: has an effect only with wheel.profile = a file"},
       {"[rail]\nwidth = \"60 mm\"", "x.toml:4:1: rail.width: has an effect only with rail.profile = \"box\""},
       {"[slab]\npresent = false\nwidth = \"1 m\"",
        "x.toml:5:1: slab.width: has no effect, because slab.present = "
@@ -455,6 +459,13 @@ TEST_F(Files, ProfilesWhoseAxesAreMistaken) {
   expect_part(wheel("-65 3\n0 0\n40 -10\n56 -27\n70 -10\n"), "turn both signs");
   expect_part(wheel("-70 10\n-56 27\n-57 28\n0 0\n65 -3\n"),
               (folder_ / "wheel.txt").string() + ":4: the first column must grow");
+  write("wheel.prw", "point.begin\n1 2\n1 x\npoint.end\n");
+  expect_part(scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"wheel.prw\"\n")),
+              (folder_ / "wheel.prw").string() + ":3: \"1 x\": expected y and z and perhaps a weight");
+  write("wheel.whl", "Stock=1\n\n1 2\n3 4\n");
+  expect_part(scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"wheel.whl\"\n")),
+              "wheel.toml:4:1: wheel.profile: " + (folder_ / "wheel.whl").string() +
+                  ": 2 points: a profile needs at least 10");
   write("rail.txt", "# y [mm]  z [mm]\n-36 18\n-20 2\n0 0\n20 2\n36 18\n");
   expect_part(scene_error(write("rail.toml", kBase + "[rail]\nprofile = \"rail.txt\"\n")),
               "rail.txt: the head rises to both sides (18.0 mm at y = 36.0 mm), but z counts upwards");

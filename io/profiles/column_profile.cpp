@@ -1,0 +1,86 @@
+#include "io/profiles/column_profile.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <map>
+#include <sstream>
+
+#include "io/text/text.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Metres in a unit that a header names, and its usual spelling.
+struct NamedUnit {
+  double metres;
+  const char* name;
+};
+const std::map<std::string, NamedUnit>& units() {
+  static const std::map<std::string, NamedUnit> known = {
+      {"mm", {1e-3, "mm"}},      {"millimetres", {1e-3, "mm"}}, {"millimeters", {1e-3, "mm"}},
+      {"m", {1, "m"}},           {"metres", {1, "m"}},          {"meters", {1, "m"}},
+      {"inch", {25.4e-3, "in"}}, {"inches", {25.4e-3, "in"}},   {"in", {25.4e-3, "in"}}};
+  return known;
+}
+
+/// Words of a header without its punctuation.
+std::vector<std::string> words_of(const std::string& line) {
+  std::string text = lower_case(line);
+  for (char& c : text)
+    if (!(c >= 'a' && c <= 'z') && !(c >= '0' && c <= '9')) c = ' ';
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& faults) {
+  FilePoints points;
+  points.format = "columns under a header";
+  points.units = "mm (assumed)";
+  double scale = 1e-3;
+  std::size_t columns = 0, announced = 0;
+  int number = 0;
+  const std::size_t known = faults.size();
+  for (const std::string& whole : lines_of(text)) {
+    ++number;
+    const std::string line(trimmed(whole));
+    if (line.empty() || line.starts_with('#') || line.starts_with('!')) continue;
+    const std::vector<double> row = leading_numbers(line, 6);
+    if (columns == 0 && row.size() < 2) {
+      announced = row.size() == 1 && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
+      for (const std::string& word : words_of(line)) {
+        if (const auto unit = units().find(word); unit != units().end()) {
+          scale = unit->second.metres;
+          points.units = unit->second.name;
+        }
+        if (word == "left" || word == "right") points.side = word;
+        if (word == "wheel") points.wheel = true;
+        if (word == "rail") points.wheel = false;
+      }
+      continue;
+    }
+    if (columns == 0) columns = row.size();
+    if (row.size() != columns || columns > 4) {
+      faults.push_back(
+          {number, fmt::format("\"{}\": expected a row of {} numbers as the first row has, y and z",
+                               line.substr(0, 60), columns > 4 ? 2 : columns)});
+      continue;
+    }
+    points.y.push_back(row[0] * scale);
+    points.z.push_back(row[1] * scale);
+  }
+  if (faults.size() > known) return points;
+  if (announced > points.y.size())
+    faults.push_back({0, fmt::format("the header announces {} rows, the file holds {}: is it cut off?",
+                                     announced, points.y.size())});
+  if (columns == 4) points.notes.emplace_back("the first two of four columns, the left side, are taken");
+  if (columns == 3) points.notes.emplace_back("the third column is not used");
+  return points;
+}
+
+}  // namespace tread
