@@ -6,7 +6,7 @@
 
 #include "core/geometry/plane_curve.hpp"
 #include "core/geometry/profiles.hpp"
-#include "drivers/studies/profile/profile_study.hpp"
+#include "drivers/studies/profile/profile_options.hpp"
 #include "io/profiles/understood_profile.hpp"
 
 namespace tread {
