@@ -21,9 +21,8 @@ namespace {
 std::string disk_text(const Model& model, const DiskUse& disk) {
   std::string text = fmt::format("about {}", bytes_text(disk.results + disk.frames));
   if (disk.rows == 0) return text;
-  text +=
-      fmt::format(": {} rows of {} channels, {}report {}; ", grouped(disk.rows),
-                  history_channels(model).size(), model.contact ? "patch, " : "", bytes_text(disk.results));
+  text += fmt::format(": {} rows of {} channels, {}report {}; ", grouped(disk.rows), disk.channels,
+                      model.contact ? "patch, " : "", bytes_text(disk.results));
   if (disk.frames > 0)
     text += fmt::format("{} frames of {} {}; ", model.scene.output.frames, model.scene.output.frame_cells,
                         bytes_text(disk.frames));

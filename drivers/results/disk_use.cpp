@@ -29,13 +29,15 @@ DiskUse disk_use(const Model& model, double dt) {
       model.contact
           ? kPatchShare * rows * static_cast<double>(PatchFile::sample_bytes(model.contact->nodes()))
           : 0;
-  const auto measured = static_cast<double>(StepFeatures(model, 0).measurements().channels().size());
-  const double values = rows * (static_cast<double>(history_channels(model).size()) + measured);
+  const std::size_t measured = StepFeatures(model, 0).measurements().channels().size();
+  use.channels = static_cast<std::int64_t>(history_channels(model).size() + measured);
+  const double values = rows * static_cast<double>(use.channels);
   use.results += static_cast<std::int64_t>(values * (kCsvBytes + sizeof(double)) + patch);
   constexpr int kAtOnce = 3;
   const std::int64_t state =
       checkpoint_bytes(model) +
-      static_cast<std::int64_t>(rows * (sizeof(Sample) + sizeof(double) * measured) + patch);
+      static_cast<std::int64_t>(rows * (sizeof(Sample) + sizeof(double) * static_cast<double>(measured)) +
+                                patch);
   use.checkpoints = kAtOnce * state;
   if (model.scene.forks) use.forks = state;
   use.results += use.forks;

@@ -9,6 +9,7 @@ namespace tread {
 
 struct DiskUse {
   std::int64_t rows = 0;         ///< rows of the histories
+  std::int64_t channels = 0;     ///< columns of the histories
   std::int64_t results = 0;      ///< other files that stay [B]
   std::int64_t forks = 0;        ///< share of the results: a state that is kept for other runs [B]
   std::int64_t frames = 0;       ///< ParaView frames and their mesh, which stay too [B]
