@@ -428,7 +428,7 @@ const std::vector<Change>& changes() {
       {"sleepers.offset", "-50 mm", "ballasted"},
       {"sleepers.material", "steel", "ballasted", {}, {"material.hard.present=false"}},
       {"sleepers.stiffness", "60 MN/m", "ballasted"},
-      {"sleepers.damping", "60 kN s/m", "ballasted"},
+      {"sleepers.damping", "600 MN s/m", "ballasted", {"sleepers.damping=500 MN s/m"}},
       {"sleepers.hanging", "1", "ballasted"},
       {"probe.midspan.body", "axle_box", "probed"},
       {"probe.midspan.x", "0.1 m", "probed"},
