@@ -33,11 +33,11 @@ RailProfile vignole_rail(const VignoleRail& rail);
 /// 60E1 (UIC 60). Section constants within 0.05 % of the standard's. [EN 13674-1:2011]
 RailProfile rail_60e1();
 
-/// 60E2: 60E1 with a head for an inclination of 1:40. Section constants within 0.05 % of the standard's.
-/// [EN 13674-1:2011]
+/// 60E2: 60E1 with a head for an inclination of 1:40, radii not confirmed. Constants within 0.05 % of
+/// published. [EN 13674-1:2011]
 RailProfile rail_60e2();
 
-/// 49E1 (S 49). Section constants within 0.2 % of the standard's. [EN 13674-1:2011]
+/// 49E1 (S 49), foot and web fitted, dimensions not confirmed. Section constants within 0.2 % of published.
 RailProfile rail_49e1();
 
 }  // namespace tread
