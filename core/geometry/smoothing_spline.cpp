@@ -4,44 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/math/band_matrix.hpp"
+
 namespace tread {
 
 namespace {
 
 constexpr double mm = 1e-3;
-
-/// Symmetric matrix with two diagonals beside the main one.
-struct BandMatrix {
-  std::vector<double> main, first, second;
-
-  explicit BandMatrix(std::size_t size) : main(size), first(size), second(size) {}
-
-  /// Solves for `x` in place, by L D L^T.
-  void solve(std::vector<double>& x) const {
-    const std::size_t n = main.size();
-    std::vector<double> d(n), l1(n), l2(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      double diagonal = main[i], beside = first[i];
-      if (i >= 1) {
-        diagonal -= d[i - 1] * l1[i - 1] * l1[i - 1];
-        beside -= d[i - 1] * l1[i - 1] * l2[i - 1];
-      }
-      if (i >= 2) diagonal -= d[i - 2] * l2[i - 2] * l2[i - 2];
-      d[i] = diagonal;
-      l1[i] = beside / diagonal;
-      l2[i] = second[i] / diagonal;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i >= 1) x[i] -= l1[i - 1] * x[i - 1];
-      if (i >= 2) x[i] -= l2[i - 2] * x[i - 2];
-    }
-    for (std::size_t i = 0; i < n; ++i) x[i] /= d[i];
-    for (std::size_t i = n; i-- > 0;) {
-      if (i + 1 < n) x[i] -= l1[i] * x[i + 1];
-      if (i + 2 < n) x[i] -= l2[i] * x[i + 2];
-    }
-  }
-};
 
 /// Second divided differences of values at the distances `h`: Q^T v of Reinsch's paper.
 std::vector<double> bends(const std::vector<double>& h, const std::vector<double>& v) {
@@ -55,21 +24,22 @@ std::vector<double> bends(const std::vector<double>& h, const std::vector<double
 /// squared second derivative.
 std::vector<double> spline_values(const std::vector<double>& h, const std::vector<double>& v, double weight) {
   const std::size_t n = v.size(), inner = n - 2;
-  BandMatrix matrix(inner);
+  BandMatrix<double> matrix(static_cast<int>(inner), 2);
   const auto row = [&](std::size_t i) {  // entries of Q in column i
     return std::vector<double>{1 / h[i], -1 / h[i] - 1 / h[i + 1], 1 / h[i + 1]};
   };
   for (std::size_t i = 0; i < inner; ++i) {
+    const int at = static_cast<int>(i);
     const auto a = row(i);
-    matrix.main[i] = (h[i] + h[i + 1]) / 3 + weight * (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    matrix.at(at, at) = (h[i] + h[i + 1]) / 3 + weight * (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     if (i + 1 < inner) {
       const auto b = row(i + 1);
-      matrix.first[i] = h[i + 1] / 6 + weight * (a[1] * b[0] + a[2] * b[1]);
+      matrix.at(at + 1, at) = h[i + 1] / 6 + weight * (a[1] * b[0] + a[2] * b[1]);
     }
-    if (i + 2 < inner) matrix.second[i] = weight * a[2] * row(i + 2)[0];
+    if (i + 2 < inner) matrix.at(at + 2, at) = weight * a[2] * row(i + 2)[0];
   }
-  std::vector<double> curvature = bends(h, v);
-  matrix.solve(curvature);
+  matrix.factorise();
+  const std::vector<double> curvature = matrix.solve(bends(h, v));
   std::vector<double> values = v;
   for (std::size_t i = 0; i < inner; ++i) {
     const auto a = row(i);

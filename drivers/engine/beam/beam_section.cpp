@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "drivers/engine/beam/band_matrix.hpp"
+#include "core/math/band_matrix.hpp"
 
 namespace tread {
 

@@ -6,7 +6,7 @@
 #include <complex>
 #include <vector>
 
-#include "drivers/engine/beam/band_matrix.hpp"
+#include "core/math/band_matrix.hpp"
 #include "drivers/engine/beam/beam_section.hpp"
 
 namespace tread {
