@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/error.hpp"
@@ -20,6 +21,45 @@ double corner_jacobian(const Section& s, const std::array<int, 4>& quad, int cor
 }
 
 }  // namespace
+
+double QuadPlace::excess() const {
+  return std::max({-xi, xi - 1, -eta, eta - 1, 0.0});
+}
+
+std::array<double, 4> QuadPlace::weights() const {
+  return {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
+}
+
+std::optional<QuadPlace> place_in_quad(const Section& section, int quad, double p, double q) {
+  constexpr double kFar = 1.5;  // parameters so far from the middle belong to other quads
+  constexpr double kSame = 1e-12;
+  const std::array<int, 4>& nodes = section.quads[static_cast<std::size_t>(quad)];
+  QuadPlace place{0.5, 0.5};
+  for (int i = 0; i < 20; ++i) {
+    const std::array<double, 4> weight = place.weights();
+    const std::array<double, 4> by_xi = {place.eta - 1, 1 - place.eta, place.eta, -place.eta};
+    const std::array<double, 4> by_eta = {place.xi - 1, -place.xi, place.xi, 1 - place.xi};
+    double dp = p, dq = q, p_xi = 0, p_eta = 0, q_xi = 0, q_eta = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto node = static_cast<std::size_t>(nodes[k]);
+      dp -= weight[k] * section.p[node];
+      dq -= weight[k] * section.q[node];
+      p_xi += by_xi[k] * section.p[node];
+      p_eta += by_eta[k] * section.p[node];
+      q_xi += by_xi[k] * section.q[node];
+      q_eta += by_eta[k] * section.q[node];
+    }
+    const double determinant = p_xi * q_eta - p_eta * q_xi;
+    if (determinant == 0) return std::nullopt;
+    const double step_xi = (q_eta * dp - p_eta * dq) / determinant;
+    const double step_eta = (p_xi * dq - q_xi * dp) / determinant;
+    place.xi += step_xi;
+    place.eta += step_eta;
+    if (std::abs(place.xi - 0.5) > kFar || std::abs(place.eta - 0.5) > kFar) return std::nullopt;
+    if (std::abs(step_xi) + std::abs(step_eta) < kSame) break;
+  }
+  return place;
+}
 
 double quad_area(const Section& section, int quad) {
   const auto& nodes = section.quads[static_cast<std::size_t>(quad)];

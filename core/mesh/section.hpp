@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,20 @@ struct Section {
 
   int nodes() const { return static_cast<int>(p.size()); }
 };
+
+/// A point's parameters in a quad: 0 to 1 inside, xi from node 0 to 1, eta from node 0 to 3.
+struct QuadPlace {
+  double xi = 0, eta = 0;
+
+  /// Distance of the parameters from the unit square; 0 inside.
+  double excess() const;
+  /// Bilinear weights of the quad's nodes.
+  std::array<double, 4> weights() const;
+};
+
+/// Inverse of the bilinear map of a quad at (p, q) [m], by Newton's method; nothing where it does not
+/// converge.
+std::optional<QuadPlace> place_in_quad(const Section& section, int quad, double p, double q);
 
 /// Area enclosed by the quad [m2], positive if counter-clockwise.
 double quad_area(const Section& section, int quad);

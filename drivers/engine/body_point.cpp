@@ -13,50 +13,6 @@ namespace tread {
 
 namespace {
 
-struct PlanePoint {
-  double p, q;  ///< [m]
-};
-
-/// Parameters of a point in a quad, 0 to 1 inside.
-struct QuadPlace {
-  double xi, eta;
-
-  /// Distance of the parameters from the unit square.
-  double excess() const { return std::max({-xi, xi - 1, -eta, eta - 1, 0.0}); }
-};
-
-/// Inverse of the bilinear map of a quad, by Newton's method; nothing where it does not converge.
-std::optional<QuadPlace> place_in_quad(const Section& section, int quad, const PlanePoint& at) {
-  const std::array<int, 4>& nodes = section.quads[static_cast<std::size_t>(quad)];
-  std::array<double, 4> p{}, q{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    p[k] = section.p[static_cast<std::size_t>(nodes[k])];
-    q[k] = section.q[static_cast<std::size_t>(nodes[k])];
-  }
-  QuadPlace place{0.5, 0.5};
-  for (int i = 0; i < 20; ++i) {
-    const double a = place.xi;
-    const double b = place.eta;
-    const auto map = [&](const std::array<double, 4>& c) {
-      return (1 - b) * ((1 - a) * c[0] + a * c[1]) + b * ((1 - a) * c[3] + a * c[2]);
-    };
-    const auto by_xi = [&](const std::array<double, 4>& c) {
-      return (1 - b) * (c[1] - c[0]) + b * (c[2] - c[3]);
-    };
-    const auto by_eta = [&](const std::array<double, 4>& c) {
-      return (1 - a) * (c[3] - c[0]) + a * (c[2] - c[1]);
-    };
-    const double dp = at.p - map(p);
-    const double dq = at.q - map(q);
-    const double determinant = by_xi(p) * by_eta(q) - by_eta(p) * by_xi(q);
-    if (determinant == 0) return std::nullopt;
-    place.xi += (dp * by_eta(q) - dq * by_eta(p)) / determinant;
-    place.eta += (dq * by_xi(p) - dp * by_xi(q)) / determinant;
-    if (!std::isfinite(place.xi) || !std::isfinite(place.eta)) return std::nullopt;
-  }
-  return place;
-}
-
 /// A quad of one of the blocks.
 struct FoundQuad {
   int block = -1;
@@ -64,16 +20,16 @@ struct FoundQuad {
   QuadPlace place{};
 };
 
-/// The quad that holds the point; between the curved surface and a straight edge, the nearest one. Block -1
-/// where none is near.
-FoundQuad find_quad(const Mesh& mesh, const std::vector<int>& blocks, const PlanePoint& at) {
+/// The quad that holds the point (p, q) [m]; between the curved surface and a straight edge, the nearest one.
+/// Block -1 where none is near.
+FoundQuad find_quad(const Mesh& mesh, const std::vector<int>& blocks, double p, double q) {
   constexpr double kNear = 0.1;  // of a quad's edge
   FoundQuad found;
   double least = kNear;
   for (const int block : blocks) {
     const Section& section = mesh.blocks[static_cast<std::size_t>(block)].section;
     for (int quad = 0; quad < static_cast<int>(section.quads.size()); ++quad) {
-      const std::optional<QuadPlace> place = place_in_quad(section, quad, at);
+      const std::optional<QuadPlace> place = place_in_quad(section, quad, p, q);
       if (!place || place->excess() >= least) continue;
       least = place->excess();
       found = {block, quad, *place};
@@ -108,8 +64,8 @@ BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double al
   if (place.y < profile.first_p() || place.y > profile.last_p())
     throw InputError(fmt::format("{}: y = {:.4g} mm lies beyond the running surface, {:.4g} ... {:.4g} mm",
                                  what, 1e3 * place.y, 1e3 * profile.first_p(), 1e3 * profile.last_p()));
-  const PlanePoint at{place.y, profile.q_at(place.y) + inwards(top.section) * place.depth};
-  const FoundQuad found = find_quad(mesh, blocks, at);
+  const double q = profile.q_at(place.y) + inwards(top.section) * place.depth;
+  const FoundQuad found = find_quad(mesh, blocks, place.y, q);
   if (found.block < 0)
     throw InputError(fmt::format(
         "{}: {:.4g} mm below the running surface at y = {:.4g} mm there is no element of the body; state a "
@@ -120,10 +76,9 @@ BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double al
   if (cell.station < 0)
     throw InputError(fmt::format("{}: the place along the body, {:.6g}, lies beyond it, {:.6g} ... {:.6g}",
                                  what, along, block.stations.front(), block.stations.back()));
-  const double a = std::clamp(found.place.xi, 0.0, 1.0);
-  const double b = std::clamp(found.place.eta, 0.0, 1.0);
+  const QuadPlace inside{std::clamp(found.place.xi, 0.0, 1.0), std::clamp(found.place.eta, 0.0, 1.0)};
   const double c = cell.distance / cell.pitch;
-  const std::array<double, 4> corner = {(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b};
+  const std::array<double, 4> corner = inside.weights();
   BodyPoint point{found.block, found.quad, cell.station, {}, {}};
   const std::array<int, 4>& nodes = block.section.quads[static_cast<std::size_t>(found.quad)];
   for (std::size_t k = 0; k < 4; ++k) {
@@ -146,7 +101,7 @@ std::vector<QuadBelow> quads_below(const Mesh& mesh, const std::vector<int>& blo
       const double middle = middle_q(section, quad);
       const double depth = std::abs(middle - surface);
       if (depth > deepest.depth) continue;
-      const std::optional<QuadPlace> place = place_in_quad(section, quad, {deepest.y, middle});
+      const std::optional<QuadPlace> place = place_in_quad(section, quad, deepest.y, middle);
       if (place && place->excess() == 0) list.push_back({block, quad, depth});
     }
   }

@@ -198,66 +198,22 @@ TyreOnBlock slice_of(const VerifyInputs& inputs, const SliceLimits& limits) {
   return bodies;
 }
 
-namespace {
-
-std::array<double, 4> bilinear(double xi, double eta) {
-  return {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta),
-          0.25 * (1 - xi) * (1 + eta)};
-}
-
-/// Bilinear weights of (p, q) in a convex quad; nullopt outside.
-std::optional<std::array<double, 4>> weights_inside(const Section& section, const std::array<int, 4>& quad,
-                                                    double p, double q) {
-  double xi = 0;
-  double eta = 0;
-  const auto at = [&](std::size_t i) {
-    const auto node = static_cast<std::size_t>(quad[i]);
-    return std::array{section.p[node], section.q[node]};
-  };
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const std::array<double, 4> n = bilinear(xi, eta);
-    const std::array<double, 4> by_xi = {-0.25 * (1 - eta), 0.25 * (1 - eta), 0.25 * (1 + eta),
-                                         -0.25 * (1 + eta)};
-    const std::array<double, 4> by_eta = {-0.25 * (1 - xi), -0.25 * (1 + xi), 0.25 * (1 + xi),
-                                          0.25 * (1 - xi)};
-    double dp = p;
-    double dq = q;
-    double j00 = 0, j01 = 0, j10 = 0, j11 = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      dp -= n[i] * at(i)[0];
-      dq -= n[i] * at(i)[1];
-      j00 += by_xi[i] * at(i)[0];
-      j01 += by_eta[i] * at(i)[0];
-      j10 += by_xi[i] * at(i)[1];
-      j11 += by_eta[i] * at(i)[1];
-    }
-    const double determinant = j00 * j11 - j01 * j10;
-    const double step_xi = (j11 * dp - j01 * dq) / determinant;
-    const double step_eta = (j00 * dq - j10 * dp) / determinant;
-    xi += step_xi;
-    eta += step_eta;
-    if (std::abs(xi) > 3 || std::abs(eta) > 3) return std::nullopt;
-    if (std::abs(step_xi) + std::abs(step_eta) < 1e-12) break;
-  }
-  constexpr double kEdge = 1 + 1e-9;
-  if (std::abs(xi) > kEdge || std::abs(eta) > kEdge) return std::nullopt;
-  return bilinear(xi, eta);
-}
-
-}  // namespace
-
 Vec3 displacement_at(const Model& model, int index, double p, double q, double s, ConstNodeField u) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(index)];
   const auto cell = StationFinder(block).find(s);
-  for (const std::array<int, 4>& quad : block.section.quads) {
-    const auto weight = cell.station < 0 ? std::nullopt : weights_inside(block.section, quad, p, q);
-    if (!weight) continue;
+  constexpr double kEdge = 0.5e-9;
+  const int quads = cell.station < 0 ? 0 : static_cast<int>(block.section.quads.size());
+  for (int i = 0; i < quads; ++i) {
+    const std::optional<QuadPlace> place = place_in_quad(block.section, i, p, q);
+    if (!place || place->excess() > kEdge) continue;
+    const std::array<int, 4>& quad = block.section.quads[static_cast<std::size_t>(i)];
+    const std::array<double, 4> weight = place->weights();
     const double along = cell.distance / cell.pitch;
     Vec3 sum;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 4; ++k)
       for (const int station : {cell.station, cell.next}) {
-        const std::int64_t slot = block.base + block.slot(quad[i], station);
-        const double share = (*weight)[i] * (station == cell.station ? 1 - along : along);
+        const std::int64_t slot = block.base + block.slot(quad[k], station);
+        const double share = weight[k] * (station == cell.station ? 1 - along : along);
         sum += share * to_cartesian(block, station, 0, u.at(slot));
       }
     return sum;
