@@ -80,13 +80,12 @@ void Measurements::add_fastenings() {
 }
 
 void Measurements::add_depths(double patch_y, double deepest) {
-  depths_ = quads_below(model_->mesh, model_->index.rail(), {patch_y, deepest});
-  for (const SweptBlock& block : model_->mesh.blocks) finders_.emplace_back(block);
-  for (std::size_t i = 0; i < depths_.size(); ++i) {
-    add_column(fmt::format("von_mises_below_{:02}", i + 1), "Pa",
+  for (const QuadBelow& below : quads_below(model_->mesh, model_->index.rail(), {patch_y, deepest})) {
+    depths_.push_back({below, StationFinder(model_->mesh.blocks[static_cast<std::size_t>(below.block)])});
+    add_column(fmt::format("von_mises_below_{:02}", depths_.size()), "Pa",
                fmt::format("largest along the patch, in the rail {:.3f} mm below the running surface",
-                           1e3 * depths_[i].depth));
-    channels_.back().at = depths_[i].depth;
+                           1e3 * below.depth));
+    channels_.back().at = below.depth;
   }
 }
 
@@ -109,7 +108,7 @@ void Measurements::apply(StepPhase /*phase*/, StepState& step) {
   values_.clear();
   for (const Probe& probe : probes_) measure_probe(probe, step);
   if (fastenings_) measure_fastenings(step);
-  for (const QuadBelow& below : depths_) measure_depth(below, step);
+  for (const Depth& depth : depths_) measure_depth(depth, step);
 }
 
 void Measurements::measure_probe(const Probe& probe, const StepState& step) {
@@ -152,16 +151,16 @@ void Measurements::measure_fastenings(const StepState& step) {
   }
 }
 
-void Measurements::measure_depth(const QuadBelow& below, const StepState& step) {
+void Measurements::measure_depth(const Depth& depth, const StepState& step) {
+  const QuadBelow& below = depth.below;
   const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(below.block)];
-  const StationFinder& finder = finders_[static_cast<std::size_t>(below.block)];
   const double x = step.wheel.origin.x;
   const double reach = std::max(model_->contact->reach(), below.depth);
   const double first = std::max(x - reach, block.stations.front());
   const double last = std::min(x + reach, block.stations.back());
   double largest = 0;
-  const int end = last > first ? finder.find(last).station : -1;
-  for (int station = last > first ? finder.find(first).station : 0; station <= end; ++station)
+  const int end = last > first ? depth.finder.find(last).station : -1;
+  for (int station = last > first ? depth.finder.find(first).station : 0; station <= end; ++station)
     if (station + 1 < block.station_count())
       largest = std::max(largest, von_mises(stress_of(below.block, below.quad, station, step)));
   values_.push_back(largest);

@@ -46,6 +46,10 @@ class Measurements final : public Feature {
     ProbeSpec spec;
     std::optional<BodyPoint> point;  ///< absent: the axle box
   };
+  struct Depth {
+    QuadBelow below;
+    StationFinder finder;  ///< of its block
+  };
   void add_probe(const std::string& name, const ProbeSpec& spec);
   void add_fastenings();
   void add_depths(double patch_y, double deepest);
@@ -55,13 +59,12 @@ class Measurements final : public Feature {
   Vec3 axle_box(const StepState& step) const;
   void measure_probe(const Probe& probe, const StepState& step);
   void measure_fastenings(const StepState& step);
-  void measure_depth(const QuadBelow& below, const StepState& step);
+  void measure_depth(const Depth& depth, const StepState& step);
 
   const Model* model_;
   std::vector<Probe> probes_;
   bool fastenings_ = false;
-  std::vector<QuadBelow> depths_;
-  std::vector<StationFinder> finders_;  ///< by block, where there are depths
+  std::vector<Depth> depths_;
   std::vector<MeasuredChannel> channels_;
   std::vector<double> values_;
 };

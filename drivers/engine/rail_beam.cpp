@@ -89,7 +89,7 @@ double head_spread(const Scene& scene, const BeamProperties& properties) {
 }
 
 TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int more_spans) {
-  const std::vector<BeamSupport> supports = rail_supports(scene, more_spans);
+  if (!scene.rail) throw InputError("a rail beam needs [rail]");
   const RailSpec& rail = *scene.rail;
   const double more = scene.fastenings ? more_spans * scene.fastenings->spacing : 0;
   constexpr double kElement = 0.01;  // [m]
@@ -99,7 +99,7 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
   if (scene.sleepers)
     add_sleepers(scene, more_spans, beam);
   else
-    for (const BeamSupport& s : supports) beam.support(s.x, s.stiffness, s.damping);
+    for (const BeamSupport& s : rail_supports(scene, more_spans)) beam.support(s.x, s.stiffness, s.damping);
   if (!properties.has_foot()) return beam;
   for (const BeamSupport& s : rail_foot_supports(scene, more_spans))
     beam.support_foot(s.x, s.stiffness, s.damping);
