@@ -25,6 +25,24 @@ void mark_track(const Model& model, const Range& range, Figure& figure) {
   if (model.contact) mark_track(model.scene, model.contact->corrugation(), range, figure);
 }
 
+double abscissa(const Model& model, const Sample& sample) {
+  return model.contact ? sample.wheel_x : 1e3 * sample.time;
+}
+
+Range whole_way(const Model& model, const RunResults& r) {
+  return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
+}
+
+Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
+  Figure figure;
+  figure.name = std::move(name);
+  figure.title = std::move(title);
+  figure.x_label = model.contact ? "Position of the wheel [m]" : "Time [ms]";
+  figure.x_range = whole_way(model, r);
+  if (model.contact) mark_track(model, *figure.x_range, figure);
+  return figure;
+}
+
 Series running_surface(const Corrugation& corrugation, const Range& range) {
   Series series{"running surface", {}, {}, Stroke::solid};
   constexpr int kPoints = 800;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drivers/engine/model.hpp"
+#include "drivers/results/run_results.hpp"
 #include "io/report/report.hpp"
 
 namespace tread {
@@ -21,5 +22,14 @@ Series running_surface(const Corrugation& corrugation, const Range& range);
 /// The corrugation, or the solution zone of a smooth rail, as far as the way goes [m].
 Range stretch_in_sight(const Scene& scene, const Corrugation& corrugation, const Range& way);
 Range stretch_in_sight(const Model& model, const Range& way);
+
+/// Abscissa of a run's charts: the wheel's position [m], or the time in scenes without a wheel [ms].
+double abscissa(const Model& model, const Sample& sample);
+
+/// Places or times of a run, first and last.
+Range whole_way(const Model& model, const RunResults& results);
+
+/// A figure of that name over the whole way, without panels.
+Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& results);
 
 }  // namespace tread

@@ -13,15 +13,6 @@ namespace {
 
 using Value = std::function<double(const Sample&)>;
 
-/// Abscissa of the charts: the wheel's position, or the time in scenes without a wheel.
-double abscissa(const Model& model, const Sample& s) {
-  return model.contact ? s.wheel_x : 1e3 * s.time;
-}
-
-std::string abscissa_label(const Model& model) {
-  return model.contact ? "Position of the wheel [m]" : "Time [ms]";
-}
-
 Series curve(std::string label, const Model& model, const RunResults& r, const Value& value,
              Stroke stroke = Stroke::solid) {
   Series series{std::move(label), {}, {}, stroke};
@@ -30,20 +21,6 @@ Series curve(std::string label, const Model& model, const RunResults& r, const V
     series.y.push_back(value(sample));
   }
   return series;
-}
-
-Range whole_way(const Model& model, const RunResults& r) {
-  return {abscissa(model, r.samples.front()), abscissa(model, r.samples.back())};
-}
-
-Figure over_the_way(std::string name, std::string title, const Model& model, const RunResults& r) {
-  Figure figure;
-  figure.name = std::move(name);
-  figure.title = std::move(title);
-  figure.x_label = abscissa_label(model);
-  figure.x_range = whole_way(model, r);
-  if (model.contact) mark_track(model, *figure.x_range, figure);
-  return figure;
 }
 
 Layer merged(std::string label, std::vector<Layer> layers) {
@@ -89,7 +66,7 @@ Figure force_figure(const Model& model, const RunResults& r) {
   figure.name = "forces";
   figure.title =
       corrugation.smooth() ? "Contact forces over the solution zone" : "Contact forces over the corrugation";
-  figure.x_label = abscissa_label(model);
+  figure.x_label = "Position of the wheel [m]";
   figure.x_range = stretch_in_sight(model, whole_way(model, r));
   mark_track(model, *figure.x_range, figure);
   figure.panels.push_back(

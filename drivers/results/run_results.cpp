@@ -8,7 +8,6 @@
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
-#include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
 
@@ -155,6 +154,7 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
   if (r.evaluated_first > reached) r.evaluated_first = 0;
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
+  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
   r.longitudinal_force =
       statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
   const Statistics creepage =
@@ -290,24 +290,18 @@ void add_static_contact(const Model& model, const RunResults& r, Json& json) {
 
 /// Root mean squares of F_N in one-third octaves over the evaluated stretch.
 Json octaves_json(const RunResults& r) {
-  const ForceSpectrum spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
+  const ForceSpectrum& spectrum = r.spectrum;
   Json list = Json::array();
   for (std::size_t i = 0; i < spectrum.bands.size(); ++i)
     list.push_back({{"frequency_Hz", spectrum.bands[i].nominal}, {"rms_N", spectrum.rms[i]}});
   return list;
 }
 
-/// Statistics of each measured column over the evaluated stretch, or over the whole run without contact.
 Json measured_json(const Model& model, const RunResults& r) {
   Json json = Json::object();
-  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   for (std::size_t c = 0; c < r.measured.columns(); ++c) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < r.samples.size(); ++i)
-      if ((!model.contact || evaluated(r.samples[i])) && std::isfinite(r.measured.row(i)[c]))
-        values.push_back(r.measured.row(i)[c]);
     const Channel& channel = r.measured.channels()[c].channel;
-    json[channel.name] = statistics_json(statistics(values));
+    json[channel.name] = statistics_json(measured_statistics(model, r, c));
     json[channel.name]["unit"] = channel.unit;
     json[channel.name]["description"] = channel.description;
   }
@@ -339,6 +333,15 @@ void add_rolling_contact(const RunResults& r, Json& json) {
 }
 
 }  // namespace
+
+Statistics measured_statistics(const Model& model, const RunResults& r, std::size_t column) {
+  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < r.samples.size(); ++i)
+    if ((!model.contact || evaluated(r.samples[i])) && std::isfinite(r.measured.row(i)[column]))
+      values.push_back(r.measured.row(i)[column]);
+  return statistics(values);
+}
 
 std::string summary_json(const Model& model, const ResolvedScene& resolved, const RunResults& r) {
   Json json = {{"title", resolved.scene.title}, {"quality", resolved.scene.quality}};

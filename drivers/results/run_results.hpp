@@ -11,6 +11,7 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/measured_rows.hpp"
 #include "drivers/results/patch_file.hpp"
 #include "drivers/results/surface_results.hpp"
@@ -74,6 +75,7 @@ struct RunResults {
   }
 
   Statistics vertical_force;      ///< over evaluated() [N]
+  ForceSpectrum spectrum;         ///< of F_N there
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =
       0;                        ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
@@ -103,6 +105,10 @@ double creepage_of_work(const std::vector<Sample>& samples, double first, double
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
 /// 0.005 where the traction is small.
 bool traction_is_steady(const RunResults& results);
+
+/// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values
+/// that were not measured do not count.
+Statistics measured_statistics(const Model& model, const RunResults& results, std::size_t column);
 
 std::string summary_json(const Model& model, const ResolvedScene& scene, const RunResults& results);
 
