@@ -173,7 +173,8 @@ void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
     fmt::print("{}", mesh_json(model, blocks, limit));
     return;
   }
-  fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(blocks)), plain_text(quality_table(blocks)),
+  const std::vector<BlockMeasures> groups = by_group(model, blocks);
+  fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(groups)), plain_text(quality_table(groups)),
              plain_text(step_table(model, limit)), plain_text(mass_table(bodies_of(model, blocks))));
   if (model.wheelset) fmt::print("{}\n", plain_text(inertia_table(*model.wheelset)));
   fmt::print("Stable step  {:.4e} s: {}\n", limit.stable_step, limit.reason);

@@ -131,6 +131,38 @@ std::vector<BlockMeasures> measure_blocks(const Model& model) {
   return list;
 }
 
+std::vector<BlockGroup> block_groups(const Model& model) {
+  const std::vector<int>& sleepers = model.index.sleepers;
+  std::vector<BlockGroup> groups;
+  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
+    if (!sleepers.empty() && b == sleepers.front())
+      groups.push_back({fmt::format("{} half sleepers", sleepers.size()), sleepers});
+    else if (std::find(sleepers.begin(), sleepers.end(), b) == sleepers.end())
+      groups.push_back({model.mesh.blocks[static_cast<std::size_t>(b)].name, {b}});
+  }
+  return groups;
+}
+
+std::vector<BlockMeasures> by_group(const Model& model, const std::vector<BlockMeasures>& blocks) {
+  std::vector<BlockMeasures> list;
+  for (const BlockGroup& group : block_groups(model)) {
+    BlockMeasures all = blocks[static_cast<std::size_t>(group.blocks.front())];
+    all.name = group.name;
+    for (std::size_t i = 1; i < group.blocks.size(); ++i) {
+      const BlockMeasures& one = blocks[static_cast<std::size_t>(group.blocks[i])];
+      all.elements += one.elements;
+      all.nodes += one.nodes;
+      all.mass += one.mass;
+      all.swept_mass += one.swept_mass;
+      keep_smaller(all.shortest_edge, one.shortest_edge.value, one.shortest_edge.at);
+      keep_smaller(all.worst_quality, one.worst_quality.value, one.worst_quality.at);
+      if (one.longest_edge.value > all.longest_edge.value) all.longest_edge = one.longest_edge;
+    }
+    list.push_back(all);
+  }
+  return list;
+}
+
 Table count_table(const std::vector<BlockMeasures>& blocks) {
   Table table{"",
               {{"Block"},

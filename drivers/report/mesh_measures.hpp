@@ -31,6 +31,17 @@ struct BlockMeasures {
 
 std::vector<BlockMeasures> measure_blocks(const Model& model);
 
+/// Blocks that tables show as one: all sleepers; every other block by itself.
+struct BlockGroup {
+  std::string name;
+  std::vector<int> blocks;  ///< indices into Mesh::blocks
+};
+std::vector<BlockGroup> block_groups(const Model& model);
+
+/// The measures of each group: counts and masses added up, the most extreme elements; quads and stations of one
+/// of its blocks.
+std::vector<BlockMeasures> by_group(const Model& model, const std::vector<BlockMeasures>& blocks);
+
 /// (x, y, z) for a table.
 std::string place(const Vec3& at);
 

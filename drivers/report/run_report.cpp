@@ -10,6 +10,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/report/energy_tables.hpp"
 #include "drivers/report/hammer_figures.hpp"
 #include "drivers/report/measurement_figures.hpp"
 #include "drivers/report/mesh_measures.hpp"
@@ -223,41 +224,6 @@ Chapter preload_chapter(const Run& run) {
   return chapter;
 }
 
-Table body_energy_table(const Run& run) {
-  Table table{run.results.block_energy.empty() ? "Energy of deformation" : "Energy of deformation at the end",
-              {{"Body"},
-               {"One-point stress [J]", Align::right},
-               {"Hourglass [J]", Align::right},
-               {"Hourglass share", Align::right}},
-              {}};
-  for (std::size_t b = 0; b < run.model.mesh.blocks.size(); ++b) {
-    const DeformationEnergy energy =
-        run.results.block_energy.empty()
-            ? run.model.internal->energy(static_cast<int>(b), run.results.preload.displacement.data())
-            : run.results.block_energy[b];
-    const double all = energy.strain + energy.hourglass;
-    table.rows.push_back({run.model.mesh.blocks[b].name, readable(energy.strain), readable(energy.hourglass),
-                          all > 0 ? fmt::format("{:.2f} %", 100 * energy.hourglass / all) : "–"});
-  }
-  return table;
-}
-
-Table momentum_table(const MomentumCheck& momentum, double error) {
-  Table table{
-      fmt::format("Momentum of wheelset, unsprung and sprung mass: error {} %", readable(100 * error, 2)),
-      {{"Direction"},
-       {"Impulse of all forces [N s]", Align::right},
-       {"Change of momentum [N s]", Align::right},
-       {"Impulse of the contact [N s]", Align::right}},
-      {}};
-  const auto row = [&](const char* name, double impulse, double change, double contact) {
-    table.rows.push_back({name, readable(impulse), readable(change), readable(contact)});
-  };
-  row("along the rail", momentum.impulse.x, momentum.change.x, momentum.contact_impulse.x);
-  row("vertical", momentum.impulse.z, momentum.change.z, momentum.contact_impulse.z);
-  return table;
-}
-
 Chapter energy_chapter(const Run& run) {
   Chapter chapter{"Energy", {}};
   const RunResults& r = run.results;
@@ -269,13 +235,13 @@ Chapter energy_chapter(const Run& run) {
                          readable(100 * r.energy_error, 2))});
     if (run.model.contact) chapter.blocks.emplace_back(momentum_table(r.momentum, r.momentum_error));
   }
-  chapter.blocks.emplace_back(body_energy_table(run));
+  chapter.blocks.emplace_back(body_energy_table(run.model, r));
   return chapter;
 }
 
 Chapter model_chapter(const Run& run) {
   Chapter chapter{"Mesh", {}};
-  const std::vector<BlockMeasures> blocks = measure_blocks(run.model);
+  const std::vector<BlockMeasures> blocks = by_group(run.model, measure_blocks(run.model));
   chapter.blocks.emplace_back(section_drawings(run.model));
   chapter.blocks.emplace_back(side_drawings(run.model));
   Table counts = count_table(blocks);

@@ -36,7 +36,7 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   std::string text = fmt::format("{}: {}\n", resolved.name,
                                  warnings.empty() ? "no problems found" : "no errors, but warnings");
   for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
-  text += fmt::format("\n{}\n", plain_text(count_table(measure_blocks(model))));
+  text += fmt::format("\n{}\n", plain_text(count_table(by_group(model, measure_blocks(model)))));
   const auto line = [&](const char* name, const std::string& value) {
     text += fmt::format("{:<10}{}\n", name, value);
   };
