@@ -22,6 +22,7 @@ std::vector<VerifyInput> track_inputs() {
       {"sleepers", nullptr, "", 0, {0, 1}, "1: the fastenings stand on sleepers, 0: on rigid ground"},
       {"bed_stiffness", &kStiffness, "MN/m", 50e6, {1e6, 1e12}, "the bed's stiffness under a half sleeper"},
       {"bed_damping", &kViscousDamping, "kN s/m", 50e3, {0, 1e9}, "the bed's damping under a half sleeper"},
+      {"sleeper_modulus", &kStress, "GPa", 35e9, {1e9, 1e14}, "Young's modulus of the sleepers"},
       {"held", nullptr, "", 1, {0, 1}, "1: the foot is held along x, 0: it moves freely"},
       {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"}};
 }
@@ -30,14 +31,14 @@ std::string track_text(const VerifyInputs& inputs, double element_size) {
   std::string sleepers;
   if (inputs["sleepers"] > 0)
     sleepers = fmt::format(R"([material.concrete]
-youngs_modulus = "35 GPa"
+youngs_modulus = "{} Pa"
 poissons_ratio = 0.2
 density = "2400 kg/m3"
 [sleepers]
 stiffness = "{} N/m"
 damping = "{} N s/m"
 )",
-                           inputs["bed_stiffness"], inputs["bed_damping"]);
+                           inputs["sleeper_modulus"], inputs["bed_stiffness"], inputs["bed_damping"]);
   return fmt::format(
       R"([scene]
 based_on = "highspeed-slab-2014"

@@ -8,7 +8,7 @@
 
 namespace tread {
 
-/// What the user states beside the file.
+/// Statements of the user beside the file.
 struct ProfileWish {
   bool wheel = false;
   bool mirrored = false;  ///< a rail's y counts to the gauge side

@@ -18,6 +18,16 @@ std::string Condition::alternatives() const {
   return text;
 }
 
+void TableNames::add(std::string_view table) {
+  if (table.starts_with(kMaterialTables)) materials.emplace_back(table.substr(kMaterialTables.size()));
+  if (table.starts_with(kProbeTables)) probes.emplace_back(table.substr(kProbeTables.size()));
+}
+
+std::string Condition::why_idle() const {
+  return needs_table() ? fmt::format("has no effect without [{}]", key)
+                       : fmt::format("has an effect only with {} = {}", key, alternatives());
+}
+
 std::optional<double> number_at(const Field& field) {
   if (const auto* value = std::get_if<double*>(&field)) return **value;
   if (const auto* value = std::get_if<int*>(&field)) return **value;

@@ -56,6 +56,8 @@ struct Condition {
   bool needs_table() const { return values.empty() && !names_file; }
   /// The values, "\"sine\" or \"random\"", or "a file".
   std::string alternatives() const;
+  /// "has no effect without [motion]": of a key where the condition does not hold.
+  std::string why_idle() const;
 };
 
 struct Key {
@@ -95,6 +97,9 @@ inline constexpr std::string_view kProbeTables = "probe.";
 struct TableNames {
   std::vector<std::string> materials;
   std::vector<std::string> probes;
+
+  /// Adds the name in the path of a material's or probe's table; nothing for other tables.
+  void add(std::string_view table);
 };
 
 /// The number that the field holds; nothing where it is not a number or not set.

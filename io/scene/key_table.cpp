@@ -118,7 +118,7 @@ SceneTable probe_table(const std::string& name) {
       .name = std::string(kProbeTables) + name,
       .description =
           "A point of a body whose motion or stress the histories hold, in columns that begin with the "
-          "probe's name. Accelerations are means over the interval between two samples, without aliasing. "
+          "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.\n"
           "The name consists of letters, digits, _ and -.",
       .create = [name](Scene& scene) { scene.probes[name] = {}; },
       .remove = [name](Scene& scene) { scene.probes.erase(name); },
@@ -139,11 +139,10 @@ std::vector<SceneTable> make_tables(const TableNames& names) {
                 "ground "
                 "where there is neither."),
       component("slab", &Scene::slab_track, "Slabs with filled gaps on mortar, moving vertically."),
-      component(
-          "sleepers", &Scene::sleepers,
-          "Elastic sleepers under the fastenings, on ballast or another bed of spring-dampers; half of each "
-          "lies on this side of the track's middle, which is a plane of symmetry. They bend in the plane "
-          "across the track. Not together with [slab]."),
+      component("sleepers", &Scene::sleepers,
+                "Elastic sleepers under the fastenings, on ballast or another bed of spring-dampers.\n"
+                "Half of each lies on this side of the track's middle, which is a plane of symmetry.\n"
+                "They bend in the plane across the track.\nNot together with [slab]."),
       component("vehicle", &Scene::vehicle, "Masses and primary suspension on the wheelset."),
       component("load", &Scene::load, "A force on the wheel in place of a vehicle."),
       component("contact", &Scene::contact, "Contact and friction between wheel and rail."),

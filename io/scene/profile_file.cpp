@@ -64,6 +64,14 @@ UnderstoodProfile read(const std::string& text, const std::filesystem::path& pat
 
 }  // namespace
 
+ProfileWish wish_of(const WheelSpec& wheel) {
+  return {true, false, wheel.profile_shift, wheel.profile_smoothing};
+}
+
+ProfileWish wish_of(const RailSpec& rail) {
+  return {false, rail.profile_mirrored, rail.profile_shift, rail.profile_smoothing};
+}
+
 UnderstoodProfile profile_of(const std::string& text, const std::filesystem::path& path,
                              const ProfileWish& wish, ColumnAxes axes, std::vector<Problem>& problems) {
   try {

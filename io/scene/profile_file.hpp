@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene.hpp"
 #include "io/profiles/understood_profile.hpp"
 #include "io/scene/problems.hpp"
 
@@ -18,5 +19,9 @@ enum class ColumnAxes { as_documented, any };
 /// InputError that names the file for points that are no wheel or rail.
 UnderstoodProfile profile_of(const std::string& text, const std::filesystem::path& path,
                              const ProfileWish& wish, ColumnAxes axes, std::vector<Problem>& problems);
+
+/// Wishes that a scene states for the file of its wheel or rail.
+ProfileWish wish_of(const WheelSpec& wheel);
+ProfileWish wish_of(const RailSpec& rail);
 
 }  // namespace tread

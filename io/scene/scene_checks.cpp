@@ -37,7 +37,9 @@ class Checker {
       require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
               "the pulse is longer than the bar");
     }
-    if (scene_.rail && scene_.hammer) check_hammer(*scene_.rail, *scene_.hammer);
+    if (scene_.rail && scene_.hammer)
+      check_on_rail(*scene_.rail, scene_.hammer->position, {"hammer.position", "rail.length", "rail.origin"},
+                    "the struck point");
     for (const auto& [name, probe] : scene_.probes) check_probe(std::string(kProbeTables) + name, probe);
     return std::move(problems_);
   }
@@ -287,11 +289,6 @@ class Checker {
          scene_.contact->friction_law == "table" ? "contact.friction_file" : "contact.friction"},
         fmt::format("a traction coefficient of {:g} cannot be reached with the coefficient of friction {:g}",
                     *motion.traction_mu, largest));
-  }
-
-  void check_hammer(const RailSpec& rail, const HammerSpec& hammer) {
-    check_on_rail(rail, hammer.position, {"hammer.position", "rail.length", "rail.origin"},
-                  "the struck point");
   }
 
   void check_on_rail(const RailSpec& rail, double x, std::vector<std::string> keys, const char* point) {

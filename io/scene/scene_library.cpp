@@ -106,33 +106,33 @@ LibraryEntry highspeed_slab_2014_calibrated() {
 
 LibraryEntry ballasted_cn60() {
   constexpr std::string_view kTrack = "Table 1 of the paper named above";
-  return {
-      "ballasted-cn60",
-      "highspeed-slab-2014",
-      "A ballasted track with CN60 rails and concrete sleepers of 2.6 m. Track values: Study on Transmission "
-      "Characteristics of Vertical Rail Vibrations in Ballast Track, Mathematical Problems in Engineering "
-      "2017, "
-      "5872419. Its loss factors became the dashpots that lose as much at the frequency named.",
-      {
-          {"slab.present", "false", "ballasted"},
-          {"material.concrete.youngs_modulus", "35 GPa", "concrete of the class C50/60"},
-          {"material.concrete.poissons_ratio", "0.2", "concrete"},
-          {"material.concrete.density", "2400 kg/m3", "concrete"},
-          {"rail.origin", "6.15 m", "between two sleepers"},
-          {"fastenings.count", "28", "as many as the rail takes"},
-          {"fastenings.spacing", "0.55 m", kTrack},
-          {"fastenings.first", "0.1 m", kChosen},
-          {"fastenings.stiffness", "225 MN/m", kTrack},
-          {"fastenings.damping", "9 kN s/m", "Table 1, loss factor 0.25, at 1 kHz"},
-          {"sleepers.width", "0.275 m", kTrack},
-          {"sleepers.length", "1.3 m", "half of a sleeper of 2.6 m"},
-          {"sleepers.height", "0.198 m", "Table 1, 170 kg by half sleeper"},
-          {"sleepers.offset", "-0.1025 m", "rails 1505 mm apart"},
-          {"sleepers.stiffness", "20 MN/m", kTrack},
-          {"sleepers.damping", "32 kN s/m", "Table 1, loss factor 1, at 100 Hz"},
-          {"motion.speed", "140 km/h", kChosen},
-          {"motion.duration", "80 ms", "past the solution zone"},
-      }};
+  return {"ballasted-cn60",
+          "highspeed-slab-2014",
+          "A ballasted track with CN60 rails and concrete sleepers of 2.6 m.\nTrack values: Study on "
+          "Transmission "
+          "Characteristics of Vertical Rail Vibrations in Ballast Track, Mathematical Problems in "
+          "Engineering 2017, "
+          "5872419.\nIts loss factors became the dashpots that lose as much at the frequency named.",
+          {
+              {"slab.present", "false", "ballasted"},
+              {"material.concrete.youngs_modulus", "35 GPa", "concrete of the class C50/60"},
+              {"material.concrete.poissons_ratio", "0.2", "concrete"},
+              {"material.concrete.density", "2400 kg/m3", "concrete"},
+              {"rail.origin", "6.15 m", "between two sleepers"},
+              {"fastenings.count", "28", "as many as the rail takes"},
+              {"fastenings.spacing", "0.55 m", kTrack},
+              {"fastenings.first", "0.1 m", kChosen},
+              {"fastenings.stiffness", "225 MN/m", kTrack},
+              {"fastenings.damping", "9 kN s/m", "Table 1, loss factor 0.25, at 1 kHz"},
+              {"sleepers.width", "0.275 m", kTrack},
+              {"sleepers.length", "1.3 m", "half of a sleeper of 2.6 m"},
+              {"sleepers.height", "0.198 m", "Table 1, 170 kg by half sleeper"},
+              {"sleepers.offset", "-0.1025 m", "rails 1505 mm apart"},
+              {"sleepers.stiffness", "20 MN/m", kTrack},
+              {"sleepers.damping", "32 kN s/m", "Table 1, loss factor 1, at 100 Hz"},
+              {"motion.speed", "140 km/h", kChosen},
+              {"motion.duration", "80 ms", "past the solution zone"},
+          }};
 }
 
 }  // namespace
@@ -141,6 +141,13 @@ const std::vector<LibraryEntry>& scene_library() {
   static const std::vector<LibraryEntry> library{highspeed_slab_2014(), highspeed_slab_2014_calibrated(),
                                                  ballasted_cn60()};
   return library;
+}
+
+std::string library_names() {
+  std::string names;
+  for (const LibraryEntry& entry : scene_library())
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  return names;
 }
 
 const LibraryEntry* find_library_entry(std::string_view name) {

@@ -1,6 +1,7 @@
 #pragma once
 // Scenes that `based_on` can name.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct LibraryEntry {
 };
 
 const std::vector<LibraryEntry>& scene_library();
+
+/// Names of all entries, "highspeed-slab-2014, ...".
+std::string library_names();
 
 /// Entry of that name, or nullptr.
 const LibraryEntry* find_library_entry(std::string_view name);

@@ -84,8 +84,7 @@ class SceneBuilder {
   }
 
   void read_file() {
-    const Place whole{source_.name, 0, 0};
-    const Origin origin{Level::file, whole, source_.name};
+    const Origin origin{Level::file, whole_file(), source_.name};
     add_children(parse_toml(source_.text, source_.name), "", origin);
   }
 
@@ -109,10 +108,8 @@ class SceneBuilder {
     const LibraryEntry* entry = name ? find_library_entry(name->get()) : nullptr;
     if (!entry) {
       tables_unclear_ = true;
-      std::vector<std::string> names;
-      for (const LibraryEntry& known : scene_library()) names.emplace_back(known.name);
       report(found->second.origin.place, "scene.based_on",
-             fmt::format("expected the name of a library entry ({}), got {}", fmt::join(names, ", "),
+             fmt::format("expected the name of a library entry ({}), got {}", library_names(),
                          describe_node(*found->second.node)));
       return;
     }
@@ -123,7 +120,7 @@ class SceneBuilder {
   void add_library_entry(const LibraryEntry& entry) {
     if (const LibraryEntry* base = find_library_entry(entry.base)) add_library_entry(*base);
     for (const LibraryValue& value : entry.values) {
-      const Place whole{source_.name, 0, 0};
+      const Place whole = whole_file();
       const Origin origin{Level::library, whole, fmt::format("{}: {}", entry.name, value.source)};
       set_plain(std::string(value.path), std::string(value.value), origin);
     }
@@ -195,10 +192,7 @@ class SceneBuilder {
 
   TableNames mentioned_names() const {
     TableNames names;
-    for (const auto& [table, origin] : mentioned_) {
-      if (table.starts_with(kMaterialTables)) names.materials.push_back(table.substr(kMaterialTables.size()));
-      if (table.starts_with(kProbeTables)) names.probes.push_back(table.substr(kProbeTables.size()));
-    }
+    for (const auto& [table, origin] : mentioned_) names.add(table);
     return names;
   }
 
@@ -261,10 +255,7 @@ class SceneBuilder {
     if (!applies(key, scene_)) {
       const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table());
       if (setting.origin.level == Level::library || unclear) return;
-      report(setting.origin.place, key.path,
-             key.only_with.needs_table() ? fmt::format("has no effect without [{}]", key.only_with.key)
-                                         : fmt::format("has an effect only with {} = {}", key.only_with.key,
-                                                       key.only_with.alternatives()));
+      report(setting.origin.place, key.path, key.only_with.why_idle());
       return;
     }
     try {
@@ -275,46 +266,35 @@ class SceneBuilder {
   }
 
   void read_named_files() {
-    const auto keep = [](TwoColumns columns, std::vector<double>& first, std::vector<double>& second) {
-      first = std::move(columns.first);
-      second = std::move(columns.second);
-    };
     if (scene_.contact && scene_.contact->friction_law == "table")
-      keep(read_columns("contact.friction_file",
-                        {.needs_units = true, .increasing = true, .pure_second = true}),
-           scene_.contact->friction_x, scene_.contact->friction_at_x);
+      read_columns("contact.friction_file", {.needs_units = true, .increasing = true, .pure_second = true},
+                   scene_.contact->friction_x, scene_.contact->friction_at_x);
     if (scene_.corrugation && scene_.corrugation->kind == "table")
-      keep(read_columns("corrugation.file", {.needs_units = true, .increasing = true}),
-           scene_.corrugation->table_x, scene_.corrugation->table_depth);
-    if (scene_.wheel)
-      read_profile("wheel.profile",
-                   {true, false, scene_.wheel->profile_shift, scene_.wheel->profile_smoothing},
-                   *scene_.wheel);
-    if (scene_.rail)
-      read_profile(
-          "rail.profile",
-          {false, scene_.rail->profile_mirrored, scene_.rail->profile_shift, scene_.rail->profile_smoothing},
-          *scene_.rail);
+      read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
+                   scene_.corrugation->table_depth);
+    if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
+    if (scene_.rail) read_profile("rail.profile", *scene_.rail);
   }
 
   /// The profile that the key names, if it names a file.
   template <class Part>
-  void read_profile(const std::string& path, const ProfileWish& wish, Part& part) {
+  void read_profile(const std::string& path, Part& part) {
     read_file_of(path, [&](const std::string& text, const std::string& name) {
-      UnderstoodProfile profile = profile_of(text, name, wish, ColumnAxes::as_documented, problems_);
+      UnderstoodProfile profile = profile_of(text, name, wish_of(part), ColumnAxes::as_documented, problems_);
       part.profile_reading = reading_of(profile);
       part.profile_y = std::move(profile.y);
       part.profile_z = std::move(profile.z);
     });
   }
 
-  /// The columns of the file that the key names; empty where it names none.
-  TwoColumns read_columns(const std::string& path, const TableRules& rules) {
-    TwoColumns columns;
+  /// Reads the columns of the file that the key names, if it names one.
+  void read_columns(const std::string& path, const TableRules& rules, std::vector<double>& first,
+                    std::vector<double>& second) {
     read_file_of(path, [&](const std::string& text, const std::string& name) {
-      columns = parse_two_columns(text, name, rules, problems_);
+      TwoColumns columns = parse_two_columns(text, name, rules, problems_);
+      first = std::move(columns.first);
+      second = std::move(columns.second);
     });
-    return columns;
   }
 
   /// Calls `read` with text and name of the file that the key names; what it reports is a problem of the key.
@@ -348,11 +328,12 @@ class SceneBuilder {
     }
   }
 
+  Place whole_file() const { return {source_.name, 0, 0}; }
   Place place_of(const std::string& path) const {
     const auto setting = settings_.find(path);
     if (setting != settings_.end()) return setting->second.origin.place;
     const auto table = mentioned_.find(path);
-    return table != mentioned_.end() ? table->second.place : Place{source_.name, 0, 0};
+    return table != mentioned_.end() ? table->second.place : whole_file();
   }
 
   /// The key that the user can change: the first one that stands in the file or an override.

@@ -12,9 +12,13 @@
 #include "core/geometry/touching.hpp"
 #include "core/mesh/rail_section.hpp"
 #include "core/mesh/wheel_section.hpp"
+#include "tests/section_quality.hpp"
 
 namespace tread {
 namespace {
+
+using samples::smallest_square;
+using samples::worst_quality;
 
 constexpr double mm = 1e-3;
 
@@ -83,29 +87,6 @@ TEST(S1002, PassesThroughThePlacesOfTheStandard) {
   EXPECT_NEAR(z_at(curve, -26), 2.742, 5e-3);
   EXPECT_LT(largest_kink(curve), 1e-5);  // the equations' ten digits
   EXPECT_THROW(built_in_wheel("S1003"), std::invalid_argument);
-}
-
-double worst_quality(const Section& section) {
-  double worst = 1;
-  for (int quad = 0; quad < static_cast<int>(section.quads.size()); ++quad)
-    worst = std::min(worst, quad_quality(section, quad));
-  return worst;
-}
-
-/// Side of the smallest square with the stable step of a quad [m].
-double smallest_square(const Section& section) {
-  double smallest = 1;
-  for (const auto& quad : section.quads) {
-    Point2 x[4];
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto n = static_cast<std::size_t>(quad[c]);
-      x[c] = {section.p[n], section.q[n]};
-    }
-    const double a = 0.5 * (norm(x[1] - x[0]) + norm(x[2] - x[3]));
-    const double b = 0.5 * (norm(x[2] - x[1]) + norm(x[3] - x[0]));
-    smallest = std::min(smallest, std::sqrt(2 / (1 / (a * a) + 1 / (b * b))));
-  }
-  return smallest;
 }
 
 SectionSize size_of(double surface, double coarse, double centre) {

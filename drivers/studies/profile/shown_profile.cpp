@@ -36,7 +36,7 @@ double length(const char* option, const std::string& text) {
   }
 }
 
-/// What a file holds: by the options, its suffix or its own words.
+/// Kind of a file: by the options, its suffix or its own words.
 bool is_wheel(const std::string& name, std::optional<bool> wanted) {
   if (wanted) return *wanted;
   const std::string suffix = lower_case(std::filesystem::path(name).extension().string());
