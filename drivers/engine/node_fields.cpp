@@ -1,163 +1,26 @@
 #include "drivers/engine/node_fields.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <type_traits>
-
-#include "core/parallel/chunks.hpp"
-#include "kernels/material/branch_lag.hpp"
-#include "kernels/material/laws.hpp"
+#include "drivers/engine/device_fields.hpp"
+#include "drivers/engine/precise_fields.hpp"
 
 namespace tread {
 
 namespace {
 
-/// The model's operator and inverse masses, in double.
-class SharedParts {
- public:
-  explicit SharedParts(const Model& model) : model_(&model) {}
-  const InternalForce& internal() const { return *model_->internal; }
-  const double* inverse_mass() const { return model_->inverse_mass.data(); }
-
- private:
-  const Model* model_;
-};
-
-/// Copies of them in single precision.
-template <class U>
-class RoundedParts {
- public:
-  explicit RoundedParts(const Model& model)
-      : internal_(model.mesh), inverse_mass_(model.inverse_mass.begin(), model.inverse_mass.end()) {
-    for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
-      internal_.set_beta(b, model.internal->beta(b));
-      internal_.set_branch(b, model.internal->branch(b));
-      internal_.set_finite_rotation(b, model.internal->finite_rotation(b));
-    }
-  }
-  const BasicInternalForce<float, U>& internal() const { return internal_; }
-  const float* inverse_mass() const { return inverse_mass_.data(); }
-
- private:
-  BasicInternalForce<float, U> internal_;
-  AlignedVector<float> inverse_mass_;
-};
-
 template <class Real, class U>
-class PreciseFields final : public NodeFields {
- public:
-  explicit PreciseFields(const Model& model)
-      : mesh_(&model.mesh),
-        parts_(model),
-        update_(model.mesh, parts_.inverse_mass()),
-        u_(static_cast<std::size_t>(3 * model.mesh.slots), 0),
-        v_(u_.size(), 0),
-        f_(u_.size(), 0) {
-    displacement_ = u_.data();
-    velocity_ = v_.data();
-    force_ = f_.data();
-    if (model.has_branches()) {
-      q_.emplace(model.mesh, model.branches);
-      lag_ = q_->data();
-    }
-    if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
-    update_.defer(model.loaded_slots());
-  }
-
-  void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
-    std::copy(displacement.begin(), displacement.end(), u_.begin());
-    std::copy(velocity.begin(), velocity.end(), v_.begin());
-  }
-
-  void internal_force() override { parts_.internal().internal_force(force_fields()); }
-  void internal_force_and_move(const StepLoads& loads) override {
-    parts_.internal().move(update_, loads, force_fields());
-  }
-  void move_all(const StepLoads& loads) override {
-    update_.move_all(loads, {u_.data(), v_.data(), f_.data()});
-  }
-  void move_rest(const StepLoads& loads) override {
-    update_.move_rest(loads, {u_.data(), v_.data(), f_.data()}, parts_.internal().unmoved_tiles());
-  }
-
-  void advance_lag(double dt) override {
-    if (q_) q_->advance(v_.data(), dt);
-  }
-
-  DeformationEnergy energy(int block) const override {
-    return parts_.internal().energy(block, u_.data(), state());
-  }
-
-  ElementEnergy element_energy() const override {
-    ElementEnergy sum;
-    for (int b = 0; b < static_cast<int>(mesh_->blocks.size()); ++b) {
-      const ElementEnergy part = element_energy(b);
-      sum.stored += part.stored;
-      sum.dissipated += part.dissipated;
-    }
-    return sum;
-  }
-
-  BranchEnergy branch_energy() const override {
-    BranchEnergy sum;
-    for (int b = 0; q_ && b < static_cast<int>(mesh_->blocks.size()); ++b) {
-      const std::optional<MaxwellBranch>& branch = q_->branch(b);
-      if (!branch) continue;
-      const double stored = branch->strength * parts_.internal().linear_energy(b, q_->data());
-      sum.stored += stored;
-      sum.power += 2 * stored / branch->time;
-    }
-    return sum;
-  }
-
-  bool finite() const override {
-    const auto all = [](const auto& field) {
-      return std::all_of(field.begin(), field.end(), [](auto value) { return std::isfinite(value); });
-    };
-    return all(u_) && all(v_);
-  }
-
-  void list_state(StateList& list) override {
-    list.add("displacement", std::span(u_));
-    list.add("velocity", std::span(v_));
-    if (q_) list.add("lag", std::span(q_->values()));
-    if (state_) list.add_part("law_state", *state_);
-  }
-
- private:
-  const Real* lag() const { return q_ ? q_->data() : nullptr; }
-  const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
-  ForceFields<Real, U> force_fields() {
-    return {u_.data(), v_.data(), f_.data(), lag(), state_ ? &*state_ : nullptr};
-  }
-  ElementEnergy element_energy(int b) const {
-    if constexpr (std::is_same_v<Real, double>) {
-      // In the linear blocks u . K u / 2; the force still holds K (u + beta v) alone.
-      const SweptBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
-      if (block.sweep == Sweep::extruded && !(q_ && q_->branch(b)) && is_linear(parts_.internal().law(b)))
-        return {0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base), 0};
-    }
-    const DeformationEnergy part = energy(b);
-    return {part.strain + part.hourglass, part.dissipated};
-  }
-
-  const Mesh* mesh_;
-  std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
-  BasicTimeUpdate<Real, U> update_;
-  AlignedVector<U> u_;
-  AlignedVector<Real> v_, f_;
-  std::optional<BranchLag<Real>> q_;
-  std::optional<LawState<Real>> state_;
-};
+std::unique_ptr<NodeFields> fields_of(const Model& model) {
+  if (std::shared_ptr<Device> device = chosen_device())
+    return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
+  return std::make_unique<PreciseFields<Real, U>>(model);
+}
 
 }  // namespace
 
 std::unique_ptr<NodeFields> make_node_fields(const Model& model) {
   const std::string& precision = model.scene.precision;
-  if (precision == "single") return std::make_unique<PreciseFields<float, float>>(model);
-  if (precision == "mixed") return std::make_unique<PreciseFields<float, double>>(model);
-  return std::make_unique<PreciseFields<double, double>>(model);
+  if (precision == "single") return fields_of<float, float>(model);
+  if (precision == "mixed") return fields_of<float, double>(model);
+  return fields_of<double, double>(model);
 }
 
 ValueBytes value_bytes(const Scene& scene) {

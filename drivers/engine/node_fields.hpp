@@ -45,6 +45,12 @@ class NodeFields {
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
 
+  /// Brings all values to the views, where they live on a device: between phases of a step the views hold
+  /// those of nodes on which features act, and in measured steps all.
+  virtual void fetch() {}
+  /// Takes over all values from the views, after fetch(): what they were elsewhere is no more.
+  virtual void changed() {}
+
   /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step.
   virtual void internal_force() = 0;
   /// The same in place of internal_force(), and nodes on which nothing else acts move.

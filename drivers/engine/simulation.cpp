@@ -120,7 +120,8 @@ void Simulation::advance_time() {
 
 void Simulation::stop() const {
   const EnergyWatch& watch = energy_watch();
-  throw NumericalError(energy_stop_text(*model_, {time_, steps_, dt_, watch.missed(), watch.supplied(), v_}));
+  throw NumericalError(
+      energy_stop_text(*model_, {time_, steps_, dt_, watch.missed(), watch.supplied(), velocity()}));
 }
 
 void Simulation::stop_if_unstable() const {
@@ -146,7 +147,7 @@ const RailLine* Simulation::rail_line() const {
 
 std::uint64_t Simulation::state_hash() const {
   Hash hash;
-  for (const ConstNodeField field : {ConstNodeField(u_), ConstNodeField(v_), fields_->lag()})
+  for (const ConstNodeField field : {displacement(), velocity(), fields().lag()})
     for (std::int64_t i = 0; field && i < 3 * model_->mesh.slots; ++i) hash.add(field[i]);
   const SprungMass sprung = features_.vehicle() ? features_.vehicle()->sprung_mass() : SprungMass{};
   for (const double value : {frame_.origin.x, frame_.origin.y, frame_.origin.z, frame_.angle, frame_.spin,

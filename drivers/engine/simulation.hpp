@@ -44,7 +44,7 @@ class Simulation final : private RunEnd {
   const Measurements& measurements() const { return features_.measurements(); }
 
   /// Returns true if all displacements and velocities are finite.
-  bool finite() const { return fields_->finite(); }
+  bool finite() const { return fetched().finite(); }
   /// The watch at the last sample.
   const EnergyWatch& energy_watch() const { return features_.sampling().energy_watch(); }
 
@@ -53,9 +53,9 @@ class Simulation final : private RunEnd {
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
-  const NodeFields& fields() const { return *fields_; }
-  ConstNodeField displacement() const { return u_; }
-  ConstNodeField velocity() const { return v_; }
+  const NodeFields& fields() const { return fetched(); }
+  ConstNodeField displacement() const { return fetched().displacement(); }
+  ConstNodeField velocity() const { return fetched().velocity(); }
   const BodyFrame& wheel() const { return frame_; }
   /// Motion of the wheel relative to its frame: of a guided bore, or else in the mean; zero without a wheel.
   MeanMotion wheel_motion() const;
@@ -70,7 +70,12 @@ class Simulation final : private RunEnd {
   StepState begin_step();
   void apply(StepPhase phase, StepState& step);
   void advance_time();
-  Motion motion() const { return {u_, v_, frame_, dt_}; }
+  /// The fields with all values at hand, wherever they live.
+  const NodeFields& fetched() const {
+    fields_->fetch();
+    return *fields_;
+  }
+  Motion motion() const { return {displacement(), velocity(), frame_, dt_}; }
   [[noreturn]] void stop() const override;
   void stop_if_unstable() const override;
 

@@ -43,6 +43,15 @@ class BlockElements {
     AlignedVector<std::byte> laws;  ///< ElementLaw by place; empty for a linear law
   };
 
+  /// Moved nodes and the elements at them; rows belong to the tiles that have any. `perturbed` is empty where
+  /// none has.
+  struct MovedNodes {
+    const std::vector<int>& row;                  ///< by tile, or -1
+    const std::vector<unsigned char>& perturbed;  ///< [row][place]
+    const std::vector<int>& shifted;              ///< [row][section node]: index into `shifts`, or -1
+    const AlignedVector<LaneShifts<Real>>& shifts;
+  };
+
   /// Keeps a reference to the mesh. InputError lists the elements that their shape, or the shift of their
   /// nodes, turns inside out.
   BlockElements(const Mesh& mesh, int block);
@@ -52,6 +61,8 @@ class BlockElements {
   const Class& elements(const ElementPlace& at) const {
     return classes_[static_cast<std::size_t>(at.pitch_class)];
   }
+  const std::vector<Class>& classes() const { return classes_; }
+  MovedNodes moved_nodes() const { return {row_, perturbed_, shifted_, shifts_}; }
   /// Number of the law in Laws.
   int law() const { return law_; }
   /// Tile whose last element ends in this tile, or -1.

@@ -55,6 +55,12 @@ class BasicInternalForce {
   void set_finite_rotation(int block, bool on) {
     blocks_[static_cast<std::size_t>(block)].finite_rotation = on;
   }
+  const BlockElements<Real>& elements(int block) const {
+    return blocks_[static_cast<std::size_t>(block)].elements;
+  }
+  /// Factor of the lag of a block's branch [-], or else of the velocity [s].
+  double damping(int block) const { return blocks_[static_cast<std::size_t>(block)].damping(); }
+
   /// Number of the block's law in Laws.
   int law(int block) const { return blocks_[static_cast<std::size_t>(block)].elements.law(); }
   bool finite_rotation(int block) const { return blocks_[static_cast<std::size_t>(block)].finite_rotation; }
@@ -167,9 +173,6 @@ class BasicInternalForce {
     LawState<Real>* laws = nullptr;
   };
 
-  const BlockElements<Real>& elements(int block) const {
-    return blocks_[static_cast<std::size_t>(block)].elements;
-  }
   template <class Value>
   DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation,
                                const LawState<Real>* laws) const;

@@ -18,6 +18,29 @@ std::size_t index(std::int64_t i) {
 
 }  // namespace
 
+template <class Real>
+StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads) {
+  StepConstants<Real> step;
+  step.dt = static_cast<Real>(loads.dt);
+  if (block.sweep == Sweep::extruded) {
+    step.gravity = static_cast<Real>(loads.gravity);
+    return step;
+  }
+  const double spin = loads.frame.spin;
+  step.turn_c = static_cast<Real>(std::cos(2 * spin * loads.dt));
+  step.turn_s = static_cast<Real>(std::sin(2 * spin * loads.dt));
+  step.spin2 = static_cast<Real>(spin * spin);
+  return step;
+}
+
+GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads& loads) {
+  const double phi = block.stations[index(station)] + loads.frame.angle;
+  return {-loads.gravity * std::sin(phi), loads.gravity * std::cos(phi)};
+}
+
+template StepConstants<double> step_constants(const SweptBlock&, const StepLoads&);
+template StepConstants<float> step_constants(const SweptBlock&, const StepLoads&);
+
 template <class Real, class U>
 BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
     : mesh_(mesh), inverse_mass_(inverse_mass), deferred_(index(mesh.slots / kLanes), 0) {
@@ -57,25 +80,18 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
   TileMotion<Real, U> motion;
-  motion.step.dt = static_cast<Real>(loads.dt);
+  motion.step = step_constants<Real>(swept, loads);
   motion.u = u + dof(slot, 0);
   motion.v = v + dof(slot, 0);
   motion.inverse_mass = inverse_mass_ + slot;
   motion.deferred = deferred_.data() + slot / kLanes;
-  if (swept.sweep == Sweep::extruded) {
-    motion.step.gravity = static_cast<Real>(loads.gravity);
-    return motion;
-  }
-  const double spin = loads.frame.spin;
-  motion.step.turn_c = static_cast<Real>(std::cos(2 * spin * loads.dt));
-  motion.step.turn_s = static_cast<Real>(std::sin(2 * spin * loads.dt));
-  motion.step.spin2 = static_cast<Real>(spin * spin);
+  if (swept.sweep == Sweep::extruded) return motion;
   motion.radius = radius_[index(block)].data();
   const Tile& at = swept.tiles[index(tile)];
   for (int l = 0; l < at.stations; ++l) {
-    const double phi = swept.stations[index(at.first_station + l)] + loads.frame.angle;
-    motion.weight[0][l] = static_cast<Real>(-loads.gravity * std::sin(phi));
-    motion.weight[1][l] = static_cast<Real>(loads.gravity * std::cos(phi));
+    const GravityInSweep gravity = gravity_at(swept, at.first_station + l, loads);
+    motion.weight[0][l] = static_cast<Real>(gravity.along);
+    motion.weight[1][l] = static_cast<Real>(gravity.outwards);
   }
   return motion;
 }

@@ -27,6 +27,17 @@ struct StepLoads {
   BodyFrame frame;     ///< of revolved blocks
 };
 
+/// The step of a block's nodes.
+template <class Real>
+StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads);
+
+/// Gravity at a station of a revolved block [m/s2].
+struct GravityInSweep {
+  double along;     ///< the tangent t
+  double outwards;  ///< along r
+};
+GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads& loads);
+
 /// Moves the nodes of all blocks: v -= dt (f / m + g e_z), u += dt v in extruded blocks, the same in the
 /// spinning frame in revolved ones. Nodes whose force nothing but elements make may move with the elements of
 /// their tile (BasicInternalForce::move); deferred ones move here, once their force is complete. Which way a
@@ -71,6 +82,9 @@ class BasicTimeUpdate {
   std::vector<std::size_t> first_deferred_;  ///< by item, into deferred_nodes_
   std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
 };
+
+extern template StepConstants<double> step_constants(const SweptBlock&, const StepLoads&);
+extern template StepConstants<float> step_constants(const SweptBlock&, const StepLoads&);
 
 using TimeUpdate = BasicTimeUpdate<double>;
 extern template class BasicTimeUpdate<double>;

@@ -22,6 +22,14 @@ class BranchLag {
   /// Exact over a step of dt [s] with the velocity v [m/s], a vector field.
   void advance(const Real* v, double dt);
 
+  /// Over a step a block's lag is kept q + gained v.
+  struct Advance {
+    Real kept;
+    Real gained;  ///< [s]
+  };
+  /// Of a block that has a branch.
+  Advance advance_of(int block, double dt) const;
+
   /// Vector field of 3 * mesh.slots values [m].
   const Real* data() const { return q_.data(); }
   AlignedVector<Real>& values() { return q_; }

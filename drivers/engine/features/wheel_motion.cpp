@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/engine/node_fields.hpp"
+
 namespace tread {
 
 namespace {
@@ -58,10 +60,13 @@ std::vector<FieldBytes> WheelMotion::fields() const {
 }
 
 void WheelMotion::apply(StepPhase phase, StepState& step) {
-  if (phase == StepPhase::frame)
+  if (phase == StepPhase::frame) {
     step.wheel.advance(step.dt);
-  else if ((step.steps + 1) % kAnchorInterval == 0)
+  } else if ((step.steps + 1) % kAnchorInterval == 0) {
+    step.fields.fetch();
     anchor({step.displacement, step.velocity, step.wheel, step.dt});
+    step.fields.changed();
+  }
 }
 
 /// At rest the wheel spins about its own displaced axis from the first instant on.

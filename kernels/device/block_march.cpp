@@ -1,0 +1,219 @@
+#include "kernels/device/block_march.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
+
+namespace tread {
+
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Halves a list of quads until no part has more than `most`.
+void halve(const std::vector<std::array<double, 2>>& centre, std::span<int> quads, int most,
+           std::vector<std::span<int>>& parts) {
+  if (std::ssize(quads) <= most) {
+    parts.push_back(quads);
+    return;
+  }
+  std::array<double, 2> extent{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto [low, high] = std::minmax_element(quads.begin(), quads.end(), [&](int a, int b) {
+      return centre[index(a)][axis] < centre[index(b)][axis];
+    });
+    extent[axis] = centre[index(*high)][axis] - centre[index(*low)][axis];
+  }
+  const std::size_t axis = extent[0] >= extent[1] ? 0 : 1;
+  std::sort(quads.begin(), quads.end(), [&](int a, int b) {
+    const double x = centre[index(a)][axis];
+    const double y = centre[index(b)][axis];
+    return x != y ? x < y : a < b;
+  });
+  const std::size_t half = quads.size() / 2;
+  halve(centre, quads.first(half), most, parts);
+  halve(centre, quads.subspan(half), most, parts);
+}
+
+}  // namespace
+
+SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_quads) {
+  std::vector<std::array<double, 2>> centre;
+  for (const FrontPlan::Quad& entry : plan.quads) {
+    std::array<double, 2>& at = centre.emplace_back();
+    for (const int node : section.quads[index(entry.quad)]) {
+      at[0] += section.p[index(node)] / 4;
+      at[1] += section.q[index(node)] / 4;
+    }
+  }
+  std::vector<int> places(plan.quads.size());
+  std::iota(places.begin(), places.end(), 0);
+  std::vector<std::span<int>> spans;
+  halve(centre, places, std::max(1, part_quads), spans);
+
+  const auto corners_of = [&](int place) -> const std::array<int, 4>& {
+    return section.quads[index(plan.quads[index(place)].quad)];
+  };
+  std::vector<int> part_of_quad(plan.quads.size());
+  std::vector<int> owner(index(section.nodes()), -1);
+  std::vector<std::vector<int>> places_at(index(section.nodes()));
+  for (std::size_t part = 0; part < spans.size(); ++part)
+    for (const int place : spans[part]) {
+      part_of_quad[index(place)] = static_cast<int>(part);
+      for (const int node : corners_of(place))
+        if (owner[index(node)] < 0) owner[index(node)] = static_cast<int>(part);
+    }
+  for (int place = 0; place < static_cast<int>(plan.quads.size()); ++place)
+    for (const int node : corners_of(place)) places_at[index(node)].push_back(place);
+
+  SectionCut cut;
+  for (int part = 0; part < static_cast<int>(spans.size()); ++part) {
+    MarchPart& at = cut.parts.emplace_back();
+    at.first_node = static_cast<int>(cut.nodes.size());
+    at.first_quad = static_cast<int>(cut.quads.size());
+    std::vector<int> quads(spans[index(part)].begin(), spans[index(part)].end());
+    std::vector<int> local(index(section.nodes()), -1);
+    const auto add_node = [&](int node) {
+      if (local[index(node)] >= 0) return;
+      local[index(node)] = static_cast<int>(cut.nodes.size()) - at.first_node;
+      cut.nodes.push_back(node);
+    };
+    for (int node = 0; node < section.nodes(); ++node)
+      if (owner[index(node)] == part) {
+        add_node(node);
+        quads.insert(quads.end(), places_at[index(node)].begin(), places_at[index(node)].end());
+      }
+    at.own_nodes = static_cast<int>(cut.nodes.size()) - at.first_node;
+    std::sort(quads.begin(), quads.end());
+    quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
+    std::vector<std::vector<MarchCorner>> corners(index(at.own_nodes));
+    for (const int place : quads) {
+      MarchQuad& quad = cut.quads.emplace_back();
+      quad.place = place;
+      quad.own = part_of_quad[index(place)] == part;
+      for (int corner = 0; corner < 4; ++corner) {
+        const int node = corners_of(place)[index(corner)];
+        add_node(node);
+        quad.node[corner] = local[index(node)];
+        if (quad.node[corner] < at.own_nodes) corners[index(quad.node[corner])].push_back({at.quads, corner});
+      }
+      ++at.quads;
+    }
+    at.nodes = static_cast<int>(cut.nodes.size()) - at.first_node;
+    corners.resize(index(at.nodes));
+    for (const std::vector<MarchCorner>& list : corners) {
+      cut.first_corner.push_back(static_cast<int>(cut.corners.size()));
+      cut.corners.insert(cut.corners.end(), list.begin(), list.end());
+    }
+  }
+  cut.first_corner.push_back(static_cast<int>(cut.corners.size()));
+  return cut;
+}
+
+template <class Real>
+template <class T, class Allocator>
+const T* BlockMarch<Real>::keep(Device& device, const std::vector<T, Allocator>& values) {
+  struct Array final : Kept {
+    Array(Device& device, std::span<const T> values) : array(device, values) {}
+    DeviceArray<T> array;
+  };
+  if (values.empty()) return nullptr;
+  auto array = std::make_unique<Array>(device, std::span<const T>(values.data(), values.size()));
+  bytes_ += array->array.bytes();
+  const T* const data = array->array.data();
+  kept_.push_back(std::move(array));
+  return data;
+}
+
+template <class Real>
+BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements, double damping)
+    : swept_(&elements.block()) {
+  const MarchCut sizes = device.cut();
+  const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes.part_quads);
+  block_.stations = swept_->station_count();
+  block_.closed = swept_->closed;
+  block_.quads = static_cast<int>(swept_->section.quads.size());
+  block_.section_nodes = swept_->section.nodes();
+  block_.parts = static_cast<int>(cut.parts.size());
+  block_.run_length = std::max(1, sizes.run_length);
+  block_.part = keep(device, cut.parts);
+  block_.part_nodes = keep(device, cut.nodes);
+  block_.part_quads = keep(device, cut.quads);
+  block_.first_corner = keep(device, cut.first_corner);
+  block_.corners = keep(device, cut.corners);
+  for (const MarchPart& part : cut.parts) {
+    block_.most_nodes = std::max(block_.most_nodes, part.nodes);
+    block_.most_quads = std::max(block_.most_quads, part.quads);
+  }
+  block_.damping = static_cast<Real>(damping);
+  build_stations(device);
+  build_coefficients(device, elements);
+}
+
+template <class Real>
+void BlockMarch<Real>::build_stations(Device& device) {
+  std::vector<std::int64_t> slot;
+  std::vector<int> pitch_class;
+  for (int station = 0; station < block_.stations; ++station) {
+    slot.push_back(swept_->base + swept_->slot(0, station));
+    pitch_class.push_back(swept_->tiles[index(swept_->tile_of_station[index(station)])].pitch_class);
+  }
+  block_.slot = keep(device, slot);
+  block_.tile = keep(device, swept_->tile_of_station);
+  block_.pitch_class = keep(device, pitch_class);
+  if (swept_->sweep == Sweep::extruded) return;
+  std::vector<Real> radius(swept_->section.q.begin(), swept_->section.q.end());
+  block_.radius = keep(device, radius);
+  weight_.resize(2 * index(block_.stations));
+  device_weight_ = DeviceArray<Real>(device, weight_.size());
+  bytes_ += device_weight_.bytes();
+  block_.weight = device_weight_.data();
+}
+
+template <class Real>
+void BlockMarch<Real>::build_coefficients(Device& device, const BlockElements<Real>& elements) {
+  std::vector<Real> cosine;
+  std::vector<Real> sine;
+  AlignedVector<SweptConstants<Real>> constants;
+  AlignedVector<std::byte> laws;
+  for (const auto& of_class : elements.classes()) {
+    cosine.push_back(static_cast<Real>(of_class.cosine));
+    sine.push_back(static_cast<Real>(of_class.sine));
+    constants.insert(constants.end(), of_class.constants.begin(), of_class.constants.end());
+    laws.insert(laws.end(), of_class.laws.begin(), of_class.laws.end());
+  }
+  block_.cosine = keep(device, cosine);
+  block_.sine = keep(device, sine);
+  block_.constants = keep(device, constants);
+  block_.laws = keep(device, laws);
+  const auto moved = elements.moved_nodes();
+  if (moved.perturbed.empty()) return;
+  block_.row = keep(device, moved.row);
+  block_.perturbed = keep(device, moved.perturbed);
+  block_.shifted = keep(device, moved.shifted);
+  block_.shifts = keep(device, moved.shifts);
+}
+
+template <class Real>
+const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads) {
+  block_.step = step_constants<Real>(*swept_, loads);
+  if (!weight_.empty()) {
+    for (int station = 0; station < block_.stations; ++station) {
+      const GravityInSweep gravity = gravity_at(*swept_, station, loads);
+      weight_[index(station)] = static_cast<Real>(gravity.along);
+      weight_[index(block_.stations + station)] = static_cast<Real>(gravity.outwards);
+    }
+    device_weight_.upload(weight_.data());
+  }
+  return block_;
+}
+
+template class BlockMarch<double>;
+template class BlockMarch<float>;
+
+}  // namespace tread

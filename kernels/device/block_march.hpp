@@ -1,0 +1,59 @@
+#pragma once
+// A block of the mesh in the memory of a device, cut for its teams.
+
+#include <memory>
+#include <vector>
+
+#include "kernels/blocks/block_elements.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/device/device.hpp"
+
+namespace tread {
+
+/// Parts of a section, each of compact shape, and the tables of their nodes, quads and corners.
+struct SectionCut {
+  std::vector<MarchPart> parts;
+  std::vector<int> nodes;
+  std::vector<MarchQuad> quads;
+  std::vector<int> first_corner;
+  std::vector<MarchCorner> corners;
+};
+
+/// Cuts a section into parts of at most `part_quads` quads, by halving it across its longer side. Quads are
+/// numbered by their place in the plan.
+SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_quads);
+
+template <class Real>
+class BlockMarch {
+ public:
+  /// Copies everything. `damping`: factor of the velocity [s] or of the lag [-].
+  BlockMarch(Device& device, const BlockElements<Real>& elements, double damping);
+
+  /// What a march reads in a step with these loads.
+  const MarchBlock<Real>& at(const StepLoads& loads);
+
+  std::int64_t bytes() const { return bytes_; }
+
+ private:
+  /// Copies values to the device.
+  template <class T, class Allocator>
+  const T* keep(Device& device, const std::vector<T, Allocator>& values);
+  void build_stations(Device& device);
+  void build_coefficients(Device& device, const BlockElements<Real>& elements);
+
+  struct Kept {
+    virtual ~Kept() = default;
+  };
+
+  const SweptBlock* swept_;
+  MarchBlock<Real> block_;
+  std::vector<std::unique_ptr<Kept>> kept_;
+  std::int64_t bytes_ = 0;
+  std::vector<Real> weight_;
+  DeviceArray<Real> device_weight_;
+};
+
+extern template class BlockMarch<double>;
+extern template class BlockMarch<float>;
+
+}  // namespace tread

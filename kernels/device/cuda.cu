@@ -1,0 +1,205 @@
+// The device of NVIDIA's cards: the only source that knows CUDA. HIP would be one more file like it.
+
+#include <string>
+
+#include "core/error.hpp"
+#include "kernels/device/device.hpp"
+#include "kernels/device/march_kernels.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr int kThreads = 128;  ///< of a team
+
+/// ResourceError where a call failed.
+void check(cudaError_t status, const char* what) {
+  if (status != cudaSuccess)
+    throw ResourceError(std::string("the GPU failed (") + what + "): " + cudaGetErrorString(status) +
+                        "; `tread resume` goes on from the last checkpoint, with --device cpu anywhere");
+}
+
+std::string mebibytes(std::size_t bytes) {
+  return std::to_string(bytes >> 20) + " MiB";
+}
+
+extern __shared__ double shared_memory[];
+
+class CudaTeam {
+ public:
+  __device__ int block() const { return static_cast<int>(blockIdx.x); }
+  template <class T>
+  __device__ T* share(std::size_t n) const {
+    T* const first = reinterpret_cast<T*>(reinterpret_cast<char*>(shared_memory) + used_);
+    used_ += n * sizeof(T);
+    return first;
+  }
+  template <class Body>
+  __device__ void for_each(int n, const Body& body) const {
+    for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
+    __syncthreads();
+  }
+
+ private:
+  mutable std::size_t used_ = 0;
+};
+
+template <class March, class Real, class U>
+__global__ void __launch_bounds__(kThreads)
+    march_kernel(MarchBlock<Real> block, MarchFields<Real, U> fields) {
+  CudaTeam team;
+  March(team, block, fields).run();
+}
+
+template <class Real, class U>
+__global__ void place_kernel(GroupValues<Real, U> values, U* u, Real* v) {
+  const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (i < 3 * kLanes * values.count) place_value(values, i, u, v);
+}
+
+template <class Real>
+__global__ void lag_kernel(std::int64_t n, Real kept, Real gained, const Real* v, Real* q) {
+  const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (i < n) q[i] = kept * q[i] + gained * v[i];
+}
+
+unsigned blocks_for(std::int64_t n) {
+  return static_cast<unsigned>((n + kThreads - 1) / kThreads);
+}
+
+class CudaDevice final : public Device {
+ public:
+  explicit CudaDevice(int number) {
+    check(cudaSetDevice(number), "opening it");
+    cudaDeviceProp properties{};
+    check(cudaGetDeviceProperties(&properties, number), "its properties");
+    name_ = properties.name;
+    shared_ = properties.sharedMemPerBlockOptin;
+  }
+
+  std::string name() const override { return name_; }
+
+  void* allocate(std::size_t bytes) override {
+    void* memory = nullptr;
+    const cudaError_t status = cudaMalloc(&memory, bytes);
+    if (status == cudaErrorMemoryAllocation) {
+      std::size_t free = 0;
+      std::size_t total = 0;
+      cudaMemGetInfo(&free, &total);
+      throw ResourceError("the GPU " + name_ + " has " + mebibytes(free) + " of " + mebibytes(total) +
+                          " free, too little for this scene; larger elements, or --device cpu, need none");
+    }
+    check(status, "memory");
+    check(cudaMemset(memory, 0, bytes), "memory");
+    return memory;
+  }
+  void release(void* memory) override { cudaFree(memory); }
+  void upload(void* to, const void* from, std::size_t bytes) override {
+    check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to it");
+  }
+  void download(void* to, const void* from, std::size_t bytes) override {
+    check(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from it");
+  }
+
+  void march(TileVariant variant, const MarchBlock<double>& block,
+             const MarchFields<double, double>& fields) override {
+    march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, double>& fields) override {
+    march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, float>& fields) override {
+    march_any(variant, block, fields);
+  }
+
+  void place(const GroupValues<double, double>& values, double* u, double* v) override {
+    place_any(values, u, v);
+  }
+  void place(const GroupValues<float, double>& values, double* u, float* v) override {
+    place_any(values, u, v);
+  }
+  void place(const GroupValues<float, float>& values, float* u, float* v) override {
+    place_any(values, u, v);
+  }
+
+  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
+    lag_kernel<<<blocks_for(n), kThreads>>>(n, kept, gained, v, q);
+    check(cudaGetLastError(), "lag");
+  }
+  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
+    lag_kernel<<<blocks_for(n), kThreads>>>(n, kept, gained, v, q);
+    check(cudaGetLastError(), "lag");
+  }
+
+ private:
+  template <class Real, class U>
+  void place_any(const GroupValues<Real, U>& values, U* u, Real* v) {
+    const std::int64_t n = 3 * kLanes * values.count;
+    if (n > 0) place_kernel<<<blocks_for(n), kThreads>>>(values, u, v);
+    check(cudaGetLastError(), "values of the host");
+  }
+
+  template <class Real, class U>
+  void march_any(TileVariant variant, const MarchBlock<Real>& block, const MarchFields<Real, U>& fields) {
+    with_march<Real, U, CudaTeam>(variant, Launch<Real, U>{*this, block, fields});
+  }
+
+  template <class Real, class U>
+  struct Launch {
+    CudaDevice& device;
+    const MarchBlock<Real>& block;
+    const MarchFields<Real, U>& fields;
+
+    template <class March>
+    void operator()() const {
+      const std::size_t bytes = March::shared_bytes(block);
+      if (bytes > device.shared_)
+        throw ResourceError("the GPU " + device.name_ + " shares " + std::to_string(device.shared_) +
+                            " B among the threads of a team, and " + std::to_string(bytes) +
+                            " B are needed; --device cpu needs none");
+      const auto kernel = march_kernel<March, Real, U>;
+      check(
+          cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
+          "shared memory");
+      kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes>>>(block, fields);
+      check(cudaGetLastError(), "march");
+    }
+  };
+
+  std::string name_;
+  std::size_t shared_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> gpus() {
+  int count = 0;
+  std::vector<std::string> names;
+  if (cudaGetDeviceCount(&count) != cudaSuccess) return names;
+  for (int number = 0; number < count; ++number) {
+    cudaDeviceProp properties{};
+    if (cudaGetDeviceProperties(&properties, number) == cudaSuccess) names.emplace_back(properties.name);
+  }
+  return names;
+}
+
+std::string why_no_gpu() {
+  int count = 0;
+  const cudaError_t status = cudaGetDeviceCount(&count);
+  std::string why = "there is no card that CUDA can use";
+  if (status != cudaSuccess) why += std::string(" (") + cudaGetErrorString(status) + ")";
+  return why;
+}
+
+std::unique_ptr<Device> open_gpu(int number) {
+  const int count = static_cast<int>(gpus().size());
+  const std::string name = "--device gpu:" + std::to_string(number);
+  if (count == 0) throw ResourceError(name + ": " + why_no_gpu() + "; --device cpu runs everywhere");
+  if (number >= count)
+    throw ResourceError(name + ": the last card of this machine is gpu:" + std::to_string(count - 1));
+  return std::make_unique<CudaDevice>(number);
+}
+
+}  // namespace tread

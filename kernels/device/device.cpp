@@ -1,0 +1,56 @@
+#include "kernels/device/device.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+std::shared_ptr<Device>& chosen() {
+  static std::shared_ptr<Device> device;
+  return device;
+}
+
+/// N of gpu:N, -1 for other names.
+int card_of(std::string_view name) {
+  constexpr std::string_view kPrefix = "gpu:";
+  if (!name.starts_with(kPrefix)) return -1;
+  int number = -1;
+  const char* const end = name.data() + name.size();
+  const auto [stop, failure] = std::from_chars(name.data() + kPrefix.size(), end, number);
+  return failure == std::errc() && stop == end ? number : -1;
+}
+
+}  // namespace
+
+void choose_device(std::string_view name) {
+  const int card = card_of(name);
+  if (name == "cpu" || (name == "auto" && gpus().empty()))
+    choose_device(std::shared_ptr<Device>());
+  else if (name == "gpu" || name == "auto" || card >= 0)
+    choose_device(open_gpu(card >= 0 ? card : 0));
+  else if (name == "emulated")
+    choose_device(emulated_device());
+  else
+    throw InputError(
+        fmt::format("--device {}: it is cpu, gpu, gpu:N with the number of a card, auto or emulated", name));
+}
+
+void choose_device(std::shared_ptr<Device> device) {
+  chosen() = std::move(device);
+}
+
+std::string device_name() {
+  return chosen() ? chosen()->name() : "cpu";
+}
+
+std::shared_ptr<Device> chosen_device() {
+  return chosen();
+}
+
+}  // namespace tread

@@ -1,0 +1,140 @@
+#pragma once
+// A device: memory of its own, and kernels that teams of threads run over it. One is a GPU, another the
+// processor itself, which emulates teams and threads. [docs/records/device.md]
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/device/march_layout.hpp"
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+
+/// How sections and stations are cut for the teams.
+struct MarchCut {
+  int part_quads = 128;  ///< quads that a part owns at most
+  int run_length = 32;   ///< stations of a run
+};
+
+/// Groups of kLanes slots whose values come from the host, packed: [group][component][lane].
+template <class Real, class U>
+struct GroupValues {
+  const std::int64_t* groups = nullptr;
+  std::int64_t count = 0;
+  const U* u = nullptr;     ///< [m]
+  const Real* v = nullptr;  ///< [m/s]
+};
+
+class Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device() = default;
+
+  /// "emulated", or the card's name.
+  virtual std::string name() const = 0;
+  virtual MarchCut cut() const { return {}; }
+  /// True where the host's copies of what moves on the device are filled with NaN, so that whoever reads them
+  /// is found out. For tests.
+  virtual bool spoils_copies() const { return false; }
+
+  /// Zeros. ResourceError where there is no room.
+  virtual void* allocate(std::size_t bytes) = 0;
+  virtual void release(void* memory) = 0;
+  /// Copies end before these return. ResourceError where the device is lost.
+  virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
+  virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+
+  /// Forces of a block, and motion of its nodes. `variant.damped` does not matter: fields.added says it.
+  virtual void march(TileVariant variant, const MarchBlock<double>& block,
+                     const MarchFields<double, double>& fields) = 0;
+  virtual void march(TileVariant variant, const MarchBlock<float>& block,
+                     const MarchFields<float, double>& fields) = 0;
+  virtual void march(TileVariant variant, const MarchBlock<float>& block,
+                     const MarchFields<float, float>& fields) = 0;
+
+  /// Writes the host's groups to the fields u and v.
+  virtual void place(const GroupValues<double, double>& values, double* u, double* v) = 0;
+  virtual void place(const GroupValues<float, double>& values, double* u, float* v) = 0;
+  virtual void place(const GroupValues<float, float>& values, float* u, float* v) = 0;
+
+  /// q = kept q + gained v of n values. [BranchLag::advance]
+  virtual void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) = 0;
+  virtual void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) = 0;
+};
+
+/// An array on a device.
+template <class T>
+class DeviceArray {
+ public:
+  DeviceArray() = default;
+  DeviceArray(Device& device, std::size_t size) : device_(&device), size_(size) {
+    if (size > 0) data_ = static_cast<T*>(device.allocate(size * sizeof(T)));
+  }
+  DeviceArray(Device& device, std::span<const T> values) : DeviceArray(device, values.size()) {
+    upload(values.data());
+  }
+  DeviceArray(DeviceArray&& other) noexcept { swap(other); }
+  DeviceArray& operator=(DeviceArray&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~DeviceArray() {
+    if (data_ != nullptr) device_->release(data_);
+  }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  std::int64_t bytes() const { return static_cast<std::int64_t>(size_ * sizeof(T)); }
+  /// From and to arrays of as many values.
+  void upload(const T* from) {
+    if (size_ > 0) device_->upload(data_, from, size_ * sizeof(T));
+  }
+  void download(T* to) const {
+    if (size_ > 0) device_->download(to, data_, size_ * sizeof(T));
+  }
+  void swap(DeviceArray& other) {
+    std::swap(device_, other.device_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
+
+ private:
+  Device* device_ = nullptr;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// Emulation of a device by the processor's threads.
+struct Emulation {
+  MarchCut cut;
+  std::uint64_t order = 0;     ///< seed of the order of teams and of their threads; 0: ascending
+  bool spoils_copies = false;  ///< Device::spoils_copies
+};
+std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
+
+/// Cards that this program can use, by number; empty where it is built without, or the machine has none.
+std::vector<std::string> gpus();
+/// Why gpus() is empty.
+std::string why_no_gpu();
+/// ResourceError where there is no such card.
+std::unique_ptr<Device> open_gpu(int number);
+
+/// Chooses the device of the steps to come: cpu (none), gpu, gpu:N, emulated, or auto (a card where there is
+/// one). InputError for another name, ResourceError where the device is not there.
+void choose_device(std::string_view name);
+/// Chooses one that a test makes; null: none.
+void choose_device(std::shared_ptr<Device> device);
+/// "cpu", or the name of the chosen device.
+std::string device_name();
+/// Null: the processor takes the steps, without a device.
+std::shared_ptr<Device> chosen_device();
+
+}  // namespace tread

@@ -1,0 +1,143 @@
+// Teams and their threads, taken one after another by the threads of the processor. What they share must not
+// depend on their order: tests shuffle it.
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <numeric>
+#include <utility>
+
+#include "core/aligned.hpp"
+#include "core/parallel/parallel.hpp"
+#include "kernels/device/device.hpp"
+#include "kernels/device/march_kernels.hpp"
+
+namespace tread {
+
+namespace {
+
+/// A permutation of 0 ... n - 1 that takes no memory: steps of a length that has no common factor with n.
+class Order {
+ public:
+  Order(std::int64_t n, std::uint64_t seed) : n_(n) {
+    if (seed == 0 || n < 2) return;
+    first_ = static_cast<std::int64_t>(seed % static_cast<std::uint64_t>(n));
+    step_ = 1 + static_cast<std::int64_t>(seed / 7 % static_cast<std::uint64_t>(n - 1));
+    while (std::gcd(step_, n) != 1) ++step_;
+  }
+  std::int64_t operator()(std::int64_t i) const { return (first_ + i * step_) % n_; }
+
+ private:
+  std::int64_t n_;
+  std::int64_t first_ = 0;
+  std::int64_t step_ = 1;
+};
+
+class EmulatedTeam {
+ public:
+  EmulatedTeam(int block, std::uint64_t seed, std::byte* memory)
+      : block_(block), seed_(seed), memory_(memory) {}
+
+  int block() const { return block_; }
+  template <class T>
+  T* share(std::size_t n) const {
+    return reinterpret_cast<T*>(std::exchange(memory_, memory_ + n * sizeof(T)));
+  }
+  template <class Body>
+  void for_each(int n, const Body& body) const {
+    const Order order(n, seed_);
+    for (int i = 0; i < n; ++i) body(static_cast<int>(order(i)));
+  }
+
+ private:
+  int block_;
+  std::uint64_t seed_;
+  mutable std::byte* memory_;
+};
+
+class EmulatedDevice final : public Device {
+ public:
+  explicit EmulatedDevice(const Emulation& emulation) : emulation_(emulation) {}
+
+  std::string name() const override { return "emulated"; }
+  MarchCut cut() const override { return emulation_.cut; }
+  bool spoils_copies() const override { return emulation_.spoils_copies; }
+
+  void* allocate(std::size_t bytes) override {
+    void* const memory = ::operator new (bytes, std::align_val_t{64});
+    std::memset(memory, 0, bytes);
+    return memory;
+  }
+  void release(void* memory) override { ::operator delete (memory, std::align_val_t{64}); }
+  void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+  void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+
+  void march(TileVariant variant, const MarchBlock<double>& block,
+             const MarchFields<double, double>& fields) override {
+    march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, double>& fields) override {
+    march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, float>& fields) override {
+    march_any(variant, block, fields);
+  }
+
+  void place(const GroupValues<double, double>& values, double* u, double* v) override {
+    place_any(values, u, v);
+  }
+  void place(const GroupValues<float, double>& values, double* u, float* v) override {
+    place_any(values, u, v);
+  }
+  void place(const GroupValues<float, float>& values, float* u, float* v) override {
+    place_any(values, u, v);
+  }
+
+  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
+    for_each(n, [=](std::int64_t i) { q[i] = kept * q[i] + gained * v[i]; });
+  }
+  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
+    for_each(n, [=](std::int64_t i) { q[i] = kept * q[i] + gained * v[i]; });
+  }
+
+ private:
+  template <class Body>
+  void for_each(std::int64_t n, const Body& body) const {
+    parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) body(i);
+    });
+  }
+
+  template <class Real, class U>
+  void place_any(const GroupValues<Real, U>& values, U* u, Real* v) const {
+    for_each(3 * kLanes * values.count, [&](std::int64_t i) { place_value(values, i, u, v); });
+  }
+
+  template <class Real, class U>
+  void march_any(TileVariant variant, const MarchBlock<Real>& block,
+                 const MarchFields<Real, U>& fields) const {
+    with_march<Real, U, EmulatedTeam>(variant, [&]<class M>() {
+      const Order order(block.teams(), emulation_.order);
+      parallel_ranges(block.teams(), [&](std::int64_t first, std::int64_t last) {
+        thread_local AlignedVector<std::byte> memory;
+        memory.resize(std::max(memory.size(), M::shared_bytes(block)));
+        for (std::int64_t i = first; i < last; ++i) {
+          const EmulatedTeam team(static_cast<int>(order(i)), emulation_.order, memory.data());
+          M(team, block, fields).run();
+        }
+      });
+    });
+  }
+
+  Emulation emulation_;
+};
+
+}  // namespace
+
+std::unique_ptr<Device> emulated_device(const Emulation& emulation) {
+  return std::make_unique<EmulatedDevice>(emulation);
+}
+
+}  // namespace tread

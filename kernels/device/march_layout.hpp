@@ -1,0 +1,95 @@
+#pragma once
+// What a march over a block reads, as plain data in the memory of a device. [docs/records/device.md]
+//
+// A block of the mesh is cut twice: its section into parts, its stations into runs. A team of threads takes
+// one part over one run and marches along the sweep, station by station.
+
+#include <cstdint>
+
+#include "kernels/element/element.hpp"
+#include "kernels/lanes/tile_force.hpp"
+#include "kernels/update/node_motion_body.hpp"
+
+namespace tread {
+
+/// A part of a section. Nodes: those that it owns, then the others of its quads. Quads: all that touch a node
+/// that it owns, those of neighbouring parts too, in the order of the front plan.
+struct MarchPart {
+  int first_node = 0;  ///< into MarchBlock::part_nodes
+  int nodes = 0;
+  int own_nodes = 0;
+  int first_quad = 0;  ///< into MarchBlock::part_quads
+  int quads = 0;
+};
+
+/// A quad of a part.
+struct MarchQuad {
+  int node[4];  ///< its corners among the part's nodes
+  int place;    ///< in the front plan, by which coefficients are ordered
+  int own;      ///< nonzero in the one part that writes the state of its elements
+};
+
+/// A corner of a part's quad.
+struct MarchCorner {
+  int quad;  ///< among the part's quads
+  int corner;
+};
+
+/// A block; arrays by station have one entry for each, those by class one for each pitch class.
+template <class Real>
+struct MarchBlock {
+  int stations = 0;
+  int closed = 0;         ///< nonzero for a full turn
+  int quads = 0;          ///< of the section
+  int section_nodes = 0;  ///< of the section
+  int parts = 0;
+  int run_length = 0;  ///< stations of a run; the last one has the rest
+  int most_nodes = 0;  ///< of a part
+  int most_quads = 0;
+
+  const MarchPart* part = nullptr;
+  const int* part_nodes = nullptr;  ///< section nodes
+  const MarchQuad* part_quads = nullptr;
+  const int* first_corner = nullptr;     ///< by entry of part_nodes and one more, into `corners`
+  const MarchCorner* corners = nullptr;  ///< of the quads at a node that the part owns, in their order
+
+  const std::int64_t* slot = nullptr;  ///< by station: of section node 0 in the mesh's node fields
+  const int* tile = nullptr;           ///< by station
+  const int* pitch_class = nullptr;    ///< by station, of the elements that start there
+  const Real* cosine = nullptr;        ///< by class: of half the pitch (revolved)
+  const Real* sine = nullptr;
+  const Real* radius = nullptr;  ///< by section node (revolved) [m]
+  const Real* weight = nullptr;  ///< by station: gravity along t; then along r (revolved) [m/s2]
+
+  const SweptConstants<Real>* constants = nullptr;  ///< [class][place]
+  const void* laws = nullptr;                       ///< ElementLaw likewise, of a law that is not linear
+  const int* row = nullptr;                  ///< by tile, of what follows; -1: no moved node near; null: none
+  const unsigned char* perturbed = nullptr;  ///< [row][place]: elements touch moved nodes
+  const int* shifted = nullptr;              ///< [row][section node]: index into `shifts`, or -1
+  const LaneShifts<Real>* shifts = nullptr;  ///< the first one is zero
+
+  Real damping = 0;  ///< factor of what is added to the displacements for damping
+  StepConstants<Real> step;
+
+  int runs() const { return (stations + run_length - 1) / run_length; }
+  int teams() const { return parts * runs(); }
+};
+
+/// Node fields on the device, of 3 * slots values in the order of dof(), and states of laws.
+template <class Real, class U>
+struct MarchFields {
+  const U* u = nullptr;                ///< displacement [m]
+  const Real* v = nullptr;             ///< velocity [m/s]
+  const Real* added = nullptr;         ///< velocity or lag, times MarchBlock::damping; null: no damping
+  const Real* inverse_mass = nullptr;  ///< by slot [1/kg]
+  U* moved_u = nullptr;                ///< after the step; null: nothing moves, all forces go to `force`
+  Real* moved_v = nullptr;
+  Real* force = nullptr;  ///< [N]
+  /// By group of kLanes slots: where the host's groups have their forces in `host_force`; -1: they move here.
+  const int* host_group = nullptr;
+  Real* host_force = nullptr;   ///< [group][component][lane] [N]
+  const Real* state = nullptr;  ///< of the block: [tile][place][value][lane]
+  Real* moved_state = nullptr;
+};
+
+}  // namespace tread

@@ -1,0 +1,239 @@
+// Steps on an emulated device are those of the processor, whatever the order of teams and threads. The host's
+// copies of what moves on the device are NaN: whoever reads them without fetching them is found out.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/run_results.hpp"
+#include "kernels/device/device.hpp"
+#include "tests/state_copies.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+/// A scene from its preload on, on the processor or on devices.
+class Case {
+ public:
+  explicit Case(const Scene& scene)
+      : model_(scene),
+        preload_(solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {})) {
+    if (scene.corrugation) model_.apply_corrugation(preload_.contact.pressure_peak.y);
+    dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
+  }
+
+  const Model& model() const { return model_; }
+  std::int64_t values() const { return 3 * model_.mesh.slots; }
+
+  /// null: the processor.
+  std::unique_ptr<Simulation> start(std::shared_ptr<Device> device) {
+    choose_device(std::move(device));
+    auto simulation = std::make_unique<Simulation>(model_, preload_, dt_);
+    choose_device(std::shared_ptr<Device>());
+    simulation->set_sampling_interval(70);
+    return simulation;
+  }
+
+ private:
+  Model model_;
+  Preload preload_;
+  double dt_;
+};
+
+/// Teams of few quads and stations, some of them smaller than the others.
+std::shared_ptr<Device> device(std::uint64_t order, MarchCut cut = {7, 5}) {
+  return emulated_device({.cut = cut, .order = order, .spoils_copies = true});
+}
+
+void roll_on(Simulation& simulation, std::int64_t steps) {
+  while (simulation.steps() < steps) simulation.step();
+}
+
+std::unique_ptr<Simulation> roll(std::unique_ptr<Simulation> simulation, std::int64_t steps) {
+  roll_on(*simulation, steps);
+  return simulation;
+}
+
+/// Largest difference of two fields, by the range of the first.
+double difference(std::int64_t values, ConstNodeField a, ConstNodeField b) {
+  double low = 0;
+  double high = 0;
+  double largest = 0;
+  for (std::int64_t i = 0; i < values; ++i) {
+    low = std::min(low, a[i]);
+    high = std::max(high, a[i]);
+    const double apart = std::abs(a[i] - b[i]);
+    if (!(apart <= largest)) largest = apart;  // NaN, too
+  }
+  return largest / (high - low);
+}
+
+/// Displacements and velocities apart, each by the range of the former run's.
+struct Apart {
+  double displacement;
+  double velocity;
+};
+Apart apart(std::int64_t values, const Simulation& a, const Simulation& b) {
+  return {difference(values, a.displacement(), b.displacement()),
+          difference(values, a.velocity(), b.velocity())};
+}
+
+/// Runs of `scene(precision)` in double, or in double and in a rounded precision.
+template <class SceneOf>
+void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::string& precision = "double") {
+  Case exact(scene("double"));
+  const auto in_double = roll(exact.start(nullptr), steps);
+  Case at(scene(precision));
+  const auto on_device = roll(at.start(device(0)), steps);
+  const Apart device_error = apart(exact.values(), *in_double, *on_device);
+  if (precision == "double") {
+    EXPECT_LT(device_error.displacement, 1e-9);
+    EXPECT_LT(device_error.velocity, 1e-9);
+  } else {
+    // Velocities hold the noise of rounding: the device's must not exceed the processor's.
+    const auto on_processor = roll(at.start(nullptr), steps);
+    EXPECT_LT(apart(exact.values(), *on_processor, *on_device).displacement, 1e-5);
+    EXPECT_LT(device_error.displacement, 1e-5);
+    EXPECT_LT(device_error.velocity, 2 * apart(exact.values(), *in_double, *on_processor).velocity);
+  }
+  for (const double value : history_row(at.model(), on_device->sample())) EXPECT_TRUE(std::isfinite(value));
+
+  set_threads(3);
+  const auto shuffled = roll(at.start(device(12345)), steps);
+  set_threads(1);
+  EXPECT_EQ(history_row(at.model(), on_device->sample()), history_row(at.model(), shuffled->sample()));
+  EXPECT_EQ(samples::differences(on_device->state(), shuffled->state()), "");
+  if (precision == "mixed") return;  // rounded relative to a node of the part
+  const auto cut_otherwise = roll(at.start(device(7, {40, 16})), steps);
+  EXPECT_EQ(samples::differences(on_device->state(), cut_otherwise->state()), "");
+}
+
+/// Scenes by precision: of the tyre, and of a file.
+auto tyre(std::vector<std::string> overrides) {
+  return [overrides](const std::string& precision) {
+    std::vector<std::string> all = {"scene.element_size=8 mm", "motion.duration=1 ms",
+                                    "solution_zone.start=5 mm", "scene.precision=" + precision};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return samples::tyre_scene(all);
+  };
+}
+auto file(const std::string& name, std::vector<std::string> overrides) {
+  return [name, overrides](const std::string& precision) {
+    std::vector<std::string> all = overrides;
+    all.push_back("scene.precision=" + precision);
+    return read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/" + name + ".toml", all);
+  };
+}
+
+std::vector<std::string> corrugated(std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(),
+                   {"corrugation.kind=sine", "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm",
+                    "corrugation.width=30 mm", "corrugation.start=5 mm", "corrugation.length=40 mm"});
+  return overrides;
+}
+
+const std::vector<std::string> kTraction = {"motion.traction.torque=13.8 kN m",
+                                            "motion.traction.ramp=0.05 ms"};
+constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
+
+TEST(Device, ThousandStepsOfTractionOverCorrugation) {
+  std::vector<std::string> overrides = corrugated(kTraction);
+  overrides.push_back("corrugation.apply=gap");
+  for (const char* precision : kPrecisions) expect_same_steps(tyre(overrides), 1000, precision);
+}
+
+TEST(Device, MovedNodesAndFacets) {
+  for (const char* precision : kPrecisions)
+    expect_same_steps(tyre(corrugated({"contact.surface=facets", "corrugation.apply=nodes"})), 300,
+                      precision);
+}
+
+TEST(Device, MaxwellBranches) {
+  const auto scene = [](const std::string& precision) {
+    return samples::tyre_with_maxwell_branches(
+        {"scene.element_size=8 mm", "motion.duration=0.5 ms", "scene.precision=" + precision});
+  };
+  for (const char* precision : kPrecisions) expect_same_steps(scene, 300, precision);
+}
+
+TEST(Device, PlasticMaterial) {
+  for (const char* precision : kPrecisions)
+    expect_same_steps(tyre({"material.steel.law=j2", "material.steel.yield_stress=300 MPa",
+                            "material.steel.isotropic_hardening=20 GPa",
+                            "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}),
+                      300, precision);
+}
+
+TEST(Device, GuidedBoreAndFallingFriction) {
+  expect_same_steps(
+      tyre({"wheel.bore=guided", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
+            "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}),
+      600);
+}
+
+TEST(Device, HammerOnARailOnFastenings) {
+  expect_same_steps(file("hammer", {}), 300);
+}
+
+TEST(Device, WheelsetWithAVehicleOnASlab) {
+  for (const char* precision : kPrecisions)
+    expect_same_steps(file("smooth", {"scene.element_size=10 mm", "motion.duration=0.1 ms",
+                                      "motion.start=moving", "rail.length=2.6 m", "rail.origin=1.3 m",
+                                      "fastenings.count=4", "fastenings.first=0.325 m",
+                                      "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
+                      300, precision);
+}
+
+/// From the processor to a device and back; each run has a model of its own, which holds the contact's state.
+TEST(Device, ARunGoesOnElsewhere) {
+  const Scene scene = tyre(kTraction)("double");
+  Case of_whole(scene);
+  Case of_begun(scene);
+  Case of_device(scene);
+  Case of_same(scene);
+  Case of_back(scene);
+  const auto whole = roll(of_whole.start(nullptr), 500);
+  const auto begun = roll(of_begun.start(nullptr), 201);
+  const auto on_device = of_device.start(device(3));
+  const auto same = of_same.start(device(5));
+  samples::copy(begun->state(), on_device->state());
+  samples::copy(begun->state(), same->state());
+  roll_on(*on_device, 403);
+  roll_on(*same, 403);
+  EXPECT_EQ(samples::differences(on_device->state(), same->state()), "");
+
+  const auto back = of_back.start(nullptr);
+  samples::copy(on_device->state(), back->state());
+  roll_on(*back, 500);
+  const Apart between = apart(of_whole.values(), *whole, *back);
+  EXPECT_LT(between.displacement, 1e-9);
+  EXPECT_LT(between.velocity, 1e-9);
+}
+
+TEST(Device, NamesThatAreNoDeviceAreRefused) {
+  for (const char* name : {"", "cuda", "gpu:", "gpu:-1", "gpu:1x", "emulate"})
+    EXPECT_THROW(choose_device(name), InputError) << name;
+  if (gpus().empty()) {
+    EXPECT_THROW(choose_device("gpu"), ResourceError);
+    EXPECT_THROW(choose_device("gpu:3"), ResourceError);
+    choose_device("auto");
+    EXPECT_EQ(chosen_device(), nullptr);
+  }
+  choose_device("emulated");
+  EXPECT_EQ(chosen_device()->name(), "emulated");
+  choose_device("cpu");
+  EXPECT_EQ(chosen_device(), nullptr);
+}
+
+}  // namespace
+}  // namespace tread
