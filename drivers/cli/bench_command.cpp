@@ -58,6 +58,7 @@ void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<BenchHotspotsOptions>>();
   CLI::App& command = add_scene_command(
       bench, "hotspots", "time, work and load balance of every phase of a step", bench_hotspots, state);
+  add_device_option(command, state->options.threads.device);
   command.add_option("--steps", state->options.steps, "steps of a run (default: 500)")->check(at_least(1));
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");

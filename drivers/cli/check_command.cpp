@@ -45,6 +45,7 @@ void add_check(CLI::App& app, const std::string& /*command_line*/) {
   auto state = std::make_shared<SceneCommand<CheckOptions>>();
   CLI::App& command = add_scene_command(
       app, "check", "report all errors of a scene, or its size, step and cost", check_scene, state);
+  add_device_option(command, state->options.threads.device);
   command.add_flag("--verbose", state->options.verbose, "list the phases of a step and the fields as well");
   AdviceOptions& advice = state->options.advice;
   CLI::Option* error = command.add_option(

@@ -65,9 +65,16 @@ CLI::Validator at_least(int least) {
 void add_thread_options(CLI::App& command, ThreadOptions& options) {
   command.add_option("-t,--threads", options.number, "threads (default: all)")->check(at_least(1));
   command
-      .add_option("--backend", options.backend,
-                  "library of the threads, tbb (default) or openmp; same bits")
+      .add_option("--backend", options.backend, "library of the threads, tbb (default) or openmp; same bits")
       ->type_name("tbb|openmp");
+}
+
+void add_device_option(CLI::App& command, std::string& device) {
+  command
+      .add_option(
+          "--device", device,
+          "what takes the steps: cpu (default), gpu, gpu:N, emulated, or auto (a card where there is one)")
+      ->type_name("cpu|gpu|gpu:N|auto|emulated");
 }
 
 void add_cache_option(CLI::App& command, std::string& place) {
@@ -112,6 +119,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
       .add_option("-t,--threads", options.threads,
                   "threads of one run (default: its share of the cores that are idle when it begins)")
       ->check(at_least(1));
+  add_device_option(command, options.device);
   command.add_flag("--retry", options.retry, "run failed points again");
   command.add_flag("--no-share", options.no_share,
                    "start each run at t = 0, even if points could share their rolling");

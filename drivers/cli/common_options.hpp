@@ -40,6 +40,8 @@ void report_problems(bool json, const std::function<void()>& action);
 CLI::Validator at_least(int least);
 
 void add_thread_options(CLI::App& command, ThreadOptions& options);
+/// Where steps are taken.
+void add_device_option(CLI::App& command, std::string& device);
 void add_cache_option(CLI::App& command, std::string& place);
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost);
 void add_study_options(CLI::App& command, StudyOptions& options);

@@ -12,6 +12,7 @@
 #include "drivers/process/version.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -20,9 +21,13 @@ namespace {
 /// Version, commit, compiler, instruction sets and packages on stdout.
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
+  const std::vector<std::string> cards = gpus();
   if (!json) {
-    fmt::print("{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\n", program_name(),
-               TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES);
+    fmt::print(
+        "{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\ndevices           cpu, "
+        "emulated, {}\n",
+        program_name(), TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES,
+        cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("gpu: {}", fmt::join(cards, ", ")));
     return;
   }
   Json packages = Json::object();
@@ -38,7 +43,8 @@ void print_version(bool json) {
                               {"compiler", TREAD_COMPILER},
                               {"build", TREAD_BUILD},
                               {"instruction_sets", sets},
-                              {"packages", packages}}));
+                              {"packages", packages},
+                              {"gpus", cards}}));
 }
 
 /// docs/reference/scene.md on stdout, as JSON one member `markdown`.

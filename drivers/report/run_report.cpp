@@ -24,6 +24,7 @@
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -280,6 +281,7 @@ Chapter cost_chapter(const Run& run) {
   }
   q.add_text("Threads", std::to_string(threads()), "",
              fmt::format("instruction set {}", run.model.internal->instruction_set()));
+  q.add_text("Device", device_name(), "", "takes the steps");
   q.add_text("Peak memory", bytes_text(peak_memory()), "",
              fmt::format("estimate: {}", bytes_text(peak_bytes(run.model, run.results.seconds_preload +
                                                                               run.results.seconds_rolling))));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/device_fields.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/estimate.hpp"
@@ -13,6 +14,7 @@
 #include "drivers/results/run_results.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -57,6 +59,12 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   line("Time", fmt::format("about {} with {} thread{}: preload {}{}", duration_text(e.seconds()), threads(),
                            threads() == 1 ? "" : "s", duration_text(e.preload_seconds),
                            e.steps > 0 ? ", rolling " + duration_text(e.rolling_seconds) : ""));
+  if (chosen_device()) {
+    const DeviceNeed need = device_need(model);
+    line("Device", fmt::format("{}, about {}; the processor moves {} of {} nodes", device_name(),
+                               bytes_text(need.bytes), grouped(std::min(need.host_nodes, model.nodes())),
+                               grouped(model.nodes())));
+  }
   if (verbose)
     text += fmt::format("\n{}\n{}", plain_text(phase_table(model)), plain_text(field_table(model)));
   return text;
@@ -83,6 +91,12 @@ Json check_json(const Model& model, const Estimate& e) {
   json["checkpoint_bytes"] = e.disk.checkpoints;
   json["history_rows"] = e.disk.rows;
   json["threads"] = threads();
+  json["device"] = device_name();
+  if (chosen_device()) {
+    const DeviceNeed need = device_need(model);
+    json["device_bytes"] = need.bytes;
+    json["host_nodes"] = std::min(need.host_nodes, model.nodes());
+  }
   json["preload_s"] = e.preload_seconds;
   json["rolling_s"] = e.rolling_seconds;
   json["phases"] = Json::array();

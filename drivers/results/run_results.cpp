@@ -10,6 +10,7 @@
 #include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -354,6 +355,7 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["dt_s"] = r.dt;
   json["dt_reason"] = r.limit.reason;
   json["threads"] = threads();
+  json["device"] = device_name();
   json["mesh_s"] = r.seconds_mesh;
   json["preload_s"] = r.seconds_preload;
   json["preload_cached"] = r.preload_cached != 0;

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/process/version.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -162,6 +163,7 @@ SealedContent pack_run(const RunOrder& order, RunResults& results, Model& model,
                        std::string patch) {
   SealedContent content = pack_order(order);
   content["made/instruction_set"] = std::string(model.internal->instruction_set());
+  content["made/device"] = device_name();
   content["made/lanes"] = std::vector<std::int64_t>{kLanes};
   content["made/mesh"] = fingerprint(model);
   content["made/state_hash"] = std::vector{static_cast<std::int64_t>(simulation.state_hash())};
@@ -219,6 +221,11 @@ std::string other_origin(const SealedContent& content, const Model& model) {
   if (set != model.internal->instruction_set())
     return fmt::format("it was written with {}, this machine computes with {}", set,
                        model.internal->instruction_set());
+  const std::string device =
+      content.contains("made/device") ? sealed_entry<std::string>(content, "made/device") : "cpu";
+  if (device != device_name())
+    return fmt::format("it was written by steps on the device {}, this run takes them on {}", device,
+                       device_name());
   return "";
 }
 

@@ -52,8 +52,9 @@ struct StudyPlan {
   std::filesystem::path folder;
   std::vector<PlannedPoint> points;
   std::vector<SharedRolling> shared;
-  int jobs = 1;     ///< number of runs at once
-  int threads = 0;  ///< threads of one run; 0: its share of the cores that are idle when it begins
+  int jobs = 1;        ///< number of runs at once
+  int threads = 0;     ///< threads of one run; 0: its share of the cores that are idle when it begins
+  std::string device;  ///< of all runs; empty: the processor
 
   /// Exit code of the first failed point's process; ExitCode::resources if a signal ended it.
   ExitCode failure_code() const;

@@ -19,6 +19,7 @@
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -33,7 +34,12 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
   const int each = std::max(1, plan.threads);
-  const int jobs = stated(options.jobs, plan.study.jobs);
+  plan.device = options.device;
+  const bool one_card = plan.device.starts_with("gpu") || (plan.device == "auto" && !gpus().empty());
+  if (one_card && options.jobs > 1)
+    throw InputError(
+        fmt::format("--jobs {} with --device {}: a card takes one run at a time", options.jobs, plan.device));
+  const int jobs = one_card ? 1 : stated(options.jobs, plan.study.jobs);
   plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
   if (plan.jobs * each > cores)
     throw InputError(

@@ -18,6 +18,7 @@ struct StudyOptions {
   std::vector<std::string> overrides;  ///< overrides of all points
   int jobs = 0;                        ///< runs at once; 0: the study's, or as cores and memory allow
   int threads = 0;                     ///< threads of one run; 0: the study's, or 1
+  std::string device;                  ///< takes the steps of all runs; empty: the processor
   bool retry = false;                  ///< true to run failed points, too
   bool no_share = false;               ///< true if every point rolls from the start
   bool list = false;                   ///< true for points and cost alone

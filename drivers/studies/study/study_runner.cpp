@@ -42,13 +42,19 @@ int count(const StudyPlan& plan, PointState state) {
 
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count) {
   const PointStatus& status = point.status;
-  const std::string threads = std::to_string(count);
+  std::vector<std::string> place = {"-t", std::to_string(count)};
+  if (!plan.device.empty()) place.insert(place.end(), {"--device", plan.device});
   const bool failed = status.state == PointState::failed;
-  if (status.state == PointState::interrupted || (failed && !status.anew))
-    return {"resume", point.folder.string(), "-t", threads};
-  std::vector<std::string> arguments = {"run", plan.study.scene.string()};
+  std::vector<std::string> arguments;
+  if (status.state == PointState::interrupted || (failed && !status.anew)) {
+    arguments = {"resume", point.folder.string()};
+    arguments.insert(arguments.end(), place.begin(), place.end());
+    return arguments;
+  }
+  arguments = {"run", plan.study.scene.string()};
   for (const std::string& text : point.overrides) arguments.insert(arguments.end(), {"--set", text});
-  arguments.insert(arguments.end(), {"-o", point.folder.string(), "-t", threads});
+  arguments.insert(arguments.end(), {"-o", point.folder.string()});
+  arguments.insert(arguments.end(), place.begin(), place.end());
   if (!point.from.empty()) arguments.insert(arguments.end(), {"--from", point.from});
   if (failed) arguments.emplace_back("--overwrite");
   const std::vector<std::string> sharing = sharing_arguments(plan, point);
