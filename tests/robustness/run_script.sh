@@ -30,7 +30,7 @@ STUB
 chmod +x "$work"/bin/* "$work/build/release/tread"
 export PATH=$work/bin:$PATH NOTES=$work/notes
 
-fail() { echo "run_script.sh: $*" >&2; cat "$work/notes" "$work/said" >&2; exit 1; }
+fail() { echo "run_script.sh: $*" >&2; cat "$work/notes" "$work/said" >&2 || true; exit 1; }
 # try SECONDS OPTION...: ./run of a scene that is expected to take so long.
 try() {
   rm -rf "$work/notes" "$work/out"
@@ -41,6 +41,9 @@ try() {
 }
 runs() { grep -c '^run ' "$work/notes"; }
 
+try 660 --help
+[[ $status == 0 && ! -e $work/notes && $(head -n 1 "$work/said") == "./run [scene.toml] [tread options]:"* ]] ||
+  fail "--help prints how to call ./run and runs nothing"
 try 660 --set "motion.speed=250 km/h" --quiet
 [[ $status == 0 && $(runs) == 2 ]] || fail "a long run has a preview"
 grep -q '^run .*/out/preview --set motion.speed=250 km/h --quiet --set scene.element_size=6 mm' "$work/notes" ||
