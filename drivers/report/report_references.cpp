@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "drivers/results/resolution.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/report/markup.hpp"
 #include "io/scene/scene_library.hpp"
@@ -90,12 +91,12 @@ std::vector<Comparison> hertz_comparisons(const Model& model, const RunResults& 
   if (!model.contact) return rows;
   const Scene& scene = model.scene;
   const HertzPatch& hertz = model.hertz_patch;
-  const bool sphere = scene.wheel->profile == "arc" && scene.rail->profile == "box";
-  const std::string shape =
-      fmt::format("Hertz for radii {} and {} mm", readable(1e3 * model.wheel_radius(), 4),
-                  readable(1e3 * model.hertz_radius_y, 4));
-  const std::string remark =
-      sphere ? shape : shape + "; the profiles' curvature varies over the patch: not Hertzian";
+  std::string remark = fmt::format("Hertz for radii {} and {} mm", readable(1e3 * model.wheel_radius(), 4),
+                                   readable(1e3 * model.hertz_radius_y, 4));
+  if (const std::optional<double> across = too_few_elements_across_patch(model))
+    remark += fmt::format("; {:.1f} elements across the patch do not resolve it", *across);
+  else if (scene.wheel->profile != "arc" || scene.rail->profile != "box")
+    remark += "; the profiles' curvature varies over the patch: not Hertzian";
   rows.push_back({"Patch area, static", "mm²", 1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y,
                   1e6 * r.preload.contact.area, remark});
   rows.push_back({"Largest pressure, static", "MPa", 1e-6 * hertz.max_pressure, 1e-6 * r.preload.max_pressure,

@@ -20,16 +20,20 @@ constexpr double kSlope = 0.05;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
 
-/// The shorter axis of the patch.
+/// Length of the shorter axis of the patch [m].
+double shorter_axis(const Model& model) {
+  return 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
+}
+
 std::string patch_warning(const Model& model) {
-  const double shorter = 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
-  const double element = model.sizes.contact;
-  if (shorter <= 0 || shorter / element >= kElementsOfPatch) return "";
+  const std::optional<double> across = too_few_elements_across_patch(model);
+  if (!across) return "";
+  const double shorter = shorter_axis(model);
   return fmt::format(
       "the contact patch has {:.1f} elements across ({:.3g} mm of Hertz on elements of {:.3g} mm): "
       "below {:g}, pressures and stresses are too low and slip, shear and creepage are not resolved; "
       "scene.element_size = \"{:.2g} mm\" resolves it",
-      shorter / element, 1e3 * shorter, 1e3 * element, kElementsOfPatch, 1e3 * shorter / kElementsOfPatch);
+      *across, 1e3 * shorter, 1e3 * model.sizes.contact, kElementsOfPatch, 1e3 * shorter / kElementsOfPatch);
 }
 
 /// Shortest wave of the corrugation [m].
@@ -68,6 +72,12 @@ std::string step_warning(const CorrugationSpec& corrugation) {
 }
 
 }  // namespace
+
+std::optional<double> too_few_elements_across_patch(const Model& model) {
+  const double across = shorter_axis(model) / model.sizes.contact;
+  if (!model.contact || across <= 0 || across >= kElementsOfPatch) return std::nullopt;
+  return across;
+}
 
 std::vector<std::string> resolution_warnings(const Model& model) {
   std::vector<std::string> warnings;

@@ -1,12 +1,17 @@
 #pragma once
 // Warnings of a mesh that resolves the contact patch or the corrugation too coarsely.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/engine/model.hpp"
 
 namespace tread {
+
+/// Elements across the shorter axis of the patch of Hertz if too few for its pressures; none for a sound mesh
+/// or without contact.
+std::optional<double> too_few_elements_across_patch(const Model& model);
 
 /// A sentence for each part of the scene that the mesh resolves too coarsely, or that the model was not made
 /// for, with the value, the bound, the consequence and the way out. Empty for a sound scene.

@@ -106,6 +106,17 @@ TEST_F(ReferenceFile, SaysWhatIsWrong) {
   }
 }
 
+TEST_F(ReferenceFile, ACoarseMeshIsBlamedBeforeTheProfiles) {
+  const Model coarse(scene("smooth.toml", {"scene.element_size=11 mm"}));
+  const std::vector<Comparison> rows = hertz_comparisons(coarse, {});
+  ASSERT_EQ(rows.size(), 2U);
+  for (const Comparison& row : rows) {
+    EXPECT_NE(row.remark.find("1.0 elements across the patch do not resolve it"), std::string::npos)
+        << row.remark;
+    EXPECT_EQ(row.remark.find("not Hertzian"), std::string::npos) << row.remark;
+  }
+}
+
 class ShareFolder : public ReferenceFile {
  protected:
   ~ShareFolder() override { ::unsetenv("TREAD_SHARE"); }
