@@ -5,9 +5,12 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "core/error.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/scene/problems.hpp"
+#include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
 
 namespace tread {
@@ -86,7 +89,15 @@ void add_cache_option(CLI::App& command, std::string& place) {
 }
 
 CLI::Option* or_shipped(CLI::Option* option) {
-  return option->transform([](const std::string& stated) { return find_scene(stated).string(); });
+  return option->transform([](const std::string& stated) {
+    std::string found = find_scene(stated).string();
+    std::error_code ignored;
+    if (!std::filesystem::exists(found, ignored))
+      if (const std::string near = similar_text(stated, shipped_scenes()); !near.empty())
+        throw InputError(
+            fmt::format("cannot read {}: there is no such file; did you mean {}?", stated, near));
+    return found;
+  });
 }
 
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {

@@ -119,7 +119,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const tread::Error& error) {
     // An error of the command line names the command, "tread run: ...".
-    const bool named = std::string_view(error.what()).starts_with("tread ");
+    const std::string_view what = error.what();
+    const bool named = what.starts_with("tread ") || what.starts_with("tread: ");
     fmt::print(stderr, "{}{}\n", named ? "" : "tread: ", error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {

@@ -17,15 +17,32 @@ std::vector<fs::path> share_folders() {
   return folders;
 }
 
-fs::path find_scene(const fs::path& stated) {
-  std::error_code ignored;
-  const bool there = fs::exists(stated, ignored) && !fs::is_directory(stated, ignored);
-  if (there || stated.empty() || stated.is_absolute()) return stated;
+namespace {
+
+std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders;
   for (const fs::path& folder : share_folders()) folders.push_back(folder / "scenes");
   if (const fs::path source = TREAD_SOURCE_SHARE; !source.empty())
     folders.push_back(source.parent_path() / "scenes");
-  for (const fs::path& folder : folders)
+  return folders;
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::path& folder : scene_folders())
+    for (const fs::directory_entry& file : fs::directory_iterator(folder, ignored))
+      if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+  return names;
+}
+
+fs::path find_scene(const fs::path& stated) {
+  std::error_code ignored;
+  const bool there = fs::exists(stated, ignored) && !fs::is_directory(stated, ignored);
+  if (there || stated.empty() || stated.is_absolute()) return stated;
+  for (const fs::path& folder : scene_folders())
     for (const char* ending : {"", ".toml"})
       if (fs::path file = folder / (stated.string() + ending); fs::is_regular_file(file, ignored))
         return file;

@@ -2,6 +2,7 @@
 // Data files and scenes that come with the program.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tread {
@@ -18,5 +19,8 @@ std::filesystem::path find_share_file(const std::filesystem::path& name);
 /// The scene or study at the path that the user states; where there is none, the shipped one of that name,
 /// "tyre.toml" or "tyre". A path that leads nowhere is returned as it is.
 std::filesystem::path find_scene(const std::filesystem::path& stated);
+
+/// Names of the shipped scenes, "tyre".
+std::vector<std::string> shipped_scenes();
 
 }  // namespace tread

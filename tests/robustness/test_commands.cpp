@@ -175,7 +175,7 @@ TEST_F(Commands, StaticSceneIsComparedWithHertz) {
           .code,
       0);
   const std::string report = content("report.html");
-  EXPECT_TRUE(has(report, "Hertz for radii 430 and 430 mm"));
+  EXPECT_TRUE(has(report, "Hertz for radii 430 and 430 mm; 2.1 elements across the patch do not resolve it"));
   EXPECT_FALSE(has(report, "Contact forces over"));
 }
 
@@ -365,6 +365,8 @@ TEST_F(Commands, WrongWordsAreNamed) {
          "tread bench kernels: there is no option --kernels; did you mean --kernel?"},
         {"run x.toml y.toml", "tread run: 'y.toml' was not expected here; `tread run --help` shows how"},
         {"run", "tread run: scene is required; `tread run --help` shows how"},
+        {"", "tread: A subcommand is required; `tread --help` shows how"},
+        {"run tyr", "tread: cannot read tyr: there is no such file; did you mean tyre?"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
         {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
