@@ -8,6 +8,7 @@
 #include "drivers/engine/step_features.hpp"
 #include "drivers/results/frame_files.hpp"
 #include "io/report/plain_text.hpp"
+#include "kernels/solver/aggregates.hpp"
 
 namespace tread {
 
@@ -15,6 +16,10 @@ namespace {
 
 /// Program, libraries, histories and report, as measured on scenes whose fields are small.
 constexpr std::int64_t kProgramBytes = 25'000'000;
+
+/// Matrix and factor of the static solver's coarse level, an aggregate: measured on runs, 16 to 22 kB.
+/// [docs/records/findings.md, 3. Meshes beyond the memory]
+constexpr std::int64_t kAggregateBytes = 19'000;
 
 /// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
 /// arrays, file and its image.
@@ -71,7 +76,8 @@ std::vector<FieldBytes> all_fields(const Model& model) {
   if (model.scene.motion && model.scene.output.frames > 0)
     list.push_back({RunField::frames, frame_memory(model)});
   const double vector = static_cast<double>(3 * model.mesh.slots) * sizeof(double);
-  list.push_back({RunField::solver, static_cast<std::int64_t>(kSolverVectors * vector)});
+  list.push_back({RunField::solver, static_cast<std::int64_t>(kSolverVectors * vector) +
+                                        kAggregateBytes * aggregate_count(model.mesh)});
   return list;
 }
 

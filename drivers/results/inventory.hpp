@@ -12,8 +12,8 @@
 namespace tread {
 
 /// Vector fields of the static solver beside the displacement: the residual, two of conjugate gradients, one
-/// and a half of the preconditioner; aggregates and coarse factor as measured on runs.
-inline constexpr double kSolverVectors = 4.5 + 2;
+/// and a half of the preconditioner; two thirds for aggregates, as measured on runs.
+inline constexpr double kSolverVectors = 4.5 + 0.7;
 
 /// An array or record that lives in memory during a run.
 struct FieldRow {

@@ -118,7 +118,23 @@ std::vector<int> station_runs(const SweptBlock& block, double radius, const Aggr
   return ends;
 }
 
+/// Mean distance of the nodes from the axis [m]; 1 for extruded blocks.
+double mean_radius(const SweptBlock& block, const std::vector<int>& nodes) {
+  if (block.sweep != Sweep::revolved) return 1;
+  double sum = 0;
+  for (const int node : nodes) sum += block.section.q[static_cast<std::size_t>(node)];
+  return sum / static_cast<double>(nodes.size());
+}
+
 }  // namespace
+
+std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options) {
+  std::int64_t count = 0;
+  for (const SweptBlock& block : mesh.blocks)
+    for (const auto& nodes : section_parts(block.section, options))
+      count += static_cast<std::int64_t>(station_runs(block, mean_radius(block, nodes), options).size());
+  return count;
+}
 
 Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options)
     : mesh_(&mesh), free_(static_cast<std::size_t>(mesh.slots), 0), part_of_node_(mesh.blocks.size()) {
@@ -139,12 +155,7 @@ Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, cons
 }
 
 void Aggregates::add_part(const SweptBlock& block, std::vector<int> nodes, const AggregateOptions& options) {
-  double radius = 1;
-  if (block.sweep == Sweep::revolved) {
-    radius = 0;
-    for (const int node : nodes) radius += block.section.q[static_cast<std::size_t>(node)];
-    radius /= static_cast<double>(nodes.size());
-  }
+  const double radius = mean_radius(block, nodes);
   const int part = static_cast<int>(parts_.size());
   parts_.push_back({&block, std::move(nodes), slices_.size()});
   for (int station = 0; station < block.station_count(); ++station)

@@ -17,6 +17,9 @@ struct AggregateOptions {
   int least_across = 3;   ///< number of nodes along one direction that `size` does not split
 };
 
+/// Number of aggregates of a mesh whose nodes are all free.
+std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options = {});
+
 /// Division of the free nodes into aggregates: connected parts of a block's section times a run of stations.
 /// Every free node belongs to one aggregate. An aggregate has up to six modes: its rigid motions on the free
 /// unknowns, orthonormal in the plain product. Motions that these unknowns cannot tell apart (a line of

@@ -118,6 +118,13 @@ TEST(Aggregates, ModesAreOrthonormalAndTransposed) {
   EXPECT_NEAR(product, dot(size_of(fine), other.data(), fine.data()), 1e-15);
 }
 
+TEST(Aggregates, AreCountedWithoutTheirModes) {
+  const Mesh mesh = bar_and_ring();
+  const Field free(static_cast<std::size_t>(3 * mesh.slots), 1.0);
+  const AggregateOptions options = small_aggregates().aggregates;
+  EXPECT_EQ(aggregate_count(mesh, options), Aggregates(mesh, free, options).count());
+}
+
 TEST(Aggregates, ContainRigidMotions) {
   const Mesh mesh = bar_and_ring();
   const Elastic elastic(mesh);
