@@ -87,7 +87,7 @@ TEST(FrictionScene, FallingFrictionFalls) {
 
 TEST(FrictionScene, TractionBeyondTheLargestCoefficientIsRefused) {
   std::vector<std::string> overrides = table("# x [m]  f [-]\n0 0.2\n1 0.1\n");
-  overrides.push_back("motion.traction.mu=0.25");
+  overrides.emplace_back("motion.traction.mu=0.25");
   expect_parts(refusal(overrides), {"traction coefficient of 0.25", "0.2"});
 }
 
