@@ -26,8 +26,8 @@ struct BenchKernelsOptions : BenchOptions {
   std::vector<std::string> precisions;
 };
 
-/// Measures every kernel on made-up data, after the limits of the machine. Throws InputError for an unknown
-/// name.
+/// Measures every kernel on made-up data, after the limits of the machine; or those of the chosen device.
+/// Throws InputError for an unknown name.
 void bench_kernels(const BenchKernelsOptions& options);
 
 struct BenchScalingOptions : BenchOptions {

@@ -7,6 +7,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/bench_row.hpp"
 #include "drivers/bench/benchmarks.hpp"
+#include "drivers/bench/device_kernels.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/kernel_cases.hpp"
 #include "io/report/plain_text.hpp"
@@ -136,11 +137,16 @@ std::vector<std::string_view> backends_to_measure(const BenchOptions& options) {
 void bench_kernels(const BenchKernelsOptions& options) {
   const HardwareCounters counters;
   use_threads(options.threads);
+  Rows rows(options.json);
+  if (const std::shared_ptr<Device> device = chosen_device()) {
+    for (BenchRow& row : measure_device(*device, options)) rows.add(std::move(row));
+    rows.finish();
+    return;
+  }
   const std::vector<KernelCase> cases = kernel_cases();
   check_options(options, cases);
   const auto teams = backends_to_measure(options);
   Limits limits(options.plan);
-  Rows rows(options.json);
   for (const std::string_view team : teams) {
     set_backend(team);
     add_limits(options, limits, rows);

@@ -24,6 +24,7 @@ void add_bench_kernels(CLI::App& bench) {
   CLI::App& command = *bench.add_subcommand(
       "kernels", "speed of every kernel on made-up data, beside the limits of the machine");
   add_thread_options(command, options->threads);
+  add_device_option(command, options->threads.device);
   add_plan_options(command, options->plan);
   command.add_flag("--json", options->json, "one JSON object a line on stdout");
   command.add_option("--kernel", options->kernels, "names of kernels (default: all)");

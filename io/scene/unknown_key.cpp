@@ -22,7 +22,7 @@ constexpr std::array kPurposes = {
             "[sleepers] holds sleepers on ballast, with stiffness and damping of the bed; leave out [slab]"},
     Purpose{{"plasticity", "plastic", "yield", "yield_stress", "hardening"},
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
-    Purpose{{"gpu", "cuda", "device"}, "there is no GPU; -t states the threads of the processor"},
+    Purpose{{"gpu", "cuda", "device"}, "a device belongs to the command: --device gpu, or emulated"},
     Purpose{{"mpi", "ranks", "nodes"},
             "there is no MPI; -t states the threads, and a study's points run by themselves"},
     Purpose{{"threads", "cores"}, "threads belong to the command: -t"},

@@ -63,6 +63,11 @@ __global__ void lag_kernel(std::int64_t n, Real kept, Real gained, const Real* v
   if (i < n) q[i] = kept * q[i] + gained * v[i];
 }
 
+__global__ void triad_kernel(std::int64_t n, double* a, const double* b, const double* c) {
+  const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (i < n) a[i] = b[i] + 3 * c[i];
+}
+
 unsigned blocks_for(std::int64_t n) {
   return static_cast<unsigned>((n + kThreads - 1) / kThreads);
 }
@@ -131,6 +136,12 @@ class CudaDevice final : public Device {
   void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
     lag_kernel<<<blocks_for(n), kThreads>>>(n, kept, gained, v, q);
     check(cudaGetLastError(), "lag");
+  }
+
+  void wait() override { check(cudaDeviceSynchronize(), "waiting for it"); }
+  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
+    triad_kernel<<<blocks_for(n), kThreads>>>(n, a, b, c);
+    check(cudaGetLastError(), "triad");
   }
 
  private:

@@ -67,6 +67,11 @@ class Device {
   /// q = kept q + gained v of n values. [BranchLag::advance]
   virtual void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) = 0;
   virtual void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) = 0;
+
+  /// Ends when all kernels have ended.
+  virtual void wait() = 0;
+  /// a = b + 3 c of n values: the bandwidth of the device's memory. [STREAM]
+  virtual void triad(std::int64_t n, double* a, const double* b, const double* c) = 0;
 };
 
 /// An array on a device.

@@ -102,6 +102,11 @@ class EmulatedDevice final : public Device {
     for_each(n, [=](std::int64_t i) { q[i] = kept * q[i] + gained * v[i]; });
   }
 
+  void wait() override {}
+  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
+    for_each(n, [=](std::int64_t i) { a[i] = b[i] + 3 * c[i]; });
+  }
+
  private:
   template <class Body>
   void for_each(std::int64_t n, const Body& body) const {

@@ -352,13 +352,22 @@ TEST_F(Commands, ProfileShowsWritesAndMeets) {
   EXPECT_EQ(call(fmt::format("profile {} --wheel --smoothing 1", clean.string())).code, 2);
 }
 
+TEST_F(Commands, DevicesAreChosenByName) {
+  const auto checked = call("check tyre --device emulated");
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_NE(checked.out.find("Device    emulated"), std::string::npos) << checked.out;
+  EXPECT_EQ(call("check tyre --device tpu").code, 2);
+  EXPECT_EQ(call("check tyre --device gpu:9999").code, 4);
+}
+
 TEST_F(Commands, WrongWordsAreNamed) {
   for (const auto& [wrong, answer] :
        {std::pair{"rum x.toml", "there is no command 'rum'; did you mean 'run'?"},
         {"report --help", "there is no command 'report'; `tread --help` lists all"},
         {"develop x.toml --frm y",
          "tread develop: there is no option --frm; did you mean --from? `tread develop --help`"},
-        {"run x.toml --gpu", "tread run: there is no option --gpu: there is no GPU; -t states the threads"},
+        {"run x.toml --gpu",
+         "tread run: there is no option --gpu: a device belongs to the command: --device gpu"},
         {"run x.toml --mass-scaling=2", "masses are not scaled"},
         {"resume x --restart 3", "`tread resume DIR` goes on with a run"},
         {"bench kernels --kernels x",
