@@ -121,7 +121,7 @@ void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::stri
 /// Scenes by precision: of the tyre, and of a file.
 auto tyre(std::vector<std::string> overrides) {
   return [overrides](const std::string& precision) {
-    std::vector<std::string> all = {"scene.element_size=8 mm", "motion.duration=1 ms",
+    std::vector<std::string> all = {"scene.element_size=10 mm", "motion.duration=1 ms",
                                     "solution_zone.start=5 mm", "scene.precision=" + precision};
     all.insert(all.end(), overrides.begin(), overrides.end());
     return samples::tyre_scene(all);
@@ -161,7 +161,7 @@ TEST(Device, MovedNodesAndFacets) {
 TEST(Device, MaxwellBranches) {
   const auto scene = [](const std::string& precision) {
     return samples::tyre_with_maxwell_branches(
-        {"scene.element_size=8 mm", "motion.duration=0.5 ms", "scene.precision=" + precision});
+        {"scene.element_size=10 mm", "motion.duration=0.5 ms", "scene.precision=" + precision});
   };
   for (const char* precision : kPrecisions) expect_same_steps(scene, 300, precision);
 }
