@@ -15,6 +15,7 @@ namespace tread {
 /// Options of all measuring commands.
 struct BenchOptions {
   ThreadOptions threads;
+  std::string device;  ///< takes the steps; empty: the processor [choose_device]
   MeasurementPlan plan;
   bool json = false;  ///< true for one object a line on stdout in place of a table
 };

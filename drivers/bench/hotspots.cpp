@@ -15,6 +15,7 @@
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 #include "kernels/blocks/internal_force.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -167,6 +168,7 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
 void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& options) {
   const HardwareCounters counters;  // before the threads start, so that theirs count
   use_threads(options.threads);
+  choose_device(options.device);
   const Progress progress(options.quiet);
   const RollingScene scene(resolved.scene, progress);
   Simulation simulation = scene.start();

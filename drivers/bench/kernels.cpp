@@ -12,6 +12,7 @@
 #include "drivers/bench/kernel_cases.hpp"
 #include "io/report/plain_text.hpp"
 #include "kernels/blocks/internal_force.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -137,6 +138,7 @@ std::vector<std::string_view> backends_to_measure(const BenchOptions& options) {
 void bench_kernels(const BenchKernelsOptions& options) {
   const HardwareCounters counters;
   use_threads(options.threads);
+  choose_device(options.device);
   Rows rows(options.json);
   if (const std::shared_ptr<Device> device = chosen_device()) {
     for (BenchRow& row : measure_device(*device, options)) rows.add(std::move(row));

@@ -24,7 +24,7 @@ void add_bench_kernels(CLI::App& bench) {
   CLI::App& command = *bench.add_subcommand(
       "kernels", "speed of every kernel on made-up data, beside the limits of the machine");
   add_thread_options(command, options->threads);
-  add_device_option(command, options->threads.device);
+  add_device_option(command, options->device);
   add_plan_options(command, options->plan);
   command.add_flag("--json", options->json, "one JSON object a line on stdout");
   command.add_option("--kernel", options->kernels, "names of kernels (default: all)");
@@ -59,7 +59,7 @@ void add_bench_hotspots(CLI::App& bench) {
   auto state = std::make_shared<SceneCommand<BenchHotspotsOptions>>();
   CLI::App& command = add_scene_command(
       bench, "hotspots", "time, work and load balance of every phase of a step", bench_hotspots, state);
-  add_device_option(command, state->options.threads.device);
+  add_device_option(command, state->options.device);
   command.add_option("--steps", state->options.steps, "steps of a run (default: 500)")->check(at_least(1));
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");

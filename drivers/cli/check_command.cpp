@@ -12,6 +12,7 @@
 #include "drivers/results/scene_model.hpp"
 #include "drivers/studies/dial/dial_advice.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -19,6 +20,7 @@ namespace {
 
 struct CheckOptions {
   ThreadOptions threads;
+  std::string device;    ///< takes the steps; empty: the processor [choose_device]
   bool json = false;     ///< an object instead of tables
   bool verbose = false;  ///< phases and fields, too
   AdviceOptions advice;
@@ -26,6 +28,7 @@ struct CheckOptions {
 
 void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   use_threads(options.threads);
+  choose_device(options.device);
   const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model = scene_model(resolved.scene, resolved);
   const Estimate cost = estimate(model);
@@ -45,7 +48,7 @@ void add_check(CLI::App& app, const std::string& /*command_line*/) {
   auto state = std::make_shared<SceneCommand<CheckOptions>>();
   CLI::App& command = add_scene_command(
       app, "check", "report all errors of a scene, or its size, step and cost", check_scene, state);
-  add_device_option(command, state->options.threads.device);
+  add_device_option(command, state->options.device);
   command.add_flag("--verbose", state->options.verbose, "list the phases of a step and the fields as well");
   AdviceOptions& advice = state->options.advice;
   CLI::Option* error = command.add_option(

@@ -17,7 +17,7 @@ void add_run(CLI::App& app, const std::string& command_line) {
       app, "run", "run a scene: preload, rolling, histories, summary, report", run_scene, state);
   command.add_option("-o,--output", state->options.output,
                      "output directory (default: the scene's name and the time, in the working directory)");
-  add_device_option(command, state->options.threads.device);
+  add_device_option(command, state->options.device);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
   command.add_flag("--overwrite", state->options.overwrite, "remove the run in the output directory first");
   command.add_option("--from", state->options.from,
@@ -35,7 +35,7 @@ void add_resume(CLI::App& app, const std::string& /*command_line*/) {
                   "key=value for motion.duration, output.* and stop.*, e.g. --set \"stop.wall_time=2 h\"")
       ->allow_extra_args(false);
   add_thread_options(command, options->threads);
-  add_device_option(command, options->threads.device);
+  add_device_option(command, options->device);
   command.add_flag("--json", options->json, "summary on stdout");
   command.add_flag("--quiet", options->quiet, "no progress on stderr");
   add_cache_option(command, options->cache);

@@ -1,27 +1,6 @@
 #include "drivers/engine/node_fields.hpp"
 
-#include "drivers/engine/device_fields.hpp"
-#include "drivers/engine/precise_fields.hpp"
-
 namespace tread {
-
-namespace {
-
-template <class Real, class U>
-std::unique_ptr<NodeFields> fields_of(const Model& model) {
-  if (std::shared_ptr<Device> device = chosen_device())
-    return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
-  return std::make_unique<PreciseFields<Real, U>>(model);
-}
-
-}  // namespace
-
-std::unique_ptr<NodeFields> make_node_fields(const Model& model) {
-  const std::string& precision = model.scene.precision;
-  if (precision == "single") return fields_of<float, float>(model);
-  if (precision == "mixed") return fields_of<float, double>(model);
-  return fields_of<double, double>(model);
-}
 
 ValueBytes value_bytes(const Scene& scene) {
   const auto bytes = [](bool single) { return static_cast<int>(single ? sizeof(float) : sizeof(double)); };

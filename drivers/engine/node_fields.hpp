@@ -2,11 +2,10 @@
 // Fields at the nodes of a run, in the scene's precision, and the operations of a step on all of them at
 // once. Whoever touches few of them does so through views, in double. [theory.md, Precision]
 
-#include <memory>
-
 #include "core/aligned.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/state_list.hpp"
+#include "drivers/engine/features/whole_fields.hpp"
 #include "drivers/engine/model.hpp"
 #include "kernels/blocks/time_update.hpp"
 
@@ -24,7 +23,7 @@ struct BranchEnergy {
   double power = 0;   ///< dissipated in their dashpots [W]
 };
 
-class NodeFields {
+class NodeFields : public WholeFields {
  public:
   NodeFields() = default;
   NodeFields(const NodeFields&) = delete;
@@ -44,12 +43,6 @@ class NodeFields {
 
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
-
-  /// Brings all values to the views, where they live on a device: between phases of a step the views hold
-  /// those of nodes on which features act, and in measured steps all.
-  virtual void fetch() {}
-  /// Takes over all values from the views, after fetch(): what they were elsewhere is no more.
-  virtual void changed() {}
 
   /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step.
   virtual void internal_force() = 0;
@@ -78,9 +71,6 @@ class NodeFields {
   ConstNodeField lag_;
   ConstLawState laws_;
 };
-
-/// At rest, undeformed. Keeps a reference to the model, whose coefficients must stay what they are.
-std::unique_ptr<NodeFields> make_node_fields(const Model& model);
 
 /// Size of one component of one node [B].
 struct ValueBytes {

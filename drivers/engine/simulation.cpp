@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
+#include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/energy_stop.hpp"
 #include "drivers/engine/start.hpp"
 #include "drivers/engine/static_system.hpp"
@@ -101,8 +102,8 @@ void Simulation::step() {
 StepState Simulation::begin_step() {
   sampled_ = steps_ % sampling_interval_ == 0;
   const bool measured = steps_ % sampling_interval_ % watch_interval(sampling_interval_) == 0;
-  return {*fields_, u_,    v_,  force_, fields_->lag(),     fields_->laws(), frame_,  impulse_,
-          *this,    time_, dt_, steps_, sampling_interval_, sampled_,        measured};
+  return {*fields_, *fields_, u_,    v_,  force_, fields_->lag(),     fields_->laws(), frame_,
+          impulse_, *this,    time_, dt_, steps_, sampling_interval_, sampled_,        measured};
 }
 
 /// One virtual call for each feature that the phase has.

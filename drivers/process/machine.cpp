@@ -15,7 +15,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -31,7 +30,6 @@ std::int64_t machine_memory() {
 
 void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
-  choose_device(options.device.empty() ? "cpu" : options.device);
   if (options.number > machine_cores())
     fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
                options.number, machine_cores(), machine_cores());

@@ -10,7 +10,6 @@ namespace tread {
 struct ThreadOptions {
   int number = 0;       ///< number of threads; 0: as many as the machine has
   std::string backend;  ///< library that runs the threads; empty: the default
-  std::string device;   ///< takes the steps; empty: the processor [choose_device]
 };
 
 /// Number of cores that this process may use.
@@ -18,8 +17,8 @@ int machine_cores();
 /// Memory of the machine [B].
 std::int64_t machine_memory();
 
-/// Sets the number and the backend of the threads, and the device. Warns of more threads than cores. Throws
-/// InputError for an unknown backend or device, ResourceError for a device that is not there.
+/// Sets the number and the backend of the threads. Warns of more threads than cores. Throws InputError for an
+/// unknown backend.
 void use_threads(const ThreadOptions& options);
 
 /// Time that this process has used on all cores [s].

@@ -13,6 +13,7 @@ namespace tread {
 struct RunOptions {
   std::filesystem::path output;  ///< output directory; created if missing
   ThreadOptions threads;
+  std::string device;  ///< takes the steps; empty: the processor [choose_device]
   bool json = false;   ///< true for a summary on stdout
   bool quiet = false;  ///< true for no progress on stderr
   /// Run with whose state this one begins: "DIR" or "DIR@TIME", as in fork_from().

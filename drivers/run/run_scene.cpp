@@ -31,6 +31,7 @@
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -320,6 +321,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
   if (options.output.empty()) options.output = dated_folder(resolved.source.name);
   use_threads(options.threads);
+  choose_device(options.device);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
   std::optional<Fork> fork;
@@ -337,6 +339,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
 
 void resume_run(const RunOptions& options) {
   use_threads(options.threads);
+  choose_device(options.device);
   if (!std::filesystem::is_directory(options.output))
     throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
                                  options.output.string()));

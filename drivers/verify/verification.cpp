@@ -19,6 +19,7 @@
 #include "io/report/report.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -203,6 +204,7 @@ bool verify(const VerifyOptions& options) {
     return true;
   }
   use_threads(options.threads);
+  choose_device(options.device);
   const std::vector<const VerifyCase*> cases = chosen(options.names);
   const std::vector<VerifyInputs> inputs = inputs_of(cases, options.overrides);
   if (!options.output.empty()) make_directory(options.output);

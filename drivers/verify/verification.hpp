@@ -14,8 +14,9 @@ struct VerifyOptions {
   std::vector<std::string> overrides;  ///< "mu=0.25", for every chosen case that has the input
   std::filesystem::path output;        ///< directory for a page a case and the figures; empty: none
   ThreadOptions threads;
-  bool json = false;  ///< one object a line on stdout instead of a table
-  bool list = false;  ///< cases and their inputs instead of running them
+  std::string device;  ///< takes the steps; empty: the processor [choose_device]
+  bool json = false;   ///< one object a line on stdout instead of a table
+  bool list = false;   ///< cases and their inputs instead of running them
   bool quiet = false;
 };
 

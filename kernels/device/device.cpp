@@ -30,7 +30,7 @@ int card_of(std::string_view name) {
 
 void choose_device(std::string_view name) {
   const int card = card_of(name);
-  if (name == "cpu" || (name == "auto" && gpus().empty()))
+  if (name.empty() || name == "cpu" || (name == "auto" && gpus().empty()))
     choose_device(std::shared_ptr<Device>());
   else if (name == "gpu" || name == "auto" || card >= 0)
     choose_device(open_gpu(card >= 0 ? card : 0));

@@ -132,8 +132,8 @@ std::string why_no_gpu();
 /// ResourceError where there is no such card.
 std::unique_ptr<Device> open_gpu(int number);
 
-/// Chooses the device of the steps to come: cpu (none), gpu, gpu:N, emulated, or auto (a card where there is
-/// one). InputError for another name, ResourceError where the device is not there.
+/// Chooses the device of the steps to come: cpu or no name (none), gpu, gpu:N, emulated, or auto (a card
+/// where there is one). InputError for another name, ResourceError where the device is not there.
 void choose_device(std::string_view name);
 /// Chooses one that a test makes; null: none.
 void choose_device(std::shared_ptr<Device> device);

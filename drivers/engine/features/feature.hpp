@@ -10,6 +10,7 @@
 #include "drivers/engine/features/run_field.hpp"
 #include "drivers/engine/features/sample.hpp"
 #include "drivers/engine/features/step_phase.hpp"
+#include "drivers/engine/features/whole_fields.hpp"
 #include "kernels/material/law_state.hpp"
 
 namespace tread {
@@ -52,6 +53,7 @@ class RunEnd {
 /// Everything that phases read and write, during one step.
 struct StepState {
   NodeFields& fields;
+  WholeFields& whole;      ///< the same, to fetch all of them
   NodeField displacement;  ///< [m]
   NodeField velocity;      ///< at the half step [m/s]
   NodeField force;         ///< internal minus external [N]

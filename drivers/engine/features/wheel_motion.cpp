@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/engine/node_fields.hpp"
-
 namespace tread {
 
 namespace {
@@ -63,9 +61,9 @@ void WheelMotion::apply(StepPhase phase, StepState& step) {
   if (phase == StepPhase::frame) {
     step.wheel.advance(step.dt);
   } else if ((step.steps + 1) % kAnchorInterval == 0) {
-    step.fields.fetch();
+    step.whole.fetch();
     anchor({step.displacement, step.velocity, step.wheel, step.dt});
-    step.fields.changed();
+    step.whole.changed();
   }
 }
 

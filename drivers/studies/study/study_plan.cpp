@@ -200,7 +200,7 @@ void look_into_folders(StudyPlan& plan) {
 }
 
 void project_cost(StudyPlan& plan, bool retry) {
-  use_threads({std::max(1, plan.threads), "", ""});
+  use_threads({std::max(1, plan.threads), ""});
   PointProblems problems(plan.study);
   struct Built {
     const PlannedPoint* point;

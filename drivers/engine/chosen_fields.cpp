@@ -1,0 +1,26 @@
+#include "drivers/engine/chosen_fields.hpp"
+
+#include "drivers/engine/device_fields.hpp"
+#include "drivers/engine/precise_fields.hpp"
+
+namespace tread {
+
+namespace {
+
+template <class Real, class U>
+std::unique_ptr<NodeFields> fields_of(const Model& model) {
+  if (std::shared_ptr<Device> device = chosen_device())
+    return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
+  return std::make_unique<PreciseFields<Real, U>>(model);
+}
+
+}  // namespace
+
+std::unique_ptr<NodeFields> make_node_fields(const Model& model) {
+  const std::string& precision = model.scene.precision;
+  if (precision == "single") return fields_of<float, float>(model);
+  if (precision == "mixed") return fields_of<float, double>(model);
+  return fields_of<double, double>(model);
+}
+
+}  // namespace tread
