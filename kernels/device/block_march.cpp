@@ -118,16 +118,11 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
 template <class Real>
 template <class T, class Allocator>
 const T* BlockMarch<Real>::keep(Device& device, const std::vector<T, Allocator>& values) {
-  struct Array final : Kept {
-    Array(Device& device, std::span<const T> values) : array(device, values) {}
-    DeviceArray<T> array;
-  };
   if (values.empty()) return nullptr;
-  auto array = std::make_unique<Array>(device, std::span<const T>(values.data(), values.size()));
-  bytes_ += array->array.bytes();
-  const T* const data = array->array.data();
-  kept_.push_back(std::move(array));
-  return data;
+  const auto array =
+      std::make_shared<DeviceArray<T>>(device, std::span<const T>(values.data(), values.size()));
+  kept_.push_back(array);
+  return array->data();
 }
 
 template <class Real>
@@ -171,7 +166,6 @@ void BlockMarch<Real>::build_stations(Device& device) {
   block_.radius = keep(device, radius);
   weight_.resize(2 * index(block_.stations));
   device_weight_ = DeviceArray<Real>(device, weight_.size());
-  bytes_ += device_weight_.bytes();
   block_.weight = device_weight_.data();
 }
 

@@ -32,8 +32,6 @@ class BlockMarch {
   /// What a march reads in a step with these loads.
   const MarchBlock<Real>& at(const StepLoads& loads);
 
-  std::int64_t bytes() const { return bytes_; }
-
  private:
   /// Copies values to the device.
   template <class T, class Allocator>
@@ -41,14 +39,9 @@ class BlockMarch {
   void build_stations(Device& device);
   void build_coefficients(Device& device, const BlockElements<Real>& elements);
 
-  struct Kept {
-    virtual ~Kept() = default;
-  };
-
   const SweptBlock* swept_;
   MarchBlock<Real> block_;
-  std::vector<std::unique_ptr<Kept>> kept_;
-  std::int64_t bytes_ = 0;
+  std::vector<std::shared_ptr<void>> kept_;  ///< arrays that block_ points to
   std::vector<Real> weight_;
   DeviceArray<Real> device_weight_;
 };

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kernels/device/march_layout.hpp"
@@ -97,7 +98,6 @@ class DeviceArray {
   T* data() { return data_; }
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }
-  std::int64_t bytes() const { return static_cast<std::int64_t>(size_ * sizeof(T)); }
   /// From and to arrays of as many values.
   void upload(const T* from) {
     if (size_ > 0) device_->upload(data_, from, size_ * sizeof(T));
