@@ -33,6 +33,10 @@ void check_names(const char* option, const std::vector<std::string>& names,
   }
 }
 
+void check_precisions(const BenchKernelsOptions& options) {
+  check_names("--precision", options.precisions, {"double", "mixed", "single"});
+}
+
 void check_options(const BenchKernelsOptions& options, const std::vector<KernelCase>& cases) {
   std::vector<std::string> kernels;
   for (const KernelCase& c : cases)
@@ -41,7 +45,7 @@ void check_options(const BenchKernelsOptions& options, const std::vector<KernelC
   check_names("--kernel", options.kernels, kernels);
   const auto sets = InternalForce::instruction_sets();
   check_names("--lanes", options.lanes, {sets.begin(), sets.end()});
-  check_names("--precision", options.precisions, {"double", "mixed", "single"});
+  check_precisions(options);
 }
 
 /// Prints rows as they come, or all of them as a table at the end.
@@ -141,6 +145,9 @@ void bench_kernels(const BenchKernelsOptions& options) {
   choose_device(options.device);
   Rows rows(options.json);
   if (const std::shared_ptr<Device> device = chosen_device()) {
+    check_precisions(options);
+    if (!options.kernels.empty() || !options.lanes.empty())
+      throw InputError("--device: all kernels of a device are measured; leave out --kernel and --lanes");
     for (BenchRow& row : measure_device(*device, options)) rows.add(std::move(row));
     rows.finish();
     return;

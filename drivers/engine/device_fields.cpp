@@ -43,10 +43,10 @@ std::vector<std::int64_t> featured_slots(const Model& model) {
   return slots;
 }
 
-/// By group of kLanes slots: does the host move it?
-std::vector<unsigned char> featured_groups(const Model& model) {
-  std::vector<unsigned char> marks(index(model.mesh.slots / kLanes), 0);
-  for (const std::int64_t slot : featured_slots(model)) marks[index(slot / kLanes)] = 1;
+/// Marks of the groups of kLanes slots that hold one of these.
+std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
+  std::vector<unsigned char> marks(index(mesh.slots / kLanes), 0);
+  for (const std::int64_t slot : slots) marks[index(slot / kLanes)] = 1;
   return marks;
 }
 
@@ -61,7 +61,7 @@ void for_groups(const std::vector<std::int64_t>& groups, const Copy& copy) {
 }  // namespace
 
 DeviceNeed device_need(const Model& model) {
-  const std::vector<unsigned char> marks = featured_groups(model);
+  const std::vector<unsigned char> marks = groups_of(model.mesh, featured_slots(model));
   const std::int64_t groups = std::count(marks.begin(), marks.end(), 1);
   const ValueBytes bytes = value_bytes(model.scene);
   const std::int64_t moved = 2 * (bytes.displacement + bytes.other);  // before and after the step
@@ -104,9 +104,9 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
 
 template <class Real, class U>
 void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
-  this->update().defer(featured_slots(model));
-  const std::vector<unsigned char> marks = featured_groups(model);
-  for (const unsigned char mark : marks) {
+  const std::vector<std::int64_t> slots = featured_slots(model);
+  this->update().defer(slots);
+  for (const unsigned char mark : groups_of(model.mesh, slots)) {
     if (mark != 0) groups_.push_back(std::ssize(host_group_));
     host_group_.push_back(mark != 0 ? static_cast<int>(groups_.size()) - 1 : -1);
   }
@@ -185,9 +185,14 @@ void DeviceFields<Real, U>::fetch() {
   now_.u.download(this->u().data());
   now_.v.download(this->v().data());
   if (this->q()) lag_.download(this->q()->values().data());
+  fetch_law_state();
+  host_whole_ = true;
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::fetch_law_state() {
   for (std::size_t b = 0; b < now_.state.size(); ++b)
     if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
-  host_whole_ = true;
 }
 
 template <class Real, class U>
@@ -224,8 +229,7 @@ void DeviceFields<Real, U>::internal_force() {
   send();
   march({}, false);
   force_.download(this->f().data());
-  for (std::size_t b = 0; b < now_.state.size(); ++b)
-    if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
+  fetch_law_state();
 }
 
 template <class Real, class U>

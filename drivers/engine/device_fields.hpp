@@ -50,6 +50,7 @@ class DeviceFields final : public PreciseFields<Real, U> {
   void march(const StepLoads& loads, bool moves);
   void send();
   void send_host_groups();
+  void fetch_law_state();
   void advance_device_lag();
   void spoil();
 

@@ -58,9 +58,9 @@ __global__ void place_kernel(GroupValues<Real, U> values, U* u, Real* v) {
 }
 
 template <class Real>
-__global__ void lag_kernel(std::int64_t n, Real kept, Real gained, const Real* v, Real* q) {
+__global__ void lag_kernel(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) {
   const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (i < n) q[i] = kept * q[i] + gained * v[i];
+  if (i < n) q[i] = advance.of(q[i], v[i]);
 }
 
 __global__ void triad_kernel(std::int64_t n, double* a, const double* b, const double* c) {
@@ -72,7 +72,7 @@ unsigned blocks_for(std::int64_t n) {
   return static_cast<unsigned>((n + kThreads - 1) / kThreads);
 }
 
-class CudaDevice final : public Device {
+class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
   explicit CudaDevice(int number) {
     check(cudaSetDevice(number), "opening it");
@@ -106,38 +106,6 @@ class CudaDevice final : public Device {
     check(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from it");
   }
 
-  void march(TileVariant variant, const MarchBlock<double>& block,
-             const MarchFields<double, double>& fields) override {
-    march_any(variant, block, fields);
-  }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, double>& fields) override {
-    march_any(variant, block, fields);
-  }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, float>& fields) override {
-    march_any(variant, block, fields);
-  }
-
-  void place(const GroupValues<double, double>& values, double* u, double* v) override {
-    place_any(values, u, v);
-  }
-  void place(const GroupValues<float, double>& values, double* u, float* v) override {
-    place_any(values, u, v);
-  }
-  void place(const GroupValues<float, float>& values, float* u, float* v) override {
-    place_any(values, u, v);
-  }
-
-  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
-    lag_kernel<<<blocks_for(n), kThreads>>>(n, kept, gained, v, q);
-    check(cudaGetLastError(), "lag");
-  }
-  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
-    lag_kernel<<<blocks_for(n), kThreads>>>(n, kept, gained, v, q);
-    check(cudaGetLastError(), "lag");
-  }
-
   void wait() override { check(cudaDeviceSynchronize(), "waiting for it"); }
   void triad(std::int64_t n, double* a, const double* b, const double* c) override {
     triad_kernel<<<blocks_for(n), kThreads>>>(n, a, b, c);
@@ -145,6 +113,14 @@ class CudaDevice final : public Device {
   }
 
  private:
+  friend KernelDevice<CudaDevice>;
+
+  template <class Real>
+  void advance_any_lag(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) {
+    lag_kernel<<<blocks_for(n), kThreads>>>(n, advance, v, q);
+    check(cudaGetLastError(), "lag");
+  }
+
   template <class Real, class U>
   void place_any(const GroupValues<Real, U>& values, U* u, Real* v) {
     const std::int64_t n = 3 * kLanes * values.count;

@@ -55,7 +55,7 @@ class EmulatedTeam {
   mutable std::byte* memory_;
 };
 
-class EmulatedDevice final : public Device {
+class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
  public:
   explicit EmulatedDevice(const Emulation& emulation) : emulation_(emulation) {}
 
@@ -72,47 +72,24 @@ class EmulatedDevice final : public Device {
   void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
   void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
 
-  void march(TileVariant variant, const MarchBlock<double>& block,
-             const MarchFields<double, double>& fields) override {
-    march_any(variant, block, fields);
-  }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, double>& fields) override {
-    march_any(variant, block, fields);
-  }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, float>& fields) override {
-    march_any(variant, block, fields);
-  }
-
-  void place(const GroupValues<double, double>& values, double* u, double* v) override {
-    place_any(values, u, v);
-  }
-  void place(const GroupValues<float, double>& values, double* u, float* v) override {
-    place_any(values, u, v);
-  }
-  void place(const GroupValues<float, float>& values, float* u, float* v) override {
-    place_any(values, u, v);
-  }
-
-  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
-    for_each(n, [=](std::int64_t i) { q[i] = kept * q[i] + gained * v[i]; });
-  }
-  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
-    for_each(n, [=](std::int64_t i) { q[i] = kept * q[i] + gained * v[i]; });
-  }
-
   void wait() override {}
   void triad(std::int64_t n, double* a, const double* b, const double* c) override {
     for_each(n, [=](std::int64_t i) { a[i] = b[i] + 3 * c[i]; });
   }
 
  private:
+  friend KernelDevice<EmulatedDevice>;
+
   template <class Body>
   void for_each(std::int64_t n, const Body& body) const {
     parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i) body(i);
     });
+  }
+
+  template <class Real>
+  void advance_any_lag(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) const {
+    for_each(n, [=](std::int64_t i) { q[i] = advance.of(q[i], v[i]); });
   }
 
   template <class Real, class U>

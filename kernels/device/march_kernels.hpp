@@ -3,6 +3,7 @@
 
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_body.hpp"
+#include "kernels/material/branch_lag.hpp"
 
 namespace tread {
 
@@ -44,5 +45,41 @@ TREAD_INLINE void place_value(const GroupValues<Real, U>& values, std::int64_t i
   u[at] = values.u[i];
   v[at] = values.v[i];
 }
+
+/// Hands the precisions of a device's kernels to templates of `Own`: march_any, place_any, advance_any_lag.
+template <class Own>
+class KernelDevice : public Device {
+ public:
+  void march(TileVariant variant, const MarchBlock<double>& block,
+             const MarchFields<double, double>& fields) override {
+    own().march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, double>& fields) override {
+    own().march_any(variant, block, fields);
+  }
+  void march(TileVariant variant, const MarchBlock<float>& block,
+             const MarchFields<float, float>& fields) override {
+    own().march_any(variant, block, fields);
+  }
+  void place(const GroupValues<double, double>& values, double* u, double* v) override {
+    own().place_any(values, u, v);
+  }
+  void place(const GroupValues<float, double>& values, double* u, float* v) override {
+    own().place_any(values, u, v);
+  }
+  void place(const GroupValues<float, float>& values, float* u, float* v) override {
+    own().place_any(values, u, v);
+  }
+  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
+    own().advance_any_lag(n, LagAdvance<double>{kept, gained}, v, q);
+  }
+  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
+    own().advance_any_lag(n, LagAdvance<float>{kept, gained}, v, q);
+  }
+
+ private:
+  Own& own() { return static_cast<Own&>(*this); }
+};
 
 }  // namespace tread

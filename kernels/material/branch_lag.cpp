@@ -12,7 +12,7 @@ BranchLag<Real>::BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBr
     : mesh_(mesh), branches_(std::move(branches)), q_(static_cast<std::size_t>(3 * mesh.slots), 0) {}
 
 template <class Real>
-BranchLag<Real>::Advance BranchLag<Real>::advance_of(int block, double dt) const {
+LagAdvance<Real> BranchLag<Real>::advance_of(int block, double dt) const {
   const double time = branches_[static_cast<std::size_t>(block)]->time;
   return {static_cast<Real>(std::exp(-dt / time)), static_cast<Real>(-time * std::expm1(-dt / time))};
 }
@@ -21,12 +21,12 @@ template <class Real>
 void BranchLag<Real>::advance(const Real* v, double dt) {
   for (std::size_t b = 0; b < branches_.size(); ++b) {
     if (!branches_[b]) continue;
-    const auto [kept, gained] = advance_of(static_cast<int>(b), dt);
+    const LagAdvance<Real> advance = advance_of(static_cast<int>(b), dt);
     const SweptBlock& block = mesh_.blocks[b];
     Real* const q = q_.data() + dof(block.base, 0);
     const Real* const of = v + dof(block.base, 0);
-    for_chunks(3 * block.slots(), [=, kept = kept, gained = gained](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) q[i] = kept * q[i] + gained * of[i];
+    for_chunks(3 * block.slots(), [=](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) q[i] = advance.of(q[i], of[i]);
     });
   }
 }

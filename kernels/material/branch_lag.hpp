@@ -6,10 +6,19 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/inline.hpp"
 #include "core/material.hpp"
 #include "core/mesh/swept_block.hpp"
 
 namespace tread {
+
+/// Over a step a block's lag is kept q + gained v.
+template <class Real>
+struct LagAdvance {
+  Real kept;
+  Real gained;  ///< [s]
+  TREAD_INLINE Real of(Real q, Real v) const { return kept * q + gained * v; }
+};
 
 /// Lag: the way of a node beyond the dashpots of its branches, dq/dt = v - q / tau [m]; zero in blocks
 /// without branches. Precision as that of velocities.
@@ -22,13 +31,8 @@ class BranchLag {
   /// Exact over a step of dt [s] with the velocity v [m/s], a vector field.
   void advance(const Real* v, double dt);
 
-  /// Over a step a block's lag is kept q + gained v.
-  struct Advance {
-    Real kept;
-    Real gained;  ///< [s]
-  };
-  /// Of a block that has a branch.
-  Advance advance_of(int block, double dt) const;
+  /// For a block that has a branch.
+  LagAdvance<Real> advance_of(int block, double dt) const;
 
   /// Vector field of 3 * mesh.slots values [m].
   const Real* data() const { return q_.data(); }
