@@ -73,22 +73,10 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
       last_(start + x.back()),
       centre_(centre),
       width_(width),
-      deepest_(range_with_zero(depth)),
-      x_(std::move(x)),
-      depth_(std::move(depth)) {
-  for (double& at : x_) at += start;
-  // Slopes of Fritsch and Carlson: the curve does not overshoot the measured depths.
-  const std::size_t n = x_.size();
-  slope_.assign(n, 0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double left = (depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]);
-    const double right = (depth_[i + 1] - depth_[i]) / (x_[i + 1] - x_[i]);
-    if (left * right > 0) slope_[i] = 2 * left * right / (left + right);
-  }
-  // A harmonic mean is at most twice the smaller secant; between its ends a piece is flatter than 1.5
-  // secants.
-  for (std::size_t i = 1; i < n; ++i)
-    steepest_ = std::max(steepest_, 2 * std::abs(depth_[i] - depth_[i - 1]) / (x_[i] - x_[i - 1]));
+      deepest_(range_with_zero(depth)) {
+  for (double& at : x) at += start;
+  curve_ = MonotoneCubic(std::move(x), std::move(depth));
+  steepest_ = curve_.steepest();
 }
 
 Corrugation Corrugation::rough(const Random& random, double start, double length, double centre,
@@ -98,14 +86,9 @@ Corrugation Corrugation::rough(const Random& random, double start, double length
 
 double Corrugation::profile(double x) const {
   if (x <= first_ || x >= last_) return 0;
-  if (x_.empty())
+  if (curve_.empty())
     return 0.5 * sine_.depth * (1 - std::cos(2 * std::numbers::pi * (x - first_) / sine_.wavelength));
-  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
-  const double h = x_[i + 1] - x_[i];
-  const double s = (x - x_[i]) / h;
-  const double r = 1 - s;
-  return depth_[i] * r * r * (1 + 2 * s) + depth_[i + 1] * s * s * (1 + 2 * r) +
-         h * s * r * (slope_[i] * r - slope_[i + 1] * s);
+  return curve_.value(x);
 }
 
 double Corrugation::depth(double x, double y) const {

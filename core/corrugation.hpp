@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/math/monotone_cubic.hpp"
+
 namespace tread {
 
 /// Depth d(x, y) below the smooth surface [m], negative above it. The depth is zero outside [start, start +
@@ -52,7 +54,7 @@ class Corrugation {
 
   Sine sine_{1, 0};
   double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0, steepest_ = 0;
-  std::vector<double> x_, depth_, slope_;
+  MonotoneCubic curve_;
 };
 
 /// Factor 1 that falls to 0 as half a cosine over `fade` [m] at either end of [0, length] [m].

@@ -19,6 +19,7 @@
 #include "drivers/engine/lateral_gap.hpp"
 #include "drivers/engine/restraints.hpp"
 #include "drivers/engine/sections.hpp"
+#include "drivers/engine/surfaces.hpp"
 #include "kernels/element/front_plan.hpp"
 
 namespace tread {
@@ -300,6 +301,8 @@ void Model::build_contact(const Corrugation& shape) {
   const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
   options.depth_room = depth_room(scene);
+  options.rail_depth = rail_surface(scene);
+  options.wheel_depth = wheel_surface(scene);
   contact = std::make_unique<Contact>(mesh, options, shape);
 }
 

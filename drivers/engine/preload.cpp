@@ -333,7 +333,8 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
     // other.
     const double overlap = 0.6 * model.hertz_patch.approach;
-    const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
+    const Corrugation& corrugation = model.contact->corrugation();
+    const double depth = corrugation.depth(0, corrugation.centre()) + model.contact->touching_depth();
     out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
   }
   Equilibrium equilibrium(model, motion);

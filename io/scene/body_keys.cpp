@@ -8,27 +8,30 @@ namespace tread::keys {
 void add_material(Keys& keys, const std::string& name) {
   const std::string table = std::string(kMaterialTables) + name;
   keys.push_back(required(quantity(table + ".youngs_modulus", {Effect::preload, Effect::cost},
-                                   at(name, &Material::youngs_modulus), kStress, "GPa", above(0, 1e13),
-                                   "Young's modulus")));
+                                   at(&Scene::materials, name, &Material::youngs_modulus), kStress, "GPa",
+                                   above(0, 1e13), "Young's modulus")));
+  keys.push_back(required(number(table + ".poissons_ratio", {Effect::preload, Effect::cost},
+                                 at(&Scene::materials, name, &Material::poissons_ratio),
+                                 {0, 0.5, false, true}, "Poisson's ratio")));
   keys.push_back(
-      required(number(table + ".poissons_ratio", {Effect::preload, Effect::cost},
-                      at(name, &Material::poissons_ratio), {0, 0.5, false, true}, "Poisson's ratio")));
-  keys.push_back(required(quantity(table + ".density", {Effect::mesh}, at(name, &Material::density), kDensity,
-                                   "kg/m3", above(0, 1e5), "Density")));
+      required(quantity(table + ".density", {Effect::mesh}, at(&Scene::materials, name, &Material::density),
+                        kDensity, "kg/m3", above(0, 1e5), "Density")));
   keys.push_back(
-      choice(table + ".law", {Effect::motion, Effect::cost}, at(name, &Material::law), {"elastic", "j2"},
+      choice(table + ".law", {Effect::motion, Effect::cost}, at(&Scene::materials, name, &Material::law),
+             {"elastic", "j2"},
              "Law that gives the stress: `elastic` is linear and isotropic; `j2` yields after von Mises "
              "with linear isotropic and kinematic hardening. The static state is elastic"));
   const auto j2 = [&](Key key) { return only_with(table + ".law", "j2", std::move(key)); };
+  keys.push_back(required(j2(quantity(table + ".yield_stress", {Effect::motion},
+                                      at(&Scene::materials, name, &Material::yield_stress), kStress, "MPa",
+                                      above(0, 1e13), "Initial yield stress in uniaxial tension"))));
   keys.push_back(
-      required(j2(quantity(table + ".yield_stress", {Effect::motion}, at(name, &Material::yield_stress),
-                           kStress, "MPa", above(0, 1e13), "Initial yield stress in uniaxial tension"))));
-  keys.push_back(j2(quantity(table + ".isotropic_hardening", {Effect::motion},
-                             at(name, &Material::isotropic_hardening), kStress, "GPa", from(0, 1e13),
-                             "Growth of the yield stress with the equivalent plastic strain")));
+      j2(quantity(table + ".isotropic_hardening", {Effect::motion},
+                  at(&Scene::materials, name, &Material::isotropic_hardening), kStress, "GPa", from(0, 1e13),
+                  "Growth of the yield stress with the equivalent plastic strain")));
   keys.push_back(j2(quantity(table + ".kinematic_hardening", {Effect::motion},
-                             at(name, &Material::kinematic_hardening), kStress, "GPa", from(0, 1e13),
-                             "Growth of the backstress with the uniaxial plastic strain")));
+                             at(&Scene::materials, name, &Material::kinematic_hardening), kStress, "GPa",
+                             from(0, 1e13), "Growth of the backstress with the uniaxial plastic strain")));
   const auto damping = [name](Scene& scene) -> Field {
     const auto found = scene.materials.find(name);
     if (found == scene.materials.end()) return std::monostate{};
@@ -45,8 +48,8 @@ void add_material(Keys& keys, const std::string& name) {
            "\"1e-8 s\" }`: classical stiffness-proportional damping",
        .range = from(0, 1)});
   keys.push_back(
-      quantity(table + ".damping_up_to", {Effect::motion, Effect::cost}, at(name, &Material::damping_up_to),
-               kFrequency, "kHz", above(0, 1e9),
+      quantity(table + ".damping_up_to", {Effect::motion, Effect::cost},
+               at(&Scene::materials, name, &Material::damping_up_to), kFrequency, "kHz", above(0, 1e9),
                "`rayleigh_beta` holds below this frequency only, by a Maxwell branch: loss "
                "nine tenths of beta w there, above it at most 1.7 times that, and a step that a beta of "
                "1e-4 s leaves too; none: at all frequencies"));

@@ -92,13 +92,16 @@ struct SceneTable {
 inline constexpr std::string_view kMaterialTables = "material.";
 /// Begins the path of every probe's table: "probe.midspan".
 inline constexpr std::string_view kProbeTables = "probe.";
+/// Begins the path of every table of a surface's depths: "surface.weld".
+inline constexpr std::string_view kSurfaceTables = "surface.";
 
 /// Names that a scene gives to its own tables.
 struct TableNames {
   std::vector<std::string> materials;
+  std::vector<std::string> surfaces;
   std::vector<std::string> probes;
 
-  /// Adds the name in the path of a material's or probe's table; nothing for other tables.
+  /// Adds the name in the path of a table that a scene names; nothing for other tables.
   void add(std::string_view table);
 };
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,22 +52,13 @@ std::function<Field(Scene&)> at(Spec Scene::*spec, Member Spec::*member) {
   return [spec, member](Scene& scene) -> Field { return &(scene.*spec.*member); };
 }
 
-/// A member of the material of that name.
-template <class Member>
-std::function<Field(Scene&)> at(const std::string& material, Member Material::*member) {
-  return [material, member](Scene& scene) -> Field {
-    const auto found = scene.materials.find(material);
-    if (found == scene.materials.end()) return std::monostate{};
-    return &(found->second.*member);
-  };
-}
-
-/// A member of the probe of that name.
-template <class Member>
-std::function<Field(Scene&)> at(const std::string& probe, Member ProbeSpec::*member) {
-  return [probe, member](Scene& scene) -> Field {
-    const auto found = scene.probes.find(probe);
-    if (found == scene.probes.end()) return std::monostate{};
+/// A member of the one of that name in a map of the scene.
+template <class Spec, class Member>
+std::function<Field(Scene&)> at(std::map<std::string, Spec, std::less<>> Scene::*all, const std::string& name,
+                                Member Spec::*member) {
+  return [all, name, member](Scene& scene) -> Field {
+    const auto found = (scene.*all).find(name);
+    if (found == (scene.*all).end()) return std::monostate{};
     return &(found->second.*member);
   };
 }
@@ -77,7 +69,7 @@ Key number(std::string path, Effects effects, std::function<Field(Scene&)> locat
            std::string description, Kind kind = Kind::number);
 Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locate,
            std::vector<std::string> allowed, std::string description);
-/// A text that names a file of two columns.
+/// A text that names a file of columns.
 Key file(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description);
 /// A text that names the material of a part.
 Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,

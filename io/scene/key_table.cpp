@@ -1,6 +1,7 @@
 #include "io/scene/key_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -92,6 +93,7 @@ Keys make_keys(const TableNames& names) {
   add_contact(keys);
   add_motion(keys);
   add_corrugation(keys);
+  for (const std::string& name : names.surfaces) add_surface(keys, name);
   add_wear(keys);
   add_impacts(keys);
   for (const std::string& name : names.probes) add_probe(keys, name);
@@ -103,26 +105,56 @@ Keys make_keys(const TableNames& names) {
 
 namespace {
 
-SceneTable material_table(const std::string& name) {
-  return {.name = std::string(kMaterialTables) + name,
-          .description =
-              "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
-              "`slab.material`. The name consists of letters, digits, _ and -.",
-          .create = [name](Scene& scene) { scene.materials[name] = {.name = name}; },
-          .remove = [name](Scene& scene) { scene.materials.erase(name); },
-          .exists = [name](const Scene& scene) { return scene.materials.contains(name); }};
+/// Tables of one kind, of which a scene has as many as it gives names to.
+struct NamedTables {
+  std::string_view prefix;
+  void (*add_keys)(Keys&, const std::string& name);
+  const char* description;
+  void (*create)(Scene&, const std::string& name);
+  void (*remove)(Scene&, const std::string& name);
+  bool (*exists)(const Scene&, const std::string& name);
+
+  SceneTable table(const std::string& name) const {
+    return {.name = std::string(prefix) + name,
+            .description = std::string(description) + " The name consists of letters, digits, _ and -.",
+            .create = [create = create, name](Scene& scene) { create(scene, name); },
+            .remove = [remove = remove, name](Scene& scene) { remove(scene, name); },
+            .exists = [exists = exists, name](const Scene& scene) { return exists(scene, name); }};
+  }
+};
+
+constexpr std::array<NamedTables, 3> kNamedTables = {
+    {{kMaterialTables, add_material,
+      "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
+      "`slab.material`.",
+      [](Scene& scene, const std::string& name) { scene.materials[name] = {.name = name}; },
+      [](Scene& scene, const std::string& name) { scene.materials.erase(name); },
+      [](const Scene& scene, const std::string& name) { return scene.materials.contains(name); }},
+     {kSurfaceTables, add_surface,
+      "Depth on the running surface of rail or wheel, added to the contact gap. Depths of all such tables "
+      "and of [corrugation] are summed.\nA place on the wheel is where it meets the rail in free rolling, "
+      "once a turn.",
+      [](Scene& scene, const std::string& name) { scene.surfaces[name] = {}; },
+      [](Scene& scene, const std::string& name) { scene.surfaces.erase(name); },
+      [](const Scene& scene, const std::string& name) { return scene.surfaces.contains(name); }},
+     {kProbeTables, add_probe,
+      "A point of a body whose motion or stress the histories hold, in columns that begin with the "
+      "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.",
+      [](Scene& scene, const std::string& name) { scene.probes[name] = {}; },
+      [](Scene& scene, const std::string& name) { scene.probes.erase(name); },
+      [](const Scene& scene, const std::string& name) { return scene.probes.contains(name); }}}};
+
+/// The kind of the table; null for tables that no scene names.
+const NamedTables* kind_of(std::string_view table) {
+  for (const NamedTables& kind : kNamedTables)
+    if (table.starts_with(kind.prefix)) return &kind;
+  return nullptr;
 }
 
-SceneTable probe_table(const std::string& name) {
-  return {
-      .name = std::string(kProbeTables) + name,
-      .description =
-          "A point of a body whose motion or stress the histories hold, in columns that begin with the "
-          "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.\n"
-          "The name consists of letters, digits, _ and -.",
-      .create = [name](Scene& scene) { scene.probes[name] = {}; },
-      .remove = [name](Scene& scene) { scene.probes.erase(name); },
-      .exists = [name](const Scene& scene) { return scene.probes.contains(name); }};
+/// Adds the tables of these names.
+void add_named(std::vector<SceneTable>& tables, std::string_view prefix,
+               const std::vector<std::string>& names) {
+  for (const std::string& name : names) tables.push_back(kind_of(prefix)->table(name));
 }
 
 }  // namespace
@@ -130,7 +162,7 @@ SceneTable probe_table(const std::string& name) {
 std::vector<SceneTable> make_tables(const TableNames& names) {
   std::vector<SceneTable> tables = {always("scene", "Title, base and fineness of the scene."),
                                     always("solution_zone", "The finely divided part of the rail.")};
-  for (const std::string& name : names.materials) tables.push_back(material_table(name));
+  add_named(tables, kMaterialTables, names.materials);
   const std::vector<SceneTable> others = {
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),
       component("rail", &Scene::rail, "The flexible rail, or a block or bar in its place."),
@@ -161,8 +193,11 @@ std::vector<SceneTable> make_tables(const TableNames& names) {
                 "A kept state, from which runs over other corrugations begin. "
                 "[Long runs](../explanation/long-runs.md)"),
   };
-  tables.insert(tables.end(), others.begin(), others.end());
-  for (const std::string& name : names.probes) tables.push_back(probe_table(name));
+  for (const SceneTable& table : others) {
+    if (table.name == "wear") add_named(tables, kSurfaceTables, names.surfaces);
+    tables.push_back(table);
+  }
+  add_named(tables, kProbeTables, names.probes);
   tables.push_back(always("output", "Intervals of samples, progress lines, checkpoints and frames."));
   tables.push_back(
       always("stop", "Limits that end a run before its duration. [Long runs](../explanation/long-runs.md)"));
@@ -173,31 +208,26 @@ std::string_view named_table_of(std::string_view path) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   };
-  for (const std::string_view kind : {kMaterialTables, kProbeTables}) {
-    if (!path.starts_with(kind)) continue;
-    const std::string_view table = path.substr(0, path.find('.', kind.size()));
-    const std::string_view name = table.substr(kind.size());
-    if (!name.empty() && std::all_of(name.begin(), name.end(), allowed)) return table;
-  }
-  return "";
+  const NamedTables* kind = kind_of(path);
+  if (!kind) return "";
+  const std::string_view table = path.substr(0, path.find('.', kind->prefix.size()));
+  const std::string_view name = table.substr(kind->prefix.size());
+  return !name.empty() && std::all_of(name.begin(), name.end(), allowed) ? table : "";
 }
 
 Keys named_keys(std::string_view table) {
   Keys keys;
   if (table.empty()) return keys;
-  if (table.starts_with(kMaterialTables))
-    add_material(keys, std::string(table.substr(kMaterialTables.size())));
-  else
-    add_probe(keys, std::string(table.substr(kProbeTables.size())));
+  const NamedTables& kind = *kind_of(table);
+  kind.add_keys(keys, std::string(table.substr(kind.prefix.size())));
   keys.push_back(presence_of(*named_table(table), keys));
   return keys;
 }
 
 std::optional<SceneTable> named_table(std::string_view table) {
   if (table.empty()) return std::nullopt;
-  if (table.starts_with(kMaterialTables))
-    return material_table(std::string(table.substr(kMaterialTables.size())));
-  return probe_table(std::string(table.substr(kProbeTables.size())));
+  const NamedTables& kind = *kind_of(table);
+  return kind.table(std::string(table.substr(kind.prefix.size())));
 }
 
 }  // namespace tread::keys

@@ -1,5 +1,5 @@
 #pragma once
-// The tables and keys of a scene with given materials and probes. Private to the schema.
+// The tables and keys of a scene with given names of its own tables. Private to the schema.
 
 #include <optional>
 #include <string>
@@ -14,6 +14,8 @@ using Keys = std::vector<Key>;
 
 /// Adds the keys of the material of that name.
 void add_material(Keys& keys, const std::string& name);
+/// Adds the keys of the depths of that name on a running surface.
+void add_surface(Keys& keys, const std::string& name);
 /// Adds the keys of the probe of that name.
 void add_probe(Keys& keys, const std::string& name);
 void add_wheel(Keys& keys);
@@ -29,17 +31,17 @@ void add_wear(Keys& keys);
 void add_impacts(Keys& keys);
 void add_output(Keys& keys);
 
-/// All keys, and all tables, of a scene with these materials and probes, in the order of documentation.
+/// All keys, and all tables, of a scene with tables of these names, in the order of documentation.
 Keys make_keys(const TableNames& names);
 std::vector<SceneTable> make_tables(const TableNames& names);
 
-/// The table of a material or probe, "material.steel", to which "material.steel" and "material.steel.density"
+/// The table that a scene names, "material.steel", to which "material.steel" and "material.steel.density"
 /// belong; "" for other paths and for names that are not letters, digits, _ and -.
 std::string_view named_table_of(std::string_view path);
 
-/// The keys of the table of a material or probe, that of its presence included; none for "".
+/// The keys of a table that a scene names, that of its presence included; none for "".
 Keys named_keys(std::string_view table);
-/// The table of a material or probe; nothing for "".
+/// A table that a scene names; nothing for "".
 std::optional<SceneTable> named_table(std::string_view table);
 
 }  // namespace tread::keys

@@ -189,11 +189,11 @@ void add_probe(Keys& keys, const std::string& name) {
   const std::string table = std::string(kProbeTables) + name;
   const auto placed = [&](const char* key, double ProbeSpec::*member, const char* unit, Bounds range,
                           const char* description) {
-    return only_with(
-        table + ".body", std::vector<std::string>{"rail", "wheel"},
-        quantity(table + key, {Effect::output}, at(name, member), kLength, unit, range, description));
+    return only_with(table + ".body", std::vector<std::string>{"rail", "wheel"},
+                     quantity(table + key, {Effect::output}, at(&Scene::probes, name, member), kLength, unit,
+                              range, description));
   };
-  keys.push_back(choice(table + ".body", {Effect::output}, at(name, &ProbeSpec::body),
+  keys.push_back(choice(table + ".body", {Effect::output}, at(&Scene::probes, name, &ProbeSpec::body),
                         {"rail", "wheel", "axle_box"},
                         "Body of the point: the rail; the wheel's rim, a point that turns with it; or the "
                         "axle box, which moves as the journal does in the mean"));
@@ -203,7 +203,7 @@ void add_probe(Keys& keys, const std::string& name) {
   keys.push_back(placed(".y", &ProbeSpec::y, "mm", {-0.2, 0.2}, "Place across, from the rail's centre line"));
   keys.push_back(placed(".depth", &ProbeSpec::depth, "mm", from(0, 0.3),
                         "Depth below the running surface at that place"));
-  keys.push_back(choice(table + ".quantity", {Effect::output}, at(name, &ProbeSpec::quantity),
+  keys.push_back(choice(table + ".quantity", {Effect::output}, at(&Scene::probes, name, &ProbeSpec::quantity),
                         {"motion", "stress", "all"},
                         "Displacement, velocity and acceleration; or the stress of the element about the "
                         "point; or both. A point of the wheel has stress alone, the axle box motion alone"));

@@ -33,6 +33,8 @@ class Checker {
     if (scene_.rail) check_rail(*scene_.rail);
     if (scene_.motion) check_motion(*scene_.motion);
     if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
+    for (const auto& [name, surface] : scene_.surfaces)
+      check_surface(std::string(kSurfaceTables) + name, surface);
     if (scene_.rail && scene_.pulse) {
       require(scene_.pulse->length <= scene_.rail->length, {"pulse.length", "rail.length"},
               "the pulse is longer than the bar");
@@ -362,6 +364,30 @@ class Checker {
     require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
             fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
                         rail.length - rail.origin));
+  }
+
+  void check_surface(const std::string& table, const SurfaceSpec& surface) {
+    require(scene_.contact.has_value(), {table}, "depths of a running surface need [contact]");
+    if (!scene_.contact || !scene_.wheel || !scene_.rail) return;
+    if (surface.kind == "waves")
+      require(surface.wavelength <= surface.length + kLengthTolerance,
+              {table + ".wavelength", table + ".length"}, "not one wave fits into the length");
+    if (!surface.on_wheel()) {
+      check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
+      return;
+    }
+    const double diameter = scene_.wheel->diameter;
+    const double turn = std::numbers::pi * diameter;
+    if (surface.kind == "flat")
+      require(surface.length <= 0.5 * diameter, {table + ".length", "wheel.diameter"},
+              fmt::format(
+                  "a chord of {:.4g} mm on a wheel of {:.4g} mm is no flat; state at most half the diameter",
+                  1e3 * surface.length, 1e3 * diameter));
+    const double length = surface.kind == "profile" || surface.kind == "map"
+                              ? (surface.file_x.empty() ? 0 : surface.file_x.back() - surface.file_x.front())
+                              : (surface.kind == "polygon" ? 0 : surface.length);
+    require(length <= turn * (1 + 1e-6), {table + (surface.file_x.empty() ? ".length" : ".file"), table},
+            fmt::format("the depth is {:.6g} m long, the wheel's circumference {:.6g} m", length, turn));
   }
 
   const Scene& scene_;

@@ -272,8 +272,31 @@ class SceneBuilder {
     if (scene_.corrugation && scene_.corrugation->kind == "table")
       read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
                    scene_.corrugation->table_depth);
+    for (auto& [name, surface] : scene_.surfaces) read_surface(std::string(kSurfaceTables) + name, surface);
     if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
+  }
+
+  /// The measured depths of a running surface.
+  void read_surface(const std::string& table, SurfaceSpec& surface) {
+    const std::string key = table + ".file";
+    if (surface.kind == "map") {
+      read_file_of(key, [&](const std::string& text, const std::string& name) {
+        GridColumns grid = parse_grid(text, name, problems_);
+        surface.file_x = std::move(grid.x);
+        surface.file_y = std::move(grid.y);
+        surface.file_depth = std::move(grid.z);
+      });
+    } else if (surface.kind == "profile") {
+      read_file_of(key, [&](const std::string& text, const std::string& name) {
+        const TableRules rules{.needs_units = true, .increasing = true, .angle_first = surface.on_wheel()};
+        TwoColumns columns = parse_two_columns(text, name, rules, problems_);
+        if (columns.angles && scene_.wheel)
+          for (double& x : columns.first) x *= 0.5 * scene_.wheel->diameter;
+        surface.file_x = std::move(columns.first);
+        surface.file_depth = std::move(columns.second);
+      });
+    }
   }
 
   /// The profile that the key names, if it names a file.

@@ -16,23 +16,23 @@ namespace tread {
 /// "concrete".
 const std::vector<std::string>& usual_materials();
 
-/// All keys of a scene with these materials and probes, in the order of documentation, each table's keys
+/// All keys of a scene with tables of these names, in the order of documentation, each table's keys
 /// together.
 std::vector<Key> scene_keys(const TableNames& names);
-/// The same for the materials and probes of a scene.
+/// The same for the names of a scene.
 std::vector<Key> scene_keys(const Scene& scene);
-/// The same for the usual materials, without probes.
+/// The same for the usual materials, without other names.
 const std::vector<Key>& scene_keys();
 
-/// All tables of a scene with these materials and probes, in the order of documentation.
+/// All tables of a scene with tables of these names, in the order of documentation.
 std::vector<SceneTable> scene_tables(const TableNames& names);
-/// The same for the usual materials, without probes.
+/// The same for the usual materials, without other names.
 const std::vector<SceneTable>& scene_tables();
 
-/// The key at the path, of a material or probe of any name, too; nothing where there is none.
+/// The key at the path, one of any name included; nothing where there is none.
 std::optional<Key> find_key(std::string_view path);
 
-/// The table that the path names or lies in, of a material or probe of any name, too; nothing where there is
+/// The table that the path names or lies in, one of any name included; nothing where there is
 /// none.
 std::optional<SceneTable> table_of(std::string_view path);
 

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -60,63 +61,75 @@ bool same_unit(const Unit& a, const Unit& b) {
   return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator;
 }
 
+/// Rows of as many numbers as there are columns, in SI.
 class TableParser {
  public:
-  explicit TableParser(const TableRules& rules) : rules_(rules) {
-    if (rules.units) units_ = {length_unit((*rules.units)[0]), length_unit((*rules.units)[1])};
+  TableParser(const TableRules& rules, std::size_t columns) : rules_(rules), columns_(columns) {
+    if (rules.units)
+      units_ = std::vector<Unit>{length_unit((*rules.units)[0]), length_unit((*rules.units)[1])};
   }
 
   void read_line(const std::string& line) {
     const std::vector<std::string> units = bracketed(line);
-    if (table.first.empty() && units.size() == 2) {
-      const std::array<Unit, 2> stated = {length_unit(units[0]),
-                                          rules_.pure_second ? pure_unit(units[1]) : length_unit(units[1])};
-      for (std::size_t i = 0; i < 2; ++i)
-        if (rules_.units && !same_unit((*units_)[i], stated[i]))
-          throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", units[i],
-                                       (*rules_.units)[i]));
-      units_ = stated;
+    if (rows.empty() && units.size() == columns_) {
+      state_units(units);
       return;
     }
     const std::vector<std::string> row = cells(line.substr(0, line.find('#')));
     if (!row.empty()) add_row(row);
   }
 
-  TwoColumns table;
+  std::vector<std::vector<double>> rows;
+  bool angles = false;  ///< in the first column
 
  private:
+  Unit unit_of_column(std::size_t column, const std::string& text) {
+    if (column == 1 && rules_.pure_second) return pure_unit(text);
+    if (column > 0 || !rules_.angle_first || text != "deg") return length_unit(text);
+    angles = true;
+    return {0, std::numbers::pi, 180, {}};
+  }
+
+  void state_units(const std::vector<std::string>& texts) {
+    std::vector<Unit> stated;
+    for (std::size_t i = 0; i < columns_; ++i) {
+      stated.push_back(unit_of_column(i, texts[i]));
+      if (rules_.units && !same_unit((*units_)[i], stated[i]))
+        throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", texts[i],
+                                     (*rules_.units)[i]));
+    }
+    units_ = stated;
+  }
+
+  std::string example() const {
+    if (columns_ == 3) return "# x [mm]  y [mm]  d [um]";
+    return rules_.pure_second ? "# x [m]  f [-]" : "# x [m]  d [mm]";
+  }
+
   void add_row(const std::vector<std::string>& row) {
-    if (row.size() != 2) throw InputError(fmt::format("expected 2 numbers, found {} columns", row.size()));
-    if (!units_ && rules_.needs_units) {
-      units_ = {length_unit("mm"), length_unit("mm")};
+    if (row.size() != columns_)
+      throw InputError(fmt::format("expected {} numbers, found {} columns", columns_, row.size()));
+    const bool missing = !units_ && rules_.needs_units;
+    if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
+    if (missing)
       throw InputError(
-          fmt::format("the units are missing: put a line such as \"# x [m]  {}\" before the numbers",
-                      rules_.pure_second ? "f [-]" : "d [mm]"));
-    }
-    const std::array<Unit, 2> units = units_.value_or(std::array{length_unit("mm"), length_unit("mm")});
-    const double first = parse_number(row[0], units[0]);
-    const double second = parse_number(row[1], units[1]);
-    if (rules_.increasing && !table.first.empty() && first <= table.first.back()) {
+          fmt::format("the units are missing: put a line such as \"{}\" before the numbers", example()));
+    std::vector<double> values;
+    for (std::size_t i = 0; i < columns_; ++i) values.push_back(parse_number(row[i], (*units_)[i]));
+    if (rules_.increasing && !rows.empty() && values[0] <= rows.back()[0])
       throw InputError("the first column must grow from row to row");
-    }
-    table.first.push_back(first);
-    table.second.push_back(second);
+    rows.push_back(std::move(values));
   }
 
   TableRules rules_;
-  std::optional<std::array<Unit, 2>> units_;
+  std::size_t columns_;
+  std::optional<std::vector<Unit>> units_;
 };
 
-}  // namespace
-
-std::string read_table_text(const std::filesystem::path& path) {
-  return read_text_file(path, kLargestTable);
-}
-
-TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
-                             const TableRules& rules, std::vector<Problem>& problems) {
+/// Reads all lines; false where one is bad or there are fewer than `least` rows.
+bool parse_lines(TableParser& parser, const std::string& content, const std::filesystem::path& path,
+                 std::size_t least, std::vector<Problem>& problems) {
   std::istringstream text(content);
-  TableParser parser(rules);
   const std::size_t known_problems = problems.size();
   int number = 0;
   for (std::string line; std::getline(text, line);) {
@@ -127,10 +140,74 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
       problems.push_back({path.string(), number, 0, "", error.what()});
     }
   }
-  if (problems.size() == known_problems && parser.table.first.size() < 2) {
-    problems.push_back({path.string(), 0, 0, "", "expected at least two rows of numbers"});
+  if (problems.size() == known_problems && parser.rows.size() < least)
+    problems.push_back({path.string(), 0, 0, "",
+                        least == 2 ? "expected at least two rows of numbers"
+                                   : fmt::format("expected at least {} rows of numbers", least)});
+  return problems.size() == known_problems;
+}
+
+/// The values of a column, each once, increasing.
+std::vector<double> distinct(const std::vector<std::vector<double>>& rows, std::size_t column) {
+  std::vector<double> values;
+  for (const auto& row : rows) values.push_back(row[column]);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::size_t index_in(const std::vector<double>& values, double value) {
+  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+}  // namespace
+
+std::string read_table_text(const std::filesystem::path& path) {
+  return read_text_file(path, kLargestTable);
+}
+
+TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
+                             const TableRules& rules, std::vector<Problem>& problems) {
+  TableParser parser(rules, 2);
+  parse_lines(parser, content, path, 2, problems);
+  TwoColumns table;
+  for (const auto& row : parser.rows) {
+    table.first.push_back(row[0]);
+    table.second.push_back(row[1]);
   }
-  return std::move(parser.table);
+  table.angles = parser.angles;
+  return table;
+}
+
+GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
+                       std::vector<Problem>& problems) {
+  TableParser parser({.needs_units = true}, 3);
+  if (!parse_lines(parser, content, path, 4, problems)) return {};
+  GridColumns grid{distinct(parser.rows, 0), distinct(parser.rows, 1), {}};
+  const std::size_t points = grid.x.size() * grid.y.size();
+  const auto report = [&](const std::string& message) {
+    problems.push_back({path.string(), 0, 0, "", message});
+    return GridColumns{};
+  };
+  if (grid.x.size() < 2 || grid.y.size() < 2)
+    return report(fmt::format("there are {} places along and {} across; a map needs two of both",
+                              grid.x.size(), grid.y.size()));
+  std::vector<bool> known(points, false);
+  grid.z.assign(points, 0.0);
+  for (const auto& row : parser.rows) {
+    const std::size_t at = index_in(grid.y, row[1]) * grid.x.size() + index_in(grid.x, row[0]);
+    if (known[at])
+      return report(fmt::format("the point x = {:.6g} m, y = {:.6g} m stands twice", row[0], row[1]));
+    known[at] = true;
+    grid.z[at] = row[2];
+  }
+  if (parser.rows.size() == points) return grid;
+  const auto hole = static_cast<std::size_t>(std::find(known.begin(), known.end(), false) - known.begin());
+  return report(
+      fmt::format("{} places along times {} across make {} points, the file has {}: that at x = {:.6g} "
+                  "m, y = {:.6g} m is missing; resample the map to a grid",
+                  grid.x.size(), grid.y.size(), points, parser.rows.size(), grid.x[hole % grid.x.size()],
+                  grid.y[hole / grid.x.size()]));
 }
 
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules) {

@@ -1,5 +1,5 @@
 #pragma once
-// Two-column text files: profiles and measured corrugation depths.
+// Text files of columns: profiles and measured depths.
 
 #include <array>
 #include <filesystem>
@@ -11,17 +11,26 @@
 
 namespace tread {
 
-/// Rules of a two-column file. Both columns are lengths.
+/// Rules of a file of columns. All are lengths.
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row
   bool pure_second = false;  ///< the second column holds pure numbers, with the unit [-]
+  bool angle_first = false;  ///< the first column may hold angles, with the unit [deg]
   std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
 };
 
 struct TwoColumns {
-  std::vector<double> first;   ///< [m]
+  std::vector<double> first;   ///< [m], or [rad] where the rules allow angles and the file states [deg]
   std::vector<double> second;  ///< [m], or pure numbers
+  bool angles = false;         ///< the first column holds angles
+};
+
+/// Values at all pairs of x and y.
+struct GridColumns {
+  std::vector<double> x;  ///< increasing [m]
+  std::vector<double> y;  ///< increasing [m]
+  std::vector<double> z;  ///< z[j * x.size() + i] belongs to (x[i], y[j]) [m]
 };
 
 /// The text of such a file. Throws InputError.
@@ -33,7 +42,12 @@ std::string read_table_text(const std::filesystem::path& path);
 TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
                              const TableRules& rules, std::vector<Problem>& problems);
 
-/// Those of a file. Throws InputError, ProblemsError where lines are bad.
+/// Reads x, y and z of a grid's points, a line each in any order, with a line of units such as "# x [mm]  y
+/// [mm]  d [um]" before them. Problems as above; every x needs every y once.
+GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
+                       std::vector<Problem>& problems);
+
+/// Two columns of a file. Throws InputError, ProblemsError where lines are bad.
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules);
 
 }  // namespace tread

@@ -34,10 +34,12 @@ constexpr std::array kPurposes = {
     Purpose{{"temperature", "thermal", "heat"},
             "there is no temperature; the frictional work of surface.h5 is the heat of a thermal model"},
     Purpose{{"flat", "wheel_flat", "flats", "polygon", "out_of_round", "out_of_roundness"},
-            "the wheel is round; corrugation.kind = \"table\" puts the depth on the rail, once a turn"},
-    Purpose{{"weld", "joint", "squat", "dent", "defect", "dip", "roughness", "irregularity"},
-            "[corrugation] with kind = \"table\" reads depths along the rail, "
-            "kind = \"random\" makes a roughness"},
+            "a table [surface.NAME] with kind = \"flat\", \"polygon\" or \"profile\" makes the wheel out of "
+            "round"},
+    Purpose{{"weld", "joint", "squat", "dent", "defect", "dip", "irregularity", "alignment"},
+            "a table [surface.NAME] with kind = \"dip\", \"dent\", \"waves\", \"profile\" or \"map\" shapes "
+            "the rail"},
+    Purpose{{"roughness"}, "[corrugation] with kind = \"random\" makes a roughness"},
     Purpose{{"probe", "probes", "sensor", "sensors", "accelerometer"},
             "a probe has a table of its own, [probe.NAME], with body, x, y, depth and quantity"},
     Purpose{{"bogie", "car", "carbody", "primary_suspension"},
@@ -83,6 +85,8 @@ std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) 
   const auto dot = path.rfind('.');
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
   if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
+  if (parent + "." == kSurfaceTables)
+    return "the name of a surface's depth consists of letters, digits, _ and -";
   if (parent + "." == kProbeTables) return "a probe's name consists of letters, digits, _ and -";
   const std::string what = is_a_table ? "table" : "key";
   const std::string instead =

@@ -41,7 +41,7 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       friction_(friction_of(options.friction)),
       search_(block(mesh, options.rail_block), block(mesh, options.wheel_block),
               {options.surface, options.points, options.penalty, options.wheel_radius, options.depth_room,
-               options.reach_gap},
+               options.reach_gap, options.rail_depth, options.wheel_depth},
               std::move(corrugation)),
       area_(search_) {
   TREAD_EXPECT(options.penalty > 0 && std::isfinite(options.penalty));

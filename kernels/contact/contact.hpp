@@ -11,6 +11,7 @@
 #include "core/corrugation.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/running_surface.hpp"
 #include "core/state_list.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_search.hpp"
@@ -34,6 +35,8 @@ struct ContactOptions {
   double wheel_radius = 0;                    ///< of the nominal rolling circle [m]
   double depth_room = 0;    ///< deepest corrugation that is searched for, if deeper than the present one [m]
   double reach_gap = 4e-4;  ///< gap of the undeformed surfaces up to which points are searched [m]
+  RunningSurface rail_depth;   ///< of the rail's surface besides the corrugation
+  RunningSurface wheel_depth;  ///< of the wheel's surface
 };
 
 /// Owner of search, histories, solver and sums of the patch.
@@ -80,6 +83,9 @@ class Contact {
 
   /// Height of the wheel's axis at which its undeformed surface touches the smooth rail [m].
   double touching_height() const { return search_.touching_height(); }
+  /// How much lower it touches over x = 0, at the start, for the depths of both surfaces but the corrugation
+  /// [m].
+  double touching_depth() const { return search_.touching_depth(); }
 
   const std::vector<ContactPoint>& points() const { return points_; }
   const ContactTotals& totals() const { return totals_; }

@@ -32,13 +32,17 @@ void set_bases(ContactPoint& point) {
 
 ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
                              Corrugation corrugation)
-    : surfaces_(rail, wheel, options.surface), options_(options), quadrature_(options.points) {
+    : surfaces_(rail, wheel, options.surface, options.rail_depth, options.wheel_depth),
+      options_(options),
+      quadrature_(options.points) {
   set_corrugation(std::move(corrugation));
 }
 
 void ContactSearch::set_corrugation(Corrugation corrugation) {
   surfaces_.set_corrugation(std::move(corrugation));
   deepest_ = std::max(options_.depth_room, surfaces_.corrugation().deepest());
+  for (const RunningSurface* surface : {&surfaces_.rail_depth(), &surfaces_.wheel_depth()})
+    deepest_ += surface->room(options_.wheel_radius, options_.reach_gap);
   choose_edges();
   make_room();
 }
@@ -48,7 +52,8 @@ void ContactSearch::choose_edges() {
   const SurfaceProfile& rail = surfaces_.rail_profile();
   const SurfaceProfile& wheel = surfaces_.wheel_profile();
   double closest = 1e30;
-  std::vector<double> gap(static_cast<std::size_t>(rail.edges()), 1e30);
+  std::vector<double>& gap = lateral_gap_;
+  gap.assign(static_cast<std::size_t>(rail.edges()), 1e30);
   for (int edge = 0; edge < rail.edges(); ++edge) {
     const auto at = rail.evaluate(edge, 0.5, options_.surface);
     if (at.p <= wheel.first_p() || at.p >= wheel.last_p()) continue;
@@ -69,6 +74,26 @@ void ContactSearch::choose_edges() {
     }
   if (first_edge_ >= last_edge_)
     throw InputError("contact: the wheel's profile does not lie over the rail's");
+  for (double& one : gap) one -= closest;
+}
+
+double ContactSearch::touching_depth() const {
+  constexpr double kStep = 1e-4;  // [m]
+  const RunningSurface& rail = surfaces_.rail_depth();
+  const RunningSurface& wheel = surfaces_.wheel_depth();
+  if (rail.smooth() && wheel.smooth()) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  const auto steps = static_cast<int>(reach() / kStep);
+  for (int i = -steps; i <= steps; ++i) {
+    const double x = i * kStep;
+    const double circle = 0.5 * x * x / options_.wheel_radius;
+    for (int edge = first_edge_; edge < last_edge_; ++edge) {
+      const double y = surfaces_.rail_profile().evaluate(edge, 0.5, options_.surface).p;
+      least = std::min(least, lateral_gap_[static_cast<std::size_t>(edge)] + circle + rail.at(x, y).depth +
+                                  wheel.around(-x / options_.wheel_radius, y).depth);
+    }
+  }
+  return least;
 }
 
 void ContactSearch::make_room() {
@@ -81,7 +106,7 @@ void ContactSearch::make_room() {
     column.reserve(static_cast<std::size_t>(last_edge_ - first_edge_) * points_per_face());
 }
 
-/// A circle of the wheel's radius lies reach_gap and the corrugation's depth above its lowest point there.
+/// A circle of the wheel's radius lies reach_gap and the depth of both surfaces above its lowest point there.
 double ContactSearch::reach() const {
   return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest_));
 }
@@ -160,7 +185,8 @@ void ContactSearch::find(const ContactState& state, std::span<const PointHistory
                          double dt, std::vector<ContactPoint>& points) {
   update_window(*state.wheel);
   const double half = reach();
-  const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest();
+  const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest() +
+                       surfaces_.rail_depth().steepest() + surfaces_.wheel_depth().steepest();
   closing_speed_ = norm(state.wheel->velocity) * slope + 5;
   margin_ = closing_speed_ * dt;
   const Visit visit{&state, history, time};

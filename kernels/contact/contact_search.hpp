@@ -20,11 +20,13 @@ class ContactSearch {
  public:
   struct Options {
     SurfaceKind surface;
-    int points;           ///< integration points per face and direction
-    double penalty;       ///< normal penalty stiffness per area [Pa/m]
-    double wheel_radius;  ///< of the nominal rolling circle [m]
-    double depth_room;    ///< corrugation depth that there is room for at least [m]
-    double reach_gap;     ///< gap of the undeformed surfaces up to which points are searched [m]
+    int points;                 ///< integration points per face and direction
+    double penalty;             ///< normal penalty stiffness per area [Pa/m]
+    double wheel_radius;        ///< of the nominal rolling circle [m]
+    double depth_room;          ///< corrugation depth that there is room for at least [m]
+    double reach_gap;           ///< gap of the undeformed surfaces up to which points are searched [m]
+    RunningSurface rail_depth;  ///< besides the corrugation
+    RunningSurface wheel_depth;
   };
 
   /// InputError if the wheel's profile does not lie over the rail's.
@@ -52,6 +54,9 @@ class ContactSearch {
   double reach() const;
   /// Height of the wheel's axis at which the undeformed wheel touches the smooth rail [m].
   double touching_height() const { return touching_height_; }
+  /// How much lower the undeformed wheel touches over x = 0, turned by no angle, for the depths of both
+  /// surfaces but the corrugation [m].
+  double touching_depth() const;
 
   const SurfacePair& surfaces() const { return surfaces_; }
   const FaceQuadrature& quadrature() const { return quadrature_; }
@@ -86,7 +91,8 @@ class ContactSearch {
   SurfacePair surfaces_;
   Options options_;
   FaceQuadrature quadrature_;
-  double deepest_ = 0;  ///< corrugation that the searched surface has room for [m]
+  double deepest_ = 0;               ///< depth that the searched surface has room for [m]
+  std::vector<double> lateral_gap_;  ///< by edge: of the smooth surfaces where they touch elsewhere [m]
   int first_edge_ = 0, last_edge_ = 0;
   int window_first_ = 0, window_last_ = 0;
   double touching_height_ = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tread {
 
@@ -30,10 +31,13 @@ struct SurfacePair::WheelSurface {
   Vec3 across;  ///< derivative by eta [m]
 };
 
-SurfacePair::SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind)
+SurfacePair::SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind,
+                         RunningSurface rail_depth, RunningSurface wheel_depth)
     : rail_(&rail),
       wheel_(&wheel),
       kind_(kind),
+      rail_depth_(std::move(rail_depth)),
+      wheel_depth_(std::move(wheel_depth)),
       rail_profile_(rail.section),
       wheel_profile_(wheel.section),
       rail_stations_(rail),
@@ -50,7 +54,7 @@ void SurfacePair::place(const ContactState& state, std::array<int, 2> face, cons
   const LineWeights across = line_weights(rail_profile_.cell(edge), at.across, kind_);
   Vec3 x{rail_->stations[static_cast<std::size_t>(face_station)] + at.along * cell.length, profile.p,
          profile.q};
-  double depth = exact ? corrugation_.depth(x.x, x.y) : 0.0;
+  double depth = exact ? depth_at(x.x, x.y) : 0.0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const std::size_t k = 4 * i + j;
@@ -60,8 +64,8 @@ void SurfacePair::place(const ContactState& state, std::array<int, 2> face, cons
       point.rail_weight[k] = along.value[i] * across.value[j];
       x += point.rail_weight[k] * u.at(point.rail_slot[k]);
       if (!exact)
-        depth += point.rail_weight[k] * corrugation_.depth(rail_->stations[static_cast<std::size_t>(station)],
-                                                           rail_->section.p[static_cast<std::size_t>(node)]);
+        depth += point.rail_weight[k] * depth_at(rail_->stations[static_cast<std::size_t>(station)],
+                                                 rail_->section.p[static_cast<std::size_t>(node)]);
     }
   x.z -= depth;
   point.position = x;
@@ -86,6 +90,13 @@ SurfacePair::WheelSurface SurfacePair::wheel_surface(const ContactState& state, 
                                         cell.distance - cell.pitch,
                                         cell.distance - cell.pitch - line.length_after};
   WheelSurface out{exact ? Vec3{0, p.p, p.q} : Vec3{}, {}, exact ? Vec3{0, p.dp, p.dq} : Vec3{}};
+  if (exact && !wheel_depth_.smooth()) {
+    const double angle = wheel_->stations[static_cast<std::size_t>(cell.station)] + cell.distance;
+    const SurfaceDepth depth = wheel_depth_.around(angle, p.p);
+    out.point.z -= depth.depth;
+    out.side.z += depth.along * wheel_depth_.radius() * cell.pitch;
+    out.across.z -= depth.across * p.dp;
+  }
   for (std::size_t i = 0; i < 4; ++i) {
     Vec3 value;
     Vec3 slope;
@@ -95,9 +106,14 @@ SurfacePair::WheelSurface SurfacePair::wheel_surface(const ContactState& state, 
       point.wheel_slot[k] = wheel_->base + wheel_->slot(node, around.ordinal[i]);
       point.wheel_weight[k] = around.value[i] * over.value[j];
       Vec3 nodal = u.at(point.wheel_slot[k]);
-      if (!exact)
-        nodal += {0, wheel_->section.p[static_cast<std::size_t>(node)],
-                  wheel_->section.q[static_cast<std::size_t>(node)]};
+      if (!exact) {
+        const double across = wheel_->section.p[static_cast<std::size_t>(node)];
+        nodal += {0, across, wheel_->section.q[static_cast<std::size_t>(node)]};
+        if (!wheel_depth_.smooth())
+          nodal.z -=
+              wheel_depth_.around(wheel_->stations[static_cast<std::size_t>(around.ordinal[i])], across)
+                  .depth;
+      }
       value += over.value[j] * nodal;
       slope += over.slope[j] * nodal;
     }

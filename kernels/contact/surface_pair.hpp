@@ -6,6 +6,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/running_surface.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/contact_surface.hpp"
@@ -16,9 +17,10 @@ namespace tread {
 /// An extruded rail's surface under a revolved wheel's.
 class SurfacePair {
  public:
-  SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind);
+  SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind, RunningSurface rail_depth,
+              RunningSurface wheel_depth);
 
-  /// Lowers the rail's surface.
+  /// Lowers the rail's surface, beside its other depths.
   void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
 
   /// Sets nodes, weights, place, face and area of a point of the quadrature on a rail face.
@@ -32,6 +34,13 @@ class SurfacePair {
 
   const SweptBlock& rail() const { return *rail_; }
   const Corrugation& corrugation() const { return corrugation_; }
+  const RunningSurface& rail_depth() const { return rail_depth_; }
+  const RunningSurface& wheel_depth() const { return wheel_depth_; }
+  /// Depth of the rail's surface at a place [m].
+  double depth_at(double x, double y) const {
+    const double depth = corrugation_.depth(x, y);
+    return rail_depth_.smooth() ? depth : depth + rail_depth_.at(x, y).depth;
+  }
   const SurfaceProfile& rail_profile() const { return rail_profile_; }
   const SurfaceProfile& wheel_profile() const { return wheel_profile_; }
   const StationFinder& rail_stations() const { return rail_stations_; }
@@ -47,6 +56,7 @@ class SurfacePair {
   const SweptBlock* wheel_;
   SurfaceKind kind_;
   Corrugation corrugation_;
+  RunningSurface rail_depth_, wheel_depth_;
   SurfaceProfile rail_profile_;
   SurfaceProfile wheel_profile_;
   StationFinder rail_stations_;

@@ -1,0 +1,47 @@
+#include "core/math/monotone_cubic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace tread {
+
+MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y)
+    : x_(std::move(x)), y_(std::move(y)) {
+  const std::size_t n = x_.size();
+  slope_.assign(n, 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double left = (y_[i] - y_[i - 1]) / (x_[i] - x_[i - 1]);
+    const double right = (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]);
+    if (left * right > 0) slope_[i] = 2 * left * right / (left + right);
+  }
+  // A harmonic mean is at most twice the smaller secant; between its ends a piece is flatter than 1.5
+  // secants.
+  for (std::size_t i = 1; i < n; ++i)
+    steepest_ = std::max(steepest_, 2 * std::abs(y_[i] - y_[i - 1]) / (x_[i] - x_[i - 1]));
+}
+
+std::size_t MonotoneCubic::piece(double x) const {
+  const auto above = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  return std::clamp<std::size_t>(above, 1, x_.size() - 1) - 1;
+}
+
+double MonotoneCubic::value(double x) const {
+  const std::size_t i = piece(x);
+  const double h = x_[i + 1] - x_[i];
+  const double s = (x - x_[i]) / h;
+  const double r = 1 - s;
+  return y_[i] * r * r * (1 + 2 * s) + y_[i + 1] * s * s * (1 + 2 * r) +
+         h * s * r * (slope_[i] * r - slope_[i + 1] * s);
+}
+
+double MonotoneCubic::slope(double x) const {
+  const std::size_t i = piece(x);
+  const double h = x_[i + 1] - x_[i];
+  const double s = (x - x_[i]) / h;
+  const double r = 1 - s;
+  return 6 * s * r * (y_[i + 1] - y_[i]) / h + slope_[i] * r * (1 - 3 * s) + slope_[i + 1] * s * (3 * s - 2);
+}
+
+}  // namespace tread

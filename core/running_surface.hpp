@@ -1,0 +1,89 @@
+#pragma once
+// Depths of a running surface below its smooth shape: dips, dents, waves, flats, measured depths.
+// [theory.md, Surfaces]
+
+#include <memory>
+#include <vector>
+
+#include "core/math/monotone_cubic.hpp"
+
+namespace tread {
+
+/// Depth below the smooth surface, negative above it, and its derivatives.
+struct SurfaceDepth {
+  double depth = 0;   ///< [m]
+  double along = 0;   ///< by the place along the surface [-]
+  double across = 0;  ///< by the place across it [-]
+};
+
+/// One shape of depth. x counts along the surface from the shape's own zero, y across from the surface's
+/// middle [m].
+class DepthShape {
+ public:
+  DepthShape() = default;
+  DepthShape(const DepthShape&) = delete;
+  DepthShape& operator=(const DepthShape&) = delete;
+  virtual ~DepthShape() = default;
+
+  virtual SurfaceDepth at(double x, double y) const = 0;
+  virtual double first() const = 0;     ///< where the shape begins [m]
+  virtual double last() const = 0;      ///< where it ends [m]
+  virtual double highest() const = 0;   ///< bound of the height above the smooth surface, 0 or more [m]
+  virtual double deepest() const = 0;   ///< bound of the depth, 0 or more [m]
+  virtual double steepest() const = 0;  ///< bound of the derivatives' sizes [-]
+};
+
+using DepthShapePointer = std::shared_ptr<const DepthShape>;
+
+/// Dip over the whole width, deepest at x = 0. Pointed: two parabolas that meet at an angle, as at a welded
+/// or bolted joint; its angle is 8 depth / length. Smooth: one wave of a cosine.
+DepthShapePointer dip(double depth, double length, bool pointed);
+
+/// Dent about (0, `centre`): one wave of a cosine over an ellipse of these axes [m].
+DepthShapePointer dent(double depth, double length, double width, double centre);
+
+/// Whole waves from crest to crest, from x = 0 on; `depth` from crest to trough [m].
+DepthShapePointer waves(double depth, double wavelength, int count);
+
+/// Flat whose chord is `length` long, on a wheel of `radius` [m]; its middle at x = 0.
+DepthShapePointer chord_flat(double length, double radius);
+
+/// Measured depths along the surface [m], the same across. Beyond the ends the depth stays.
+DepthShapePointer measured_profile(std::vector<double> x, std::vector<double> depth);
+
+/// Measured depths at all pairs of x and y, by row of y: depth[j * x.size() + i] belongs to (x[i], y[j] +
+/// `centre`) [m]. Monotone cubics along, straight across. Beyond the ends the depth stays.
+DepthShapePointer measured_map(const std::vector<double>& x, std::vector<double> y,
+                               const std::vector<double>& depth, double centre);
+
+/// Sum of shapes on a rail's or wheel's surface.
+class RunningSurface {
+ public:
+  /// A smooth surface. `radius`: of a wheel, after whose circumference x returns; 0: a rail [m].
+  explicit RunningSurface(double radius = 0) : radius_(radius) {}
+
+  /// Adds a shape whose zero lies at x = `at` [m].
+  void add(DepthShapePointer shape, double at);
+
+  SurfaceDepth at(double x, double y) const;
+  /// The same at a wheel's sweep angle [rad]; in free rolling the point of angle -x / radius meets the rail
+  /// at x.
+  SurfaceDepth around(double angle, double y) const { return at(-radius_ * angle, y); }
+  double radius() const { return radius_; }  ///< [m]
+
+  bool smooth() const { return shapes_.empty(); }
+  /// Depth that a wheel of `radius` [m] which touches the surface may find within `gap` [m] of it [m].
+  double room(double radius, double gap) const;
+  double steepest() const { return steepest_; }  ///< bound of the derivatives' sizes [-]
+
+ private:
+  struct Placed {
+    DepthShapePointer shape;
+    double at;  ///< [m]
+  };
+  std::vector<Placed> shapes_;
+  double radius_;
+  double steepest_ = 0;
+};
+
+}  // namespace tread
