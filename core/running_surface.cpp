@@ -22,7 +22,8 @@ class Dip final : public DepthShape {
     if (!pointed_)
       return {0.5 * depth_ * (1 + std::cos(kPi * s)), -0.5 * kPi * depth_ / half_ * std::sin(kPi * s), 0};
     const double left = 1 - std::abs(s);
-    return {depth_ * left * left, s == 0 ? 0 : -std::copysign(2 * depth_ / half_ * left, s), 0};
+    const double side = s > 0 ? 1 : (s < 0 ? -1 : 0);
+    return {depth_ * left * left, -side * 2 * depth_ / half_ * left, 0};
   }
   double first() const override { return -half_; }
   double last() const override { return half_; }

@@ -5,6 +5,7 @@ namespace tread {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = {hertz_sphere_case(),
                                                 hertz_ellipse_case(),
+                                                surface_depths_case(),
                                                 contact_filter_case(),
                                                 cattaneo_mindlin_case(),
                                                 carter_case(),

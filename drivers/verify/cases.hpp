@@ -10,6 +10,7 @@ namespace tread {
 VerifyCase hertz_sphere_case();   // hertz.cpp
 VerifyCase hertz_ellipse_case();  // hertz.cpp
 
+VerifyCase surface_depths_case();  // surface_depths.cpp
 VerifyCase contact_filter_case();  // contact_filter.cpp
 VerifyCase carter_case();          // carter.cpp
 VerifyCase sliding_case();         // sliding.cpp
