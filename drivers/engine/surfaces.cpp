@@ -1,6 +1,9 @@
 #include "drivers/engine/surfaces.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -62,6 +65,40 @@ RunningSurface rail_surface(const Scene& scene) {
 
 RunningSurface wheel_surface(const Scene& scene) {
   return surface_of(scene, true);
+}
+
+std::vector<Span> places_of(const Scene& scene, const SurfaceSpec& spec, const Span& way) {
+  const double radius = scene.wheel ? 0.5 * scene.wheel->diameter : 0;
+  const DepthShapePointer shape = shape_of(spec, radius);
+  const Span once{spec.at + shape->first(), spec.at + shape->last()};
+  std::vector<Span> places;
+  const auto add = [&](double shift) {
+    const Span place{std::max(once.first + shift, way.first), std::min(once.last + shift, way.last)};
+    if (place.first < place.last) places.push_back(place);
+  };
+  if (!spec.on_wheel()) {
+    add(0);
+    return places;
+  }
+  const double turn = 2 * std::numbers::pi * radius;
+  const auto last = static_cast<int>(std::floor((way.last - once.first) / turn));
+  for (auto i = static_cast<int>(std::ceil((way.first - once.last) / turn)); i <= last; ++i) add(i * turn);
+  return places;
+}
+
+double traced_depth(const RunningSurface& rail, const RunningSurface& wheel, double wheel_radius, double x,
+                    double y) {
+  constexpr double kStep = 2e-4;  // [m]
+  const auto depth = [&](double s) { return rail.at(x + s, y).depth + wheel.at(x + s, y).depth; };
+  double least = depth(0);
+  // Beyond this distance the wheel's own circle is higher than any place that could carry it.
+  constexpr double kAnyGap = std::numeric_limits<double>::infinity();
+  const double range = rail.room(wheel_radius, kAnyGap) + wheel.room(wheel_radius, kAnyGap);
+  const double reach =
+      std::min(2 * wheel_radius * (rail.steepest() + wheel.steepest()), std::sqrt(2 * wheel_radius * range));
+  for (double s = kStep; s < reach + kStep; s += kStep)
+    for (const double at : {-s, s}) least = std::min(least, depth(at) + 0.5 * at * at / wheel_radius);
+  return least;
 }
 
 }  // namespace tread

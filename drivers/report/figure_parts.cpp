@@ -54,6 +54,27 @@ Series running_surface(const Corrugation& corrugation, const Range& range) {
   return series;
 }
 
+std::vector<Series> running_surfaces(const Model& model, const Range& range) {
+  const SurfacePair& pair = model.contact->surfaces();
+  const double y = pair.corrugation().centre();
+  std::vector<Series> list;
+  const auto add = [&](const char* name, const auto& depth) {
+    constexpr int kPoints = 800;
+    Series series{name, {}, {}, list.empty() ? Stroke::solid : Stroke::dashed};
+    for (int i = 0; i <= kPoints; ++i) {
+      const double x = range[0] + (range[1] - range[0]) * i / kPoints;
+      series.x.push_back(x);
+      series.y.push_back(-1e3 * depth(x));
+    }
+    list.push_back(std::move(series));
+  };
+  if (!pair.corrugation().smooth() || !pair.rail_depth().smooth())
+    add("rail's surface", [&](double x) { return pair.depth_at(x, y); });
+  if (!pair.wheel_depth().smooth())
+    add("wheel's surface that meets it", [&](double x) { return pair.wheel_depth().at(x, y).depth; });
+  return list;
+}
+
 Range stretch_in_sight(const Model& model, const Range& way) {
   return stretch_in_sight(model.scene, model.contact->corrugation(), way);
 }

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/device_fields.hpp"
+#include "drivers/engine/surfaces.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/results/estimate.hpp"
@@ -31,6 +33,27 @@ std::string disk_text(const Model& model, const DiskUse& disk) {
   return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
 }
 
+/// What the shape is and where it meets the rail, "0.73 mm deep, at x = 0.875 to 0.925 m".
+std::string surface_text(const Scene& scene, const std::string& name, const SurfaceSpec& spec) {
+  const RunningSurface surface = spec.on_wheel() ? wheel_surface(scene) : rail_surface(scene);
+  std::string text = fmt::format("{}: {} on the {}, ", name, spec.kind, spec.on_wheel() ? "wheel" : "rail");
+  const std::vector<Span> places = places_of(scene, spec, run_span(scene));
+  if (places.empty()) return text + "which the run does not meet";
+  double least = 0;
+  double most = 0;
+  for (const Span& place : places)
+    for (int i = 0; i <= 400; ++i) {
+      const double depth = surface.at(place.first + (place.last - place.first) * i / 400, spec.centre).depth;
+      least = std::min(least, depth);
+      most = std::max(most, depth);
+    }
+  text += fmt::format("depths of {:.4g} to {:.4g} mm there, x =", 1e3 * least, 1e3 * most);
+  for (const Span& place : places)
+    text +=
+        fmt::format("{} {:.4g} to {:.4g} m", &place == &places.front() ? "" : ",", place.first, place.last);
+  return text;
+}
+
 }  // namespace
 
 std::string check_text(const Model& model, const ResolvedScene& resolved, const Estimate& e, bool verbose) {
@@ -48,6 +71,11 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("Rail", fmt::format("{}: {}", rail->profile, rail->profile_reading));
     line("",
          fmt::format("replaces the surface of the head; the section below stays that of {}", rail->section));
+  }
+  const char* head = "Surface";
+  for (const auto& [name, spec] : model.scene.surfaces) {
+    line(head, surface_text(model.scene, name, spec));
+    head = "";
   }
   if (e.steps > 0) {
     line("Step", fmt::format("{:.4e} s = {:g} of the stable step", e.dt, model.scene.motion->step_safety));

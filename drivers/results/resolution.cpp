@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
+
+#include "drivers/engine/surfaces.hpp"
 
 namespace tread {
 
@@ -71,6 +74,42 @@ std::string step_warning(const CorrugationSpec& corrugation) {
       corrugation.file, 1e6 * depth.front(), 1e6 * depth.back());
 }
 
+/// Shortest length that a shape changes in [m]; nothing where it is measured.
+std::optional<double> shortest_length(const SurfaceSpec& spec, double radius) {
+  if (spec.kind == "dent") return std::min(spec.length, spec.width);
+  if (spec.kind == "waves") return spec.wavelength;
+  if (spec.kind == "polygon") return 2 * std::numbers::pi * radius / spec.order;
+  if (spec.kind == "dip" || spec.kind == "flat") return spec.length;
+  return std::nullopt;
+}
+
+std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
+  const Scene& scene = model.scene;
+  const Span zone{scene.zone_start, scene.zone_start + scene.zone_length};
+  const bool is_short = spec.kind == "dent" || spec.kind == "flat" || spec.kind == "dip";
+  if (is_short && scene.motion) {
+    const std::vector<Span> places = places_of(scene, spec, run_span(scene));
+    const auto outside = [&](const Span& place) {
+      return place.last < zone.first || place.first > zone.last;
+    };
+    if (!places.empty() && std::all_of(places.begin(), places.end(), outside))
+      return fmt::format(
+          "surface.{} meets the rail at x = {:.6g} to {:.6g} m, outside the solution zone, {:.6g} to {:.6g} "
+          "m: the "
+          "elements there are too coarse for it; change surface.{}.at or solution_zone.start",
+          name, places.front().first, places.front().last, zone.first, zone.last, name);
+  }
+  const std::optional<double> length = shortest_length(spec, model.wheel_radius());
+  const double element = model.sizes.contact;
+  if (!length || *length / element >= kElementsOfWave) return "";
+  return fmt::format(
+      "surface.{} has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, forces are off by "
+      "several "
+      "per cent; scene.element_size = \"{:.2g} mm\" resolves it",
+      name, *length / element, 1e3 * *length, 1e3 * element, kElementsOfWave,
+      1e3 * *length / kElementsOfWave);
+}
+
 }  // namespace
 
 std::optional<double> too_few_elements_across_patch(const Model& model) {
@@ -90,6 +129,8 @@ std::vector<std::string> resolution_warnings(const Model& model) {
     warnings.push_back(wave_warning(*corrugation, model.sizes.contact));
     warnings.push_back(slope_warning(*corrugation));
   }
+  for (const auto& [name, spec] : model.scene.surfaces)
+    warnings.push_back(surface_warning(model, name, spec));
   std::erase(warnings, "");
   return warnings;
 }

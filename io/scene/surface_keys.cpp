@@ -36,14 +36,14 @@ void add_surface(Keys& keys, const std::string& name) {
                       required(length(".length", shape, &SurfaceSpec::length, "mm", above(0, 1000),
                                       "Length of dip or dent; of the flat's chord; that the whole waves must "
                                       "fit into"))));
-  keys.push_back(with({"dent"}, required(length(".width", {Effect::preload}, &SurfaceSpec::width, "mm",
-                                                above(0, 0.2), "Width across"))));
+  keys.push_back(with(
+      {"dent"}, required(length(".width", shape, &SurfaceSpec::width, "mm", above(0, 0.2), "Width across"))));
   keys.push_back(with({"dent", "map"}, length(".centre", {Effect::preload}, &SurfaceSpec::centre, "mm",
                                               {-0.1, 0.1}, "y of the dent's middle, of the file's zero")));
-  keys.push_back(with(
-      {"dip"}, choice(table + ".shape", {Effect::preload}, place(&SurfaceSpec::shape), {"smooth", "pointed"},
-                      "One wave of a cosine, or two parabolas that meet at an angle of 8 depth "
-                      "/ length")));
+  keys.push_back(
+      with({"dip"}, choice(table + ".shape", shape, place(&SurfaceSpec::shape), {"smooth", "pointed"},
+                           "One wave of a cosine, or two parabolas that meet at an angle of 8 depth "
+                           "/ length")));
   keys.push_back(with({"waves"}, required(length(".wavelength", shape, &SurfaceSpec::wavelength, "m",
                                                  above(0, 1000), "Wavelength"))));
   keys.push_back(with({"polygon"}, required(number(table + ".order", shape, place(&SurfaceSpec::order),

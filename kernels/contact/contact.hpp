@@ -90,6 +90,7 @@ class Contact {
   const std::vector<ContactPoint>& points() const { return points_; }
   const ContactTotals& totals() const { return totals_; }
   const Corrugation& corrugation() const { return search_.surfaces().corrugation(); }
+  const SurfacePair& surfaces() const { return search_.surfaces(); }
   const ContactOptions& options() const { return options_; }
 
   double frictional_work() const { return frictional_work_; }  ///< dissipated by friction since the start [J]

@@ -139,6 +139,24 @@ const BaseScene& base_scene(const std::string& name) {
        {kTrack,
         {"slab.present=false", "material.slab.present=false", "material.gap_filler.present=false",
          "sleepers.material=hard"}}},
+      {"dipped",
+       {kTrack,
+        {"surface.shape.kind=dip", "surface.shape.at=5 mm", "surface.shape.depth=0.05 mm",
+         "surface.shape.length=100 mm"}}},
+      {"dented",
+       {kTrack,
+        {"surface.shape.kind=dent", "surface.shape.at=5 mm", "surface.shape.depth=0.05 mm",
+         "surface.shape.length=120 mm", "surface.shape.width=100 mm"}}},
+      {"wavy",
+       {kTrack,
+        {"surface.shape.kind=waves", "surface.shape.at=-40 mm", "surface.shape.depth=0.05 mm",
+         "surface.shape.length=0.3 m", "surface.shape.wavelength=0.1 m"}}},
+      {"polygonal",
+       {kTrack,
+        {"surface.shape.kind=polygon", "surface.shape.at=5 mm", "surface.shape.depth=0.05 mm",
+         "surface.shape.order=25"}}},
+      {"measured depths",
+       {kTrack, {"surface.shape.kind=profile", "surface.shape.at=-20 mm", "surface.shape.file=depth.txt"}}},
       {"probed", {kTrack, {"probe.midspan.quantity=motion"}}},
       {"wheelset",
        {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
@@ -412,6 +430,17 @@ const std::vector<Change>& changes() {
       {"corrugation.centre", "1 mm"},
       {"corrugation.apply", "nodes"},
       {"corrugation.file", "other_depth.txt", "measured"},
+      {"surface.shape.kind", "waves", "dipped", {}, {"surface.shape.wavelength=50 mm"}},
+      {"surface.shape.on", "wheel", "dipped"},
+      {"surface.shape.at", "8 mm", "dipped"},
+      {"surface.shape.depth", "0.04 mm", "dipped"},
+      {"surface.shape.length", "120 mm", "dipped"},
+      {"surface.shape.width", "80 mm", "dented"},
+      {"surface.shape.centre", "3 mm", "dented"},
+      {"surface.shape.shape", "pointed", "dipped"},
+      {"surface.shape.wavelength", "0.14 m", "wavy"},
+      {"surface.shape.order", "22", "polygonal"},
+      {"surface.shape.file", "other_depth.txt", "measured depths"},
       {"wear.coefficient", "3e-9 kg/N/m"},
       {"wear.change", "0.1"},
       {"wear.shortest", "40 mm"},
@@ -512,7 +541,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, KeysOf, testing::ValuesIn(tables()),
                          [](const auto& table) { return table.param; });
 
 TEST(KeyEffects, EveryKeyIsChanged) {
-  for (const Key& key : scene_keys(TableNames{{"steel"}, {"midspan"}})) {
+  for (const Key& key : scene_keys(TableNames{{"steel"}, {"shape"}, {"midspan"}})) {
     const auto is_of_key = [&](const Change& change) { return change.key == key.path; };
     const auto count = std::count_if(changes().begin(), changes().end(), is_of_key);
     EXPECT_EQ(count, key.kind == Kind::directive ? 0 : 1) << key.path;

@@ -51,8 +51,8 @@ TEST(SceneErrors, Names) {
        "x.toml:3:2: ballast: unknown table: [sleepers] holds sleepers on ballast, with stiffness and damping "
        "of the bed; leave out [slab] (docs/can-and-cannot.md)"},
       {"[wheel]\nflat = \"40 mm\"",
-       "x.toml:4:1: wheel.flat: unknown key: the wheel is round; corrugation.kind = \"table\" puts the depth "
-       "on the rail, once a turn (docs/can-and-cannot.md)"},
+       "x.toml:4:1: wheel.flat: unknown key: a table [surface.NAME] with kind = \"flat\", \"polygon\" or "
+       "\"profile\" makes the wheel out of round (docs/can-and-cannot.md)"},
       {"[motion]\ntractoin = { mu = 0.1 }",
        "x.toml:4:1: motion.tractoin: unknown table (did you mean motion.traction?)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
@@ -316,6 +316,32 @@ TEST(SceneErrors, Materials) {
               "the wheel's rim moves at 583.3 m/s");
 }
 
+TEST(SceneErrors, DepthsOfSurfaces) {
+  expect_messages({
+      {"[surface.a]\nkind = \"flat\"\nat = \"2.7 m\"",
+       "x.toml:3:10: surface.a.length: is missing; [surface.a] needs a length: Length of dip or dent; of the "
+       "flat's chord; that the whole waves must fit into"},
+      {"[surface.a]\nkind = \"flat\"\nat = \"2.7 m\"\nlength = \"40 mm\"\ndepth = \"1 mm\"",
+       "x.toml:7:1: surface.a.depth: has an effect only with surface.a.kind = \"dip\" or \"dent\" or "
+       "\"waves\" or "
+       "\"polygon\""},
+      {"[surface.a]\nkind = \"flat\"\nat = \"2.7 m\"\nlength = \"500 mm\"",
+       "x.toml:6:1: surface.a.length: a chord of 500 mm on a wheel of 860 mm is no flat; state at most half "
+       "the "
+       "diameter"},
+      {"[surface.a]\nkind = \"dip\"\nat = \"12 m\"\nlength = \"1 m\"\ndepth = \"1 mm\"",
+       "x.toml:5:1: surface.a.at: the depth's place, x = 12 m, is not on the rail, -6.1 m to 9.1 m"},
+      {"[surface.a]\nkind = \"dip\"\non = \"wheel\"\nat = \"1 m\"\nlength = \"3 m\"\ndepth = \"1 mm\"",
+       "x.toml:7:1: surface.a.length: the depth is 3 m long, the wheel's circumference 2.70177 m"},
+      {"[surface.a]\nkind = \"waves\"\nat = \"1 m\"\nlength = \"0.3 m\"\ndepth = \"1 mm\"\nwavelength = \"1 "
+       "m\"",
+       "x.toml:8:1: surface.a.wavelength: not one wave fits into the length"},
+      {"[surface.a]\nkind = \"hole\"\nat = \"1 m\"\ndepth = \"1 mm\"\nlength = \"1 m\"",
+       "x.toml:4:1: surface.a.kind: \"hole\" is unknown; choose from: dip, dent, waves, polygon, flat, "
+       "profile, map"},
+  });
+}
+
 TEST(SceneErrors, AllInOnePassInTheOrderOfTheFile) {
   const std::string text = kBase +
                            "[rail]\nlenght = \"3 m\"\norigin = 6.1\n"
@@ -442,6 +468,37 @@ TEST_F(Files, NamedInAScene) {
                                     "2.4 m to 3 m");
   expect_part(scene_error(write("wheel.toml", kBase + "[wheel]\nprofile = \"worn.txt\"\n")),
               "wheel.toml:4:1: wheel.profile: cannot read");
+}
+
+TEST_F(Files, MeasuredDepths) {
+  const std::string table = "[surface.squat]\nkind = \"map\"\nat = \"2.7 m\"\nfile = \"map.csv\"\n";
+  const auto map = [&](const std::string& rows) {
+    write("map.csv", rows);
+    return scene_error(write("map.toml", kBase + table));
+  };
+  const std::string file = (folder_ / "map.csv").string();
+  expect_part(map("0 0 1\n"),
+              file + ":1: the units are missing: put a line such as \"# x [mm]  y [mm]  d [um]\"");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0\n"), file + ":2: expected 3 numbers, found 2 columns");
+  expect_part(map("# x [mm], y [mm], d [us]\n0,0,1\n"), file + ":1: [us] is not a length");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n"),
+              file + ": expected at least 4 rows of numbers");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n2,0,1\n3,0,1\n"),
+              "there are 4 places along and 1 across; a map needs two of both");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n0,1,1\n"),
+              "the point x = 0 m, y = 0.001 m stands twice");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n2,0,1\n0,1,1\n1,1,3\n"),
+              "the file has 5: that at x = 0.002 m, y = 0.001 m is missing; resample the map to a grid");
+  EXPECT_EQ(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n"), "accepted");
+  write("round.txt", "# angle [deg]  d [um]\n0 0\n90 20\n400 0\n");
+  expect_part(
+      scene_error(write("round.toml", kBase + "[surface.round]\nkind = \"profile\"\non = \"wheel\"\nat = "
+                                              "\"0 m\"\nfile = \"round.txt\"\n")),
+      "surface.round.file: the depth is 3.00197 m long, the wheel's circumference 2.70177 m");
+  expect_part(
+      scene_error(write("round.toml", kBase + "[surface.round]\nkind = \"profile\"\nat = \"0 m\"\nfile = "
+                                              "\"round.txt\"\n")),
+      "round.txt:1: unknown unit \"deg\"");
 }
 
 TEST_F(Files, ProfilesWhoseAxesAreMistaken) {

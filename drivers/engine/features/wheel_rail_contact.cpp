@@ -62,8 +62,8 @@ void WheelRailContact::end_sample(const StepState& /*step*/, Sample& sample) con
   sample.max_shear = contact_->nodes().max_shear();
   sample.max_penetration = totals.max_penetration;
   sample.spin_creepage = -mean_normal().y / contact_->options().wheel_radius;
-  const Corrugation& corrugation = contact_->corrugation();
-  sample.corrugation_depth = corrugation.depth(sample.wheel_x, corrugation.centre());
+  const SurfacePair& surfaces = contact_->surfaces();
+  sample.corrugation_depth = surfaces.depth_at(sample.wheel_x, surfaces.corrugation().centre());
 }
 
 /// Pressure-weighted mean of the normals into the rail; zero without contact.

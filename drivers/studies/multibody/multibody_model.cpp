@@ -11,6 +11,7 @@
 #include "drivers/engine/lateral_gap.hpp"
 #include "drivers/engine/rail_beam.hpp"
 #include "drivers/engine/sections.hpp"
+#include "drivers/engine/surfaces.hpp"
 #include "kernels/half_space/half_space.hpp"
 
 namespace tread {
@@ -83,6 +84,12 @@ const char* name_of(BeamTheory theory) {
   }
 }
 
+double MultibodyModel::roughness(double x) const {
+  const double depth = corrugation.depth(x, contact_y);
+  if (rail_surface.smooth() && wheel_surface.smooth()) return depth;
+  return depth + traced_depth(rail_surface, wheel_surface, 0.5 * scene.wheel->diameter, x, contact_y);
+}
+
 double MultibodyModel::contact_stiffness() const {
   return 1.5 * vehicle.contact * std::cbrt(vehicle.load() / vehicle.contact);
 }
@@ -115,6 +122,8 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.vehicle.contact = model.vehicle.load() / std::pow(model.patch.approach, 1.5);
 
   model.corrugation = stated_corrugation(model);
+  model.rail_surface = rail_surface(scene);
+  model.wheel_surface = wheel_surface(scene);
   model.speed = scene.motion->speed;
   const double left = -scene.rail->origin;
   model.start =

@@ -7,6 +7,7 @@
 
 #include "core/corrugation.hpp"
 #include "core/math/hertz.hpp"
+#include "core/running_surface.hpp"
 #include "drivers/engine/station_plan.hpp"
 #include "drivers/studies/multibody/modal_passage.hpp"
 
@@ -37,7 +38,11 @@ struct MultibodyModel {
   double start = 0;         ///< place at which the wheel stands in equilibrium at first [m]
   double end = 0;           ///< end of the passage [m]
 
-  double roughness(double x) const { return corrugation.depth(x, contact_y); }  ///< [m]
+  RunningSurface rail_surface, wheel_surface;  ///< depths besides the corrugation
+
+  /// Depth that the wheel follows at x [m]: the corrugation's, and of the other depths the highest places
+  /// that a round wheel rolls on.
+  double roughness(double x) const;
   /// Contact stiffness d F / d approach under the static load [N/m].
   double contact_stiffness() const;
 };
