@@ -158,6 +158,11 @@ TEST(Device, MovedNodesAndFacets) {
                       precision);
 }
 
+TEST(Device, FlatOnTheWheel) {
+  expect_same_steps(tyre({"surface.flat.kind=flat", "surface.flat.at=10 mm", "surface.flat.length=30 mm"}),
+                    300, "mixed");
+}
+
 TEST(Device, MaxwellBranches) {
   const auto scene = [](const std::string& precision) {
     return samples::tyre_with_maxwell_branches(

@@ -76,6 +76,17 @@ TEST(Threads, MaxwellBranchesGiveTheSameBits) {
                      {{3, "openmp"}, {2, "tbb"}});
 }
 
+TEST(Threads, FlatAndDentGiveTheSameBits) {
+  for (const char* surface : {"contact.surface=exact", "contact.surface=facets"})
+    expect_same_bits(
+        samples::tyre_scene({"scene.element_size=6 mm", "motion.duration=0.05 ms", "solution_zone.start=5 mm",
+                             surface, "surface.flat.kind=flat", "surface.flat.at=10 mm",
+                             "surface.flat.length=30 mm", "surface.dent.kind=dent", "surface.dent.at=-4 mm",
+                             "surface.dent.depth=0.05 mm", "surface.dent.length=30 mm",
+                             "surface.dent.width=20 mm"}),
+        {{3, "openmp"}, {3, "tbb"}});
+}
+
 TEST(Threads, FacetsAndMovedNodesGiveTheSameBits) {
   expect_same_bits(
       samples::tyre_scene({"scene.element_size=6 mm", "motion.duration=0.05 ms", "solution_zone.start=5 mm",

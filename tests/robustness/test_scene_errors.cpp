@@ -74,7 +74,7 @@ TEST(SceneErrors, Names) {
   });
   expect_part(error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
               "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
-              "highspeed-slab-2014-calibrated, highspeed-slab-2014-thin-web, ballasted-cn60), got "
+              "highspeed-slab-2014-calibrated, highspeed-slab-2014-thin-web, ballasted-cn60, ballasted-60e1), got "
               "the string");
 }
 
