@@ -37,23 +37,27 @@ std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, dou
   return supports;
 }
 
-/// Fastenings as one spring-damper each, on rigid sleepers.
-void add_sleepers(const Scene& scene, int more_spans, TrackBeam& beam) {
-  const FasteningSpec& f = *scene.fastenings;
-  const SleeperSpec& spec = *scene.sleepers;
-  for (int i = -more_spans; i < f.count; ++i) {
-    const bool hangs = i + 1 == spec.hanging;
-    const BeamSleeper sleeper{sleeper_mass(scene), hangs ? 0 : spec.stiffness, hangs ? 0 : spec.damping};
-    beam.support_on_sleeper(f.position(i) - scene.rail->origin, f.stiffness, f.damping, sleeper);
-  }
-}
-
 }  // namespace
 
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
   if (!scene.rail) throw InputError("a rail beam needs [rail]");
   if (!scene.fastenings) return {};
   return column_supports(scene, more_spans, scene.fastenings->stiffness, scene.fastenings->damping);
+}
+
+std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
+  if (!scene.sleepers) return {};
+  const FasteningSpec& f = *scene.fastenings;
+  const SleeperSpec& spec = *scene.sleepers;
+  std::vector<SleeperSupport> list;
+  for (int i = -more_spans; i < f.count; ++i) {
+    const bool hangs = i + 1 == spec.hanging;
+    list.push_back({f.position(i) - scene.rail->origin,
+                    f.stiffness,
+                    f.damping,
+                    {sleeper_mass(scene), hangs ? 0 : spec.stiffness, hangs ? 0 : spec.damping}});
+  }
+  return list;
 }
 
 std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans) {
@@ -97,7 +101,8 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
                  scene.sleepers.has_value());
   beam.spread_head_load(head_spread(scene, properties));
   if (scene.sleepers)
-    add_sleepers(scene, more_spans, beam);
+    for (const SleeperSupport& s : rail_sleepers(scene, more_spans))
+      beam.support_on_sleeper(s.x, s.stiffness, s.damping, s.sleeper);
   else
     for (const BeamSupport& s : rail_supports(scene, more_spans)) beam.support(s.x, s.stiffness, s.damping);
   if (!properties.has_foot()) return beam;

@@ -17,6 +17,10 @@ BeamSection rail_beam_section(const Scene& scene);
 /// [fastenings]. InputError without rail.
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans = 0);
 
+/// The fastenings of a scene, one spring-damper each, on rigid sleepers, and of so many more to their left;
+/// none without [sleepers].
+std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans = 0);
+
 /// The columns as spring-dampers of the foot along x, where the fastenings are elastic along x; else none.
 std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans = 0);
 

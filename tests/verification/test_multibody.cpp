@@ -68,6 +68,45 @@ TEST(ModalTrack, StaticDeflectionIsThatOfTheBeam) {
   }
 }
 
+TEST(ModalTrack, SleepersAreThoseOfTheBeam) {
+  const Scene ballasted =
+      resolve_scene(SceneSource{"test",
+                                "[scene]\nbased_on = \"ballasted-cn60\"\n[sleepers]\nhanging = "
+                                "12\n[motion]\nspeed = \"140 km/h\"\n",
+                                {}})
+          .scene;
+  for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::spread}) {
+    const MultibodyModel model = multibody_model(ballasted, theory);
+    EXPECT_TRUE(model.supports.empty());
+    ASSERT_EQ(model.sleepers.size(), 28U);
+    const TrackBeam beam = rail_beam(model.scene, model.rail);
+    // A held foot sees short waves, as above.
+    for (const auto& [modes, bound] : {std::pair(240, 6e-3), std::pair(480, 3e-3)}) {
+      const ModalTrack track = modal_track(model, modes);
+      for (const double x : {-0.325, 0.0, 0.11}) {
+        const ModalPassage still(track, model.vehicle, x, 1e-6);
+        const double wanted = BeamPassage(beam, model.vehicle, x, 1e-6).rail();
+        EXPECT_NEAR(still.rail() / wanted, 1, bound) << name_of(theory) << " " << modes << " at " << x;
+      }
+    }
+  }
+  // Over a step in height wheel, rail and sleepers move alike in both models.
+  const MultibodyModel model = multibody_model(ballasted, BeamTheory::euler);
+  const TrackBeam beam = rail_beam(model.scene, model.rail);
+  const double dt = passage_step(modal_track(model, 120), model.vehicle);
+  const ModalTrack track = modal_track(model, 120);
+  ModalPassage modal(track, model.vehicle, 0.1, dt);
+  BeamPassage elements(beam, model.vehicle, 0.1, dt);
+  double worst = 0;
+  for (int i = 0; i < static_cast<int>(0.03 / dt); ++i) {
+    modal.step(0.1, 1e-5);
+    elements.step(0.1, 1e-5);
+    worst = std::max(worst, std::abs(modal.force() - elements.force()));
+  }
+  measured("largest difference of F_N after a step of 10 um [kN]", 1e-3 * worst);
+  EXPECT_LT(worst, 0.01 * model.vehicle.load());
+}
+
 TEST(ModalPassage, StaysInEquilibrium) {
   const MultibodyModel model = multibody_model(scene(300, ""), BeamTheory::euler);
   const ModalTrack track = modal_track(model, {});

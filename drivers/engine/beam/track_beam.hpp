@@ -40,6 +40,14 @@ struct BeamSleeper {
   double damping = 0;    ///< [N s/m]
 };
 
+/// A fastening, as one spring-damper on a sleeper.
+struct SleeperSupport {
+  double x = 0;          ///< [m]
+  double stiffness = 0;  ///< [N/m]
+  double damping = 0;    ///< [N s/m]
+  BeamSleeper sleeper;
+};
+
 /// Finite elements with the cubic shape functions that solve the static beam exactly and the consistent mass
 /// of deflection and rotation; along x the centroid moves linearly within an element. Unknowns: (w, rotation,
 /// motion of the foot along x) of node after node, and the deflection of a sleeper under the node where the

@@ -12,30 +12,43 @@
 namespace tread {
 
 ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
-                       const std::vector<BeamSupport>& foot)
-    : beam_(std::move(beam)) {
-  std::vector<double> values(static_cast<std::size_t>(beam_.modes()));
-  const auto add = [&](const BeamSupport& s) {
-    stiffness_.push_back(s.stiffness);
-    damping_.push_back(s.damping);
+                       const std::vector<BeamSupport>& foot, const std::vector<SleeperSupport>& sleepers)
+    : beam_(std::move(beam)), omega_(beam_.omega()) {
+  const std::size_t modes = omega_.size();
+  omega_.resize(modes + sleepers.size(), 0.0);
+  std::vector<double> values(coordinates(), 0.0);
+  const auto add = [&](double stiffness, double damping) {
+    stiffness_.push_back(stiffness);
+    damping_.push_back(damping);
     by_support_.insert(by_support_.end(), values.begin(), values.end());
   };
   for (const BeamSupport& s : supports) {
     beam_.shapes(s.x, values);
-    add(s);
+    add(s.stiffness, s.damping);
   }
   for (const BeamSupport& s : foot) {
     beam_.foot_shapes(s.x, values);
-    add(s);
+    add(s.stiffness, s.damping);
+  }
+  for (std::size_t i = 0; i < sleepers.size(); ++i) {
+    const SleeperSupport& s = sleepers[i];
+    beam_.shapes(s.x, values);
+    values[modes + i] = -1 / std::sqrt(s.sleeper.mass);
+    add(s.stiffness, s.damping);
+    std::fill(values.begin(), values.end(), 0.0);
+    values[modes + i] = 1 / std::sqrt(s.sleeper.mass);
+    add(s.sleeper.stiffness, s.sleeper.damping);
+    values[modes + i] = 0;
   }
 }
 
 std::vector<double> ModalTrack::static_state(double x, double force) const {
-  const std::size_t n = beam_.omega().size();
-  BandMatrix<double> system(beam_.modes(), beam_.modes() - 1);
+  const std::size_t n = coordinates();
+  const auto rows = static_cast<int>(n);
+  BandMatrix<double> system(rows, rows - 1);
   for (std::size_t i = 0; i < n; ++i) {
     const int row = static_cast<int>(i);
-    system.at(row, row) = beam_.omega()[i] * beam_.omega()[i];
+    system.at(row, row) = omega_[i] * omega_[i];
     for (std::size_t s = 0; s < supports(); ++s) {
       const double* mode = by_support_.data() + s * n;
       for (std::size_t j = 0; j <= i; ++j)
@@ -72,7 +85,7 @@ void ModalTrack::support_forces(const std::vector<double>& state, const std::vec
 
 /// Largest eigenvalue of the weighted sum of the supports' dyads, by power iteration.
 double ModalTrack::largest(const std::vector<double>& weight) const {
-  const auto n = static_cast<std::size_t>(beam_.modes());
+  const std::size_t n = coordinates();
   // All modes start alike at the first support, so that the high ones take part.
   std::vector<double> vector(by_support_.begin(), by_support_.begin() + static_cast<std::ptrdiff_t>(n));
   double value = 0;
@@ -174,7 +187,7 @@ void ModalPassage::accelerate(double x, double roughness) {
   rail_ = modal + beam.residual_flexibility() * force_;
 
   for (std::size_t i = 0; i < state_.size(); ++i)
-    acceleration_[i] = force_ * shape_[i] - beam.omega()[i] * beam.omega()[i] * state_[i];
+    acceleration_[i] = force_ * shape_[i] - track_->omega()[i] * track_->omega()[i] * state_[i];
   track_->support_forces(state_, rate_, acceleration_, scratch_);
 
   const double suspension =

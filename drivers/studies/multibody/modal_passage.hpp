@@ -12,13 +12,17 @@ namespace tread {
 /// The modal rail on its supports.
 class ModalTrack {
  public:
-  /// `foot`: spring-dampers that act along x at the foot; only under a beam whose foot moves.
+  /// `foot`: spring-dampers that act along x at the foot; only under a beam whose foot moves. A sleeper's
+  /// deflection times the root of its mass is one more coordinate after those of the modes.
   ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
-             const std::vector<BeamSupport>& foot = {});
+             const std::vector<BeamSupport>& foot = {}, const std::vector<SleeperSupport>& sleepers = {});
 
   const ModalBeam& beam() const { return beam_; }
+  std::size_t coordinates() const { return omega_.size(); }
+  /// Angular frequencies by coordinate, without the supports; 0 of sleepers [rad/s].
+  const std::vector<double>& omega() const { return omega_; }
 
-  /// Modal coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
+  /// Coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
   std::vector<double> static_state(double x, double force) const;
 
   /// Adds the modal forces of springs and dampers. `scratch` holds a value for each support.
@@ -35,8 +39,9 @@ class ModalTrack {
   double largest(const std::vector<double>& weight) const;
 
   ModalBeam beam_;
+  std::vector<double> omega_;
   std::vector<double> stiffness_, damping_;  ///< values by support
-  std::vector<double> by_support_;           ///< mode values, support by support
+  std::vector<double> by_support_;           ///< what a coordinate stretches, support by support [1/sqrt(kg)]
 };
 
 /// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference without damping,
@@ -68,7 +73,7 @@ class ModalPassage {
   const ModalTrack* track_;
   BeamVehicle vehicle_;
   double dt_;
-  std::vector<double> state_, rate_, acceleration_, before_;  ///< by mode; before_: values of the last step
+  std::vector<double> state_, rate_, acceleration_, before_;  ///< by coordinate; before_: of the last step
   std::vector<double> shape_, scratch_;
   Mass wheel_, sprung_;
   bool first_ = true;

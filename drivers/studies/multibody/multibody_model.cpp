@@ -36,11 +36,6 @@ void require_parts(const Scene& scene) {
   need(scene.rail && scene.fastenings, "rail on fastenings ([rail], [fastenings])");
   need(scene.contact.has_value(), "[contact]");
   need(scene.motion && scene.motion->speed > 0, "speed ([motion])");
-  if (scene.sleepers)
-    throw InputError(
-        "tread multibody: the approach knows no sleepers; state sleepers.present = false, and "
-        "fastenings.stiffness "
-        "and fastenings.damping of pad and bed in series");
 }
 
 BeamVehicle lumped_vehicle(const Scene& scene) {
@@ -103,7 +98,8 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   const Material& material = scene.rail_material();
   model.rail = theory == BeamTheory::euler ? euler(section, material) : timoshenko(section, material);
   if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
-  model.supports = rail_supports(scene);
+  model.sleepers = rail_sleepers(scene);
+  if (model.sleepers.empty()) model.supports = rail_supports(scene);
   if (model.rail.has_foot()) {
     model.foot_supports = rail_foot_supports(scene);
     model.foot_holds = rail_foot_holds(scene);
@@ -160,6 +156,18 @@ std::string track_difference(const MultibodyModel& here, const MultibodyModel& t
     compare("a fastening's x", " m", ours.x, theirs.x);
     compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
     compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
+  }
+  compare("the number of sleepers", "", static_cast<double>(here.sleepers.size()),
+          static_cast<double>(there.sleepers.size()));
+  for (std::size_t i = 0; i < std::min(here.sleepers.size(), there.sleepers.size()); ++i) {
+    const SleeperSupport& ours = here.sleepers[i];
+    const SleeperSupport& theirs = there.sleepers[i];
+    compare("a sleeper's x", " m", ours.x, theirs.x);
+    compare("a pad's stiffness", " N/m", ours.stiffness, theirs.stiffness);
+    compare("a pad's damping", " N s/m", ours.damping, theirs.damping);
+    compare("a sleeper's mass", " kg", ours.sleeper.mass, theirs.sleeper.mass);
+    compare("a bed's stiffness", " N/m", ours.sleeper.stiffness, theirs.sleeper.stiffness);
+    compare("a bed's damping", " N s/m", ours.sleeper.damping, theirs.sleeper.damping);
   }
   const auto along = [&](const char* name, const auto& of) {
     compare(name, "", static_cast<double>(of(here).size()), static_cast<double>(of(there).size()));
@@ -286,7 +294,7 @@ ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
       for (std::size_t i = 0; i < springs.size(); ++i)
         along.push_back({s.first + static_cast<double>(i) * pitch, springs[i], 0});
   }
-  return {std::move(beam), model.supports, along};
+  return {std::move(beam), model.supports, along, model.sleepers};
 }
 
 }  // namespace tread

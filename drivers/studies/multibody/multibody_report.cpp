@@ -207,8 +207,11 @@ Chapter model_chapter(const MultibodyOutcome& o) {
   add("E I", readable(1e-6 * m.rail.bending_stiffness), "MN m²", "the scene's section");
   if (m.rail.shear_stiffness > 0) add("kappa G A", readable(1e-6 * m.rail.shear_stiffness), "MN");
   add("Mass of the rail", readable(m.rail.mass), "kg/m");
-  add("Supports", std::to_string(m.supports.size()), "",
-      fmt::format("columns of {} fastenings on rigid ground", m.scene.fastenings->count));
+  if (m.sleepers.empty())
+    add("Supports", std::to_string(m.supports.size()), "",
+        fmt::format("columns of {} fastenings on rigid ground", m.scene.fastenings->count));
+  else
+    add("Supports", std::to_string(m.sleepers.size()), "", "fastenings on rigid sleepers on their beds");
   add("Wheel", readable(m.vehicle.unsprung_mass), "kg", "half wheelset and M_a, one mass");
   add("Sprung mass", readable(m.vehicle.sprung_mass), "kg", "on the primary suspension");
   add("Lateral radius of the gap", readable(1e3 * m.radius_y), "mm",
