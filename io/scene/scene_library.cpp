@@ -150,16 +150,17 @@ LibraryEntry ballasted_cn60() {
 }
 
 LibraryEntry ballasted_60e1() {
-  return {"ballasted-60e1",
-          "ballasted-cn60",
-          "The same ballasted track with rails 60E1 (EN 13674-1) and a wheel S1002 (EN 13715).",
-          {
-              {"rail.profile", "60E1", "EN 13674-1"},
-              {"wheel.profile", "S1002", "EN 13715"},
-              {"wheel.diameter", "920 mm", "usual for coaches"},
-              {"wheel.lateral_offset", "5 mm",
-               "1.5 mm off the middle of a gauge of 1435 mm, away from the jump between two places of contact"},
-          }};
+  return {
+      "ballasted-60e1",
+      "ballasted-cn60",
+      "The same ballasted track with rails 60E1 (EN 13674-1) and a wheel S1002 (EN 13715).",
+      {
+          {"rail.profile", "60E1", "EN 13674-1"},
+          {"wheel.profile", "S1002", "EN 13715"},
+          {"wheel.diameter", "920 mm", "usual for coaches"},
+          {"wheel.lateral_offset", "5 mm",
+           "1.5 mm off the middle of a gauge of 1435 mm, away from the jump between two places of contact"},
+      }};
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
+#include "io/scene/map_file.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
@@ -281,12 +282,13 @@ class SceneBuilder {
   void read_surface(const std::string& table, SurfaceSpec& surface) {
     const std::string key = table + ".file";
     if (surface.kind == "map") {
-      read_file_of(key, [&](const std::string& text, const std::string& name) {
+      const auto read = [&](const std::string& text, const std::string& name) {
         GridColumns grid = parse_grid(text, name, problems_);
         surface.file_x = std::move(grid.x);
         surface.file_y = std::move(grid.y);
         surface.file_depth = std::move(grid.z);
-      });
+      };
+      read_file_of(key, read, read_map_text);
     } else if (surface.kind == "profile") {
       read_file_of(key, [&](const std::string& text, const std::string& name) {
         const TableRules rules{.needs_units = true, .increasing = true, .angle_first = surface.on_wheel()};
@@ -320,9 +322,11 @@ class SceneBuilder {
     });
   }
 
-  /// Calls `read` with text and name of the file that the key names; what it reports is a problem of the key.
+  /// Calls `read` with text, which `load` takes from the disk, and name of the file that the key names; what
+  /// it reports is a problem of the key.
   void read_file_of(const std::string& path,
-                    const std::function<void(const std::string&, const std::string&)>& read) {
+                    const std::function<void(const std::string&, const std::string&)>& read,
+                    std::string (*load)(const fs::path&) = read_table_text) {
     const std::optional<Key> key = find_key(path);
     const std::string& name = *std::get<std::string*>(key->locate(scene_));
     const bool is_name = std::find(key->allowed.begin(), key->allowed.end(), name) != key->allowed.end();
@@ -330,7 +334,7 @@ class SceneBuilder {
     try {
       const std::size_t known_problems = problems_.size();
       const auto given = source_.files.find(name);
-      std::string& text = files_[name] = given != source_.files.end() ? given->second : read_table_text(name);
+      std::string& text = files_[name] = given != source_.files.end() ? given->second : load(name);
       read(text, name);
       if (problems_.size() > known_problems) bad_.insert(path);
     } catch (const InputError& error) {

@@ -48,13 +48,14 @@ void add_surface(Keys& keys, const std::string& name) {
                                                  above(0, 1000), "Wavelength"))));
   keys.push_back(with({"polygon"}, required(number(table + ".order", shape, place(&SurfaceSpec::order),
                                                    {1, 1000}, "Waves around the wheel", Kind::integer))));
-  keys.push_back(with(
-      {"profile", "map"},
-      required(file(
-          table + ".file", shape, place(&SurfaceSpec::file),
-          "Profile: two columns, x and depth positive into the body, after a line such as `# x [m]  d "
-          "[mm]`, on a wheel also `# angle [deg]  d [um]`; map: three columns, `# x [mm]  y [mm]  d "
-          "[um]`, each x with each y once. Beyond the file the depth stays; around a wheel it closes"))));
+  keys.push_back(
+      with({"profile", "map"},
+           required(file(
+               table + ".file", shape, place(&SurfaceSpec::file),
+               "Profile: two columns, x and depth positive into the body, after a line such as `# x [m]  d "
+               "[mm]`, on a wheel also `# angle [deg]  d [um]`; map: three columns, `# x [mm]  y [mm]  d "
+               "[um]`, each x with each y once, or HDF5 with x, y and depth (a row for each y). Beyond the "
+               "file the depth stays; around a wheel it closes"))));
 }
 
 }  // namespace tread::keys

@@ -1,0 +1,66 @@
+#include "io/scene/map_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/scene/table_reader.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";  // how such a file begins
+
+bool is_hdf5(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kHdf5.size(), '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start == kHdf5;
+}
+
+std::string unit_of(const Hdf5File& file, const std::string& dataset) {
+  const Hdf5Attributes attributes = file.attributes(dataset);
+  for (const char* name : {"unit", "units"})
+    if (const auto found = attributes.find(name); found != attributes.end())
+      if (const auto* text = std::get_if<std::string>(&found->second)) return *text;
+  return "m";
+}
+
+std::vector<double> values_of(const Hdf5File& file, const std::string& dataset) {
+  if (file.type(dataset) == "double") return file.read<double>(dataset);
+  if (file.type(dataset) != "float")
+    throw InputError(fmt::format("dataset '{}' does not hold floating-point numbers", dataset));
+  const std::vector<float> values = file.read<float>(dataset);
+  return {values.begin(), values.end()};
+}
+
+std::string text_of(const Hdf5File& file) {
+  const std::vector<double> x = values_of(file, "x");
+  const std::vector<double> y = values_of(file, "y");
+  const std::vector<double> depth = values_of(file, "depth");
+  if (file.shape("depth") != std::vector<std::uint64_t>{y.size(), x.size()})
+    throw InputError(fmt::format("dataset 'depth' does not have {} rows, one for each y, of {} values",
+                                 y.size(), x.size()));
+  std::string text = fmt::format("# x [{}]  y [{}]  d [{}]\n", unit_of(file, "x"), unit_of(file, "y"),
+                                 unit_of(file, "depth"));
+  for (std::size_t j = 0; j < y.size(); ++j)
+    for (std::size_t i = 0; i < x.size(); ++i)
+      text += fmt::format("{} {} {}\n", x[i], y[j], depth[j * x.size() + i]);
+  return text;
+}
+
+}  // namespace
+
+std::string read_map_text(const std::filesystem::path& path) {
+  return is_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
+}
+
+}  // namespace tread
