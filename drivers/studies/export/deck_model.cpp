@@ -1,0 +1,44 @@
+#include "drivers/studies/export/deck_model.hpp"
+
+#include <algorithm>
+
+#include "drivers/engine/start.hpp"
+#include "drivers/results/frame_files.hpp"
+#include "drivers/studies/export/deck_limits.hpp"
+
+namespace tread {
+
+DeckModel::DeckModel(const Model& model, const DeckOptions& options)
+    : model_(&model),
+      options_(options),
+      grid_(make_vtk_grid(model.mesh, VtkCells::elements)),
+      node_of_slot_(static_cast<std::size_t>(model.mesh.slots), 0),
+      velocity_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0) {
+  require_deck_can_hold(model);
+  for (const VtkGrid::Point& point : grid_.points)
+    node_of_slot_[static_cast<std::size_t>(slot(point))] = static_cast<std::int32_t>(++numbers.node);
+  if (model.wheelset)
+    wheel_.origin = resting_places(model)[static_cast<std::size_t>(model.index.tread)].origin;
+  AlignedVector<double> displacement(velocity_.size(), 0.0);
+  start_velocities(model, std::nullopt, {displacement, velocity_, wheel_});
+}
+
+std::int64_t DeckModel::slot(const VtkGrid::Point& point) const {
+  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(point.block)];
+  return block.base + block.slot(point.node, point.station);
+}
+
+Vec3 DeckModel::place(const VtkGrid::Point& point) const {
+  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(point.block)];
+  const Vec3 at = position(block, point.node, point.station);
+  return block.sweep == Sweep::revolved ? wheel_.origin + at : at;
+}
+
+Vec3 DeckModel::velocity(const VtkGrid::Point& point) const {
+  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(point.block)];
+  const Vec3 own = to_cartesian(block, point.station, 0, ConstNodeField(velocity_.data()).at(slot(point)));
+  if (block.sweep == Sweep::extruded) return own;
+  return wheel_.velocity + cross({0, wheel_.spin, 0}, position(block, point.node, point.station)) + own;
+}
+
+}  // namespace tread

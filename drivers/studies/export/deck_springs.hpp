@@ -1,0 +1,56 @@
+#pragma once
+// Fastenings, bed of the sleepers and elastic foot holds as discrete elements between nodes.
+
+#include <cstdint>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+#include "drivers/studies/export/deck_model.hpp"
+#include "io/deck/keyword_deck.hpp"
+
+namespace tread {
+
+/// A spring and a damper side by side between two nodes, or a node and the ground.
+struct DeckSpring {
+  std::int64_t upper = -1, lower = -1;  ///< slots of the mesh; lower -1: the ground
+  int component = 2;                    ///< direction: 0 along, 1 across, 2 vertical
+  double stiffness = 0;                 ///< [N/m]
+  double damping = 0;                   ///< [N s/m]
+};
+
+/// The model's spring-dampers. One between points of faces becomes one between each node of either face,
+/// shared out by the nodes' weights: total stiffness and line of action stay.
+std::vector<DeckSpring> deck_springs(const Model& model);
+
+/// Parts and elements of spring-dampers: two nodes each; equal values share a part.
+class DiscreteParts {
+ public:
+  DiscreteParts(DeckModel& deck, KeywordDeck& out) : deck_(&deck), out_(&out) {}
+
+  /// Adds a spring and a damper, as far as they are not zero.
+  void add(std::int64_t first, std::int64_t second, const DeckSpring& spring);
+  /// Writes orientations, parts and elements, and returns the number of elements.
+  std::int64_t write();
+
+ private:
+  struct Element {
+    std::int64_t part, first, second;
+    int component;
+  };
+  struct Part {
+    std::int64_t number;
+    double value;  ///< in the deck's units
+    bool damper;
+  };
+  std::int64_t part_of(double value, bool damper);
+
+  DeckModel* deck_;
+  KeywordDeck* out_;
+  std::vector<Part> parts_;
+  std::vector<Element> elements_;
+};
+
+/// Writes the spring-dampers and the nodes on the ground on which they stand.
+void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out);
+
+}  // namespace tread
