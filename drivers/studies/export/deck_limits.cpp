@@ -83,14 +83,14 @@ class Differences {
   }
 
   void add_springs() {
-    const std::vector<DeckSpring> springs = deck_springs(model_);
+    if (!model_.fastenings) return;
     std::int64_t elements = 0;
-    for (const DeckSpring& spring : springs) elements += (spring.stiffness > 0) + (spring.damping > 0);
-    if (elements > 0)
-      add(
-          fmt::format("Fastenings and bed: each spring-damper is shared out between the nodes of its faces, "
-                      "{} discrete elements. OpenRadioss gives each a mass of 2 g, {:.3g} kg together.",
-                      elements, 2e-3 * static_cast<double>(elements)));
+    for (const SpringDampers::Element& element : model_.fastenings->elements())
+      elements += DeckSpring{element.component, element.stiffness, element.damping}.elements();
+    add(fmt::format(
+        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces. OpenRadioss "
+        "gives each element a mass of 2 g, {:.3g} kg together.",
+        elements, 2e-3 * static_cast<double>(elements)));
   }
 
   void add_contact() {

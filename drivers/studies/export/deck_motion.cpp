@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/engine/step_features.hpp"
+#include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/deck_vehicle.hpp"
 
@@ -148,11 +149,7 @@ void write_restraints(DeckModel& deck, KeywordDeck& out) {
   std::map<int, std::vector<std::int64_t>> all = deck.held;
   for (const auto& [node, directions] : held_directions(deck)) all[directions].push_back(node);
   for (const auto& [directions, nodes] : all) {
-    const std::int64_t set = ++deck.numbers.set;
-    out.keyword("*SET_NODE_LIST");
-    out.names({"sid"});
-    out.card({set});
-    out.list(nodes);
+    const std::int64_t set = write_node_set(deck, nodes, out);
     out.keyword("*BOUNDARY_SPC_SET");
     out.names({"nsid", "cid", "dofx", "dofy", "dofz"});
     out.card({set, 0, directions & 1, directions >> 1 & 1, directions >> 2 & 1});

@@ -2,50 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <set>
+#include <utility>
 
+#include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 
 namespace tread {
-
-namespace {
-
-/// Calls visit(slot, weight) for the nodes of a point; the ground is slot -1 with the weight 1.
-template <class Visit>
-void for_each_node_of(const Attachment& point, const Visit& visit) {
-  bool ground = true;
-  for (std::size_t k = 0; k < point.slot.size(); ++k) {
-    if (point.slot[k] < 0) continue;
-    ground = false;
-    if (point.weight[k] > 0) visit(point.slot[k], point.weight[k]);
-  }
-  if (ground) visit(std::int64_t{-1}, 1.0);
-}
-
-}  // namespace
-
-std::vector<DeckSpring> deck_springs(const Model& model) {
-  std::map<std::tuple<std::int64_t, std::int64_t, int>, DeckSpring> all;
-  if (!model.fastenings) return {};
-  for (const SpringDampers::Element& element : model.fastenings->elements())
-    for_each_node_of(element.upper, [&](std::int64_t upper, double upper_weight) {
-      for_each_node_of(element.lower, [&](std::int64_t lower, double lower_weight) {
-        DeckSpring& spring = all[{upper, lower, element.component}];
-        spring.upper = upper;
-        spring.lower = lower;
-        spring.component = element.component;
-        spring.stiffness += upper_weight * lower_weight * element.stiffness;
-        spring.damping += upper_weight * lower_weight * element.damping;
-      });
-    });
-  std::vector<DeckSpring> springs;
-  springs.reserve(all.size());
-  for (const auto& [nodes, spring] : all) springs.push_back(spring);
-  return springs;
-}
 
 void DiscreteParts::add(std::int64_t first, std::int64_t second, const DeckSpring& spring) {
   if (spring.stiffness > 0)
@@ -98,26 +65,115 @@ std::int64_t DiscreteParts::write() {
   return static_cast<std::int64_t>(elements_.size());
 }
 
-void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
-  constexpr int kAllDirections = 1 + 2 + 4;
-  std::map<std::int64_t, std::int64_t> ground;  // number of the ground's node by that of the node above
-  const std::vector<DeckSpring> springs = deck_springs(deck.model());
-  for (const DeckSpring& spring : springs) {
-    const std::int64_t upper = deck.node(spring.upper);
-    if (spring.lower < 0 && ground.count(upper) == 0) {
-      ground[upper] = ++deck.numbers.node;
-      deck.held[kAllDirections].push_back(ground[upper]);
+namespace {
+
+/// The ends of the model's spring-dampers: each point of a face, or of the ground below it, has one node.
+class SpringEnds {
+ public:
+  explicit SpringEnds(DeckModel& deck) : deck_(deck) {}
+
+  /// Number of the node at a point of a face.
+  std::int64_t on_face(const Attachment& point) {
+    const auto [known, added] = points_.try_emplace({point.slot, point.weight}, End{});
+    if (added) {
+      Vec3 at;
+      for_each_node_of(point, [&](std::int64_t node, double weight) { at += weight * deck_.place(node); });
+      known->second = {++deck_.numbers.node, at};
     }
-    parts.add(upper, spring.lower < 0 ? ground[upper] : deck.node(spring.lower), spring);
+    return known->second.node;
   }
-  if (ground.empty()) return;
-  out.remark("Ground under the spring-dampers.");
-  out.keyword("*NODE");
-  out.names(kNodeCard, {"nid", "x", "y", "z"});
-  for (const auto& [above, node] : ground) {
-    const Vec3 at = deck_unit::kLength * deck.place(above);
-    out.card(kNodeCard, {node, at.x, at.y, at.z});
+
+  /// Number of the node of the ground at the place of another spring's end.
+  std::int64_t on_ground(const Attachment& above) {
+    constexpr int kAllDirections = 1 + 2 + 4;
+    const std::int64_t end = on_face(above);
+    const auto [known, added] = ground_.try_emplace(end, End{});
+    if (added) {
+      known->second = {++deck_.numbers.node, points_.at({above.slot, above.weight}).at};
+      deck_.held[kAllDirections].push_back(known->second.node);
+    }
+    return known->second.node;
   }
+
+  void write(KeywordDeck& out) {
+    out.remark("Ends of the spring-dampers on faces and on the ground.");
+    out.keyword("*NODE");
+    out.names(kNodeCard, {"nid", "x", "y", "z"});
+    for (const auto& [point, end] : points_) write_node(end, out);
+    for (const auto& [above, end] : ground_) write_node(end, out);
+    write_ties(out);
+  }
+
+ private:
+  using Point = std::pair<std::array<std::int64_t, 4>, std::array<double, 4>>;
+  struct End {
+    std::int64_t node = 0;
+    Vec3 at;  ///< [m]
+  };
+
+  template <class Visit>
+  void for_each_node_of(const Attachment& point, const Visit& visit) const {
+    for (std::size_t k = 0; k < point.slot.size(); ++k)
+      if (point.slot[k] >= 0) visit(deck_.node(point.slot[k]), point.weight[k]);
+  }
+
+  static void write_node(const End& end, KeywordDeck& out) {
+    const Vec3 at = deck_unit::kLength * end.at;
+    out.card(kNodeCard, {end.node, at.x, at.y, at.z});
+  }
+
+  /// One tie for each block: surfaces of two blocks may lie upon one another.
+  void write_ties(KeywordDeck& out) {
+    struct Tie {
+      std::vector<std::int64_t> nodes;
+      std::set<DeckFace> faces;
+    };
+    std::map<const SweptBlock*, Tie> ties;
+    for (const auto& [point, end] : points_) {
+      Tie& tie = ties[&block_of(point.first[0])];
+      tie.nodes.push_back(end.node);
+      // Nodes of an attachment stand row by row; those of a face follow its border.
+      const auto corner = [&, &slots = point.first](std::size_t k) { return deck_.node(slots[k]); };
+      tie.faces.insert({corner(0), corner(1), corner(3), corner(2)});
+    }
+    for (const auto& [block, tie] : ties) {
+      ContactSides sides;
+      sides.secondary = write_node_set(deck_, tie.nodes, out);
+      sides.secondary_kind = ContactSides::kNodes;
+      sides.primary = write_segment_set(deck_, {tie.faces.begin(), tie.faces.end()}, out);
+      write_tie_contact(deck_, "spring-dampers to " + block->name, sides, out);
+    }
+  }
+
+  const SweptBlock& block_of(std::int64_t slot) const {
+    const std::vector<SweptBlock>& blocks = deck_.model().mesh.blocks;
+    const auto after =
+        std::upper_bound(blocks.begin(), blocks.end(), slot,
+                         [](std::int64_t at, const SweptBlock& block) { return at < block.base; });
+    return *(after - 1);
+  }
+
+  DeckModel& deck_;
+  std::map<Point, End> points_;
+  std::map<std::int64_t, End> ground_;  ///< by the node above
+};
+
+bool grounded(const Attachment& point) {
+  return std::all_of(point.slot.begin(), point.slot.end(), [](std::int64_t slot) { return slot < 0; });
+}
+
+}  // namespace
+
+void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
+  if (!deck.model().fastenings) return;
+  SpringEnds ends(deck);
+  for (const SpringDampers::Element& element : deck.model().fastenings->elements()) {
+    const std::int64_t upper = ends.on_face(element.upper);
+    const std::int64_t lower =
+        grounded(element.lower) ? ends.on_ground(element.upper) : ends.on_face(element.lower);
+    parts.add(upper, lower, {element.component, element.stiffness, element.damping});
+  }
+  ends.write(out);
 }
 
 }  // namespace tread

@@ -4,23 +4,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
 #include "drivers/studies/export/deck_model.hpp"
 #include "io/deck/keyword_deck.hpp"
 
 namespace tread {
 
-/// A spring and a damper side by side between two nodes, or a node and the ground.
+/// A spring and a damper side by side.
 struct DeckSpring {
-  std::int64_t upper = -1, lower = -1;  ///< slots of the mesh; lower -1: the ground
-  int component = 2;                    ///< direction: 0 along, 1 across, 2 vertical
-  double stiffness = 0;                 ///< [N/m]
-  double damping = 0;                   ///< [N s/m]
-};
+  int component = 2;     ///< direction: 0 along, 1 across, 2 vertical
+  double stiffness = 0;  ///< [N/m]
+  double damping = 0;    ///< [N s/m]
 
-/// The model's spring-dampers. One between points of faces becomes one between each node of either face,
-/// shared out by the nodes' weights: total stiffness and line of action stay.
-std::vector<DeckSpring> deck_springs(const Model& model);
+  /// Number of its discrete elements.
+  int elements() const { return (stiffness > 0) + (damping > 0); }
+};
 
 /// Parts and elements of spring-dampers: two nodes each; equal values share a part.
 class DiscreteParts {
@@ -50,7 +47,8 @@ class DiscreteParts {
   std::vector<Element> elements_;
 };
 
-/// Writes the spring-dampers and the nodes on the ground on which they stand.
+/// Adds the model's spring-dampers, and writes the nodes at their ends: on the ground, or tied to the faces
+/// of the bodies.
 void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out);
 
 }  // namespace tread

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
-#include <vector>
 
 #include "drivers/studies/export/deck_units.hpp"
 
@@ -30,41 +28,24 @@ Edges running_surface(const SweptBlock& block) {
   return edges;
 }
 
-/// A set of the faces over these edges, which have the body below them (smaller q): normals point outwards.
-std::int64_t write_segments(DeckModel& deck, const SweptBlock& block, const Edges& edges, KeywordDeck& out) {
-  const std::int64_t set = ++deck.numbers.set;
-  out.keyword("*SET_SEGMENT");
-  out.names({"sid"});
-  out.card({set});
-  out.names({"n1", "n2", "n3", "n4"});
+/// The faces over these edges, which have the body below them (smaller q): normals point outwards.
+std::vector<DeckFace> faces_over(const DeckModel& deck, const SweptBlock& block, const Edges& edges) {
+  std::vector<DeckFace> faces;
   for_each_pitch(block, [&](int near, int far) {
     for (const auto& [from, to] : edges)
-      out.card({deck.node(block, from, near), deck.node(block, from, far), deck.node(block, to, far),
-                deck.node(block, to, near)});
+      faces.push_back({deck.node(block, from, near), deck.node(block, from, far), deck.node(block, to, far),
+                       deck.node(block, to, near)});
   });
-  return set;
+  return faces;
 }
 
-std::int64_t write_nodes_of(DeckModel& deck, const SweptBlock& block, const std::vector<int>& path,
-                            KeywordDeck& out) {
+std::vector<std::int64_t> nodes_of(const DeckModel& deck, const SweptBlock& block,
+                                   const std::vector<int>& path) {
   std::vector<std::int64_t> nodes;
   for (int station = 0; station < block.station_count(); ++station)
     for (const int node : path) nodes.push_back(deck.node(block, node, station));
-  const std::int64_t set = ++deck.numbers.set;
-  out.keyword("*SET_NODE_LIST");
-  out.names({"sid"});
-  out.card({set});
-  out.list(nodes);
-  return set;
+  return nodes;
 }
-
-/// Kinds of a set in a contact card.
-constexpr int kSegments = 0, kNodes = 4;
-
-struct ContactSides {
-  std::int64_t secondary = 0, primary = 0;
-  int secondary_kind = kSegments, primary_kind = kSegments;
-};
 
 void begin_contact(DeckModel& deck, const char* keyword, const std::string& title, const ContactSides& sides,
                    KeywordDeck& out) {
@@ -78,23 +59,49 @@ void begin_contact(DeckModel& deck, const char* keyword, const std::string& titl
 
 }  // namespace
 
-void write_ties(DeckModel& deck, KeywordDeck& out) {
+std::int64_t write_node_set(DeckModel& deck, std::span<const std::int64_t> nodes, KeywordDeck& out) {
+  const std::int64_t set = ++deck.numbers.set;
+  out.keyword("*SET_NODE_LIST");
+  out.names({"sid"});
+  out.card({set});
+  out.list(nodes);
+  return set;
+}
+
+std::int64_t write_segment_set(DeckModel& deck, const std::vector<DeckFace>& faces, KeywordDeck& out) {
+  const std::int64_t set = ++deck.numbers.set;
+  out.keyword("*SET_SEGMENT");
+  out.names({"sid"});
+  out.card({set});
+  out.names({"n1", "n2", "n3", "n4"});
+  for (const DeckFace& face : faces) out.list(face);
+  return set;
+}
+
+void write_tie_contact(DeckModel& deck, const std::string& title, const ContactSides& sides,
+                       KeywordDeck& out) {
   // Nodes lie on the faces; a negative thickness is a distance up to which they are tied. [mm]
   constexpr double kReach = -0.1;
+  begin_contact(deck, "*CONTACT_TIED_NODES_TO_SURFACE_ID", "tie of " + title, sides, out);
+  out.names({"fs", "fd"});
+  out.card({0.0, 0.0});
+  out.names({"sfs", "sfm", "sst", "mst"});
+  out.card({0.0, 0.0, kReach, kReach});
+}
+
+void write_ties(DeckModel& deck, KeywordDeck& out) {
   for (const TieSpec& tie : deck.model().tie_specs) {
     const SweptBlock& fine = block_of(deck, tie.secondary);
     const SweptBlock& coarse = block_of(deck, tie.primary);
-    out.remark(fmt::format("Tie of {} to {}.", fine.name, coarse.name));
+    const std::string title = fmt::format("{} to {}", fine.name, coarse.name);
+    out.remark(fmt::format("Tie of {}.", title));
     ContactSides sides;
-    sides.secondary = write_nodes_of(deck, fine, fine.section.paths.at(tie.secondary_path), out);
-    sides.secondary_kind = kNodes;
-    sides.primary = write_segments(deck, coarse, edges_of(coarse.section.paths.at(tie.primary_path)), out);
-    begin_contact(deck, "*CONTACT_TIED_NODES_TO_SURFACE_ID",
-                  fmt::format("tie of {} to {}", fine.name, coarse.name), sides, out);
-    out.names({"fs", "fd"});
-    out.card({0.0, 0.0});
-    out.names({"sfs", "sfm", "sst", "mst"});
-    out.card({0.0, 0.0, kReach, kReach});
+    sides.secondary =
+        write_node_set(deck, nodes_of(deck, fine, fine.section.paths.at(tie.secondary_path)), out);
+    sides.secondary_kind = ContactSides::kNodes;
+    const Edges edges = edges_of(coarse.section.paths.at(tie.primary_path));
+    sides.primary = write_segment_set(deck, faces_over(deck, coarse, edges), out);
+    write_tie_contact(deck, title, sides, out);
   }
 }
 
@@ -105,8 +112,8 @@ void write_contact(DeckModel& deck, KeywordDeck& out) {
   const SweptBlock& rail = block_of(deck, deck.model().index.rail_cap);
   out.remark("Contact of wheel (secondary) and rail (primary).");
   ContactSides sides;
-  sides.secondary = write_segments(deck, wheel, running_surface(wheel), out);
-  sides.primary = write_segments(deck, rail, running_surface(rail), out);
+  sides.secondary = write_segment_set(deck, faces_over(deck, wheel, running_surface(wheel)), out);
+  sides.primary = write_segment_set(deck, faces_over(deck, rail, running_surface(rail)), out);
   begin_contact(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_ID", "wheel on rail", sides, out);
   // f = FD + (FS - FD) exp(-DC |v|)
   const bool falls = spec.friction_law == "falling";
