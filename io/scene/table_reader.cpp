@@ -11,7 +11,6 @@
 
 #include "core/error.hpp"
 #include "io/text/text_file.hpp"
-#include "io/text/units.hpp"
 
 namespace tread {
 
@@ -42,12 +41,20 @@ std::vector<std::string> cells(std::string line) {
   return found;
 }
 
-Unit length_unit(const std::string& text) {
+/// A unit of one of these quantities.
+Unit unit_of(const std::string& text, const std::vector<Quantity>& quantities) {
   const Unit unit = parse_unit(text);
-  if (unit.dimension != kLength.dimension) {
-    throw InputError(fmt::format("[{}] is not a length (units: {})", text, kLength.accepted));
+  std::string accepted;
+  for (const Quantity& quantity : quantities) {
+    if (unit.dimension == quantity.dimension) return unit;
+    accepted +=
+        fmt::format("{}a {} (units: {})", accepted.empty() ? "" : " or ", quantity.name, quantity.accepted);
   }
-  return unit;
+  throw InputError(fmt::format("[{}] is not {}", text, accepted));
+}
+
+Unit length_unit(const std::string& text) {
+  return unit_of(text, {kLength});
 }
 
 /// A pure number's unit is "-".
@@ -69,13 +76,15 @@ class TableParser {
   void read_line(const std::string& line) {
     const std::vector<std::string> units = bracketed(line);
     if (table.first.empty() && units.size() == 2) {
-      const std::array<Unit, 2> stated = {length_unit(units[0]),
-                                          rules_.pure_second ? pure_unit(units[1]) : length_unit(units[1])};
+      const std::array<Unit, 2> stated = {
+          unit_of(units[0], rules_.first),
+          rules_.pure_second ? pure_unit(units[1]) : unit_of(units[1], rules_.second)};
       for (std::size_t i = 0; i < 2; ++i)
         if (rules_.units && !same_unit((*units_)[i], stated[i]))
           throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", units[i],
                                        (*rules_.units)[i]));
       units_ = stated;
+      table.dimension = stated[0].dimension;
       return;
     }
     const std::vector<std::string> row = cells(line.substr(0, line.find('#')));
@@ -91,7 +100,7 @@ class TableParser {
       units_ = {length_unit("mm"), length_unit("mm")};
       throw InputError(
           fmt::format("the units are missing: put a line such as \"# x [m]  {}\" before the numbers",
-                      rules_.pure_second ? "f [-]" : "d [mm]"));
+                      rules_.pure_second ? "f [-]" : rules_.example));
     }
     const std::array<Unit, 2> units = units_.value_or(std::array{length_unit("mm"), length_unit("mm")});
     const double first = parse_number(row[0], units[0]);

@@ -1,5 +1,5 @@
 #pragma once
-// Two-column text files: profiles and measured corrugation depths.
+// Two-column text files: profiles, measured corrugation depths, curves of a force.
 
 #include <array>
 #include <filesystem>
@@ -8,20 +8,25 @@
 #include <vector>
 
 #include "io/scene/problems.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 
-/// Rules of a two-column file. Both columns are lengths.
+/// Rules of a two-column file. Both columns are lengths unless the rules say otherwise.
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row
   bool pure_second = false;  ///< the second column holds pure numbers, with the unit [-]
   std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
+  std::vector<Quantity> first = {kLength};               ///< quantities that the first column may hold
+  std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
+  std::string example = "d [mm]";                        ///< name and unit of the second column in messages
 };
 
 struct TwoColumns {
-  std::vector<double> first;   ///< [m]
-  std::vector<double> second;  ///< [m], or pure numbers
+  std::vector<double> first;                ///< in SI
+  std::vector<double> second;               ///< in SI, or pure numbers
+  Dimension dimension = kLength.dimension;  ///< dimension of the first column
 };
 
 /// The text of such a file. Throws InputError.
