@@ -4,7 +4,6 @@
 
 #include "drivers/engine/start.hpp"
 #include "drivers/results/frame_files.hpp"
-#include "drivers/studies/export/deck_limits.hpp"
 
 namespace tread {
 
@@ -14,7 +13,6 @@ DeckModel::DeckModel(const Model& model, const DeckOptions& options)
       grid_(make_vtk_grid(model.mesh, VtkCells::elements)),
       node_of_slot_(static_cast<std::size_t>(model.mesh.slots), 0),
       velocity_(static_cast<std::size_t>(3 * model.mesh.slots), 0.0) {
-  require_deck_can_hold(model);
   for (const VtkGrid::Point& point : grid_.points)
     node_of_slot_[static_cast<std::size_t>(slot(point))] = static_cast<std::int32_t>(++numbers.node);
   if (model.wheelset)

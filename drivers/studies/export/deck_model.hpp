@@ -22,7 +22,7 @@ struct DeckNumbers {
 
 class DeckModel {
  public:
-  /// Keeps a reference. InputError for a model that a deck would falsify. [deck_limits.hpp]
+  /// Keeps a reference. The scene has [motion], and its motion starts rigidly.
   DeckModel(const Model& model, const DeckOptions& options);
 
   const Model& model() const { return *model_; }

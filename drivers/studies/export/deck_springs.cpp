@@ -40,14 +40,15 @@ std::int64_t DiscreteParts::write() {
   for (const int direction : {0, 1, 2})
     out.card({direction + 1, 0, direction == 0 ? 1.0 : 0.0, direction == 1 ? 1.0 : 0.0,
               direction == 2 ? 1.0 : 0.0});
-  out.keyword("*SECTION_DISCRETE");
-  const std::int64_t section = ++deck_->numbers.section;
-  out.names({"secid", "dro"});
-  out.card({section, 0});
-  out.names({"cdl", "tdl"});
-  out.card({0.0, 0.0});
   for (const Part& part : parts_) {
+    // A section of its own: OpenRadioss makes section and material one property.
+    const std::int64_t section = ++deck_->numbers.section;
     const std::int64_t material = ++deck_->numbers.material;
+    out.keyword("*SECTION_DISCRETE");
+    out.names({"secid", "dro"});
+    out.card({section, 0});
+    out.names({"cdl", "tdl"});
+    out.card({0.0, 0.0});
     out.keyword(part.damper ? "*MAT_DAMPER_VISCOUS" : "*MAT_SPRING_ELASTIC");
     out.names({"mid", part.damper ? "dc" : "k"});
     out.card({material, part.value});

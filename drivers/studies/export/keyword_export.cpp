@@ -74,6 +74,7 @@ void write_output(const DeckModel& deck, KeywordDeck& out) {
 
 DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, const std::string& origin,
                                KeywordDeck& out) {
+  require_deck_can_hold(model);
   TREAD_EXPECT(!model.wheelset || model.scene.start() == "rigid");
   DeckModel deck(model, options);
   DeckSummary summary;
