@@ -210,11 +210,15 @@ class DeckParser {
     } else if (keyword_ == "*LOAD_BODY_Z") {
       deck_.gravity = real(tens(cards_.at(0))[1]);
       EXPECT_EQ(deck_.curves.count(whole(tens(cards_.at(0))[0])), 1U);
-    } else if (keyword_ == "*INITIAL_VELOCITY_NODE") {
-      for (const std::string& card : cards_) {
-        const auto f = tens(card);
-        add_new(deck_.velocities, whole(f[0]), Vec3{real(f[1]), real(f[2]), real(f[3])});
-      }
+    } else if (keyword_ == "*INITIAL_VELOCITY_GENERATION") {
+      const auto f = tens(cards_.at(0));
+      const auto axis = tens(cards_.at(1));
+      EXPECT_EQ(f[1], "3");
+      const Vec3 spin = real(f[2]) * Vec3{real(axis[3]), real(axis[4]), real(axis[5])};
+      const Vec3 centre = {real(axis[0]), real(axis[1]), real(axis[2])};
+      for (const std::int64_t node : deck_.node_sets.at(whole(f[0])))
+        add_new(deck_.velocities, node,
+                Vec3{real(f[3]), real(f[4]), real(f[5])} + cross(spin, deck_.nodes.at(node) - centre));
     } else {
       return false;
     }

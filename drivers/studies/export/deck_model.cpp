@@ -32,6 +32,11 @@ Vec3 DeckModel::place(const VtkGrid::Point& point) const {
   return block.sweep == Sweep::revolved ? wheel_.origin + at : at;
 }
 
+bool DeckModel::rolls(const VtkGrid::Point& point) const {
+  return model_->mesh.blocks[static_cast<std::size_t>(point.block)].sweep == Sweep::revolved &&
+         norm(ConstNodeField(velocity_.data()).at(slot(point))) == 0;
+}
+
 Vec3 DeckModel::velocity(const VtkGrid::Point& point) const {
   const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(point.block)];
   const Vec3 own = to_cartesian(block, point.station, 0, ConstNodeField(velocity_.data()).at(slot(point)));

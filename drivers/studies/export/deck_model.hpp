@@ -41,6 +41,8 @@ class DeckModel {
   /// Place of a node in space at t = 0 [m].
   Vec3 place(const VtkGrid::Point& point) const;
   Vec3 place(std::int64_t node) const { return place(grid_.points[static_cast<std::size_t>(node - 1)]); }
+  /// Returns true if the node moves rigidly with wheel() at t = 0.
+  bool rolls(const VtkGrid::Point& point) const;
   /// Its velocity in space [m/s].
   Vec3 velocity(const VtkGrid::Point& point) const;
 

@@ -164,21 +164,49 @@ void write_loads(DeckModel& deck, KeywordDeck& out) {
   write_hammer(deck, out);
 }
 
-void write_velocities(const DeckModel& deck, KeywordDeck& out) {
-  bool begun = false;
-  const auto card = [&](std::int64_t node, const Vec3& velocity) {
+namespace {
+
+/// Nodes that move rigidly together at t = 0.
+struct MovingNodes {
+  BodyFrame frame;  ///< its origin, velocity and spin
+  std::vector<std::int64_t> nodes;
+};
+
+void write_moving(DeckModel& deck, const MovingNodes& group, KeywordDeck& out) {
+  constexpr int kNodeSet = 3;
+  const std::int64_t set = write_node_set(deck, group.nodes, out);
+  const Vec3 velocity = group.frame.velocity;
+  const Vec3 centre = deck_unit::kLength * group.frame.origin;
+  const double spin = group.frame.spin / deck_unit::kTime;
+  out.keyword("*INITIAL_VELOCITY_GENERATION");
+  out.names({"nsid", "styp", "omega", "vx", "vy", "vz"});
+  out.card({set, kNodeSet, spin, velocity.x, velocity.y, velocity.z});
+  out.names({"xc", "yc", "zc", "nx", "ny", "nz"});
+  out.card({centre.x, centre.y, centre.z, 0.0, spin == 0 ? 0.0 : 1.0, 0.0});
+}
+
+}  // namespace
+
+void write_velocities(DeckModel& deck, KeywordDeck& out) {
+  out.remark("Velocities at t = 0. A set for each motion: readers may make an entity of each card.");
+  MovingNodes wheel{deck.wheel(), {}};
+  std::map<std::array<double, 3>, MovingNodes> others;  // by velocity
+  const auto add = [&](std::int64_t node, const Vec3& velocity) {
     if (norm(velocity) == 0) return;
-    if (!begun) {
-      out.remark("Velocities at t = 0.");
-      out.keyword("*INITIAL_VELOCITY_NODE");
-      out.names({"nid", "vx", "vy", "vz"});
-      begun = true;
-    }
-    out.card({node, velocity.x, velocity.y, velocity.z});
+    MovingNodes& group = others[{velocity.x, velocity.y, velocity.z}];
+    group.frame.velocity = velocity;
+    group.nodes.push_back(node);
   };
-  for (const VtkGrid::Point& point : deck.grid().points)
-    card(deck.node(deck.slot(point)), deck.velocity(point));
-  for (const auto& [node, velocity] : deck.moving) card(node, velocity);
+  for (const VtkGrid::Point& point : deck.grid().points) {
+    const std::int64_t node = deck.node(deck.slot(point));
+    if (deck.rolls(point))
+      wheel.nodes.push_back(node);
+    else
+      add(node, deck.velocity(point));
+  }
+  for (const auto& [node, velocity] : deck.moving) add(node, velocity);
+  if (!wheel.nodes.empty()) write_moving(deck, wheel, out);
+  for (const auto& [velocity, group] : others) write_moving(deck, group, out);
 }
 
 }  // namespace tread

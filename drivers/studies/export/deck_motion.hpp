@@ -12,7 +12,7 @@ void write_restraints(DeckModel& deck, KeywordDeck& out);
 /// Writes gravity, static loads on the journal, torque and hammer with their curves.
 void write_loads(DeckModel& deck, KeywordDeck& out);
 
-/// Writes the velocity of every node that moves at t = 0.
-void write_velocities(const DeckModel& deck, KeywordDeck& out);
+/// Writes the motion of every node at t = 0.
+void write_velocities(DeckModel& deck, KeywordDeck& out);
 
 }  // namespace tread
