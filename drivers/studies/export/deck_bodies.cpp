@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "drivers/studies/export/deck_units.hpp"
 
@@ -39,7 +40,9 @@ void write_material(std::int64_t number, const Material& material, KeywordDeck& 
 /// A block's quads of one of its materials.
 struct BodyPart {
   int block = 0, material = 0;
-  auto operator<=>(const BodyPart&) const = default;
+  bool operator<(const BodyPart& other) const {
+    return std::pair(block, material) < std::pair(other.block, other.material);
+  }
 };
 
 int material_index(const SweptBlock& block, const VtkGrid::Cell& cell) {
