@@ -42,6 +42,7 @@ class Differences {
     if (!model_.tie_specs.empty())
       add("Ties: the reader's own; nodes of the fine side follow the faces of the coarse side.");
     add_springs();
+    if (model_.wheelset || model_.scene.gravity != 0) add_preload();
     if (model_.contact) add_contact();
     if (model_.wheelset) add_wheel();
     add_output();
@@ -53,9 +54,8 @@ class Differences {
 
   void add_element() {
     add(options_.reader == DeckReader::openradioss
-            ? "Element: one stress point. Without a card *HOURGLASS, OpenRadioss takes its element Isolid "
-              "24, "
-              "whose physical hourglass stiffness is the nearest; types 4 to 7 would select Isolid 5."
+            ? "Element: one stress point. Without a card *HOURGLASS, OpenRadioss takes its Isolid 24, whose "
+              "physical hourglass stiffness is the nearest; types 4 to 7 would select Isolid 5."
             : "Element: one stress point with the hourglass stiffness of type 6, QM = 1 (Belytschko and "
               "Bindeman), the nearest.");
     const bool held = std::any_of(model_.mesh.blocks.begin(), model_.mesh.blocks.end(),
@@ -63,10 +63,7 @@ class Differences {
     if (held) add("Slab: held along and across at every node, as here.");
     for (const auto& [name, material] : model_.scene.materials)
       if (material.law == "j2")
-        add(
-            fmt::format("Material {}: *MAT_PLASTIC_KINEMATIC, whose tangent and share of isotropic hardening "
-                        "follow from the scene.",
-                        name));
+        add(fmt::format("Material {}: *MAT_PLASTIC_KINEMATIC with the same hardening.", name));
   }
 
   void add_damping() {
@@ -77,20 +74,37 @@ class Differences {
       } else if (model_.beta[b] > 0 && !damped_) {
         damped_ = true;
         add("Damping: proportional to stiffness, as a negative COEF (Rayleigh's, in ms). OpenRadioss reads a "
-            "positive one as zero. The reader's step does not allow for it: keep to the stated step.");
+            "positive one as zero. Its step knows no damping: TSSFAC lowers it where the step here is "
+            "shorter "
+            "than the stiffest element's.");
       }
     }
   }
 
   void add_springs() {
     if (!model_.fastenings) return;
+    constexpr double kMass = 2e-3;  // that OpenRadioss gives a discrete element [kg]
     std::int64_t elements = 0;
-    for (const SpringDampers::Element& element : model_.fastenings->elements())
-      elements += DeckSpring{element.component, element.stiffness, element.damping}.elements();
+    double step = 1;
+    for (const SpringDampers::Element& element : model_.fastenings->elements()) {
+      const DeckSpring spring{element.component, element.stiffness, element.damping};
+      elements += spring.elements();
+      step = std::min(step, spring.stable_step(kMass));
+    }
     add(fmt::format(
-        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces. OpenRadioss "
-        "gives each element a mass of 2 g, {:.3g} kg together.",
-        elements, 2e-3 * static_cast<double>(elements)));
+        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces. "
+        "OpenRadioss gives each element a mass of 2 g, {:.3g} kg together; by that mass alone its "
+        "step would be {:.2g} s.",
+        elements, kMass * static_cast<double>(elements), step));
+  }
+
+  void add_preload() {
+    add(fmt::format(
+        "Preload: none. The bodies are undeformed{}; gravity and static loads {}. The deck settles by "
+        "itself while it runs.",
+        model_.contact ? " and just touch" : "",
+        options_.ramp > 0 ? fmt::format("grow over {:.4g} ms", 1e3 * options_.ramp)
+                          : std::string("act in full from t = 0")));
   }
 
   void add_contact() {
@@ -101,17 +115,11 @@ class Differences {
     if (scene.contact->friction_law == "falling" && scene.contact->friction_memory > 0)
       add("contact.friction_memory: left out.");
     if (scene.corrugation && !scene.corrugation->centre)
-      add("Corrugation: its deepest line is where the undeformed profiles touch. Here it is where the "
-          "preload "
-          "has its largest pressure.");
+      add("Corrugation: its deepest line is where the undeformed profiles touch. Here it is where the static "
+          "pressure is largest.");
   }
 
   void add_wheel() {
-    add(
-        fmt::format("Preload: none. The bodies are undeformed and just touch; gravity and static loads {}. "
-                    "The deck settles by itself while the wheel rolls.",
-                    options_.ramp > 0 ? fmt::format("grow over {:.4g} ms", 1e3 * options_.ramp)
-                                      : std::string("act in full from t = 0")));
     add("Motion at t = 0: the wheel rolls rigidly without creepage other than motion.creepage.");
     if (model_.scene.vehicle)
       add("Axle box: *CONSTRAINED_INTERPOLATION with equal weights. Here nodes count by their mass.");

@@ -1,6 +1,8 @@
 #pragma once
 // Fastenings, bed of the sleepers and elastic foot holds as discrete elements between nodes.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +19,10 @@ struct DeckSpring {
 
   /// Number of its discrete elements.
   int elements() const { return (stiffness > 0) + (damping > 0); }
+  /// Step at which either becomes unstable by itself if it has this mass [kg]. [s]
+  double stable_step(double mass) const {
+    return std::min(std::sqrt(mass / std::max(stiffness, 1e-9)), 0.5 * mass / std::max(damping, 1e-9));
+  }
 };
 
 /// Parts and elements of spring-dampers: two nodes each; equal values share a part.

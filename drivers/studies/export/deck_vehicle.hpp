@@ -8,7 +8,7 @@
 namespace tread {
 
 /// Frequency of the link by which the axle box pulls a carried sprung mass along [Hz].
-inline constexpr double kLinkFrequency = 1000;
+inline constexpr double kLinkFrequency = 300;
 
 /// Writes both masses and their nodes, and adds the suspension. The axle box follows the journal's mean
 /// motion and does not turn. Nothing without a vehicle.

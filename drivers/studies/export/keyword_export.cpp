@@ -33,7 +33,7 @@ void write_head(const DeckModel& deck, const DeckSummary& summary, const std::st
   for (const std::string& sentence : summary.differences) out.remark("* " + sentence);
 }
 
-/// A step no larger than this program's; OpenRadioss takes its own times TSSFAC.
+/// A step no larger than this program's, where the reader obeys LCTM, and in any case its own times TSSFAC.
 void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out) {
   const double end = deck_unit::kTime * summary.duration;
   const double step = deck_unit::kTime * summary.step;
@@ -53,7 +53,7 @@ void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out
   out.card(kCurveCard, {2 * end, step});
   out.keyword("*CONTROL_TIMESTEP");
   out.names({"dtinit", "tssfac", "isdo", "tslimt", "dt2ms", "lctm"});
-  out.card({step, deck.scene().motion->step_safety, 0, 0.0, 0.0, curve});
+  out.card({step, summary.step_factor, 0, 0.0, 0.0, curve});
 }
 
 void write_output(const DeckModel& deck, KeywordDeck& out) {
@@ -85,7 +85,11 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
         "the mesh has {} nodes and {} elements: a keyword deck numbers up to {}; make the elements larger",
         summary.nodes, summary.elements, kLargestDeckNumber));
   for (const double mass : model.mass) summary.mass += mass;
-  summary.step = deck.scene().motion->step_safety * step_limit(model).stable_step;
+  const StepLimit limit = step_limit(model);
+  const double safety = deck.scene().motion->step_safety;
+  summary.step = safety * limit.stable_step;
+  summary.step_factor =
+      safety * std::min(1.0, limit.stable_step / limit.stiffest[limit.stiffest_block()].step);
   summary.duration = deck.duration();
   summary.differences = deck_differences(model, options);
 

@@ -17,6 +17,7 @@ struct DeckSummary {
   std::int64_t discrete_elements = 0;    ///< springs and dampers
   double mass = 0;                       ///< of the bodies [kg]
   double step = 0;                       ///< this program's step [s]
+  double step_factor = 0;                ///< of the reader's own step, which knows no damping [-]
   double duration = 0;                   ///< [s]
   std::vector<std::string> differences;  ///< sentences on what the deck leaves out or states in another way
 };
