@@ -24,6 +24,9 @@ void require_deck_can_hold(const Model& model) {
     throw InputError(
         "corrugation.apply = \"gap\": a keyword deck states the surface by its nodes alone; set "
         "corrugation.apply = \"nodes\"");
+  if (scene.vehicle && scene.vehicle->unsprung_mass <= 0)
+    throw InputError(
+        "vehicle.unsprung_mass = 0: the axle box of a keyword deck needs a mass; state at least 1 kg");
   if (scene.contact && scene.contact->friction_law == "table")
     throw InputError(
         "contact.friction_law = \"table\": a keyword deck has no friction by place; set "
@@ -122,7 +125,10 @@ class Differences {
   void add_wheel() {
     add("Motion at t = 0: the wheel rolls rigidly without creepage other than motion.creepage.");
     if (model_.scene.vehicle)
-      add("Axle box: *CONSTRAINED_INTERPOLATION with equal weights. Here nodes count by their mass.");
+      add(fmt::format(
+          "Axle box: held across, and in the middle of the journal by spokes of {:.0f} Hz. Here the "
+          "journal's mean motion carries it rigidly.",
+          kSpokeFrequency));
     if (model_.scene.vehicle && model_.scene.vehicle->longitudinal == "carried")
       add(fmt::format(
           "Sprung mass: pulled along by a link of {:.0f} Hz. Here the journal carries it rigidly.",

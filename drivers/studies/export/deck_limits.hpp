@@ -10,7 +10,7 @@
 namespace tread {
 
 /// InputError for scenes whose deck would be wrong: a guided bore, a corrugation in the gap alone, friction
-/// by place, no time to end.
+/// by place, an axle box without mass, no time to end.
 void require_deck_can_hold(const Model& model);
 
 /// Sentences on all that the deck leaves out or states in another way.

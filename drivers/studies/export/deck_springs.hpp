@@ -13,7 +13,9 @@ namespace tread {
 
 /// A spring and a damper side by side.
 struct DeckSpring {
-  int component = 2;     ///< direction: 0 along, 1 across, 2 vertical
+  static constexpr int kOwnDirection = -1;  ///< from one end to the other, wherever they move
+
+  int component = 2;     ///< direction: 0 along, 1 across, 2 vertical, or kOwnDirection
   double stiffness = 0;  ///< [N/m]
   double damping = 0;    ///< [N s/m]
 

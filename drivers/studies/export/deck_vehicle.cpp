@@ -15,6 +15,12 @@ Vec3 axle_box(const DeckModel& deck, const std::vector<std::pair<std::int64_t, d
   return {deck.wheel().origin.x, across, deck.wheel().origin.z};
 }
 
+/// Stiffness by which two masses [kg] swing against each other at a frequency [Hz]. [N/m]
+double stiffness_of(double one, double other, double frequency) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  return omega * omega / (1 / one + 1 / other);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::int64_t, double>> journal_shares(const DeckModel& deck) {
@@ -55,32 +61,30 @@ void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   out.names(kMassCard, {"eid", "nid", "mass"});
   for (const auto& [node, mass] :
        {std::pair(unsprung, vehicle.unsprung_mass), std::pair(sprung, vehicle.sprung_mass)})
-    if (mass > 0) out.card(kMassCard, {++deck.numbers.element, node, mass});
-
-  out.remark("The axle box moves as the journal's nodes do in the mean, and does not turn.");
-  out.keyword("*CONSTRAINED_INTERPOLATION");
-  out.names({"icid", "dnid", "ddof", "cidd", "ityp"});
-  out.card({1, unsprung, 123, 0, 0});
-  out.names({"inid", "idof", "twghtx"});
-  for (const auto& [node, share] : ring) out.card({node, 123, 1});
+    out.card(kMassCard, {++deck.numbers.element, node, mass});
 
   DeckSpring suspension;
   suspension.stiffness = vehicle.suspension_stiffness;
   suspension.damping = vehicle.suspension_damping;
   parts.add(sprung, unsprung, suspension);
+  const double pulling = vehicle.unsprung_mass + deck.model().wheelset->mass();
   if (vehicle.longitudinal == "carried") {
-    const double pulling = vehicle.unsprung_mass + deck.model().wheelset->mass();
-    const double mass = 1 / (1 / vehicle.sprung_mass + 1 / pulling);
-    const double omega = 2 * std::numbers::pi * kLinkFrequency;
     DeckSpring link;
     link.component = 0;
-    link.stiffness = mass * omega * omega;
+    link.stiffness = stiffness_of(vehicle.sprung_mass, pulling, kLinkFrequency);
     parts.add(sprung, unsprung, link);
     deck.moving.emplace_back(sprung, Vec3{deck.wheel().velocity.x, 0, 0});
     deck.held[2].push_back(sprung);
   } else {
     deck.held[1 + 2].push_back(sprung);
   }
+  // Spokes of equal stiffness k hold a ring of n nodes by n k / 2 in each direction of its plane.
+  DeckSpring spoke;
+  spoke.component = DeckSpring::kOwnDirection;
+  spoke.stiffness = 2 / static_cast<double>(ring.size()) *
+                    stiffness_of(vehicle.unsprung_mass, deck.model().wheelset->mass(), kSpokeFrequency);
+  for (const auto& [node, share] : ring) parts.add(unsprung, node, spoke);
+  deck.held[2].push_back(unsprung);
 }
 
 }  // namespace tread

@@ -9,9 +9,11 @@ namespace tread {
 
 /// Frequency of the link by which the axle box pulls a carried sprung mass along [Hz].
 inline constexpr double kLinkFrequency = 300;
+/// Frequency of the axle box on its spokes to the journal [Hz].
+inline constexpr double kSpokeFrequency = 3000;
 
-/// Writes both masses and their nodes, and adds the suspension. The axle box follows the journal's mean
-/// motion and does not turn. Nothing without a vehicle.
+/// Writes both masses and their nodes, and adds the suspension. Spokes, springs along their own direction,
+/// hold the axle box in the middle of the journal, which turns about it. Nothing without a vehicle.
 void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out);
 
 /// Share of each node of the journal in a force on it: number of the node and share [-].
