@@ -29,6 +29,22 @@ std::map<std::int64_t, int> held_directions(const DeckModel& deck) {
 constexpr int kVertical = 3;  ///< direction of a force on a node
 constexpr int kFollower = 4;  ///< normal to the plane of three nodes
 
+/// A force on a node; `plane`: three nodes whose normal it follows.
+struct NodeForce {
+  std::int64_t node = 0;
+  int direction = kVertical;
+  std::int64_t curve = 0;
+  double share = 0;  ///< of the curve [kN per its unit]
+  std::array<std::int64_t, 3> plane = {};
+};
+
+/// A keyword for each: readers may take the first card alone.
+void write_force(const NodeForce& force, KeywordDeck& out) {
+  out.keyword("*LOAD_NODE_POINT");
+  out.card({force.node, force.direction, force.curve, force.share, 0, force.plane[0], force.plane[1],
+            force.plane[2]});
+}
+
 /// Writes a curve of (time [s], value in the deck's units) and returns its number.
 std::int64_t write_curve(DeckModel& deck, const std::vector<std::array<double, 2>>& points,
                          KeywordDeck& out) {
@@ -81,11 +97,9 @@ void write_journal_load(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
   if (deck.scene().vehicle) load = deck.scene().vehicle->sprung_mass * deck.scene().gravity;
   if (load == 0) return;
   out.remark("Static load on the journal. The weight of a sprung mass is in its spring from the start.");
-  out.keyword("*LOAD_NODE_POINT");
-  out.names({"nid", "dof", "lcid", "sf"});
   for (const auto& [node, share] : journal_shares(deck))
-    out.card({node, kVertical, curve, -deck_unit::kForce * load * share});
-  if (deck.sprung > 0) out.card({deck.sprung, kVertical, curve, deck_unit::kForce * load});
+    write_force({node, kVertical, curve, -deck_unit::kForce * load * share, {}}, out);
+  if (deck.sprung > 0) write_force({deck.sprung, kVertical, curve, deck_unit::kForce * load, {}}, out);
 }
 
 /// Three nodes of the section at a node's station whose plane has the tangent as its normal, by node of the
@@ -112,8 +126,6 @@ void write_torque(DeckModel& deck, KeywordDeck& out) {
   const AlignedVector<double> rest(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   AlignedVector<double> force = rest;
   model.torque.apply(1, rest.data(), rest.data(), deck.wheel(), force.data());
-  out.keyword("*LOAD_NODE_POINT");
-  out.names({"nid", "dof", "lcid", "sf", "cid", "m1", "m2", "m3"});
   std::map<int, std::vector<std::array<int, 3>>> planes;  // by block
   for (const VtkGrid::Point& point : deck.grid().points) {
     const double along = -ConstNodeField(force.data()).at(deck.slot(point)).x;
@@ -123,8 +135,12 @@ void write_torque(DeckModel& deck, KeywordDeck& out) {
     if (added) at->second = planes_across(block.section);
     const std::array<int, 3>& plane = at->second[static_cast<std::size_t>(point.node)];
     const auto corner = [&](std::size_t i) { return deck.node(block, plane[i], point.station); };
-    out.card({deck.node(deck.slot(point)), kFollower, curve, deck_unit::kForce * full * along, 0, corner(0),
-              corner(1), corner(2)});
+    write_force({deck.node(deck.slot(point)),
+                 kFollower,
+                 curve,
+                 deck_unit::kForce * full * along,
+                 {corner(0), corner(1), corner(2)}},
+                out);
   }
 }
 
@@ -135,12 +151,11 @@ void write_hammer(DeckModel& deck, KeywordDeck& out) {
   const std::int64_t curve = write_curve(
       deck, sampled(deck.duration(), hammer.duration, 1, [&](double time) { return hammer.force_at(time); }),
       out);
-  out.keyword("*LOAD_NODE_POINT");
-  out.names({"nid", "dof", "lcid", "sf"});
   const Attachment& point = *deck.model().hammer;
   for (std::size_t k = 0; k < point.slot.size(); ++k)
     if (point.slot[k] >= 0 && point.weight[k] > 0)
-      out.card({deck.node(point.slot[k]), kVertical, curve, -deck_unit::kForce * point.weight[k]});
+      write_force({deck.node(point.slot[k]), kVertical, curve, -deck_unit::kForce * point.weight[k], {}},
+                  out);
 }
 
 }  // namespace

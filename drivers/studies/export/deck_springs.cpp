@@ -35,11 +35,12 @@ std::int64_t DiscreteParts::write() {
   if (elements_.empty()) return 0;
   KeywordDeck& out = *out_;
   out.remark("Spring-dampers: fastenings, bed, foot holds, suspension.");
-  out.keyword("*DEFINE_SD_ORIENTATION");
-  out.names({"vid", "iop", "xt", "yt", "zt"});
-  for (const int direction : {0, 1, 2})
+  for (const int direction : {0, 1, 2}) {
+    out.keyword("*DEFINE_SD_ORIENTATION");
+    out.names({"vid", "iop", "xt", "yt", "zt"});
     out.card({direction + 1, 0, direction == 0 ? 1.0 : 0.0, direction == 1 ? 1.0 : 0.0,
               direction == 2 ? 1.0 : 0.0});
+  }
   for (const Part& part : parts_) {
     // A section of its own: OpenRadioss makes section and material one property.
     const std::int64_t section = ++deck_->numbers.section;
