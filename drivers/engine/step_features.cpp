@@ -14,9 +14,6 @@
 
 namespace tread {
 
-namespace {
-
-/// Torque of which MotionSpec::torque_share() is the share; 0 without traction [N m].
 double full_torque(const Model& model) {
   const std::optional<MotionSpec>& motion = model.scene.motion;
   if (!motion || !model.wheelset) return 0;
@@ -27,8 +24,6 @@ double full_torque(const Model& model) {
   const double torque = *motion->traction_mu * model.wheel_load() * radius;
   return model.guide ? torque : torque * (1 + model.wheelset->inertia() / (mass * radius * radius));
 }
-
-}  // namespace
 
 template <class F, class... Arguments>
 F* StepFeatures::add(Arguments&&... arguments) {

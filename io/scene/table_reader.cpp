@@ -12,7 +12,6 @@
 
 #include "core/error.hpp"
 #include "io/text/text_file.hpp"
-#include "io/text/units.hpp"
 
 namespace tread {
 
@@ -43,12 +42,20 @@ std::vector<std::string> cells(std::string line) {
   return found;
 }
 
-Unit length_unit(const std::string& text) {
+/// A unit of one of these quantities.
+Unit unit_of(const std::string& text, const std::vector<Quantity>& quantities) {
   const Unit unit = parse_unit(text);
-  if (unit.dimension != kLength.dimension) {
-    throw InputError(fmt::format("[{}] is not a length (units: {})", text, kLength.accepted));
+  std::string accepted;
+  for (const Quantity& quantity : quantities) {
+    if (unit.dimension == quantity.dimension) return unit;
+    accepted +=
+        fmt::format("{}a {} (units: {})", accepted.empty() ? "" : " or ", quantity.name, quantity.accepted);
   }
-  return unit;
+  throw InputError(fmt::format("[{}] is not {}", text, accepted));
+}
+
+Unit length_unit(const std::string& text) {
+  return unit_of(text, {kLength});
 }
 
 /// A pure number's unit is "-".
@@ -80,12 +87,15 @@ class TableParser {
   }
 
   std::vector<std::vector<double>> rows;
-  bool angles = false;  ///< in the first column
+  bool angles = false;                      ///< in the first column
+  Dimension dimension = kLength.dimension;  ///< of the first column
 
  private:
   Unit unit_of_column(std::size_t column, const std::string& text) {
     if (column == 1 && rules_.pure_second) return pure_unit(text);
-    if (column > 0 || !rules_.angle_first || text != "deg") return length_unit(text);
+    if (column > 1) return length_unit(text);
+    if (column == 1) return unit_of(text, rules_.second);
+    if (!rules_.angle_first || text != "deg") return unit_of(text, rules_.first);
     angles = true;
     return {0, std::numbers::pi, 180, {}};
   }
@@ -99,11 +109,12 @@ class TableParser {
                                      (*rules_.units)[i]));
     }
     units_ = stated;
+    dimension = stated[0].dimension;
   }
 
   std::string example() const {
     if (columns_ == 3) return "# x [mm]  y [mm]  d [um]";
-    return rules_.pure_second ? "# x [m]  f [-]" : "# x [m]  d [mm]";
+    return "# x [m]  " + (rules_.pure_second ? "f [-]" : rules_.example);
   }
 
   void add_row(const std::vector<std::string>& row) {
@@ -176,6 +187,7 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
     table.second.push_back(row[1]);
   }
   table.angles = parser.angles;
+  table.dimension = parser.dimension;
   return table;
 }
 

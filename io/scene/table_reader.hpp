@@ -1,5 +1,5 @@
 #pragma once
-// Text files of columns: profiles and measured depths.
+// Text files of columns: profiles, measured depths, curves of a force.
 
 #include <array>
 #include <filesystem>
@@ -8,22 +8,27 @@
 #include <vector>
 
 #include "io/scene/problems.hpp"
+#include "io/text/units.hpp"
 
 namespace tread {
 
-/// Rules of a file of columns. All are lengths.
+/// Rules of a file of two columns. Both are lengths unless the rules say otherwise.
 struct TableRules {
   bool needs_units = false;  ///< a line such as "# x [m]  d [mm]" must come before the numbers
   bool increasing = false;   ///< the first column must grow from row to row
   bool pure_second = false;  ///< the second column holds pure numbers, with the unit [-]
   bool angle_first = false;  ///< the first column may hold angles, with the unit [deg]
   std::optional<std::array<std::string, 2>> units = {};  ///< stated elsewhere; the file may not state others
+  std::vector<Quantity> first = {kLength};               ///< quantities that the first column may hold
+  std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
+  std::string example = "d [mm]";                        ///< name and unit of the second column in messages
 };
 
 struct TwoColumns {
-  std::vector<double> first;   ///< [m], or [rad] where the rules allow angles and the file states [deg]
-  std::vector<double> second;  ///< [m], or pure numbers
+  std::vector<double> first;   ///< in SI; [rad] where the rules allow angles and the file states [deg]
+  std::vector<double> second;  ///< in SI, or pure numbers
   bool angles = false;         ///< the first column holds angles
+  Dimension dimension = kLength.dimension;  ///< of the first column
 };
 
 /// Values at all pairs of x and y.

@@ -95,7 +95,8 @@ void read_table(const std::string& bytes) {
   const fs::path path = written("table.txt", bytes);
   for (const TableRules& rules :
        {TableRules{}, TableRules{true, true}, TableRules{.increasing = true, .pure_second = true},
-        TableRules{.increasing = true, .units = {{"m", "um"}}}})
+        TableRules{.increasing = true, .units = {{"m", "um"}}},
+        TableRules{.increasing = true, .first = {kLength, kTime}, .second = {kForce}}})
     try {
       const TwoColumns table = read_two_columns(path, rules);
       require(table.first.size() == table.second.size() && table.first.size() >= 2, "columns of a table");

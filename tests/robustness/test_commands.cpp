@@ -363,7 +363,7 @@ TEST_F(Commands, DevicesAreChosenByName) {
 TEST_F(Commands, WrongWordsAreNamed) {
   for (const auto& [wrong, answer] :
        {std::pair{"rum x.toml", "there is no command 'rum'; did you mean 'run'?"},
-        {"report --help", "there is no command 'report'; `tread --help` lists all"},
+        {"picture --help", "there is no command 'picture'; `tread --help` lists all"},
         {"develop x.toml --frm y",
          "tread develop: there is no option --frm; did you mean --from? `tread develop --help`"},
         {"run x.toml --gpu",

@@ -110,12 +110,12 @@ double TransientRun::speed_between(double first, double last) const {
   return (x[b] - x[a]) / (time[b] - time[a]);
 }
 
-TransientRun read_transient_run(const std::filesystem::path& directory) {
+TransientRun read_transient_run(const std::filesystem::path& directory, const std::string& force) {
   TransientRun run;
   run.directory = directory;
   run.scene = read_scene(directory / kKeptScene);
   std::vector<std::vector<double>> columns =
-      read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {"vertical_force", "N"}});
+      read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {force, "N"}});
   run.time = std::move(columns[0]);
   run.x = std::move(columns[1]);
   run.force = std::move(columns[2]);

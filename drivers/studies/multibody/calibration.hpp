@@ -2,28 +2,30 @@
 // The contact spring of the multi-body model fitted to a transient run. [paper, section 4.6]
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "drivers/studies/multibody/multibody_run.hpp"
 
 namespace tread {
 
-/// F_N of a run, and the scene of that run.
+/// A contact force of a run, F_N, and the scene of that run.
 struct TransientRun {
   std::filesystem::path directory;
   Scene scene;
   std::vector<double> time;   ///< [s]
   std::vector<double> x;      ///< ascending places of the wheel [m]
-  std::vector<double> force;  ///< F_N [N]
+  std::vector<double> force;  ///< F_N, or the force that was asked for [N]
 
   /// Mean speed over the samples within [first, last] [m/s]. Traction has made the wheel faster than
   /// motion.speed. 0 with fewer than two samples.
   double speed_between(double first, double last) const;
 };
 
-/// Reads histories.csv and scene.resolved.toml of a run's directory. Throws InputError if they are missing or
-/// broken.
-TransientRun read_transient_run(const std::filesystem::path& directory);
+/// Reads histories.csv and scene.resolved.toml of a run's directory; `force`: column of the force [N]. Throws
+/// InputError if they are missing or broken.
+TransientRun read_transient_run(const std::filesystem::path& directory,
+                                const std::string& force = "vertical_force");
 
 /// Comparison of a curve of F_N with the run's over the evaluated stretch.
 struct CurveFit {

@@ -1,0 +1,171 @@
+#include "drivers/studies/compare/compare_study.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "core/error.hpp"
+#include "drivers/engine/sections.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/report/figure_parts.hpp"
+#include "drivers/run/scene_content.hpp"
+#include "drivers/studies/compare/curve_comparison.hpp"
+#include "io/files/output_file.hpp"
+#include "io/report/figure_files.hpp"
+#include "io/report/markup.hpp"
+#include "io/report/plain_text.hpp"
+#include "io/text/json.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace {
+
+std::optional<double> length_of(const char* option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse_quantity(text, kLength);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} \"{}\": {}", option, text, error.what()));
+  }
+}
+
+ComparisonOptions comparison_options(const CompareOptions& options) {
+  ComparisonOptions comparison;
+  comparison.mean = length_of("--mean", options.mean).value_or(0);
+  if (comparison.mean < 0)
+    throw InputError(fmt::format("--mean \"{}\" is negative; state a way such as \"7 mm\"", options.mean));
+  comparison.first = length_of("--from", options.first);
+  comparison.last = length_of("--to", options.last);
+  return comparison;
+}
+
+/// Everything that a call has read and found.
+struct Outcome {
+  TransientRun run;
+  ForceCurve curve;
+  ComparisonOptions choice;
+  CurveComparison found;
+};
+
+Table comparison_of(const Outcome& o, const std::string& force) {
+  const CurveComparison& c = o.found;
+  Table table{"",
+              {{"Quantity"},
+               {"Run", Align::right},
+               {"Curve", Align::right},
+               {"Curve less run", Align::right},
+               {"Unit"}},
+              {}};
+  const auto row = [&](const std::string& name, double run, double curve, double scale, const char* unit) {
+    table.rows.push_back({name, readable(scale * run, 5), readable(scale * curve, 5),
+                          readable(scale * (curve - run), 4), unit});
+  };
+  row("Largest " + force, c.of_run.max, c.of_curve.max, 1e-3, "kN");
+  row("Smallest " + force, c.of_run.min, c.of_curve.min, 1e-3, "kN");
+  row("Mean " + force, c.of_run.mean, c.of_curve.mean, 1e-3, "kN");
+  row("Range", c.of_run.range(), c.of_curve.range(), 1e-3, "kN");
+  if (c.run_shift && c.curve_shift)
+    row("Peaks before the crests", *c.run_shift, *c.curve_shift, 1 / std::numbers::pi, "pi");
+  table.rows.push_back({"Root mean square of the difference", "", "", readable(1e-3 * c.misfit, 4), "kN"});
+  if (c.correlation)
+    table.rows.push_back({"Correlation", "", "", fmt::format("{:.4f}", *c.correlation), "-"});
+  return table;
+}
+
+std::string stretch_of(const Outcome& o) {
+  const std::string means =
+      o.choice.mean > 0 ? fmt::format(", both averaged over {} mm", readable(1e3 * o.choice.mean)) : "";
+  return fmt::format("x = {:.4f} to {:.4f} m, {} samples of the run{}", o.found.x.front(), o.found.x.back(),
+                     o.found.x.size(), means);
+}
+
+Json statistics_json(const Statistics& s) {
+  return {{"mean", s.mean}, {"min", s.min}, {"max", s.max}};
+}
+
+Json comparison_json(const Outcome& o, const std::string& force) {
+  const CurveComparison& c = o.found;
+  Json json = {{"run", o.run.directory.string()},
+               {"curve", o.curve.name},
+               {"force", force},
+               {"stretch_x_m", {c.x.front(), c.x.back()}},
+               {"samples", c.x.size()},
+               {"mean_over_m", o.choice.mean},
+               {"run_N", statistics_json(c.of_run)},
+               {"curve_N", statistics_json(c.of_curve)},
+               {"rms_difference_N", c.misfit},
+               {"correlation", number_or_null(c.correlation)},
+               {"run_mean_shift_before_crests_rad", number_or_null(c.run_shift)},
+               {"curve_mean_shift_before_crests_rad", number_or_null(c.curve_shift)}};
+  return json;
+}
+
+Series kilonewtons(std::string label, const std::vector<double>& x, const std::vector<double>& force,
+                   Stroke stroke) {
+  Series series{std::move(label), x, {}, stroke};
+  for (const double value : force) series.y.push_back(1e-3 * value);
+  return series;
+}
+
+Figure comparison_figure(const Outcome& o, const std::string& force) {
+  const CurveComparison& c = o.found;
+  Figure figure;
+  figure.name = "compare";
+  figure.title = force + ": run and curve";
+  figure.x_label = "Position of the wheel [m]";
+  figure.x_range = {c.x.front(), c.x.back()};
+  if (const std::optional<CorrugationSpec>& spec = o.run.scene.corrugation)
+    mark_track(o.run.scene, corrugation_of(*spec, spec->centre.value_or(0)), *figure.x_range, figure);
+  else
+    mark_track(o.run.scene, Corrugation(), *figure.x_range, figure);
+  figure.panels.push_back(panel(
+      force + " [kN]",
+      {kilonewtons("run", c.x, c.run, Stroke::solid), kilonewtons("curve", c.x, c.curve, Stroke::dashed)}, {},
+      300));
+  std::vector<double> difference = c.curve;
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= c.run[i];
+  figure.panels.push_back(
+      panel("Curve less run [kN]", {kilonewtons("difference", c.x, difference, Stroke::solid)}, {}, 140));
+  return figure;
+}
+
+Report comparison_report(const Outcome& o, const CompareOptions& options) {
+  Report report;
+  report.title = o.run.scene.title;
+  report.subtitle =
+      fmt::format("{} beside {}", o.run.directory.filename().string(), options.file.filename().string());
+  Chapter chapter{"Comparison", {}};
+  chapter.blocks.emplace_back(Text{stretch_of(o) + "."});
+  chapter.blocks.emplace_back(comparison_of(o, options.force));
+  chapter.blocks.emplace_back(comparison_figure(o, options.force));
+  report.chapters.push_back(std::move(chapter));
+  state_provenance(report, (o.run.directory / kKeptScene).string(), options.origin);
+  return report;
+}
+
+}  // namespace
+
+void compare_curves(const CompareOptions& options) {
+  const ComparisonOptions choice = comparison_options(options);
+  Outcome o{read_transient_run(options.run, options.force == "F_L" ? "longitudinal_force" : "vertical_force"),
+            read_force_curve(options.file, options.offset),
+            choice,
+            {}};
+  o.found = compare(o.run, o.curve, choice);
+  const std::string json = json_text(comparison_json(o, options.force));
+  const std::filesystem::path folder = options.output.empty() ? options.run : options.output;
+  make_directory(folder);
+  write_text_file(folder / "compare.json", json);
+  write_report(folder / "compare.html", comparison_report(o, options));
+  if (options.json)
+    fmt::print("{}", json);
+  else
+    fmt::print("{}\n\n{}\nReport  {}\n", stretch_of(o), plain_text(comparison_of(o, options.force)),
+               (folder / "compare.html").string());
+}
+
+}  // namespace tread

@@ -1,0 +1,124 @@
+#include "drivers/studies/compare/curve_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/math/interpolation.hpp"
+#include "drivers/engine/sections.hpp"
+#include "io/scene/table_reader.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+ForceCurve read_force_curve(const std::filesystem::path& path, const std::string& offset) {
+  TableRules rules{.needs_units = true, .increasing = true};
+  rules.first = {kLength, kTime};
+  rules.second = {kForce};
+  rules.example = "F_N [kN]";
+  TwoColumns columns = read_two_columns(path, rules);
+  ForceCurve curve{path.string(), columns.dimension == kTime.dimension, std::move(columns.first),
+                   std::move(columns.second)};
+  if (offset.empty()) return curve;
+  try {
+    const double moved = parse_quantity(offset, curve.over_time ? kTime : kLength);
+    for (double& at : curve.at) at += moved;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--offset \"{}\": {}", offset, error.what()));
+  }
+  return curve;
+}
+
+double mean_about(const std::vector<double>& x, const std::vector<double>& y, double place, double width) {
+  if (width <= 0) return value_at(x, y, place);
+  const double first = place - 0.5 * width;
+  const double last = place + 0.5 * width;
+  double before = value_at(x, y, first);
+  const double end = value_at(x, y, last);
+  if (std::isnan(before) || std::isnan(end)) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0;
+  double at = first;
+  const auto add = [&](double to, double value) {
+    sum += 0.5 * (before + value) * (to - at);
+    at = to;
+    before = value;
+  };
+  for (auto i = std::upper_bound(x.begin(), x.end(), first); i != x.end() && *i < last; ++i)
+    add(*i, y[static_cast<std::size_t>(i - x.begin())]);
+  add(last, end);
+  return sum / width;
+}
+
+namespace {
+
+struct OverTheWay {
+  std::vector<double> x;      ///< [m]
+  std::vector<double> force;  ///< [N]
+};
+
+/// The curve over the way; times become the places where the wheel then was.
+OverTheWay over_the_way(const ForceCurve& curve, const TransientRun& run) {
+  if (!curve.over_time) return {curve.at, curve.force};
+  OverTheWay over;
+  for (std::size_t i = 0; i < curve.at.size(); ++i) {
+    const double x = value_at(run.time, run.x, curve.at[i]);
+    if (std::isnan(x) || (!over.x.empty() && x <= over.x.back())) continue;
+    over.x.push_back(x);
+    over.force.push_back(curve.force[i]);
+  }
+  return over;
+}
+
+[[noreturn]] void too_little_in_common(const TransientRun& run, const ForceCurve& curve) {
+  const char* unit = curve.over_time ? "s" : "m";
+  const double first = curve.over_time ? run.time.front() : run.x.front();
+  const double last = curve.over_time ? run.time.back() : run.x.back();
+  throw InputError(fmt::format(
+      "{}: it covers {:.6g} to {:.6g} {unit}, the run {} covers {:.6g} to {:.6g} {unit}: fewer than "
+      "two samples of the run lie in both; move the curve by --offset, or state other --from, --to "
+      "and --mean",
+      curve.name, curve.at.front(), curve.at.back(), run.directory.string(), first, last,
+      fmt::arg("unit", unit)));
+}
+
+/// Lead of the peaks before the crests of the scene's sine [rad].
+std::optional<double> shift_of(const Scene& scene, const std::vector<double>& x,
+                               const std::vector<double>& force) {
+  if (!scene.corrugation || scene.corrugation->kind != "sine") return std::nullopt;
+  const Corrugation sine = corrugation_of(*scene.corrugation, scene.corrugation->centre.value_or(0));
+  const std::vector<CrestPeak> peaks = crest_peaks(sine, scene.corrugation->wavelength, x, force);
+  if (peaks.empty()) return std::nullopt;
+  return mean_shift(peaks);
+}
+
+}  // namespace
+
+CurveComparison compare(const TransientRun& run, const ForceCurve& curve, const ComparisonOptions& options) {
+  const OverTheWay other = over_the_way(curve, run);
+  CurveComparison c;
+  double squares = 0;
+  for (const double x : run.x) {
+    if (x < options.first.value_or(x) || x > options.last.value_or(x)) continue;
+    if (!c.x.empty() && x <= c.x.back()) continue;
+    const double ours = mean_about(run.x, run.force, x, options.mean);
+    const double theirs = mean_about(other.x, other.force, x, options.mean);
+    if (std::isnan(ours) || std::isnan(theirs)) continue;
+    c.x.push_back(x);
+    c.run.push_back(ours);
+    c.curve.push_back(theirs);
+    squares += (ours - theirs) * (ours - theirs);
+  }
+  if (c.x.size() < 2) too_little_in_common(run, curve);
+  c.of_run = statistics(c.run);
+  c.of_curve = statistics(c.curve);
+  c.misfit = std::sqrt(squares / static_cast<double>(c.x.size()));
+  c.correlation = correlation(c.run, c.curve);
+  c.run_shift = shift_of(run.scene, c.x, c.run);
+  c.curve_shift = shift_of(run.scene, c.x, c.curve);
+  return c;
+}
+
+}  // namespace tread

@@ -1,0 +1,163 @@
+#include "drivers/studies/export/deck_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "drivers/studies/export/deck_springs.hpp"
+#include "drivers/studies/export/deck_vehicle.hpp"
+
+namespace tread {
+
+void require_deck_can_hold(const Model& model) {
+  const Scene& scene = model.scene;
+  if (!scene.motion)
+    throw InputError(
+        "[motion] is missing: a keyword deck needs a time to end; add motion.duration, or set "
+        "motion.present = true");
+  if (model.guide)
+    throw InputError(
+        "wheel.bore = \"guided\": a keyword deck has no carrier that turns freely and rolls at a stated "
+        "speed; set wheel.bore = \"free\"");
+  if (scene.corrugation && scene.corrugation->apply == "gap")
+    throw InputError(
+        "corrugation.apply = \"gap\": a keyword deck states the surface by its nodes alone; set "
+        "corrugation.apply = \"nodes\"");
+  if (scene.vehicle && scene.vehicle->unsprung_mass <= 0)
+    throw InputError(
+        "vehicle.unsprung_mass = 0: the axle box of a keyword deck needs a mass; state at least 1 kg");
+  if (scene.contact && scene.contact->friction_law == "table")
+    throw InputError(
+        "contact.friction_law = \"table\": a keyword deck has no friction by place; set "
+        "contact.friction_law = \"coulomb\" and contact.friction");
+}
+
+namespace {
+
+class Differences {
+ public:
+  Differences(const Model& model, const DeckOptions& options) : model_(model), options_(options) {}
+
+  std::vector<std::string> list() {
+    add_element();
+    add_damping();
+    if (!model_.tie_specs.empty())
+      add("Ties: the reader's own; nodes of the fine side follow the faces of the coarse side.");
+    add_springs();
+    if (model_.wheelset || model_.scene.gravity != 0) add_preload();
+    if (model_.contact) add_contact();
+    if (model_.wheelset) add_wheel();
+    add_output();
+    return std::move(list_);
+  }
+
+ private:
+  void add(std::string sentence) { list_.push_back(std::move(sentence)); }
+
+  void add_element() {
+    add(options_.reader == DeckReader::openradioss
+            ? "Element: one stress point. Without a card *HOURGLASS, OpenRadioss takes its Isolid 24, whose "
+              "physical hourglass stiffness is the nearest; types 4 to 7 would select Isolid 5."
+            : "Element: one stress point with the hourglass stiffness of type 6, QM = 1 (Belytschko and "
+              "Bindeman), the nearest.");
+    const bool held = std::any_of(model_.mesh.blocks.begin(), model_.mesh.blocks.end(),
+                                  [](const SweptBlock& block) { return block.vertical_only; });
+    if (held) add("Slab: held along and across at every node, as here.");
+    for (const auto& [name, material] : model_.scene.materials)
+      if (material.law == "j2")
+        add(fmt::format("Material {}: *MAT_PLASTIC_KINEMATIC with the same hardening.", name));
+  }
+
+  void add_damping() {
+    for (std::size_t b = 0; b < model_.mesh.blocks.size(); ++b) {
+      const SweptBlock& block = model_.mesh.blocks[b];
+      if (model_.branches[b]) {
+        add(fmt::format("Damping of {}: left out. damping_up_to has no card.", block.name));
+      } else if (model_.beta[b] > 0 && !damped_) {
+        damped_ = true;
+        add("Damping: proportional to stiffness, as a negative COEF (Rayleigh's, in ms). OpenRadioss reads a "
+            "positive one as zero. Its step knows no damping: TSSFAC lowers it where the step here is "
+            "shorter "
+            "than the stiffest element's.");
+      }
+    }
+  }
+
+  void add_springs() {
+    if (!model_.fastenings) return;
+    constexpr double kMass = 2e-3;  // that OpenRadioss gives a discrete element [kg]
+    std::int64_t elements = 0;
+    double step = 1;
+    for (const SpringDampers::Element& element : model_.fastenings->elements()) {
+      const DeckSpring spring{element.component, element.stiffness, element.damping};
+      elements += spring.elements();
+      step = std::min(step, spring.stable_step(kMass));
+    }
+    add(fmt::format(
+        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces. "
+        "OpenRadioss gives each element a mass of 2 g, {:.3g} kg together; by that mass alone its "
+        "step would be {:.2g} s.",
+        elements, kMass * static_cast<double>(elements), step));
+  }
+
+  void add_preload() {
+    add(fmt::format(
+        "Preload: none. The bodies are undeformed{}; gravity and static loads {}. The deck settles by "
+        "itself while it runs.",
+        model_.contact ? " and just touch" : "",
+        options_.ramp > 0 ? fmt::format("grow over {:.4g} ms", 1e3 * options_.ramp)
+                          : std::string("act in full from t = 0")));
+  }
+
+  void add_contact() {
+    const Scene& scene = model_.scene;
+    if (scene.contact->surface == "exact")
+      add("Contact surfaces: the faces of the elements. Here contact uses the curves of the profiles.");
+    add("Contact stiffness: the reader's own.");
+    if (scene.contact->friction_law == "falling" && scene.contact->friction_memory > 0)
+      add("contact.friction_memory: left out.");
+    if (scene.corrugation && !scene.corrugation->centre)
+      add("Corrugation: its deepest line is where the undeformed profiles touch. Here it is where the static "
+          "pressure is largest.");
+  }
+
+  void add_wheel() {
+    add("Motion at t = 0: the wheel rolls rigidly without creepage other than motion.creepage.");
+    if (model_.scene.vehicle)
+      add(fmt::format(
+          "Axle box: held across, and in the middle of the journal by spokes of {:.0f} Hz. Here the "
+          "journal's mean motion carries it rigidly.",
+          kSpokeFrequency));
+    if (model_.scene.vehicle && model_.scene.vehicle->longitudinal == "carried")
+      add(fmt::format(
+          "Sprung mass: pulled along by a link of {:.0f} Hz. Here the journal carries it rigidly.",
+          kLinkFrequency));
+  }
+
+  void add_output() {
+    std::string left_out;
+    const auto name = [&](bool there, const char* table) {
+      if (there) left_out += (left_out.empty() ? "" : ", ") + std::string(table);
+    };
+    name(!model_.scene.probes.empty(), "[probe]");
+    name(model_.scene.wear.has_value(), "[wear]");
+    name(model_.scene.forks.has_value(), "[forks]");
+    name(model_.scene.stop.steps > 0 || model_.scene.stop.wall_time || model_.scene.stop.penetration,
+         "[stop]");
+    if (!left_out.empty()) add(fmt::format("Left out: {}.", left_out));
+  }
+
+  const Model& model_;
+  DeckOptions options_;
+  bool damped_ = false;
+  std::vector<std::string> list_;
+};
+
+}  // namespace
+
+std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options) {
+  return Differences(model, options).list();
+}
+
+}  // namespace tread

@@ -1,0 +1,75 @@
+#pragma once
+// A model as a keyword deck numbers it: nodes, parts, sets; and its motion at t = 0.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/body_frame.hpp"
+#include "drivers/engine/model.hpp"
+#include "drivers/studies/export/deck_options.hpp"
+#include "io/vtk/vtk_grid.hpp"
+
+namespace tread {
+
+/// The numbers of a deck given out last, by kind. Nodes, elements and sets of all kinds count through.
+struct DeckNumbers {
+  std::int64_t node = 0, element = 0, part = 0, section = 0, material = 0, set = 0, curve = 0, contact = 0;
+};
+
+class DeckModel {
+ public:
+  /// Keeps a reference. The scene has [motion], and its motion starts rigidly.
+  DeckModel(const Model& model, const DeckOptions& options);
+
+  const Model& model() const { return *model_; }
+  const Scene& scene() const { return model_->scene; }
+  const DeckOptions& options() const { return options_; }
+  const VtkGrid& grid() const { return grid_; }
+  const BodyFrame& wheel() const { return wheel_; }  ///< at t = 0
+
+  /// Number of the node in a slot of the mesh.
+  std::int64_t node(std::int64_t slot) const { return node_of_slot_[static_cast<std::size_t>(slot)]; }
+  std::int64_t node(const SweptBlock& block, int section_node, int station) const {
+    return node(block.base + block.slot(section_node, station));
+  }
+  std::int64_t slot(const VtkGrid::Point& point) const;
+
+  /// Place of a node in space at t = 0 [m].
+  Vec3 place(const VtkGrid::Point& point) const;
+  Vec3 place(std::int64_t node) const { return place(grid_.points[static_cast<std::size_t>(node - 1)]); }
+  /// Returns true if the node moves rigidly with wheel() at t = 0.
+  bool rolls(const VtkGrid::Point& point) const;
+  /// Its velocity in space [m/s].
+  Vec3 velocity(const VtkGrid::Point& point) const;
+
+  /// Time at which the deck ends [s].
+  double duration() const { return scene().motion->duration; }
+
+  DeckNumbers numbers;  ///< nodes of the mesh are numbered
+  /// Nodes that are held, by their directions: 1 along, 2 across, 4 vertical, added up.
+  std::map<int, std::vector<std::int64_t>> held;
+  std::int64_t sprung = 0;                            ///< node of the sprung mass; 0: there is none
+  std::vector<std::pair<std::int64_t, Vec3>> moving;  ///< nodes beside the mesh and their velocities [m/s]
+
+ private:
+  const Model* model_;
+  DeckOptions options_;
+  VtkGrid grid_;
+  std::vector<std::int32_t> node_of_slot_;
+  AlignedVector<double> velocity_;  ///< relative to the frames [m/s]
+  BodyFrame wheel_;
+};
+
+/// Calls visit(near station, far station) for the elements along a block's sweep.
+template <class Visit>
+void for_each_pitch(const SweptBlock& block, const Visit& visit) {
+  for (const Tile& tile : block.tiles)
+    for (int element = 0; element < tile.elements; ++element)
+      visit(tile.first_station + element, (tile.first_station + element + 1) % block.station_count());
+}
+
+}  // namespace tread

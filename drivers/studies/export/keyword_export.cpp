@@ -1,0 +1,114 @@
+#include "drivers/studies/export/keyword_export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/contract.hpp"
+#include "core/error.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/studies/export/deck_bodies.hpp"
+#include "drivers/studies/export/deck_limits.hpp"
+#include "drivers/studies/export/deck_model.hpp"
+#include "drivers/studies/export/deck_motion.hpp"
+#include "drivers/studies/export/deck_springs.hpp"
+#include "drivers/studies/export/deck_surfaces.hpp"
+#include "drivers/studies/export/deck_units.hpp"
+#include "drivers/studies/export/deck_vehicle.hpp"
+
+namespace tread {
+
+namespace {
+
+void write_head(const DeckModel& deck, const DeckSummary& summary, const std::string& origin,
+                KeywordDeck& out) {
+  out.keyword("*KEYWORD");
+  out.keyword("*TITLE");
+  out.title(deck.scene().title);
+  out.remark(fmt::format("Written by {}.", origin));
+  out.remark(fmt::format("Units: {}. Axes: x rolling, y lateral, z vertical.", deck_unit::kNames));
+  out.remark(
+      fmt::format("{} nodes and {} hexahedra; {:.6g} kg.", summary.nodes, summary.elements, summary.mass));
+  out.remark("Differences from the model:");
+  for (const std::string& sentence : summary.differences) out.remark("* " + sentence);
+}
+
+/// A step no larger than this program's, where the reader obeys LCTM, and in any case its own times TSSFAC.
+void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out) {
+  const double end = deck_unit::kTime * summary.duration;
+  const double step = deck_unit::kTime * summary.step;
+  out.keyword("*CONTROL_UNITS");
+  out.names({"length", "time", "mass"});
+  out.card({"mm", "ms", "kg"});
+  out.keyword("*CONTROL_TERMINATION");
+  out.names({"endtim"});
+  out.card({end});
+  out.remark(fmt::format("Step of this program: {:.4e} ms.", step));
+  const std::int64_t curve = ++deck.numbers.curve;
+  out.keyword("*DEFINE_CURVE");
+  out.names({"lcid"});
+  out.card({curve});
+  out.names(kCurveCard, {"time", "largest_step"});
+  out.card(kCurveCard, {0.0, step});
+  out.card(kCurveCard, {2 * end, step});
+  out.keyword("*CONTROL_TIMESTEP");
+  out.names({"dtinit", "tssfac", "isdo", "tslimt", "dt2ms", "lctm"});
+  out.card({step, summary.step_factor, 0, 0.0, 0.0, curve});
+}
+
+void write_output(const DeckModel& deck, KeywordDeck& out) {
+  const OutputSpec& output = deck.scene().output;
+  const double interval = deck_unit::kTime * output.history_interval;
+  for (const char* keyword :
+       {"*DATABASE_GLSTAT", "*DATABASE_MATSUM", "*DATABASE_RCFORC", "*DATABASE_DEFORC"}) {
+    out.keyword(keyword);
+    out.names({"dt"});
+    out.card({interval});
+  }
+  out.keyword("*DATABASE_BINARY_D3PLOT");
+  out.names({"dt"});
+  out.card({deck_unit::kTime * deck.duration() / std::max(output.frames, 1)});
+}
+
+}  // namespace
+
+DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, const std::string& origin,
+                               KeywordDeck& out) {
+  require_deck_can_hold(model);
+  TREAD_EXPECT(!model.wheelset || model.scene.start() == "rigid");
+  DeckModel deck(model, options);
+  DeckSummary summary;
+  summary.nodes = deck.numbers.node;
+  summary.elements = model.elements();
+  if (std::max(2 * summary.nodes, 2 * summary.elements) > kLargestDeckNumber)
+    throw InputError(fmt::format(
+        "the mesh has {} nodes and {} elements: a keyword deck numbers up to {}; make the elements larger",
+        summary.nodes, summary.elements, kLargestDeckNumber));
+  for (const double mass : model.mass) summary.mass += mass;
+  const StepLimit limit = step_limit(model);
+  const double safety = deck.scene().motion->step_safety;
+  summary.step = safety * limit.stable_step;
+  summary.step_factor =
+      safety * std::min(1.0, limit.stable_step / limit.stiffest[limit.stiffest_block()].step);
+  summary.duration = deck.duration();
+  summary.differences = deck_differences(model, options);
+
+  write_head(deck, summary, origin, out);
+  write_control(deck, summary, out);
+  write_output(deck, out);
+  write_bodies(deck, out);
+  write_ties(deck, out);
+  DiscreteParts discrete(deck, out);
+  add_springs(deck, discrete, out);
+  write_vehicle(deck, discrete, out);
+  summary.discrete_elements = discrete.write();
+  write_contact(deck, out);
+  write_restraints(deck, out);
+  write_loads(deck, out);
+  write_velocities(deck, out);
+  out.keyword("*END");
+  out.finish();
+  return summary;
+}
+
+}  // namespace tread

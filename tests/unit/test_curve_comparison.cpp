@@ -1,0 +1,143 @@
+// A force curve from elsewhere beside that of a run. [drivers/studies/compare]
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "drivers/studies/compare/curve_comparison.hpp"
+#include "io/scene/problems.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace tread {
+namespace {
+
+constexpr double kWave = 0.08;   // [m]
+constexpr double kSpeed = 80.0;  // [m/s]
+
+/// A run over 0.5 m whose F_N swings by 10 kN about 80 kN over a sine; peaks lead the crests by `lead` [rad].
+TransientRun run(double lead = 0) {
+  TransientRun r;
+  r.directory = "run";
+  r.scene.corrugation.emplace();
+  r.scene.corrugation->wavelength = kWave;
+  r.scene.corrugation->start = 0.05;
+  r.scene.corrugation->length = 0.4;
+  for (int i = 0; i <= 500; ++i) {
+    const double x = 1e-3 * i;
+    r.time.push_back(x / kSpeed);
+    r.x.push_back(x);
+    // Crests of the surface lie whole waves after its start.
+    r.force.push_back(80e3 + 10e3 * std::cos(2 * std::numbers::pi * (x - 0.05) / kWave + lead));
+  }
+  return r;
+}
+
+ForceCurve curve_of(const TransientRun& r, double more = 0) {
+  ForceCurve curve{"curve.txt", false, r.x, r.force};
+  for (double& force : curve.force) force += more;
+  return curve;
+}
+
+std::string written(const samples::TemporaryFolder& folder, const std::string& text) {
+  const std::string path = folder.path / "curve.txt";
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(CurveComparison, FindsAConstantDifference) {
+  const CurveComparison c = compare(run(), curve_of(run(), 3e3), {});
+  EXPECT_EQ(c.x.size(), 501U);
+  EXPECT_NEAR(c.misfit, 3e3, 1e-6);
+  EXPECT_NEAR(c.of_curve.max - c.of_run.max, 3e3, 1e-6);
+  EXPECT_NEAR(*c.correlation, 1, 1e-12);
+}
+
+TEST(CurveComparison, FindsTheShiftOfPeaks) {
+  const CurveComparison c = compare(run(), curve_of(run(0.5)), {});
+  ASSERT_TRUE(c.run_shift && c.curve_shift);
+  EXPECT_NEAR(*c.run_shift, 0, 2e-2);
+  EXPECT_NEAR(*c.curve_shift - *c.run_shift, 0.5, 0.05);  // samples stand 0.08 rad apart
+}
+
+TEST(CurveComparison, ASmoothRailHasNoCrests) {
+  TransientRun smooth = run();
+  smooth.scene.corrugation.reset();
+  const CurveComparison c = compare(smooth, curve_of(smooth), {});
+  EXPECT_FALSE(c.run_shift || c.curve_shift);
+}
+
+TEST(CurveComparison, TimesBecomePlaces) {
+  ForceCurve curve = curve_of(run(), 1e3);
+  for (double& at : curve.at) at /= kSpeed;
+  curve.over_time = true;
+  EXPECT_NEAR(compare(run(), curve, {}).misfit, 1e3, 1e-6);
+}
+
+TEST(CurveComparison, KeepsToTheStatedStretch) {
+  const CurveComparison c = compare(run(), curve_of(run()), {0, 0.1, 0.2});
+  EXPECT_EQ(c.x.size(), 101U);
+  EXPECT_NEAR(c.x.front(), 0.1, 1e-12);
+  EXPECT_NEAR(c.x.back(), 0.2, 1e-12);
+}
+
+TEST(CurveComparison, MeansOverAWaveAreConstant) {
+  const CurveComparison c = compare(run(), curve_of(run()), {kWave, {}, {}});
+  EXPECT_NEAR(c.of_run.range(), 0, 10);
+  EXPECT_NEAR(c.x.front(), 0.5 * kWave, 1e-3);
+}
+
+TEST(CurveComparison, RefusesCurvesWithoutCommonPlaces) {
+  ForceCurve curve = curve_of(run());
+  for (double& at : curve.at) at += 10;
+  try {
+    compare(run(), curve, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("covers 10 to 10.5 m"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("--offset"), std::string::npos) << error.what();
+  }
+}
+
+TEST(MeanAbout, IsExactForAPolygon) {
+  const std::vector<double> x = {0, 1, 2};
+  const std::vector<double> y = {0, 2, 2};
+  EXPECT_DOUBLE_EQ(mean_about(x, y, 1, 1), (0.5 * 1.5 + 0.5 * 2) / 1);
+  EXPECT_DOUBLE_EQ(mean_about(x, y, 0.25, 0), 0.5);
+  EXPECT_DOUBLE_EQ(mean_about(x, y, 1.5, 1), 2);
+  EXPECT_TRUE(std::isnan(mean_about(x, y, 0.25, 1)));
+}
+
+TEST(ForceCurves, AreReadOverWayAndTime) {
+  const samples::TemporaryFolder folder;
+  const ForceCurve way = read_force_curve(written(folder, "# x [mm]  F_N [kN]\n1 80\n2, 90\n"), "1 m");
+  EXPECT_FALSE(way.over_time);
+  EXPECT_DOUBLE_EQ(way.at[1], 1.002);
+  EXPECT_DOUBLE_EQ(way.force[1], 90e3);
+  const ForceCurve time = read_force_curve(written(folder, "# t [ms]  F_N [N]\n1 80\n2 90\n"), "");
+  EXPECT_TRUE(time.over_time);
+  EXPECT_DOUBLE_EQ(time.at[0], 1e-3);
+  EXPECT_DOUBLE_EQ(time.force[0], 80);
+}
+
+TEST(ForceCurves, NeedUnitsOfAWayAndAForce) {
+  const samples::TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    try {
+      read_force_curve(written(folder, text), "");
+    } catch (const ProblemsError& error) {
+      return error.problems.at(0).message;
+    }
+    return std::string();
+  };
+  EXPECT_NE(message("1 2\n3 4\n").find("\"# x [m]  F_N [kN]\""), std::string::npos);
+  EXPECT_NE(message("# x [m] F [mm]\n1 2\n3 4\n").find("[mm] is not a force"), std::string::npos);
+  EXPECT_NE(message("# x [kg] F [N]\n1 2\n3 4\n").find("or a time"), std::string::npos);
+  EXPECT_NE(message("# x [m] F [N]\n1 2\n1 4\n").find("must grow"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tread
