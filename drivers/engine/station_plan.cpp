@@ -91,10 +91,11 @@ std::vector<Segment> graded(double length, double pitch, double far) {
   return segments;
 }
 
-/// Widens the zone to the ends of the run where less than `shortest` [m] would be left: a short element would
-/// limit the time step.
+/// Widens the zone to `shortest` [m], and to the ends of the run where less would be left: a short element
+/// would limit the time step and spoil the static solver.
 void absorb_slivers(Span& zone, const Span& run, double shortest) {
   if (zone.empty()) return;
+  if (zone.last - zone.first < shortest) zone.first = zone.last - shortest;
   if (zone.first - run.first < shortest) zone.first = run.first;
   if (run.last - zone.last < shortest) zone.last = run.last;
 }

@@ -49,7 +49,7 @@ constexpr std::array kPurposes = {
     Purpose{{"mesh", "nodes_file", "elements", "import"},
             "bodies are swept from profiles; scene.element_size sets the mesh"},
     Purpose{{"export", "keyword", "lsdyna", "ls_dyna"},
-            "there is no export; `tread mesh -o DIR` writes nodes and hexahedra as VTKHDF"},
+            "`tread export` writes a keyword deck, `tread mesh -o DIR` nodes and hexahedra as VTKHDF"},
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
             "section and support are the same along the rail"},
     Purpose{{"wheelset", "axle", "brake_discs", "web"},

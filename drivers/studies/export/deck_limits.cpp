@@ -20,6 +20,12 @@ void require_deck_can_hold(const Model& model) {
     throw InputError(
         "wheel.bore = \"guided\": a keyword deck has no carrier that turns freely and rolls at a stated "
         "speed; set wheel.bore = \"free\"");
+  if (!scene.surfaces.empty())
+    throw InputError(
+        fmt::format("surface.{}: a keyword deck states the surface by its nodes alone, and these depths lie "
+                    "in the contact gap; "
+                    "state surface.{}.present = false",
+                    scene.surfaces.begin()->first, scene.surfaces.begin()->first));
   if (scene.corrugation && scene.corrugation->apply == "gap")
     throw InputError(
         "corrugation.apply = \"gap\": a keyword deck states the surface by its nodes alone; set "
