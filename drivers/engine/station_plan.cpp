@@ -113,6 +113,7 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
   const int approach = approach_parts(sizes);
   Span step{zone.first - 2 * kStepLength, zone.last + 2 * kStepLength};
   step = {std::max(step.first, run.first), std::min(step.last, run.last)};
+  absorb_slivers(step, run, 0.5 * coarse);
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
