@@ -131,6 +131,11 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
                   "threads of one run (default: its share of the cores that are idle when it begins)")
       ->check(at_least(1));
   add_device_option(command, options.device);
+  command.add_option(
+      "--launcher", options.launcher,
+      "words before each run's command, e.g. \"srun -N1 -n1\": runs begin all at once, elsewhere");
+  command.add_option("--slurm", options.slurm,
+                     "write a job array for sbatch to this file, and run nothing; points share no rolling");
   command.add_flag("--retry", options.retry, "run failed points again");
   command.add_flag("--no-share", options.no_share,
                    "start each run at t = 0, even if points could share their rolling");

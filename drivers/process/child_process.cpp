@@ -21,7 +21,8 @@ constexpr int kNotStarted = 127;
 
 /// Replaces the child by the program. Only calls that are safe between fork and exec are used. Signals are
 /// blocked.
-[[noreturn]] void become(char* const* arguments, const char* log, pid_t parent, const sigset_t& mask) {
+[[noreturn]] void become(char* const* arguments, bool launched, const char* log, pid_t parent,
+                         const sigset_t& mask) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) ::signal(signal, SIG_DFL);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -33,15 +34,24 @@ constexpr int kNotStarted = 127;
   ::dup2(out, STDOUT_FILENO);
   ::dup2(out, STDERR_FILENO);
   ::sigprocmask(SIG_SETMASK, &mask, nullptr);
-  ::execv("/proc/self/exe", arguments);
+  if (launched)
+    ::execvp(arguments[0], arguments);
+  else
+    ::execv("/proc/self/exe", arguments);
   ::_exit(kNotStarted);
 }
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log) {
-  std::vector<std::string> texts = arguments;
-  texts.insert(texts.begin(), "tread");
+std::filesystem::path own_program() {
+  return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                           const std::vector<std::string>& launcher) {
+  std::vector<std::string> texts = launcher;
+  texts.push_back(launcher.empty() ? "tread" : own_program().string());
+  texts.insert(texts.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   pointers.reserve(texts.size() + 1);
   for (std::string& text : texts) pointers.push_back(text.data());
@@ -54,7 +64,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   process_ = ::fork();
-  if (process_ == 0) become(pointers.data(), log_name.c_str(), parent, before);
+  if (process_ == 0) become(pointers.data(), !launcher.empty(), log_name.c_str(), parent, before);
   const int error = errno;
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (process_ < 0)

@@ -15,12 +15,18 @@ struct ProcessEnd {
   int signal = 0;  ///< signal that ended the process; 0: none
 };
 
+/// Path of this program's own file.
+std::filesystem::path own_program();
+
 /// Runs this program's own file with other arguments. The process has a group of its own, so that signals
 /// from the terminal reach it through its parent alone. It receives SIGTERM when its parent dies.
 class ChildProcess {
  public:
-  /// Starts the process and appends its output to the file `log`. Throws ResourceError if the system refuses.
-  ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log);
+  /// Starts the process and appends its output to the file `log`. `launcher`: a program, and its own
+  /// arguments, that starts this one, somewhere; empty: this machine. Throws ResourceError if the system
+  /// refuses.
+  ChildProcess(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+               const std::vector<std::string>& launcher = {});
 
   /// Returns true if the process has ended; fills `end` then, once.
   bool ended(ProcessEnd& end) const;

@@ -94,6 +94,63 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(runs_ / "velocity=1m_s"));
 }
 
+TEST_F(Sweep, LauncherStartsTheRuns) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
+  EXPECT_EQ(sweep(file, "--launcher no-such-program"), 2);
+  EXPECT_TRUE(has(errors(), "--launcher: there is no program 'no-such-program' in PATH")) << errors();
+  const fs::path launcher =
+      program_.write("launcher", "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "calls").string() +
+                                     "\nshift 2\nexec \"$@\"\n");
+  fs::permissions(launcher, fs::perms::owner_all);
+  // A run elsewhere takes the cores that it is given; more of them at once than this machine has cores.
+  ASSERT_EQ(sweep(file, fmt::format("--jobs 1000 --launcher \"{} -N 1\"", launcher.string())), 0) << errors();
+  const std::string calls = content_of(program_.folder / "calls");
+  EXPECT_TRUE(has(calls, "-N 1 /")) << calls;
+  EXPECT_TRUE(has(calls, "tread run ")) << calls;
+  EXPECT_FALSE(has(calls, " -t ")) << calls;
+  EXPECT_EQ(number_in(status(), "done"), 2);
+}
+
+TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
+  const fs::path file = tyres();
+  const fs::path script = program_.folder / "array.sh";
+  ASSERT_EQ(sweep(file, "--slurm " + script.string()), 0) << errors();
+  const std::string text = content_of(script);
+  EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
+  EXPECT_FALSE(fs::exists(runs_ / "mu=0.1" / "summary.json"));
+  fs::create_directory(program_.folder / "bin");
+  fs::permissions(program_.write("bin/scontrol",
+                                 "#!/bin/sh\necho \"$@\" >>" + (program_.folder / "queued").string() + "\n"),
+                  fs::perms::owner_all);
+  const auto start = [&](int number) {
+    const std::string command = fmt::format(
+        "PATH={}:$PATH SLURM_JOB_ID=7 SLURM_ARRAY_TASK_ID={} exec bash {} >{} 2>&1",
+        (program_.folder / "bin").string(), number, script.string(), (program_.folder / "log").string());
+    return samples::child([&] {
+      ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      ::_exit(127);
+    });
+  };
+  const auto element = [&](int number) { return samples::wait_for(start(number)); };
+  const auto log = [&] { return content_of(program_.folder / "log"); };
+  EXPECT_EQ(element(2), 2) << log();
+  // Slurm's SIGTERM at the end of the time leaves a checkpoint, and the element is queued again.
+  const pid_t first = start(0);
+  ASSERT_TRUE(samples::wait_until([&] {
+    return has(content_of(runs_ / "mu=0.1/status.json"), "\"rolling\"");
+  })) << log();
+  ::kill(first, SIGTERM);
+  EXPECT_EQ(samples::wait_for(first), 75) << log();
+  EXPECT_TRUE(has(content_of(program_.folder / "queued"), "requeue 7"));
+  EXPECT_TRUE(fs::exists(runs_ / "mu=0.1" / "checkpoint"));
+  EXPECT_EQ(element(0), 0) << log();
+  EXPECT_EQ(element(1), 0) << log();
+  ASSERT_EQ(sweep(file), 0) << errors();
+  EXPECT_EQ(number_in(status(), "done"), 2);
+  EXPECT_EQ(sweep(file, "--slurm " + script.string()), 2);
+  EXPECT_TRUE(has(errors(), "--slurm: no point is left to run")) << errors();
+}
+
 TEST_F(Sweep, ListsCostWithoutRunning) {
   const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
   EXPECT_EQ(program_.call(fmt::format("sweep {} --list --json", file.string())), 0) << errors();

@@ -1,8 +1,11 @@
 #include "drivers/studies/study/run_study.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -13,6 +16,7 @@
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/run/run_folder.hpp"
+#include "drivers/studies/study/job_array.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/output_file.hpp"
@@ -29,10 +33,38 @@ int stated(int option, int study) {
   return option > 0 ? option : study;
 }
 
-/// Chooses the number of runs before the cost is known: as many as cores have room for.
+/// Returns true if the name is that of an executable file, of PATH where it has no slash.
+bool program_exists(const std::string& name) {
+  if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0;
+  std::istringstream path(std::getenv("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(path, folder, ':');)
+    if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+/// The words of --launcher, the first of which must be a program.
+std::vector<std::string> launcher_words(const std::string& text) {
+  std::istringstream stream(text);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+  if (words.empty()) return words;
+  if (!program_exists(words.front()))
+    throw InputError(fmt::format(
+        "--launcher: there is no program '{}' in PATH; install it, or state its path", words.front()));
+  return words;
+}
+
+/// Chooses the number of runs before the cost is known: as many as cores have room for, elsewhere all at
+/// once.
 void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   const int cores = machine_cores();
   plan.threads = stated(options.threads, plan.study.threads);
+  plan.launcher = launcher_words(options.launcher);
+  if (!plan.launcher.empty()) {
+    plan.device = options.device;
+    const int jobs = stated(options.jobs, plan.study.jobs);
+    plan.jobs = jobs > 0 ? jobs : static_cast<int>(plan.points.size());
+    return;
+  }
   const int each = std::max(1, plan.threads);
   plan.device = options.device;
   const bool one_card = plan.device.starts_with("gpu") || (plan.device == "auto" && !gpus().empty());
@@ -50,13 +82,17 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
 
 /// Lowers the number of runs at once if memory is short and their number was not stated.
 void mind_memory(StudyPlan& plan, const StudyOptions& options) {
-  if (stated(options.jobs, plan.study.jobs) > 0) return;
+  if (stated(options.jobs, plan.study.jobs) > 0 || !plan.launcher.empty()) return;
   while (plan.jobs > 1 && total_cost(plan).memory > machine_memory()) --plan.jobs;
 }
 
 std::string cost_text(const StudyPlan& plan, const StudyCost& cost) {
   const std::string saved =
       cost.saved > 0 ? fmt::format("; sharing saves another {}", duration_text(cost.saved)) : "";
+  if (!plan.launcher.empty())
+    return fmt::format(
+        "{} runs at once by {}: {} one after the other{} at this machine's speed, {} on the disk", plan.jobs,
+        fmt::join(plan.launcher, " "), duration_text(cost.seconds), saved, bytes_text(cost.disk));
   const std::string threads =
       plan.threads > 0 ? fmt::format("{} thread{} each", plan.threads, plan.threads == 1 ? "" : "s")
                        : fmt::format("all {} cores", machine_cores());
@@ -140,7 +176,7 @@ std::string command_word(const std::string& line) {
 }  // namespace
 
 void add_overrides(Study& study, const StudyOptions& options) {
-  if (options.no_share) study.share = false;
+  if (options.no_share || !options.slurm.empty()) study.share = false;
   const auto refuse_varied = [&](const std::string& text) {
     const std::string key = text.substr(0, text.find_first_of(" \t="));
     for (const StudyPoint& point : study.points)
@@ -192,6 +228,10 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   }
   require_disk(plan, cost);
   leave_scene(study);
+  if (!options.slurm.empty()) {
+    write_job_array(plan, options.slurm, options.retry, options.origin.command);
+    return std::nullopt;
+  }
   progress.say(plain_text(plan_table(plan)) + fmt::format("\n[{}] {}", command, cost_text(plan, cost)));
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);

@@ -19,6 +19,8 @@ struct StudyOptions {
   int jobs = 0;                        ///< runs at once; 0: the study's, or as cores and memory allow
   int threads = 0;                     ///< threads of one run; 0: the study's, or 1
   std::string device;                  ///< takes the steps of all runs; empty: the processor
+  std::string launcher;                ///< words that start a run elsewhere, "srun -N1"; empty: here
+  std::filesystem::path slurm;         ///< job script to write in place of runs; may be empty
   bool retry = false;                  ///< true to run failed points, too
   bool no_share = false;               ///< true if every point rolls from the start
   bool list = false;                   ///< true for points and cost alone

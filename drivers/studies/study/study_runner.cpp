@@ -42,7 +42,8 @@ int count(const StudyPlan& plan, PointState state) {
 
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count) {
   const PointStatus& status = point.status;
-  std::vector<std::string> place = {"-t", std::to_string(count)};
+  std::vector<std::string> place;
+  if (count > 0) place = {"-t", std::to_string(count)};
   if (!plan.device.empty()) place.insert(place.end(), {"--device", plan.device});
   const bool failed = status.state == PointState::failed;
   std::vector<std::string> arguments;
@@ -93,7 +94,7 @@ int StudyRunner::threads_for_next() const {
   });
   const int beginning = std::min(static_cast<int>(ready), plan_->jobs - static_cast<int>(running_.size()));
   if (beginning <= 0) return 0;
-  if (plan_->threads > 0) return plan_->threads;
+  if (plan_->threads > 0 || !plan_->launcher.empty()) return std::max(1, plan_->threads);
   int idle = machine_cores();
   for (const Running& running : running_) idle -= running.threads;
   return idle > 0 ? std::max(1, idle / beginning) : 0;
@@ -117,9 +118,12 @@ void StudyRunner::start(PlannedPoint& point, int threads) {
     progress_->say(fmt::format("[{}] left alone: {}", point.name, point.status.why));
     return;
   }
-  const std::vector<std::string> arguments = point_arguments(*plan_, point, threads);
+  // Elsewhere a run takes all cores that it is given.
+  const std::vector<std::string> arguments =
+      point_arguments(*plan_, point, plan_->launcher.empty() ? threads : plan_->threads);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
-  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder)), threads, progress_->seconds()});
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads,
+                      progress_->seconds()});
   point.status = {PointState::running, ""};
 }
 

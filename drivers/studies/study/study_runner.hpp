@@ -56,7 +56,7 @@ class StudyRunner {
   std::string stopped_by_;
 };
 
-/// Command line of a point after "tread".
+/// Command line of a point after "tread"; `threads` of 0 are not stated.
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads);
 
 }  // namespace tread

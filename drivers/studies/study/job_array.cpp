@@ -1,0 +1,72 @@
+#include "drivers/studies/study/job_array.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "drivers/process/child_process.hpp"
+#include "drivers/studies/study/study_runner.hpp"
+#include "io/files/output_file.hpp"
+
+namespace tread {
+
+namespace {
+
+/// The text as one word of a shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+/// An element of the array: the folder of its run and the words after "tread run".
+std::string element(const StudyPlan& plan, const PlannedPoint& point, std::size_t number) {
+  std::string words;
+  for (const std::string& word : point_arguments(plan, point, plan.threads)) words += " " + quoted(word);
+  return fmt::format("{}) folder={} words=({} ) ;;\n", number, quoted(point.folder.string()), words);
+}
+
+}  // namespace
+
+void write_job_array(const StudyPlan& plan, const std::filesystem::path& script, bool retry,
+                     const std::string& command) {
+  std::string elements;
+  std::size_t count = 0;
+  for (const PlannedPoint& point : plan.points)
+    if (point.to_run(retry)) elements += element(plan, point, count++);
+  if (count == 0) throw InputError("--slurm: no point is left to run");
+  const std::string text = fmt::format(
+      R"(#!/bin/bash
+# Job array of {title}: sbatch {script}. State partition, cores, memory and time by options of sbatch.
+# Then `{command}` without --slurm collects the results.
+#SBATCH --array=0-{last}
+#SBATCH --open-mode=append
+#SBATCH --requeue
+tread={program}
+case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
+{elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
+esac
+if [[ -d $folder/checkpoint ]]; then
+  words=(resume "$folder")
+fi
+"$tread" "${{words[@]}}" &
+run=$!
+trap 'kill -TERM $run' TERM
+while :; do
+  wait $run; code=$?
+  kill -0 $run 2>/dev/null || break
+done
+if ((code == 75)); then
+  scontrol requeue "$SLURM_JOB_ID"
+fi
+exit $code
+)",
+      fmt::arg("title", plan.study.name), fmt::arg("script", script.string()), fmt::arg("command", command),
+      fmt::arg("last", count - 1), fmt::arg("program", quoted(own_program().string())),
+      fmt::arg("elements", elements));
+  write_text_file(script, text);
+}
+
+}  // namespace tread

@@ -1,0 +1,18 @@
+#pragma once
+// The points of a study as a job array for Slurm.
+
+#include <filesystem>
+#include <string>
+
+#include "drivers/studies/study/planned_point.hpp"
+
+namespace tread {
+
+/// Writes a shell script for sbatch: one element a point that is to run, which goes on from its last
+/// checkpoint where it has one and is queued again if it was stopped in time. The points must not share
+/// rolling. `command`: that collects the results afterwards. Throws InputError if no point is left,
+/// ResourceError.
+void write_job_array(const StudyPlan& plan, const std::filesystem::path& script, bool retry,
+                     const std::string& command);
+
+}  // namespace tread
