@@ -6,6 +6,7 @@ const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> cases = {hertz_sphere_case(),
                                                 hertz_ellipse_case(),
                                                 surface_depths_case(),
+                                                profiles_in_contact_case(),
                                                 contact_filter_case(),
                                                 cattaneo_mindlin_case(),
                                                 carter_case(),

@@ -10,12 +10,13 @@ namespace tread {
 VerifyCase hertz_sphere_case();   // hertz.cpp
 VerifyCase hertz_ellipse_case();  // hertz.cpp
 
-VerifyCase surface_depths_case();  // surface_depths.cpp
-VerifyCase contact_filter_case();  // contact_filter.cpp
-VerifyCase carter_case();          // carter.cpp
-VerifyCase sliding_case();         // sliding.cpp
-VerifyCase steady_rolling_case();  // steady_rolling.cpp
-VerifyCase moving_frames_case();   // moving_frames.cpp
+VerifyCase surface_depths_case();       // surface_depths.cpp
+VerifyCase profiles_in_contact_case();  // profiles_in_contact.cpp
+VerifyCase contact_filter_case();       // contact_filter.cpp
+VerifyCase carter_case();               // carter.cpp
+VerifyCase sliding_case();              // sliding.cpp
+VerifyCase steady_rolling_case();       // steady_rolling.cpp
+VerifyCase moving_frames_case();        // moving_frames.cpp
 VerifyCase wheelset_modes_case();
 VerifyCase wheel_receptance_case();  // wheelset_modes.cpp
 VerifyCase ring_modes_case();        // ring_modes.cpp
