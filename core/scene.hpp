@@ -50,7 +50,7 @@ struct RailSpec {
   std::string section = "CN60";        ///< built-in rail that a head from a file belongs to
   double inclination = 1.0 / 40;       ///< [-]
   double length = 15.2;                ///< [m]
-  double origin = 6.1;                 ///< distance of x = 0 (initial wheel position A) from the left end [m]
+  double origin = 6.1;                 ///< distance of x = 0 from the left end [m]
   std::string support = "fastenings";  ///< "fastenings", "rigid" (bottom fixed) or "free" (no support)
   double width = 0.060;                ///< [m] (box)
   double height = 0.060;               ///< [m] (box)
@@ -169,7 +169,8 @@ struct ContactSpec {
 /// [motion]; absent: the scene ends with its static state
 struct MotionSpec {
   double speed = 300 / 3.6;               ///< [m/s]
-  double duration = 0.04;                 ///< [s]
+  double duration = 0.04;                 ///< from the start on [s]
+  std::optional<double> run_up;           ///< from the start to the solution zone; absent: start at x = 0 [m]
   std::optional<double> traction_mu;      ///< target traction coefficient; negative brakes [-]
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
   double ramp = 5e-3;                     ///< T1 [s]
@@ -317,6 +318,9 @@ struct Scene {
   ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
+
+  /// x of the wheel at t = 0 and in the static state [m].
+  double start_x() const { return motion && motion->run_up ? zone_start - *motion->run_up : 0; }
 
   /// MotionSpec::start, "auto" resolved; without [motion]: "rigid".
   std::string start() const {

@@ -162,13 +162,14 @@ void describe(const Model& model, Preload& out) {
   const double* u = out.displacement.data();
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const int base = model.index.rail_foot();
+  const double x = out.wheel.origin.x;
   if (base >= 0 && model.index.tread >= 0) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
-    out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);
+    out.rail_deflection = -attach(block, "foot", x, 0).value(u, 2);
   }
   if (model.index.slab >= 0)
     out.slab_deflection =
-        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
+        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", x, 0).value(u, 2);
 }
 
 }  // namespace
@@ -329,12 +330,14 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const auto n = 3 * model.mesh.slots;
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
+  out.wheel.origin.x = model.scene.start_x();
   if (model.contact) {
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
     // other.
     const double overlap = 0.6 * model.hertz_patch.approach;
-    const double depth = model.contact->corrugation().depth(0, model.contact->corrugation().centre());
-    out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
+    const Corrugation& corrugation = model.contact->corrugation();
+    const double depth = corrugation.depth(out.wheel.origin.x, corrugation.centre());
+    out.wheel.origin.z = model.contact->touching_height() - depth - overlap;
   }
   Equilibrium equilibrium(model, motion);
   AlignedVector<double> residual(static_cast<std::size_t>(n));

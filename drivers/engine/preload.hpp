@@ -24,7 +24,7 @@ struct SteadyMotion {
 struct Preload {
   AlignedVector<double> displacement;  ///< secondary nodes filled [m]
   std::optional<RunIn> run_in;         ///< where SteadyMotion::rolling wants it
-  BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
+  BodyFrame wheel;                     ///< at the start, angle 0, at rest; origin on the undeformed axis
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   std::int64_t newton_iterations = 0;
   std::int64_t cg_iterations = 0;

@@ -117,7 +117,7 @@ void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const 
   add_to_rail(
       model, [&](double x) { return run_in->at(x).displacement; }, fields.displacement);
   add_to_sleepers(model, *run_in, &RunIn::Sleeper::deflection, fields.displacement);
-  fields.wheel.origin.z -= run_in->at(0).displacement.deflection;
+  fields.wheel.origin.z -= run_in->at(fields.wheel.origin.x).displacement.deflection;
 }
 
 namespace {

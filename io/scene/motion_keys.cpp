@@ -71,7 +71,11 @@ void add_motion(Keys& keys) {
   keys.push_back(rolling(quantity("motion.speed", {Effect::preload}, at(&Scene::motion, &MotionSpec::speed),
                                   kSpeed, "km/h", from(0, 300), "Forward speed at the start")));
   keys.push_back(quantity("motion.duration", {Effect::duration}, at(&Scene::motion, &MotionSpec::duration),
-                          kTime, "s", above(0, 100), "Simulated time"));
+                          kTime, "s", above(0, 100), "Simulated time, from the start on"));
+  keys.push_back(rolling(quantity("motion.run_up", {Effect::mesh}, at(&Scene::motion, &MotionSpec::run_up),
+                                  kLength, "m", from(0, 1000),
+                                  "Way from the start to the solution zone; absent: the wheel starts at "
+                                  "x = 0")));
   keys.push_back(rolling(
       instead_of("motion.traction.torque",
                  number("motion.traction.mu", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_mu),

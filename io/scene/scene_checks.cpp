@@ -235,8 +235,7 @@ class Checker {
             fmt::format(
                 "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
                 scene_.zone_start, zone_end, left, right));
-    require(rail.origin >= kRailEndMargin, {"rail.origin"},
-            fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
+    check_start(rail);
     if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
     const auto require_on_rail = [&](bool holds, double x, double end) {
@@ -246,9 +245,23 @@ class Checker {
                   x, end, kRailEndMargin));
     };
     const double last = right - kRailEndMargin;
-    const double first = std::min(left + kRailEndMargin, 0.0);
+    const double first = std::min(left + kRailEndMargin, scene_.start_x());
     require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
     require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
+  }
+
+  void check_start(const RailSpec& rail) {
+    const double from_end = scene_.start_x() + rail.origin;
+    const std::string problem =
+        fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin);
+    if (!scene_.motion || !scene_.motion->run_up) {
+      require(from_end >= kRailEndMargin, {"rail.origin"}, problem);
+      return;
+    }
+    require(from_end >= kRailEndMargin - kLengthTolerance,
+            {"motion.run_up", "solution_zone.start", "rail.origin"},
+            fmt::format("{}, at x = {:.6g} m; the longest run-up is {:.6g} m", problem, scene_.start_x(),
+                        scene_.zone_start + rail.origin - kRailEndMargin));
   }
 
   void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {
