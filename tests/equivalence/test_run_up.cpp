@@ -17,10 +17,9 @@
 namespace tread {
 namespace {
 
-constexpr double kRunUp = 0.15;                ///< [m]
-constexpr double kZone = 0.24;                 ///< start of the solution zone [m]
-constexpr double kStart = kZone - kRunUp;      ///< x of the wheel at t = 0 [m]
-constexpr const char* kFriction = "/friction"; /* name of the table */
+constexpr double kRunUp = 0.15;            ///< [m]
+constexpr double kZone = 0.24;             ///< start of the solution zone [m]
+constexpr double kStart = kZone - kRunUp;  ///< x of the wheel at t = 0 [m]
 
 /// A tyre that rolls over a bar on two fastenings.
 constexpr const char* kBar = R"([wheel]
@@ -49,7 +48,7 @@ wheel_load = "60 kN"
 [vehicle]
 present = false
 [motion]
-duration = "2 ms"
+duration = "1.5 ms"
 )";
 
 /// The library's half wheelset on three fastenings.
@@ -59,7 +58,7 @@ length = "1.4 m"
 count = 2
 first = "0.35 m"
 [motion]
-duration = "0.5 ms"
+duration = "0.1 ms"
 )";
 
 std::string at(const char* key, double x) {
@@ -76,6 +75,8 @@ Scene scene_of(const std::string& bodies, std::vector<std::string> overrides, bo
                                            at("probe.head.x", kStart + 0.02 - by),
                                            at("probe.tread.x", kStart + 0.01 - by),
                                            "probe.head.quantity=all",
+                                           "probe.head.y=9 mm",
+                                           "probe.tread.y=9 mm",
                                            "probe.tread.body=wheel",
                                            "probe.tread.quantity=stress",
                                            "probe.tread.depth=3 mm",
@@ -85,7 +86,7 @@ Scene scene_of(const std::string& bodies, std::vector<std::string> overrides, bo
                                            "corrugation.centre=0 mm",
                                            "corrugation.apply=gap",
                                            "contact.friction_law=table",
-                                           "contact.friction_file=friction",
+                                           "contact.friction_file=friction.txt",
                                            "output.fastening_forces=true",
                                            "output.stress_depth=20 mm",
                                            "motion.speed=360 km/h",
@@ -93,8 +94,8 @@ Scene scene_of(const std::string& bodies, std::vector<std::string> overrides, bo
                                            "motion.traction.ramp=0.1 ms"};
   overrides.insert(overrides.end(), places.begin(), places.end());
   if (!by_hand) overrides.push_back(at("motion.run_up", kRunUp));
-  SceneSource source{"run-up", "[scene]\nbased_on = \"highspeed-slab-2014\"\n" + bodies, ""};
-  source.files = {{kFriction, "# x [mm]  f [-]\n-140 0.3\n100 0.4\n"}};
+  SceneSource source{"run-up", "[scene]\nbased_on = \"highspeed-slab-2014\"\n" + bodies, "/nowhere"};
+  source.files = {{"/nowhere/friction.txt", "# x [mm]  f [-]\n-140 0.3\n100 0.4\n"}};
   return resolve_scene(source, overrides).scene;
 }
 
@@ -162,7 +163,7 @@ TEST(RunUp, IsAShiftForAPartOfARing) {
 }
 
 TEST(RunUp, IsAShiftForAWheelset) {
-  expect_same_passage(kWheelset, {"scene.element_size=11 mm"});
+  expect_same_passage(kWheelset, {"scene.element_size=14 mm"});
 }
 
 TEST(RunUp, MovesTheStateForForks) {
