@@ -173,7 +173,7 @@ struct MotionSpec {
   std::optional<double> run_up;           ///< from the start to the solution zone; absent: start at x = 0 [m]
   std::optional<double> traction_mu;      ///< target traction coefficient; negative brakes [-]
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
-  double ramp = 5e-3;                     ///< T1 [s]
+  double ramp = 5e-3;                     ///< T1; 0: the torque has long acted at the start [s]
   std::string ramp_shape = "linear";      ///< or "smooth": half a cosine
   int reversals = 0;  ///< times that the full torque then turns into its opposite, each in 2 T1
   bool spin_in_preload = true;
@@ -184,7 +184,8 @@ struct MotionSpec {
   double step_safety = 0.95;  ///< fraction of the computed stable step
 
   /// Spin over that of free rolling. [theory.md, eq. 13]
-  double spin_ratio() const { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
+  static double spin_ratio(double creepage) { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
+  double spin_ratio() const { return spin_ratio(creepage); }
 
   /// Torque over the full torque, -1 to 1, at a time [s].
   double torque_share(double time) const {

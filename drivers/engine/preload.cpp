@@ -11,6 +11,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/engine/traction.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 
 namespace tread {
@@ -93,6 +94,16 @@ void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame,
   for (const int b : model.wheelset->blocks())
     add_acceleration(model, model.mesh.blocks[static_cast<std::size_t>(b)], frame.angle, {0, 0, -per_mass},
                      load);
+}
+
+/// Adds the torque of a wheelset that has been rolling under traction, and the inertia of its vehicle along
+/// x.
+void add_traction(const Model& model, double traction, const BodyFrame& frame, double* load) {
+  model.torque.add(load, full_torque(model));
+  if (!model.scene.vehicle || model.journal.empty()) return;
+  const double vehicle = model.scene.vehicle->mass_along();
+  const double share = vehicle / (vehicle + model.wheelset->mass());
+  model.journal.add(load, frame, {-share * traction * model.wheel_load(), 0, 0});
 }
 
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
@@ -197,6 +208,7 @@ SteadyMotion steady_motion(const Model& model) {
   if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
   if (model.scene.start() == "moving") out.speed = motion.speed;
   out.rolling = model.scene.start() == "rolling" && motion.speed > 0;
+  out.traction = steady_traction(model);
   return out;
 }
 
@@ -234,6 +246,7 @@ class Equilibrium {
   void add_load(const Preload& state, double* r) const {
     add_external_load(*model_, state.wheel, motion_.spin, r);
     if (state.run_in) add_run_in(*model_, *state.run_in, state.wheel, r);
+    if (motion_.traction != 0) add_traction(*model_, motion_.traction, state.wheel, r);
   }
   void finish(const Preload& state, double* r) const {
     system_.reduce(r);
@@ -255,7 +268,9 @@ void Equilibrium::residual(Preload& state, double* r) {
   model_->internal->internal_force(u, nullptr, r);
   add_springs(fixed_springs_, u, r);
   if (model_->contact) {
-    model_->contact->find_static({u, nullptr, &state.wheel});
+    // F_L stays where the fastenings change F_N.
+    state.traction = motion_.traction * (state.run_in ? model_->wheel_load() / state.run_in->force : 1);
+    model_->contact->find_static({u, nullptr, &state.wheel}, state.traction);
     model_->contact->add_forces(r);
     for (Spring& spring : model_->contact->springs()) springs_.push_back(std::move(spring));
   }

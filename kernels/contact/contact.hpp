@@ -46,10 +46,11 @@ class Contact {
   /// Lowers the rail's surface by another corrugation; the contact is that of a construction with it.
   void set_corrugation(Corrugation corrugation);
 
-  /// Finds the points in contact, without friction (preload).
-  void find_static(const ContactState& state);
+  /// Finds the points in contact (preload). The wheel drives the rail backwards by a shear stress of
+  /// `traction` times the pressure.
+  void find_static(const ContactState& state, double traction = 0);
 
-  /// Starts the first step from the pressures found last.
+  /// Starts the first step from the tractions found last.
   void begin();
 
   /// Finds the points that touch or may touch before the step of length dt [s] that starts at `time` [s]
