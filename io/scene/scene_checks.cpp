@@ -235,7 +235,9 @@ class Checker {
             fmt::format(
                 "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
                 scene_.zone_start, zone_end, left, right));
-    check_start(rail);
+    require(scene_.start_x() - left >= kRailEndMargin, {"motion.run_up", "rail.origin"},
+            fmt::format("the wheel starts at x = {:.6g} m; the rail lets it start from {:.6g} m on",
+                        scene_.start_x(), left + kRailEndMargin));
     if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
     const auto require_on_rail = [&](bool holds, double x, double end) {
@@ -248,20 +250,6 @@ class Checker {
     const double first = std::min(left + kRailEndMargin, scene_.start_x());
     require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
     require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
-  }
-
-  void check_start(const RailSpec& rail) {
-    const double from_end = scene_.start_x() + rail.origin;
-    const std::string problem =
-        fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin);
-    if (!scene_.motion || !scene_.motion->run_up) {
-      require(from_end >= kRailEndMargin, {"rail.origin"}, problem);
-      return;
-    }
-    require(from_end >= kRailEndMargin - kLengthTolerance,
-            {"motion.run_up", "solution_zone.start", "rail.origin"},
-            fmt::format("{}, at x = {:.6g} m; the longest run-up is {:.6g} m", problem, scene_.start_x(),
-                        scene_.zone_start + rail.origin - kRailEndMargin));
   }
 
   void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {
