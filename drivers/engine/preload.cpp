@@ -246,7 +246,7 @@ class Equilibrium {
   void add_load(const Preload& state, double* r) const {
     add_external_load(*model_, state.wheel, motion_.spin, r);
     if (state.run_in) add_run_in(*model_, *state.run_in, state.wheel, r);
-    if (motion_.traction != 0) add_traction(*model_, motion_.traction, state.wheel, r);
+    if (state.traction != 0) add_traction(*model_, motion_.traction, state.wheel, r);
   }
   void finish(const Preload& state, double* r) const {
     system_.reduce(r);
@@ -268,8 +268,6 @@ void Equilibrium::residual(Preload& state, double* r) {
   model_->internal->internal_force(u, nullptr, r);
   add_springs(fixed_springs_, u, r);
   if (model_->contact) {
-    // F_L stays where the fastenings change F_N.
-    state.traction = motion_.traction * (state.run_in ? model_->wheel_load() / state.run_in->force : 1);
     model_->contact->find_static({u, nullptr, &state.wheel}, state.traction);
     model_->contact->add_forces(r);
     for (Spring& spring : model_->contact->springs()) springs_.push_back(std::move(spring));
@@ -362,6 +360,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
   TangentSolver solver(model, equilibrium);
+  bool rolls = false;  // the state has what rolling adds to that at rest
   for (int iteration = 0;; ++iteration) {
     equilibrium.residual(out, residual.data());
     require_contact(model, iteration, out.residual * scale, size);
@@ -371,9 +370,12 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) {
-      if (!out.run_in) describe(model, out);
-      if (!motion.rolling || out.run_in) break;
-      out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      if (!rolls) describe(model, out);
+      if (rolls || (!motion.rolling && motion.traction == 0)) break;
+      rolls = true;
+      if (motion.rolling) out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      // F_L stays where the fastenings change F_N.
+      out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
       continue;
     }
     if (iteration == kMaxNewton)
