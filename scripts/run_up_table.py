@@ -12,6 +12,7 @@ NAME = re.compile(r"(\d+)-km-h-([\d.]+)-m(.*)")
 QUANTITIES = [
     ("largest F_N [kN]", lambda s: 1e-3 * s["vertical_force_N"]["max"], 1),
     ("smallest F_N [kN]", lambda s: 1e-3 * s["vertical_force_N"]["min"], 1),
+    ("F_L / F_N before it", lambda s: s["traction_coefficient"], 3),
     ("creepage [%]", lambda s: s["creepage_percent"], 4),
     ("largest shear [MPa]", lambda s: 1e-6 * s["surface"]["max_shear_Pa"], 0),
     ("work's range [mJ]", lambda s: 1e3 * s["surface"]["axis_frictional_work_range_J_in_1.1_mm_cell"], 2),
@@ -38,9 +39,9 @@ def main(folders):
     for speed, run_up, start, summary in runs:
         base = longest.setdefault(speed, summary)
         cells = [str(speed), f"{run_up:g}", start or "ramp"]
-        for _, value, digits in QUANTITIES:
+        for name, value, digits in QUANTITIES:
             text = f"{value(summary):.{digits}f}"
-            cells.append(text if base is summary else f"{text} ({change(value(summary), value(base))} %)")
+            cells.append(text if base is summary or "F_L" in name else f"{text} ({change(value(summary), value(base))} %)")
         work = summary["elements"] * summary["steps"] / (base["elements"] * base["steps"])
         print("| " + " | ".join(cells) + f" | {work:.2f} |")
 

@@ -163,7 +163,7 @@ TEST(RunUp, IsAShiftForAPartOfARing) {
 }
 
 TEST(RunUp, IsAShiftForAWheelset) {
-  expect_same_passage(kWheelset, {"scene.element_size=14 mm"});
+  expect_same_passage(kWheelset, {"scene.element_size=11 mm", "slab.present=false"});
 }
 
 TEST(RunUp, MovesTheStateForForks) {
