@@ -59,16 +59,16 @@ DepthShapePointer measured_map(const std::vector<double>& x, std::vector<double>
 /// Sum of shapes on a rail's or wheel's surface.
 class RunningSurface {
  public:
-  /// A smooth surface. `radius`: of a wheel, after whose circumference x returns; 0: a rail [m].
-  explicit RunningSurface(double radius = 0) : radius_(radius) {}
+  /// A smooth surface. `radius`: of a wheel, after whose circumference x returns; 0: a rail. `start`: where
+  /// the wheel's sweep angle 0 meets the rail. [m]
+  explicit RunningSurface(double radius = 0, double start = 0) : radius_(radius), start_(start) {}
 
   /// Adds a shape whose zero lies at x = `at` [m].
   void add(DepthShapePointer shape, double at);
 
   SurfaceDepth at(double x, double y) const;
-  /// The same at a wheel's sweep angle [rad]; in free rolling the point of angle -x / radius meets the rail
-  /// at x.
-  SurfaceDepth around(double angle, double y) const { return at(-radius_ * angle, y); }
+  /// The same at a wheel's sweep angle [rad]; in free rolling it meets the rail at x = start - radius angle.
+  SurfaceDepth around(double angle, double y) const { return at(start_ - radius_ * angle, y); }
   double radius() const { return radius_; }  ///< [m]
 
   bool smooth() const { return shapes_.empty(); }
@@ -82,7 +82,7 @@ class RunningSurface {
     double at;  ///< [m]
   };
   std::vector<Placed> shapes_;
-  double radius_;
+  double radius_, start_;
   double steepest_ = 0;
 };
 

@@ -50,7 +50,7 @@ struct RailSpec {
   std::string section = "CN60";        ///< built-in rail that a head from a file belongs to
   double inclination = 1.0 / 40;       ///< [-]
   double length = 15.2;                ///< [m]
-  double origin = 6.1;                 ///< distance of x = 0 (initial wheel position A) from the left end [m]
+  double origin = 6.1;                 ///< distance of x = 0 from the left end [m]
   std::string support = "fastenings";  ///< "fastenings", "rigid" (bottom fixed) or "free" (no support)
   double width = 0.060;                ///< [m] (box)
   double height = 0.060;               ///< [m] (box)
@@ -169,10 +169,11 @@ struct ContactSpec {
 /// [motion]; absent: the scene ends with its static state
 struct MotionSpec {
   double speed = 300 / 3.6;               ///< [m/s]
-  double duration = 0.04;                 ///< [s]
+  double duration = 0.04;                 ///< from the start on [s]
+  std::optional<double> run_up;           ///< from the start to the solution zone; absent: start at x = 0 [m]
   std::optional<double> traction_mu;      ///< target traction coefficient; negative brakes [-]
   std::optional<double> traction_torque;  ///< M_max on the axle [N m]; one of the two at the most
-  double ramp = 5e-3;                     ///< T1 [s]
+  double ramp = 5e-3;                     ///< T1; 0: the torque has long acted at the start [s]
   std::string ramp_shape = "linear";      ///< or "smooth": half a cosine
   int reversals = 0;  ///< times that the full torque then turns into its opposite, each in 2 T1
   bool spin_in_preload = true;
@@ -183,7 +184,8 @@ struct MotionSpec {
   double step_safety = 0.95;  ///< fraction of the computed stable step
 
   /// Spin over that of free rolling. [theory.md, eq. 13]
-  double spin_ratio() const { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
+  static double spin_ratio(double creepage) { return (1 + 0.5 * creepage) / (1 - 0.5 * creepage); }
+  double spin_ratio() const { return spin_ratio(creepage); }
 
   /// Torque over the full torque, -1 to 1, at a time [s].
   double torque_share(double time) const {
@@ -338,6 +340,9 @@ struct Scene {
   ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
+
+  /// x of the wheel at t = 0 and in the static state [m].
+  double start_x() const { return motion && motion->run_up ? zone_start - *motion->run_up : 0; }
 
   /// MotionSpec::start, "auto" resolved; without [motion]: "rigid".
   std::string start() const {

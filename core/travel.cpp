@@ -41,7 +41,8 @@ DrivenWheel driven_wheel(const Scene& scene) {
 
 Travel travel_of(const Scene& scene) {
   constexpr int kParts = 1000;
-  Travel travel;
+  const double start = scene.start_x();
+  Travel travel{start, start};
   if (!scene.wheel || !scene.motion) return travel;
   const MotionSpec& motion = *scene.motion;
   const double acceleration = driven_wheel(scene).acceleration(motion);
@@ -52,7 +53,7 @@ Travel travel_of(const Scene& scene) {
     const double gain = acceleration * motion.torque_share((i + 0.5) * dt) * dt;
     gained_way += (gained_speed + 0.5 * gain) * dt;
     gained_speed += gain;
-    const double x = motion.speed * (i + 1) * dt + gained_way;
+    const double x = start + motion.speed * (i + 1) * dt + gained_way;
     travel.first = std::min(travel.first, x);
     travel.last = std::max(travel.last, x);
   }

@@ -24,13 +24,13 @@ double carried_load(const Scene& scene);
 /// its crown is ignored.
 DrivenWheel driven_wheel(const Scene& scene);
 
-/// Farthest places of the wheel's centre in x, counted from its first.
+/// Farthest places of the wheel's centre.
 struct Travel {
-  double first = 0;  ///< rearmost place, not positive; negative if brakes turn the wheel back [m]
-  double last = 0;   ///< foremost place, not negative [m]
+  double first = 0;  ///< rearmost x: the start's, or less if brakes turn the wheel back [m]
+  double last = 0;   ///< foremost x [m]
 };
 
-/// Travel over motion.duration, with the traction's ramp and reversals; zero without [wheel] or [motion].
+/// Travel over motion.duration, with the traction's ramp and reversals; of a wheel at x = 0 without [motion].
 Travel travel_of(const Scene& scene);
 
 }  // namespace tread

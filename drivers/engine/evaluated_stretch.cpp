@@ -10,4 +10,8 @@ Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation) {
   return {corrugation.first() + half_wave, corrugation.last() - half_wave};
 }
 
+double settled_torque_x(const Scene& scene) {
+  return scene.start_x() + 1.5 * scene.motion->ramp * scene.motion->speed;
+}
+
 }  // namespace tread

@@ -11,4 +11,7 @@ namespace tread {
 /// a smooth rail.
 Span evaluated_stretch(const Scene& scene, const Corrugation& corrugation);
 
+/// Place from which the torque of a scene with [motion] counts as settled: half a ramp beyond its end [m].
+double settled_torque_x(const Scene& scene);
+
 }  // namespace tread

@@ -44,8 +44,8 @@ void Measurements::add_probe(const std::string& name, const ProbeSpec& spec) {
   const SectionPlace place{spec.y, spec.depth};
   if (spec.body == "rail") probe.point = find_point(model_->mesh, model_->index.rail(), spec.x, place, what);
   if (spec.body == "wheel")
-    probe.point =
-        find_point(model_->mesh, model_->index.wheel(), -spec.x / model_->wheel_radius(), place, what);
+    probe.point = find_point(model_->mesh, model_->index.wheel(),
+                             -(spec.x - model_->scene.start_x()) / model_->wheel_radius(), place, what);
   probes_.push_back(probe);
   const std::string place_text = place_of(spec);
   if (spec.has_motion()) {

@@ -163,17 +163,20 @@ void Model::build_sleepers() {
 
 void Model::build_wheel() {
   const Material& material = scene.wheel_material();
+  const auto from_start = [&](Span span) {
+    return Span{span.first - scene.start_x(), span.last - scene.start_x()};
+  };
+  const Span zone = from_start(zone_span(scene));
   if (scene.wheel->shape == "tyre") {
     const std::optional<double>& overhang = scene.wheel->overhang;
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-    const WheelPlan plan = overhang
-                               ? plan_tyre_part(wheel_radius(), {0, run}, zone_span(scene), *overhang, sizes)
-                               : plan_tyre(wheel_radius(), run_span(scene), zone_span(scene), sizes);
+    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zone, *overhang, sizes)
+                                    : plan_tyre(wheel_radius(), from_start(run_span(scene)), zone, sizes);
     index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {material},
                                        plan.start, plan.tread));
     return;
   }
-  const WheelPlan plan = plan_wheel(wheel_radius(), zone_span(scene), sizes);
+  const WheelPlan plan = plan_wheel(wheel_radius(), zone, sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   web_thickness = sized.web_thickness;

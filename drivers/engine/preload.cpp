@@ -11,6 +11,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/engine/traction.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 
 namespace tread {
@@ -95,6 +96,16 @@ void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame,
                      load);
 }
 
+/// Adds the torque of a wheelset that has been rolling under traction, and the inertia of its vehicle along
+/// x.
+void add_traction(const Model& model, double traction, const BodyFrame& frame, double* load) {
+  model.torque.add(load, full_torque(model));
+  if (!model.scene.vehicle || model.journal.empty()) return;
+  const double vehicle = model.scene.vehicle->mass_along();
+  const double share = vehicle / (vehicle + model.wheelset->mass());
+  model.journal.add(load, frame, {-share * traction * model.wheel_load(), 0, 0});
+}
+
 /// The wheel's translation along x and rotation about the axle, held in the mass-weighted mean; without a
 /// rail its height too.
 std::optional<HeldMotions> held_wheel(const Model& model) {
@@ -162,13 +173,14 @@ void describe(const Model& model, Preload& out) {
   const double* u = out.displacement.data();
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const int base = model.index.rail_foot();
+  const double x = out.wheel.origin.x;
   if (base >= 0 && model.index.tread >= 0) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(base)];
-    out.rail_deflection = -attach(block, "foot", 0, 0).value(u, 2);
+    out.rail_deflection = -attach(block, "foot", x, 0).value(u, 2);
   }
   if (model.index.slab >= 0)
     out.slab_deflection =
-        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", 0, 0).value(u, 2);
+        -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", x, 0).value(u, 2);
 }
 
 }  // namespace
@@ -196,6 +208,7 @@ SteadyMotion steady_motion(const Model& model) {
   if (motion.spin_in_preload) out.spin = motion.speed / model.wheel_radius() * motion.spin_ratio();
   if (model.scene.start() == "moving") out.speed = motion.speed;
   out.rolling = model.scene.start() == "rolling" && motion.speed > 0;
+  out.traction = steady_traction(model);
   return out;
 }
 
@@ -233,6 +246,7 @@ class Equilibrium {
   void add_load(const Preload& state, double* r) const {
     add_external_load(*model_, state.wheel, motion_.spin, r);
     if (state.run_in) add_run_in(*model_, *state.run_in, state.wheel, r);
+    if (state.traction != 0) add_traction(*model_, motion_.traction, state.wheel, r);
   }
   void finish(const Preload& state, double* r) const {
     system_.reduce(r);
@@ -254,7 +268,7 @@ void Equilibrium::residual(Preload& state, double* r) {
   model_->internal->internal_force(u, nullptr, r);
   add_springs(fixed_springs_, u, r);
   if (model_->contact) {
-    model_->contact->find_static({u, nullptr, &state.wheel});
+    model_->contact->find_static({u, nullptr, &state.wheel}, state.traction);
     model_->contact->add_forces(r);
     for (Spring& spring : model_->contact->springs()) springs_.push_back(std::move(spring));
   }
@@ -329,13 +343,15 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const auto n = 3 * model.mesh.slots;
   Preload out;
   out.displacement.assign(static_cast<std::size_t>(n), 0.0);
+  out.wheel.origin.x = model.scene.start_x();
   if (model.contact) {
     // The undeformed surfaces overlap by about the Hertz patch when they are half the approach into each
     // other.
     const double overlap = 0.6 * model.hertz_patch.approach;
     const Corrugation& corrugation = model.contact->corrugation();
-    const double depth = corrugation.depth(0, corrugation.centre()) + model.contact->touching_depth();
-    out.wheel.origin = {0, 0, model.contact->touching_height() - depth - overlap};
+    const double depth = corrugation.depth(out.wheel.origin.x, corrugation.centre()) +
+                         model.contact->touching_depth(out.wheel.origin.x);
+    out.wheel.origin.z = model.contact->touching_height() - depth - overlap;
   }
   Equilibrium equilibrium(model, motion);
   AlignedVector<double> residual(static_cast<std::size_t>(n));
@@ -345,6 +361,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   const double scale = model.wheel_load() > 0 ? model.wheel_load() : size;
 
   TangentSolver solver(model, equilibrium);
+  bool rolls = false;  // the state has what rolling adds to that at rest
   for (int iteration = 0;; ++iteration) {
     equilibrium.residual(out, residual.data());
     require_contact(model, iteration, out.residual * scale, size);
@@ -354,9 +371,12 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
                          model.contact ? -1e-3 * model.contact->totals().force_on_rail.z : 0.0));
     out.newton_iterations = iteration;
     if (out.residual < kTolerance) {
-      if (!out.run_in) describe(model, out);
-      if (!motion.rolling || out.run_in) break;
-      out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      if (!rolls) describe(model, out);
+      if (rolls || (!motion.rolling && motion.traction == 0)) break;
+      rolls = true;
+      if (motion.rolling) out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      // F_L stays where the fastenings change F_N.
+      out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
       continue;
     }
     if (iteration == kMaxNewton)

@@ -19,12 +19,14 @@ struct SteadyMotion {
   double spin = 0;       ///< of the wheel: centrifugal force about the bent axle [rad/s]
   double speed = 0;      ///< of the deflection along the track [m/s]
   bool rolling = false;  ///< run in over the fastenings: the static state then has that contact force
+  double traction = 0;   ///< F_L of the wheelset's torque over the static wheel load [-]
 };
 
 struct Preload {
   AlignedVector<double> displacement;  ///< secondary nodes filled [m]
   std::optional<RunIn> run_in;         ///< where SteadyMotion::rolling wants it
-  BodyFrame wheel;                     ///< at angle 0, at rest; its origin lies on the undeformed axis
+  BodyFrame wheel;                     ///< at the start, angle 0, at rest; origin on the undeformed axis
+  double traction = 0;                 ///< shear stress over pressure in the patch [-]
   double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   std::int64_t newton_iterations = 0;
   std::int64_t cg_iterations = 0;
@@ -40,6 +42,7 @@ struct Preload {
   /// Lists the values that are of use once rolling has begun.
   void list_state(StateList& list) {
     list.add("wheel_frame", wheel);
+    list.add("traction", traction);
     list.add("residual", residual);
     list.add("newton_iterations", newton_iterations);
     list.add("cg_iterations", cg_iterations);

@@ -90,11 +90,12 @@ namespace {
 
 constexpr int kStepsOfSpan = 400;
 
-/// Rolls over `spans` spans up to x = 0. The sprung mass would need seconds to follow the mean height at
-/// which the track carries a moving wheel: after each span but the last it is put where the suspension bears
-/// its weight in that span's mean, and its mean speed is taken from it. Returns the forces of the last two
-/// spans' steps [N].
-std::vector<double> roll_in(BeamPassage& passage, const BeamVehicle& vehicle, double spacing, int spans) {
+/// Rolls over `spans` spans up to `start` [m]. The sprung mass would need seconds to follow the mean height
+/// at which the track carries a moving wheel: after each span but the last it is put where the suspension
+/// bears its weight in that span's mean, and its mean speed is taken from it. Returns the forces of the last
+/// two spans' steps [N].
+std::vector<double> roll_in(BeamPassage& passage, const BeamVehicle& vehicle, double spacing, int spans,
+                            double start) {
   const double step = spacing / kStepsOfSpan;
   std::vector<double> forces;
   for (int span = spans - 1; span >= 0; --span) {
@@ -102,7 +103,7 @@ std::vector<double> roll_in(BeamPassage& passage, const BeamVehicle& vehicle, do
     const double height = passage.sprung();
     const double time = passage.time();
     for (int i = kStepsOfSpan - 1; i >= 0; --i) {
-      passage.step(-span * spacing - i * step);
+      passage.step(start - span * spacing - i * step);
       carried += passage.suspension() / kStepsOfSpan;
       if (span < 2) forces.push_back(passage.force());
     }
@@ -128,14 +129,15 @@ RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle) {
   constexpr int kMostSpans = 80;
   constexpr double kSettled = 1e-3;  // of the load
   const double speed = scene.motion->speed;
+  const double start = scene.start_x();
   const double spacing = scene.fastenings->spacing;
   const BeamProperties properties = timoshenko(rail_beam_section(scene), scene.rail_material());
   std::vector<double> shorter;  // forces over the last span after half of the way
   for (int spans = std::max(kLeastSpans, static_cast<int>(std::ceil(speed * kTime / spacing)));; spans *= 2) {
     auto beam = std::make_unique<TrackBeam>(rail_beam(scene, properties, spans));
-    BeamPassage passage(*beam, vehicle, -spans * spacing, spacing / kStepsOfSpan / speed);
+    BeamPassage passage(*beam, vehicle, start - spans * spacing, spacing / kStepsOfSpan / speed);
     const double bending_at_rest = passage.bending();
-    const std::vector<double> forces = roll_in(passage, vehicle, spacing, spans);
+    const std::vector<double> forces = roll_in(passage, vehicle, spacing, spans, start);
     const std::span all(forces);
     const std::span last = all.subspan(kStepsOfSpan);
     // Near an end of the rail no span is like the one before; a longer way then changes nothing.
@@ -172,7 +174,7 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   }
   out.left = beam.left();
   out.pitch = beam.pitch();
-  const std::vector<double> rest = beam.static_state(0, out.force);
+  const std::vector<double> rest = beam.static_state(model.scene.start_x(), out.force);
   const std::vector<double>& state = passage.beam_state();
   const std::vector<double>& rate = passage.beam_rate();
   if (model.scene.sleepers)

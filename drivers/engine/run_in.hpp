@@ -31,9 +31,9 @@ Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const Bod
 /// The model's wheelset with M_a, its vehicle or load, the Hertz spring of its undeformed surfaces.
 BeamVehicle beam_vehicle(const Model& model, const AxleBending& axle);
 
-/// A wheel at x = 0 of a scene's rail that has rolled over its fastenings, continued to the left, until the
-/// force over the last span changes by less than a thousandth of the load from the span before, or by a way
-/// of twice the length; its sprung mass where the suspension bears it in the mean.
+/// A wheel at the start on a scene's rail that has rolled over its fastenings, continued to the left, until
+/// the force over the last span changes by less than a thousandth of the load from the span before, or by a
+/// way of twice the length; its sprung mass where the suspension bears it in the mean.
 struct RunningWheel {
   std::unique_ptr<TrackBeam> beam;  ///< that the passage refers to
   BeamPassage passage;
@@ -41,7 +41,7 @@ struct RunningWheel {
 };
 RunningWheel running_wheel(const Scene& scene, const BeamVehicle& vehicle);
 
-/// The state at x = 0 less the static one under the same contact force; deflections and speeds downwards.
+/// The state at the start less the static one under the same contact force; deflections and speeds downwards.
 struct RunIn {
   double force = 0;          ///< F_N [N]
   double wheel_speed = 0;    ///< of the rim [m/s]

@@ -43,11 +43,11 @@ void Simulation::start(const Preload& preload) {
   AlignedVector<double> v(u.size(), 0.0);
   frame_ = preload.wheel;
   const StartFields fields{u, v, frame_};
-  const StaticStart at{u.data(), v.data(), frame_, dt_};
+  const StaticStart at{u.data(), v.data(), frame_, dt_, preload.traction};
   for (const auto& feature : features_.all()) feature->settle(at);
   place_run_in(*model_, preload.run_in, fields);
   for (const auto& feature : features_.all()) feature->meet(at);
-  start_velocities(*model_, preload.run_in, fields);
+  start_velocities(*model_, preload, fields);
   fields_->set(u, v);
   for (const auto& feature : features_.all()) feature->begin(motion(), sprung_start(preload.run_in));
   start_momentum_ = features_.momentum(motion());

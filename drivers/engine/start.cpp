@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/engine/traction.hpp"
+
 namespace tread {
 
 namespace {
@@ -117,12 +119,13 @@ void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const 
   add_to_rail(
       model, [&](double x) { return run_in->at(x).displacement; }, fields.displacement);
   add_to_sleepers(model, *run_in, &RunIn::Sleeper::deflection, fields.displacement);
-  fields.wheel.origin.z -= run_in->at(0).displacement.deflection;
+  fields.wheel.origin.z -= run_in->at(fields.wheel.origin.x).displacement.deflection;
 }
 
 namespace {
 
-void start_wheel(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
+void start_wheel(const Model& model, const Preload& preload, const StartFields& fields) {
+  const std::optional<RunIn>& run_in = preload.run_in;
   const MotionSpec* motion = model.scene.motion ? &*model.scene.motion : nullptr;
   const double speed = motion ? motion->speed : 0.0;
   fields.wheel.velocity = {speed, 0, run_in ? -run_in->wheel_speed : 0.0};
@@ -136,12 +139,14 @@ void start_wheel(const Model& model, const std::optional<RunIn>& run_in, const S
   }
   if (run_in) bend_axle(model, run_in->bending_speed, fields);
   if (deflected) roll_freely(model, fields);
-  if (!motion || motion->creepage == 0) return;
-  fields.wheel.spin *= motion->spin_ratio();
+  const double creepage = start_creepage(model, preload.traction);
+  if (creepage == 0) return;
+  const double spin_ratio = MotionSpec::spin_ratio(creepage);
+  fields.wheel.spin *= spin_ratio;
   for (const int b : model.index.wheel()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
-      fields.velocity[static_cast<std::size_t>(i)] *= motion->spin_ratio();
+      fields.velocity[static_cast<std::size_t>(i)] *= spin_ratio;
   }
 }
 
@@ -158,8 +163,8 @@ void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& 
 
 }  // namespace
 
-void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields) {
-  if (model.wheelset) start_wheel(model, run_in, fields);
+void start_velocities(const Model& model, const Preload& preload, const StartFields& fields) {
+  if (model.wheelset) start_wheel(model, preload, fields);
   if (model.scene.pulse) start_pulse(model, *model.scene.pulse, fields);
 }
 

@@ -7,6 +7,7 @@
 #include "core/body_frame.hpp"
 #include "drivers/engine/features/feature.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
 #include "drivers/engine/run_in.hpp"
 
 namespace tread {
@@ -22,7 +23,7 @@ struct StartFields {
 void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
 
 /// Velocities of rail, wheel and its frame, and the pulse of a bar; after contact has been found.
-void start_velocities(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
+void start_velocities(const Model& model, const Preload& preload, const StartFields& fields);
 
 /// Motion of the sprung mass at t = 0 against its place at rest.
 SprungStart sprung_start(const std::optional<RunIn>& run_in);

@@ -34,9 +34,11 @@ Span run_span(const Scene& scene) {
   constexpr double kMargin = 0.02;  // [m]
   if (!scene.wheel) return {};
   const double reach = patch_reach(0.5 * scene.wheel->diameter);
+  const double start = scene.start_x();
   const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
   const Travel travel = travel_of(scene);
-  return {std::min(travel.first, -kMargin) - reach, std::max(travel.last, run + kMargin) + reach};
+  return {std::min(travel.first, start - kMargin) - reach,
+          std::max(travel.last, start + run + kMargin) + reach};
 }
 
 Span zone_span(const Scene& scene) {

@@ -30,8 +30,8 @@ struct Span {
   bool empty() const { return !(last > first); }
 };
 
-/// Stretch of the track that the wheel can touch, with a margin of 20 mm beyond speed times duration, which
-/// the way that traction adds uses first; empty without [wheel].
+/// Stretch of the track that the wheel can touch, with a margin of 20 mm before its start and beyond speed
+/// times duration, which the way that traction adds uses first; empty without [wheel].
 Span run_span(const Scene& scene);
 
 /// Stretch of the finely divided track: the solution zone and half a patch about it, or what the wheel can
@@ -51,7 +51,7 @@ NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes)
 /// Along a rail without a wheel: one pitch, that of the tied coarse blocks. Waves run along all of it.
 NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes);
 
-/// Around the wheel.
+/// Around the wheel. Its stretches of the track are counted from the wheel's start.
 struct WheelPlan {
   double start = 0;  ///< angle of the first station [rad]
   std::vector<Segment> tread;

@@ -11,19 +11,9 @@
 #include "drivers/engine/features/wheel_load.hpp"
 #include "drivers/engine/features/wheel_rail_contact.hpp"
 #include "drivers/engine/maxwell_branches.hpp"
+#include "drivers/engine/traction.hpp"
 
 namespace tread {
-
-double full_torque(const Model& model) {
-  const std::optional<MotionSpec>& motion = model.scene.motion;
-  if (!motion || !model.wheelset) return 0;
-  if (!motion->traction_mu) return motion->traction_torque.value_or(0);
-  const std::optional<VehicleSpec>& vehicle = model.scene.vehicle;
-  const double mass = model.wheelset->mass() + (vehicle ? vehicle->mass_along() : 0.0);
-  const double radius = model.wheel_radius();
-  const double torque = *motion->traction_mu * model.wheel_load() * radius;
-  return model.guide ? torque : torque * (1 + model.wheelset->inertia() / (mass * radius * radius));
-}
 
 template <class F, class... Arguments>
 F* StepFeatures::add(Arguments&&... arguments) {

@@ -15,9 +15,6 @@
 
 namespace tread {
 
-/// Torque of which MotionSpec::torque_share() is the share; 0 without traction [N m].
-double full_torque(const Model& model);
-
 class StepFeatures {
  public:
   /// Features of the model, to which they keep references; none allocates a field of nodes. `patch_y`: centre

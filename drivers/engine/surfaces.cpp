@@ -51,7 +51,7 @@ DepthShapePointer shape_of(const SurfaceSpec& spec, double radius) {
 
 RunningSurface surface_of(const Scene& scene, bool wheel) {
   const double radius = scene.wheel ? 0.5 * scene.wheel->diameter : 0;
-  RunningSurface surface(wheel ? radius : 0);
+  RunningSurface surface = wheel ? RunningSurface(radius, scene.start_x()) : RunningSurface();
   for (const auto& [name, spec] : scene.surfaces)
     if (spec.on_wheel() == wheel) surface.add(shape_of(spec, radius), spec.at);
   return surface;

@@ -200,12 +200,13 @@ Drawings section_drawings(const Model& model) {
 
 Drawings side_drawings(const Model& model) {
   const double height = axis_height(model);
+  const double start = model.scene.start_x();
   const std::vector<Layer> layers = layers_of(model, [&](const SweptBlock& block) {
     if (block.sweep == Sweep::extruded) return side_layer(block.name, block);
     SweptBlock without_flange = block;  // the flange would hide where wheel and rail meet
     if (model.contact)
       for (double& radius : without_flange.section.q) radius = std::min(radius, height);
-    return side_layer(block.name, without_flange, {0, 0, height});
+    return side_layer(block.name, without_flange, {start, 0, height});
   });
   if (!model.contact) return {"mesh-side", {{"Side view", layers, std::nullopt, 920}}};
   std::vector<Layer> track = layers;
@@ -213,7 +214,8 @@ Drawings side_drawings(const Model& model) {
                 [](const Layer& layer) { return layer.label == "tread" || layer.label == "disc and axle"; });
   const double zone = model.scene.motion ? model.scene.zone_start : 0;
   return {"mesh-side",
-          {{"Side view of the stations, x = -0.5 to 0.5 m", layers, Window{{-0.5, -0.3}, {0.5, 0.5}}, 440},
+          {{fmt::format("Side view of the stations, x = {:g} to {:g} m", start - 0.5, start + 0.5), layers,
+            Window{{start - 0.5, -0.3}, {start + 0.5, 0.5}}, 440},
            {"The rail where the solution zone begins", track, Window{{zone - 0.2, -0.18}, {zone + 0.2, 0.01}},
             440}}};
 }

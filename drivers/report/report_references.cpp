@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/results/resolution.hpp"
 #include "io/files/share_folder.hpp"
 #include "io/report/markup.hpp"
@@ -22,8 +23,7 @@ bool reached(const RunResults& r, double x) {
 
 /// Steady values count once the torque has ramped up and the smooth rail before the corrugation is behind.
 bool steady(const Model& model, const RunResults& r) {
-  const MotionSpec& motion = *model.scene.motion;
-  return reached(r, r.steady_last) && r.steady_first >= 1.5 * motion.ramp * motion.speed;
+  return reached(r, r.steady_last) && r.steady_first >= settled_torque_x(model.scene);
 }
 
 bool counts(Reference::After after, const Model& model, const RunResults& r) {

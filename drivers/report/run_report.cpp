@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/energy_tables.hpp"
@@ -73,8 +74,9 @@ std::string stretch(double first, double last) {
 
 KeyFigures rolling_figures(const Run& run) {
   const RunResults& r = run.results;
-  const char* where =
-      run.on_corrugation() && r.evaluated_first > 0 ? "over the corrugation" : "over the evaluated stretch";
+  const char* where = run.on_corrugation() && r.evaluated_first > run.scene().start_x()
+                          ? "over the corrugation"
+                          : "over the evaluated stretch";
   KeyFigures figures = {{fmt::format("Largest F_N {}", where), readable(1e-3 * r.vertical_force.max), "kN"},
                         {fmt::format("Smallest F_N {}", where), readable(1e-3 * r.vertical_force.min), "kN"},
                         {"Dynamic factor", readable(r.dynamic_factor(), 3), ""},
@@ -113,8 +115,7 @@ Chapter result_chapter(const Run& run) {
     text += fmt::format("Largest and smallest F_N: {}.{} Steady values: means over {}.",
                         stretch(r.evaluated_first, r.evaluated_last), slip_sentence(run),
                         stretch(r.steady_first, r.steady_last));
-    const double ramp_end = run.scene().motion->ramp * run.scene().motion->speed;
-    if (!run.model.torque.empty() && r.steady_first < 1.5 * ramp_end)
+    if (!run.model.torque.empty() && r.steady_first < settled_torque_x(run.scene()))
       text += " The torque still rises or has just risen there: they are not steady yet.";
     chapter.blocks.emplace_back(Text{text});
   } else if (run.model.contact) {
@@ -157,7 +158,7 @@ Chapter surface_chapter(const Run& run) {
         fmt::format("{} J by samples", readable(s.total_sampled_work)));
   chapter.blocks.emplace_back(q.take());
   if (run.results.rail_line)
-    chapter.blocks.emplace_back(deflection_figure(deflection(*run.results.rail_line)));
+    chapter.blocks.emplace_back(deflection_figure(deflection(*run.results.rail_line, run.scene().start_x())));
   return chapter;
 }
 

@@ -53,12 +53,13 @@ double Deflection::asymmetry(const std::vector<double>& displacement) {
   return even > 0 ? std::sqrt(odd / even) : 0;
 }
 
-Deflection deflection(const RailLine& line) {
+Deflection deflection(const RailLine& line, double static_x) {
   Deflection d;
+  d.static_x = static_x;
   d.wheel_x = line.wheel_x();
   for (int i = -kPlaces; i <= kPlaces; ++i) {
     d.x.push_back(kReach * i / kPlaces);
-    d.at_rest.push_back(on_rail(line, line.at_rest(), d.x.back()));
+    d.at_rest.push_back(on_rail(line, line.at_rest(), d.static_x + d.x.back()));
     d.rolling.push_back(on_rail(line, line.rolling(), d.wheel_x + d.x.back()));
   }
   return d;
@@ -80,7 +81,7 @@ Figure deflection_figure(const Deflection& d) {
   figure.x_label = "From the wheel, ahead positive [m]";
   figure.panels.push_back(
       {"Upwards [mm]",
-       {series("static, wheel at x = 0", d, d.at_rest, Stroke::dashed),
+       {series(fmt::format("static, wheel at x = {:g}", d.static_x), d, d.at_rest, Stroke::dashed),
         series(fmt::format("rolling, wheel at x = {} m", readable(d.wheel_x)), d, d.rolling, Stroke::solid)},
        {},
        220,

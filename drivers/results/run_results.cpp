@@ -137,8 +137,8 @@ std::int64_t sampling_interval(const Scene& scene, double dt) {
 
 namespace {
 
-/// Returns a test for samples with the wheel between two places [m]. The first sample lies at x = 0 but for
-/// rounding.
+/// Returns a test for samples with the wheel between two places [m]. The first sample lies at the start but
+/// for rounding.
 auto between(double first, double last) {
   constexpr double kRounding = 1e-9;  // [m]
   return [first, last](const Sample& s) {
@@ -152,7 +152,7 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
   const Span stretch = evaluated_stretch(model.scene, corrugation);
   r.evaluated_first = stretch.first;
   r.evaluated_last = std::min(reached, stretch.last);
-  if (r.evaluated_first > reached) r.evaluated_first = 0;
+  if (r.evaluated_first > reached) r.evaluated_first = model.scene.start_x();
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
   r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
@@ -188,7 +188,7 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const double end = std::min(
       reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
   r.steady_last = end;
-  r.steady_first = std::max(0.0, end - span);
+  r.steady_first = std::max(scene.start_x(), end - span);
   const auto mean = [&](auto value) {
     return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
   };
@@ -205,7 +205,7 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   // The patch has passed what lies behind its search window.
   const double reach = model.contact->reach();
   if (r.surface_fields)
-    r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, reach),
+    r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, model.scene.start_x() + reach),
                                 std::min(r.evaluated_last, reached - reach));
 }
 

@@ -223,14 +223,14 @@ void require_same_past(const Fork& fork, const Model& model) {
 
 double Approach::time(const MotionSpec& motion, double x) const {
   const double acceleration = std::abs(wheel.acceleration(motion));  // reversals drive a braked wheel
-  const double way = x - before;
+  const double way = x - start - before;
   if (way <= 0 || motion.speed <= 0) return 0;
   return 2 * way / (motion.speed + std::sqrt(motion.speed * motion.speed + 2 * acceleration * way));
 }
 
 Approach approach_of(const Scene& scene, double reach) {
   constexpr double kMargin = 0.02;  // [m]
-  return {reach + kMargin, driven_wheel(scene)};
+  return {scene.start_x(), reach + kMargin, driven_wheel(scene)};
 }
 
 std::optional<std::int64_t> fork_step(const Model& model, double dt) {

@@ -33,6 +33,7 @@ void require_same_past(const Fork& fork, const Model& model);
 
 /// Values that tell when the wheel of a run with [forks] comes near a place.
 struct Approach {
+  double start = 0;   ///< x of the wheel at t = 0 [m]
   double before = 0;  ///< a state is kept so far before the place: the searched surface and a margin [m]
   DrivenWheel wheel;
 

@@ -45,7 +45,7 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
   if (!results.surface_fields) return;
   write_surface(directory / "surface.h5", *results.surface_fields, root_attributes(model.scene));
   write_axis(directory / "surface_axis.csv", results.surface);
-  write_deflection(directory / "deflection.csv", deflection(*results.rail_line));
+  write_deflection(directory / "deflection.csv", deflection(*results.rail_line, model.scene.start_x()));
   const Span stretch{results.evaluated_first, results.evaluated_last};
   std::vector<double> x, pressure;
   for (const Sample& sample : results.samples) {

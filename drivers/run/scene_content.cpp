@@ -48,7 +48,11 @@ SceneContent scene_content(const ResolvedScene& resolved) {
 }
 
 SceneContent preload_content(const ResolvedScene& resolved) {
-  SceneContent content = content_of(resolved, [](Effects effects) { return effects.on_preload(); });
+  // Without a ramp the static state bears the traction.
+  const bool traction = resolved.scene.motion && resolved.scene.motion->ramp == 0;
+  SceneContent content = content_of(resolved, [&](Effects effects) {
+    return traction ? effects.on_smooth_motion() : effects.on_preload();
+  });
   add_run(content, resolved.scene);
   return content;
 }

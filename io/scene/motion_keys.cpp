@@ -71,7 +71,11 @@ void add_motion(Keys& keys) {
   keys.push_back(rolling(quantity("motion.speed", {Effect::preload}, at(&Scene::motion, &MotionSpec::speed),
                                   kSpeed, "km/h", from(0, 300), "Forward speed at the start")));
   keys.push_back(quantity("motion.duration", {Effect::duration}, at(&Scene::motion, &MotionSpec::duration),
-                          kTime, "s", above(0, 100), "Simulated time"));
+                          kTime, "s", above(0, 100), "Simulated time, from the start on"));
+  keys.push_back(rolling(quantity("motion.run_up", {Effect::mesh}, at(&Scene::motion, &MotionSpec::run_up),
+                                  kLength, "m", from(0, 1000),
+                                  "Way from the start to the solution zone; absent: the wheel starts at "
+                                  "x = 0")));
   keys.push_back(rolling(
       instead_of("motion.traction.torque",
                  number("motion.traction.mu", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_mu),
@@ -80,9 +84,10 @@ void add_motion(Keys& keys) {
       "motion.traction.mu",
       quantity("motion.traction.torque", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_torque),
                kTorque, "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
-  keys.push_back(
-      rolling(quantity("motion.traction.ramp", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp), kTime,
-                       "ms", from(0, 100), "Time T1 in which the torque grows from zero")));
+  keys.push_back(rolling(
+      quantity("motion.traction.ramp", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp), kTime, "ms",
+               from(0, 100),
+               "Time T1 in which the torque grows from zero; 0: the wheel has long been rolling under it")));
   keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
                                 at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
                                 "Growth and reversal of the torque: linear, or as half a cosine")));

@@ -237,8 +237,9 @@ class Checker {
             fmt::format(
                 "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
                 scene_.zone_start, zone_end, left, right));
-    require(rail.origin >= kRailEndMargin, {"rail.origin"},
-            fmt::format("the wheel starts less than {:g} m from the rail's left end", kRailEndMargin));
+    require(scene_.start_x() - left >= kRailEndMargin, {"motion.run_up", "rail.origin"},
+            fmt::format("the wheel starts at x = {:.6g} m; the rail lets it start from {:.6g} m on",
+                        scene_.start_x(), left + kRailEndMargin));
     if (!knows(scene_.wheel->material)) return;
     const Travel travel = travel_of(scene_);
     const auto require_on_rail = [&](bool holds, double x, double end) {
@@ -248,7 +249,7 @@ class Checker {
                   x, end, kRailEndMargin));
     };
     const double last = right - kRailEndMargin;
-    const double first = std::min(left + kRailEndMargin, 0.0);
+    const double first = std::min(left + kRailEndMargin, scene_.start_x());
     require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
     require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
   }

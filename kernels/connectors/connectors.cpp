@@ -175,6 +175,10 @@ std::vector<std::int64_t> Journal::slots() const {
   return slots;
 }
 
+void AxleTorque::add(NodeField load, double torque) const {
+  for (const Node& node : nodes_) load[dof(node.slot, 0)] += torque * node.lever;
+}
+
 std::vector<std::int64_t> AxleTorque::slots() const {
   std::vector<std::int64_t> slots;
   for (const Node& node : nodes_) slots.push_back(node.slot);

@@ -135,6 +135,8 @@ class AxleTorque {
   /// their levers.
   double apply(double torque, ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
                NodeField force) const;
+  /// Adds the nodal forces of `torque` [N m] to an external load.
+  void add(NodeField load, double torque) const;
   bool empty() const { return nodes_.empty(); }
   std::vector<std::int64_t> slots() const;
   std::int64_t bytes() const { return static_cast<std::int64_t>(nodes_.size() * sizeof(Node)); }

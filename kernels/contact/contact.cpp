@@ -85,8 +85,10 @@ Vec3 Contact::mean_slip_velocity(const ContactState& state) const {
   return weight > 0 ? (1 / weight) * sum : Vec3{};
 }
 
-void Contact::find_static(const ContactState& state) {
+void Contact::find_static(const ContactState& state, double traction) {
   search_.find_static(state, points_);
+  if (traction != 0)
+    for (ContactPoint& point : points_) point.shear.along = -traction * point.pressure;
   const auto [first, last] = search_.window();
   nodes_.average(first, last, points_);
   totals_ = sum_up(points_, springs_, area_);
@@ -98,7 +100,7 @@ void Contact::begin() {
   search_.wake_all();
   frictional_work_ = damping_work_ = 0;
   for (const ContactPoint& point : points_)
-    history_[static_cast<std::size_t>(point.history)].pressure = point.pressure;
+    history_[static_cast<std::size_t>(point.history)] = {point.shear, point.pressure};
 }
 
 void Contact::search(const ContactState& state, double time, double dt) {

@@ -49,10 +49,11 @@ class Contact {
   /// Lowers the rail's surface by another corrugation; the contact is that of a construction with it.
   void set_corrugation(Corrugation corrugation);
 
-  /// Finds the points in contact, without friction (preload).
-  void find_static(const ContactState& state);
+  /// Finds the points in contact (preload). The wheel drives the rail backwards by a shear stress of
+  /// `traction` times the pressure.
+  void find_static(const ContactState& state, double traction = 0);
 
-  /// Starts the first step from the pressures found last.
+  /// Starts the first step from the tractions found last.
   void begin();
 
   /// Finds the points that touch or may touch before the step of length dt [s] that starts at `time` [s]
@@ -83,9 +84,9 @@ class Contact {
 
   /// Height of the wheel's axis at which its undeformed surface touches the smooth rail [m].
   double touching_height() const { return search_.touching_height(); }
-  /// How much lower it touches over x = 0, at the start, for the depths of both surfaces but the corrugation
+  /// How much lower it touches over x [m] at the start for the depths of both surfaces but the corrugation
   /// [m].
-  double touching_depth() const { return search_.touching_depth(); }
+  double touching_depth(double x) const { return search_.touching_depth(x); }
 
   const std::vector<ContactPoint>& points() const { return points_; }
   const ContactTotals& totals() const { return totals_; }

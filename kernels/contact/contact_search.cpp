@@ -77,7 +77,7 @@ void ContactSearch::choose_edges() {
   for (double& one : gap) one -= closest;
 }
 
-double ContactSearch::touching_depth() const {
+double ContactSearch::touching_depth(double wheel_x) const {
   constexpr double kStep = 1e-4;  // [m]
   const RunningSurface& rail = surfaces_.rail_depth();
   const RunningSurface& wheel = surfaces_.wheel_depth();
@@ -89,7 +89,8 @@ double ContactSearch::touching_depth() const {
     const double circle = 0.5 * x * x / options_.wheel_radius;
     for (int edge = first_edge_; edge < last_edge_; ++edge) {
       const double y = surfaces_.rail_profile().evaluate(edge, 0.5, options_.surface).p;
-      least = std::min(least, lateral_gap_[static_cast<std::size_t>(edge)] + circle + rail.at(x, y).depth +
+      least = std::min(least, lateral_gap_[static_cast<std::size_t>(edge)] + circle +
+                                  rail.at(wheel_x + x, y).depth +
                                   wheel.around(-x / options_.wheel_radius, y).depth);
     }
   }

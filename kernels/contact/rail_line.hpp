@@ -22,7 +22,7 @@ class RailLine {
   void note_rolling(ConstNodeField displacement, double wheel_x);
 
   const std::vector<double>& x() const { return x_; }              ///< [m]
-  const std::vector<double>& at_rest() const { return at_rest_; }  ///< the wheel at x = 0 [m]
+  const std::vector<double>& at_rest() const { return at_rest_; }  ///< the wheel at the start [m]
   const std::vector<double>& rolling() const { return rolling_; }  ///< [m]
   double wheel_x() const { return wheel_x_; }                      ///< of rolling() [m]
 

@@ -404,6 +404,7 @@ const std::vector<Change>& changes() {
       {"contact.points", "2"},
       {"motion.speed", "41 km/h"},
       {"motion.duration", "1.0001 ms"},
+      {"motion.run_up", "20 mm"},
       {"motion.traction.mu", "0.12"},
       {"motion.traction.torque", "2 kN m"},
       {"motion.traction.ramp", "6 us"},

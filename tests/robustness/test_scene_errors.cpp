@@ -189,7 +189,9 @@ TEST(SceneErrors, PartsThatDoNotFit) {
        "from the "
        "rail's end"},
       {"[rail]\norigin = \"0 m\"",
-       "x.toml:4:1: rail.origin: the wheel starts less than 0.02 m from the rail's left end"},
+       "x.toml:4:1: rail.origin: the wheel starts at x = 0 m; the rail lets it start from 0.02 m on"},
+      {"[motion]\nrun_up = \"9 m\"",
+       "x.toml:4:1: motion.run_up: the wheel starts at x = -6.6 m; the rail lets it start from -6.08 m on"},
       {"[fastenings]\ncount = 25",
        "x.toml:4:1: fastenings.count: the last fastening's pad ends at 15.81 m, beyond the rail of 15.2 m"},
       {"[fastenings]\nfirst = \"0.05 m\"",

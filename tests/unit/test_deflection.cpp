@@ -39,7 +39,7 @@ TEST(Deflection, IsReadAboutTheWheel) {
   press(0.4, 0.7);
   line.note_rolling(u.data(), 0.4);
 
-  const Deflection d = deflection(line);
+  const Deflection d = deflection(line, 0);
   ASSERT_EQ(d.x.size(), 401U);
   EXPECT_EQ(d.wheel_x, 0.4);
   for (std::size_t i = 0; i < d.x.size(); i += 50) {

@@ -56,6 +56,19 @@ TEST(SceneContent, TellsMaterialsApart) {
             "material.wheel_steel.youngs_modulus is 205900000000 Pa here and 70000000000 Pa there");
 }
 
+TEST(PreloadContent, HasTheTractionOfAStartWithoutRamp) {
+  const auto content = [](double mu, const char* ramp) {
+    const std::string text = "[scene]\ntitle = \"t\"\nbased_on = \"highspeed-slab-2014\"\n";
+    return preload_content(resolve_scene(
+        SceneSource{"test", text, "."},
+        {"motion.traction.mu=" + std::to_string(mu), std::string("motion.traction.ramp=") + ramp,
+         "vehicle.longitudinal=free", "motion.duration=1 ms"}));
+  };
+  EXPECT_EQ(difference(content(0.1, "5 ms"), content(0.1, "4 ms")), "");
+  EXPECT_TRUE(samples::has(difference(content(0.1, "0 ms"), content(0.2, "0 ms")), "motion.traction.mu"));
+  EXPECT_NE(difference(content(0.1, "0 ms"), content(0.1, "1 us")), "");
+}
+
 TEST_F(SceneOnATable, NeedsNoChecksums) {
   // Folders without kept contents of files: the file in its present state counts.
   keep_scene(folder_.path, resolved());

@@ -34,6 +34,12 @@ TEST(Travel, IsSpeedTimesDurationWithoutTraction) {
       travel_of(scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\n[motion]\npresent = false")).last, 0);
 }
 
+TEST(Travel, BeginsARunUpBeforeTheZone) {
+  const Travel travel = travel_of(wheelset("speed = \"300 km/h\"\nduration = \"12 ms\"\nrun_up = \"1.1 m\""));
+  EXPECT_NEAR(travel.first, 1.3, 1e-12);
+  EXPECT_NEAR(travel.last, 2.3, 1e-12);
+}
+
 /// The speed gained is a (t - T1/2) from T1 on.
 TEST(Travel, TractionAddsToIt) {
   const double ramp = 0.01;

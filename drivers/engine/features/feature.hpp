@@ -78,7 +78,8 @@ struct StaticStart {
   NodeField displacement;  ///< [m]
   NodeField velocity;      ///< [m/s]
   BodyFrame& wheel;
-  double dt;  ///< [s]
+  double dt;            ///< [s]
+  double traction = 0;  ///< shear stress over pressure [-]
 };
 
 /// Motion of the sprung mass of a wheel that has been rolling, against that at rest.

@@ -44,7 +44,7 @@ void WheelRailContact::add_tractions(StepState& step) {
 }
 
 void WheelRailContact::meet(const StaticStart& start) {
-  contact_->find_static({start.displacement, nullptr, &start.wheel});
+  contact_->find_static({start.displacement, nullptr, &start.wheel}, start.traction);
   contact_->begin();
 }
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "drivers/engine/step_features.hpp"
+#include "drivers/engine/traction.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/deck_vehicle.hpp"

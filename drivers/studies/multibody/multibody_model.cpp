@@ -122,8 +122,8 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   model.wheel_surface = wheel_surface(scene);
   model.speed = scene.motion->speed;
   const double left = -scene.rail->origin;
-  model.start =
-      scene.start() == "rigid" ? 0 : left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
+  model.start = scene.start() == "rigid" ? scene.start_x()
+                                         : left + scene.fastenings->first + 0.5 * scene.fastenings->spacing;
   model.end = std::max(evaluated_stretch(scene, model.corrugation).last, model.corrugation.last()) + kBeyond;
   const double last = left + scene.rail->length - kEndOfRail;
   if (model.start < left + kEndOfRail || model.end > last || model.start >= model.end)

@@ -50,8 +50,8 @@ struct MultibodyModel {
 
 /// Model of a half wheelset over a rail on fastenings, over the corrugation or the solution zone, whatever
 /// the scene's duration. The wheel starts in the middle of the first span unless motion.start is "rigid"
-/// (then at x = 0). Slab and mortar are rigid; sleepers are rigid bodies on their beds. Throws InputError for
-/// scenes that lack a part or whose rail is too short.
+/// (then at Scene::start_x()). Slab and mortar are rigid; sleepers are rigid bodies on their beds. Throws
+/// InputError for scenes that lack a part or whose rail is too short.
 MultibodyModel multibody_model(const Scene& scene, BeamTheory theory);
 
 /// First difference of vehicle, rail and fastenings, such as "the wheel load is 87560 N here and 70000 N

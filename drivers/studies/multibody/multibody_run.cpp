@@ -83,7 +83,7 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
   MultibodyResult r;
   r.modes = track.beam().modes();
   r.dt = step.step.value_or(chosen_step(track, model.vehicle, model.speed, wavelength_of(model)));
-  r.static_rail = ModalPassage(track, model.vehicle, 0, r.dt).rail();
+  r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt).rail();
   ModalPassage passage(track, model.vehicle, model.start, r.dt);
   const auto depth = [&](double x) { return model.roughness(x); };
   roll(passage, model.speed, model.start, model.end, depth, [&](double x, double roughness) {

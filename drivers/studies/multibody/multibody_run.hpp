@@ -39,7 +39,7 @@ struct MultibodyResult {
   double dt = 0;                         ///< [s]
   int modes = 0;
   std::int64_t steps = 0;
-  double static_rail = 0;  ///< deflection of the rail under the wheel at rest at x = 0 [m]
+  double static_rail = 0;  ///< deflection of the rail under the wheel at rest at the scene's start [m]
   double evaluated_first = 0, evaluated_last = 0;  ///< evaluated stretch of `force` [m]
   Statistics force;                                ///< [N]
   double loss_of_contact = 0;                      ///< share of the stretch without contact [-]

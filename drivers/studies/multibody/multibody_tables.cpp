@@ -87,7 +87,7 @@ Table multibody_table(const MultibodyOutcome& o) {
     add("Mean over the crests", in_pi(mean_shift(r.peaks)), "pi");
   }
   add("Rail deflection at rest", readable(1e3 * r.static_rail), "mm",
-      fmt::format("{} beam, under the wheel at x = 0", name_of(m.theory)));
+      fmt::format("{} beam, under the wheel at x = {:g}", name_of(m.theory), m.scene.start_x()));
   add("Contact stiffness at rest", readable(1e-9 * m.contact_stiffness()), "GN/m",
       fmt::format("C = {} N/m^1.5", readable(m.vehicle.contact)));
   if (o.filter_gain) add("Gain of the contact filter", readable(*o.filter_gain), "");

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/studies/multibody/multibody_run.hpp"
 #include "drivers/studies/paper/curve_measures.hpp"
 #include "drivers/studies/paper/paper_figures.hpp"
@@ -49,9 +50,8 @@ std::optional<double> first_shift(const FinishedRun& run) {
 
 /// Steady creepage [%]; nullopt if the torque still rises or has just risen over the stretch.
 std::optional<double> steady_creepage(const FinishedRun& run) {
-  const MotionSpec& motion = *run.scene.motion;
   const std::optional<double> first = run.number("steady_x_m.0");
-  if (!first || *first < 1.5 * motion.ramp * motion.speed) return std::nullopt;
+  if (!first || *first < settled_torque_x(run.scene)) return std::nullopt;
   return run.number("creepage_percent");
 }
 

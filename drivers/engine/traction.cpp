@@ -1,0 +1,56 @@
+#include "drivers/engine/traction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "kernels/half_space/half_space_steady.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Torque over radius and longitudinal force of a wheelset whose spin and speed grow together [-].
+double spin_up(const Model& model) {
+  if (model.guide) return 1;
+  const std::optional<VehicleSpec>& vehicle = model.scene.vehicle;
+  const double mass = model.wheelset->mass() + (vehicle ? vehicle->mass_along() : 0.0);
+  const double radius = model.wheel_radius();
+  return 1 + model.wheelset->inertia() / (mass * radius * radius);
+}
+
+}  // namespace
+
+double full_torque(const Model& model) {
+  const std::optional<MotionSpec>& motion = model.scene.motion;
+  if (!motion || !model.wheelset) return 0;
+  if (!motion->traction_mu) return motion->traction_torque.value_or(0);
+  return *motion->traction_mu * model.wheel_load() * model.wheel_radius() * spin_up(model);
+}
+
+double steady_traction(const Model& model) {
+  const std::optional<MotionSpec>& motion = model.scene.motion;
+  const bool steady = motion && motion->ramp == 0 && motion->speed > 0 && model.scene.start() != "rigid";
+  if (!steady || !model.contact || model.torque.empty()) return 0;
+  const double force = full_torque(model) / (model.wheel_radius() * spin_up(model));
+  const double traction = force / model.wheel_load();
+  return std::abs(traction) < model.scene.contact->largest_friction() ? traction : 0;
+}
+
+double start_creepage(const Model& model, double traction) {
+  constexpr double kCells = 11;  // in the shorter semi-axis
+  const double stated = model.scene.motion ? model.scene.motion->creepage : 0;
+  if (stated != 0 || traction == 0) return stated;
+  const double load = model.wheel_load();
+  const double cell = std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y) / kCells;
+  const half_space::SteadyCase rolling{model.scene.elastic_pair().alike(),
+                                       model.wheel_radius(),
+                                       model.hertz_radius_y,
+                                       load,
+                                       model.scene.contact->largest_friction(),
+                                       std::abs(traction) * load,
+                                       cell};
+  return std::copysign(half_space::steady_summary(rolling, cell).creepage, traction);
+}
+
+}  // namespace tread

@@ -1,0 +1,20 @@
+#pragma once
+// Torque of a scene's traction, and the state of a wheelset that has long been rolling under it. [theory.md,
+// Start]
+
+#include "drivers/engine/model.hpp"
+
+namespace tread {
+
+/// Torque of which MotionSpec::torque_share() is the share; 0 without traction [N m].
+double full_torque(const Model& model);
+
+/// F_L over the static wheel load at the start [-]: of a wheelset that has been rolling under its full torque
+/// where MotionSpec::ramp is 0 and the start is not rigid; else, or if its patch slides, 0.
+double steady_traction(const Model& model);
+
+/// Creepage at the start [-]: the scene's; or, under a traction, that of steady rolling on half-spaces under
+/// the static load.
+double start_creepage(const Model& model, double traction);
+
+}  // namespace tread

@@ -1,0 +1,77 @@
+// A wheel that has long been rolling under traction has its longitudinal force from the first step on.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/engine/traction.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+Scene scene_of(double traction, std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.end(), {"motion.traction.mu=" + std::to_string(traction),
+                                     "motion.traction.ramp=0 ms", "solution_zone.start=0 mm"});
+  return samples::tyre_scene(overrides);
+}
+
+std::vector<Sample> roll(const Scene& scene, Preload& preload) {
+  Model model(scene);
+  preload = solve_preload(model, steady_motion(model), [](const std::string&) {});
+  Simulation simulation(model, preload, scene.motion->step_safety * step_limit(model).stable_step);
+  simulation.set_sampling_interval(10);
+  std::vector<Sample> samples;
+  while (simulation.time() < scene.motion->duration) {
+    simulation.step();
+    if (simulation.sampled()) samples.push_back(simulation.sample());
+  }
+  return samples;
+}
+
+TEST(TractionStart, KeepsTheForce) {
+  for (const double traction : {0.2, -0.2}) {
+    SCOPED_TRACE(traction);
+    Preload preload;
+    const std::vector<Sample> samples = roll(scene_of(traction), preload);
+    EXPECT_NEAR(preload.traction, traction, 1e-12);
+    double force = 0;
+    double load = 0;
+    for (const Sample& sample : samples) {
+      EXPECT_NEAR(sample.longitudinal_force / sample.vertical_force, traction, 0.2 * std::abs(traction))
+          << sample.time;
+      force += sample.longitudinal_force;
+      load += sample.vertical_force;
+    }
+    // Elements of 5 mm want another creepage than half-spaces.
+    EXPECT_NEAR(force / load, traction, 0.1 * std::abs(traction));
+  }
+}
+
+TEST(TractionStart, NeedsNoRampAPatchThatSticksAndNoRigidStart) {
+  const auto traction = [](const std::vector<std::string>& overrides) {
+    return steady_traction(Model(scene_of(0.2, overrides)));
+  };
+  EXPECT_NEAR(traction({}), 0.2, 1e-12);
+  EXPECT_EQ(steady_traction(Model(samples::tyre_scene({"motion.traction.mu=0.2"}))), 0);
+  EXPECT_EQ(traction({"contact.friction=0.2"}), 0);
+  EXPECT_EQ(traction({"motion.start=rigid"}), 0);
+  EXPECT_EQ(traction({"wheel.bore=guided"}), 0);
+}
+
+TEST(TractionStart, StatesTheCreepage) {
+  const Model model(scene_of(0.2));
+  const double creepage = start_creepage(model, 0.2);
+  EXPECT_GT(creepage, 1e-4);
+  EXPECT_LT(creepage, 5e-3);
+  EXPECT_EQ(start_creepage(model, -0.2), -creepage);
+  EXPECT_EQ(start_creepage(Model(scene_of(0.2, {"motion.creepage=0.001"})), 0.2), 0.001);
+}
+
+}  // namespace
+}  // namespace tread
