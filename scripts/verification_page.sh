@@ -13,6 +13,10 @@ runs=(
   'hertz_sphere --set "element_size=0.55 mm"' # 12 minutes of a core
   'hertz_ellipse'
   'hertz_ellipse --set "element_size=0.55 mm"' # 25 minutes of a core
+  'surface_depths'
+  'surface_depths --set "element_size=0.7 mm"'
+  'profiles_in_contact --set "element_size=2.2 mm"'
+  'profiles_in_contact --set "element_size=1.6 mm"'
   'contact_filter'
   'cattaneo_mindlin'
   'cattaneo_mindlin --set "element_size=2.2 mm"'
