@@ -10,6 +10,7 @@
 #include "core/parallel/chunks.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/attachments.hpp"
+#include "drivers/engine/moving_deflection.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/engine/traction.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
@@ -375,6 +376,8 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       if (rolls || (!motion.rolling && motion.traction == 0)) break;
       rolls = true;
       if (motion.rolling) out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
+      if (motion.traction != 0)
+        out.free_spin = free_spin(model, out.displacement, out.wheel, model.scene.motion->speed);
       // F_L stays where the fastenings change F_N.
       out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
       continue;

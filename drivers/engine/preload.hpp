@@ -27,7 +27,8 @@ struct Preload {
   std::optional<RunIn> run_in;         ///< where SteadyMotion::rolling wants it
   BodyFrame wheel;                     ///< at the start, angle 0, at rest; origin on the undeformed axis
   double traction = 0;                 ///< shear stress over pressure in the patch [-]
-  double residual = 0;  ///< 2-norm of the balanced residual / wheel load (or external load) [-]
+  double free_spin = 0;  ///< with traction: of free rolling at the start, over speed / radius [rad/s]
+  double residual = 0;   ///< 2-norm of the balanced residual / wheel load (or external load) [-]
   std::int64_t newton_iterations = 0;
   std::int64_t cg_iterations = 0;
   double held_force_x = 0;  ///< reaction of the held longitudinal motion of the wheel [N]
@@ -43,6 +44,7 @@ struct Preload {
   void list_state(StateList& list) {
     list.add("wheel_frame", wheel);
     list.add("traction", traction);
+    list.add("free_spin", free_spin);
     list.add("residual", residual);
     list.add("newton_iterations", newton_iterations);
     list.add("cg_iterations", cg_iterations);

@@ -10,25 +10,6 @@ namespace tread {
 
 namespace {
 
-/// Derivative of a nodal value along the sweep, by the parabola through three stations.
-double along_sweep(const SweptBlock& block, int node, int station, int component,
-                   const AlignedVector<double>& field) {
-  const auto value = [&](int s) {
-    return field[static_cast<std::size_t>(dof(block.base + block.slot(node, s), component))];
-  };
-  const int last = block.station_count() - 1;
-  if (!block.closed && (station == 0 || station == last)) {
-    const int s = station == 0 ? 0 : last - 1;
-    return (value(s + 1) - value(s)) / block.pitch(s);
-  }
-  const LineCell cell = station_cell(block, station);
-  const double h0 = cell.length_before;
-  const double h1 = cell.length;
-  const double ahead = (value(cell.second) - value(station)) / h1;
-  const double behind = (value(station) - value(cell.before)) / h0;
-  return (ahead * h0 + behind * h1) / (h0 + h1);
-}
-
 /// Adds the motions of the rail's sections, `motion(x)`, to a field: [m] or [m/s].
 template <class MotionAt>
 void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<double>& field) {
@@ -72,21 +53,6 @@ void add_to_sleepers(const Model& model, const RunIn& run_in, double RunIn::Slee
   }
 }
 
-void move_deflection(const Model& model, double speed, const StartFields& fields) {
-  // A deflection that stays under the wheel while the material passes: du/dt = spin du/dphi in the wheel, -v
-  // du/dx in the track.
-  for (const SweptBlock& block : model.mesh.blocks) {
-    const double rate = block.sweep == Sweep::revolved ? fields.wheel.spin : -speed;
-    for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node)
-        for (int c = 0; c < 3; ++c)
-          fields.velocity[static_cast<std::size_t>(dof(block.base + block.slot(node, station), c))] =
-              rate * along_sweep(block, node, station, c, fields.displacement);
-  }
-  for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
-  if (model.ties) model.ties->follow({fields.velocity.data()});
-}
-
 /// The wheelset bends on in the shape that it has, beyond its rim's displacement; `rate` [1/s].
 void bend_axle(const Model& model, double rate, const StartFields& fields) {
   const Vec3 rim = rim_displacement(model, fields.displacement.data(), fields.wheel);
@@ -105,11 +71,10 @@ void bend_axle(const Model& model, double rate, const StartFields& fields) {
   if (model.ties) model.ties->follow({fields.velocity.data()});
 }
 
-void roll_freely(const Model& model, const StartFields& fields) {
+/// Gives the wheel the spin at which the patch as a whole does not slip, found before traction acts.
+void roll_freely(const Model& model, const Preload& preload, const StartFields& fields) {
   if (!model.contact) return;
-  // Free rolling: the spin at which the patch as a whole does not slip.
-  const ContactState state{fields.displacement.data(), fields.velocity.data(), &fields.wheel};
-  fields.wheel.spin += model.contact->mean_slip_velocity(state).x / model.wheel_radius();
+  fields.wheel.spin += preload.traction != 0 ? preload.free_spin : free_spin(model, fields);
 }
 
 }  // namespace
@@ -138,7 +103,7 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
     add_to_sleepers(model, *run_in, &RunIn::Sleeper::speed, fields.velocity);
   }
   if (run_in) bend_axle(model, run_in->bending_speed, fields);
-  if (deflected) roll_freely(model, fields);
+  if (deflected) roll_freely(model, preload, fields);
   const double creepage = start_creepage(model, preload.traction);
   if (creepage == 0) return;
   const double spin_ratio = MotionSpec::spin_ratio(creepage);

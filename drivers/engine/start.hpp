@@ -7,17 +7,11 @@
 #include "core/body_frame.hpp"
 #include "drivers/engine/features/feature.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/engine/moving_deflection.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/run_in.hpp"
 
 namespace tread {
-
-/// Fields and frame of a run that begins.
-struct StartFields {
-  AlignedVector<double>& displacement;  ///< [m]
-  AlignedVector<double>& velocity;      ///< [m/s]
-  BodyFrame& wheel;
-};
 
 /// Brings rail and wheel to where rolling has brought them, if there is a run-in; before contact is found.
 void place_run_in(const Model& model, const std::optional<RunIn>& run_in, const StartFields& fields);
