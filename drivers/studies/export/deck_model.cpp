@@ -18,7 +18,7 @@ DeckModel::DeckModel(const Model& model, const DeckOptions& options)
   if (model.wheelset)
     wheel_.origin = resting_places(model)[static_cast<std::size_t>(model.index.tread)].origin;
   AlignedVector<double> displacement(velocity_.size(), 0.0);
-  start_velocities(model, std::nullopt, {displacement, velocity_, wheel_});
+  start_velocities(model, Preload{}, {displacement, velocity_, wheel_});
 }
 
 std::int64_t DeckModel::slot(const VtkGrid::Point& point) const {
