@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "drivers/engine/step_features.hpp"
+#include "drivers/engine/traction.hpp"
 #include "drivers/report/mesh_measures.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/keyword_export.hpp"
