@@ -167,8 +167,11 @@ std::vector<double> distinct(const std::vector<std::vector<double>>& rows, std::
   return values;
 }
 
-std::size_t index_in(const std::vector<double>& values, double value) {
-  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+std::string missing_point(const GridColumns& grid, std::size_t rows, double x, double y) {
+  return fmt::format(
+      "{} places along times {} across are not the {} points of the file: that at x = {:.6g} m, y = "
+      "{:.6g} m is missing; resample the map to a grid",
+      grid.x.size(), grid.y.size(), rows, x, y);
 }
 
 }  // namespace
@@ -195,8 +198,8 @@ GridColumns parse_grid(const std::string& content, const std::filesystem::path& 
                        std::vector<Problem>& problems) {
   TableParser parser({.needs_units = true}, 3);
   if (!parse_lines(parser, content, path, 4, problems)) return {};
-  GridColumns grid{distinct(parser.rows, 0), distinct(parser.rows, 1), {}};
-  const std::size_t points = grid.x.size() * grid.y.size();
+  std::vector<std::vector<double>>& rows = parser.rows;
+  GridColumns grid{distinct(rows, 0), distinct(rows, 1), {}};
   const auto report = [&](const std::string& message) {
     problems.push_back({path.string(), 0, 0, "", message});
     return GridColumns{};
@@ -204,22 +207,21 @@ GridColumns parse_grid(const std::string& content, const std::filesystem::path& 
   if (grid.x.size() < 2 || grid.y.size() < 2)
     return report(fmt::format("there are {} places along and {} across; a map needs two of both",
                               grid.x.size(), grid.y.size()));
-  std::vector<bool> known(points, false);
-  grid.z.assign(points, 0.0);
-  for (const auto& row : parser.rows) {
-    const std::size_t at = index_in(grid.y, row[1]) * grid.x.size() + index_in(grid.x, row[0]);
-    if (known[at])
-      return report(fmt::format("the point x = {:.6g} m, y = {:.6g} m stands twice", row[0], row[1]));
-    known[at] = true;
-    grid.z[at] = row[2];
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& a, const auto& b) { return std::pair(a[1], a[0]) < std::pair(b[1], b[0]); });
+  // A sound file has now the points of the grid, row by row.
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && rows[i][0] == rows[i - 1][0] && rows[i][1] == rows[i - 1][1])
+      return report(fmt::format("the point x = {:.6g} m, y = {:.6g} m stands twice", rows[i][0], rows[i][1]));
+    const double x = grid.x[i % grid.x.size()];
+    const double y = grid.y[i / grid.x.size()];
+    if (rows[i][0] != x || rows[i][1] != y) return report(missing_point(grid, rows.size(), x, y));
+    grid.z.push_back(rows[i][2]);
   }
-  if (parser.rows.size() == points) return grid;
-  const auto hole = static_cast<std::size_t>(std::find(known.begin(), known.end(), false) - known.begin());
-  return report(
-      fmt::format("{} places along times {} across make {} points, the file has {}: that at x = {:.6g} "
-                  "m, y = {:.6g} m is missing; resample the map to a grid",
-                  grid.x.size(), grid.y.size(), points, parser.rows.size(), grid.x[hole % grid.x.size()],
-                  grid.y[hole / grid.x.size()]));
+  if (rows.size() < grid.x.size() * grid.y.size())
+    return report(missing_point(grid, rows.size(), grid.x[rows.size() % grid.x.size()],
+                                grid.y[rows.size() / grid.x.size()]));
+  return grid;
 }
 
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules) {

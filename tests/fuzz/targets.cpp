@@ -102,6 +102,9 @@ void read_table(const std::string& bytes) {
       require(table.first.size() == table.second.size() && table.first.size() >= 2, "columns of a table");
     } catch (const Error&) {
     }
+  std::vector<Problem> problems;
+  const GridColumns grid = parse_grid(bytes, "map.csv", problems);
+  require(!problems.empty() || grid.z.size() == grid.x.size() * grid.y.size(), "points of a map");
 }
 
 /// In every format, as wheel and as rail.
@@ -191,7 +194,8 @@ std::vector<std::string> scene_seeds() {
 }
 
 std::vector<std::string> table_seeds() {
-  return {"# x [m]  d [mm]\n0 0\n0.01 0.02\n0.02, 0\n", "1;2\n3;4\n5;-6e-1 # end\n"};
+  return {"# x [m]  d [mm]\n0 0\n0.01 0.02\n0.02, 0\n", "1;2\n3;4\n5;-6e-1 # end\n",
+          "# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n"};
 }
 
 /// A wheel with a flange and a rail's head, in the formats.

@@ -72,10 +72,11 @@ TEST(SceneErrors, Names) {
       {"[motion]\ntraction = { mue = 0.3 }",
        "x.toml:4:14: motion.traction.mue: unknown key (did you mean motion.traction.mu?)"},
   });
-  expect_part(error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
-              "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
-              "highspeed-slab-2014-calibrated, highspeed-slab-2014-thin-web, ballasted-cn60, ballasted-60e1), got "
-              "the string");
+  expect_part(
+      error_of("[scene]\nbased_on = \"highspeed\"\n[motion]\nspeed = \"3 m/s\""),
+      "x.toml:2:1: scene.based_on: expected the name of a library entry (highspeed-slab-2014, "
+      "highspeed-slab-2014-calibrated, highspeed-slab-2014-thin-web, ballasted-cn60, ballasted-60e1), got "
+      "the string");
 }
 
 TEST(SceneErrors, Types) {
@@ -490,8 +491,11 @@ TEST_F(Files, MeasuredDepths) {
   expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n0,1,1\n"),
               "the point x = 0 m, y = 0.001 m stands twice");
   expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n2,0,1\n0,1,1\n1,1,3\n"),
-              "the file has 5: that at x = 0.002 m, y = 0.001 m is missing; resample the map to a grid");
-  EXPECT_EQ(map("# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n"), "accepted");
+              "3 places along times 2 across are not the 5 points of the file: that at x = 0.002 m, y = "
+              "0.001 m is missing");
+  expect_part(map("# x [mm], y [mm], d [um]\n0,0,1\n1,1,2\n2,2,1\n3,3,1\n4,4,3\n"),
+              "that at x = 0.001 m, y = 0 m is missing");
+  EXPECT_EQ(map("# x [mm], y [mm], d [um]\n1,1,3\n0,0,1\n1,0,2\n0,1,1\n"), "accepted");
   write("round.txt", "# angle [deg]  d [um]\n0 0\n90 20\n400 0\n");
   expect_part(
       scene_error(write("round.toml", kBase + "[surface.round]\nkind = \"profile\"\non = \"wheel\"\nat = "
