@@ -72,9 +72,9 @@ class Waves final : public DepthShape {
   }
   double first() const override { return 0; }
   double last() const override { return count_ * wave_; }
-  double highest() const override { return 0; }
-  double deepest() const override { return depth_; }
-  double steepest() const override { return kPi * depth_ / wave_; }
+  double highest() const override { return std::max(-depth_, 0.0); }
+  double deepest() const override { return std::max(depth_, 0.0); }
+  double steepest() const override { return kPi * std::abs(depth_) / wave_; }
 
  private:
   double depth_, wave_;

@@ -18,8 +18,8 @@ namespace {
 
 struct Place {
   double offset;  ///< rail centre line in wheel coordinates; 3.5 mm: the wheelset stands in the middle [m]
-  bool
-      between_places;  ///< two places of the profiles carry: the patch is no longer small against their radii
+  /// Two places of the profiles carry: the half-space is a doubtful reference [tried.md].
+  bool between_places;
 };
 constexpr std::array kPlaces = {Place{1e-3, true},  Place{2e-3, true},  Place{4e-3, false},
                                 Place{5e-3, false}, Place{6e-3, false}, Place{8e-3, false},

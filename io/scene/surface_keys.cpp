@@ -38,8 +38,9 @@ void add_surface(Keys& keys, const std::string& name) {
                                       "fit into"))));
   keys.push_back(with(
       {"dent"}, required(length(".width", shape, &SurfaceSpec::width, "mm", above(0, 0.2), "Width across"))));
-  keys.push_back(with({"dent", "map"}, length(".centre", {Effect::preload}, &SurfaceSpec::centre, "mm",
-                                              {-0.1, 0.1}, "y of the dent's middle, of the file's zero")));
+  keys.push_back(with({"dent", "map"},
+                      length(".centre", {Effect::preload}, &SurfaceSpec::centre, "mm", {-0.1, 0.1},
+                             "y of the dent's middle, of the file's zero, from the rail's centre line")));
   keys.push_back(
       with({"dip"}, choice(table + ".shape", shape, place(&SurfaceSpec::shape), {"smooth", "pointed"},
                            "One wave of a cosine, or two parabolas that meet at an angle of 8 depth "

@@ -32,6 +32,7 @@ std::vector<DepthShapePointer> all_shapes() {
           dip(-2e-4, 0.08, true),
           dent(1e-4, 0.05, 0.03, 2e-3),
           waves(1e-4, 0.02, 3),
+          waves(-2e-5, 0.013, 2),
           chord_flat(0.05, kRadius),
           measured_profile(some_x(), {1e-4, 0, -2e-5, 3e-5, 5e-5}),
           some_map()};
