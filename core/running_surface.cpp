@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -12,9 +13,19 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
+/// Bounds of a shape of one sign.
+DepthBounds bounds_of(double first, double last, double depth, double steepest) {
+  return {first, last, std::max(-depth, 0.0), std::max(depth, 0.0), steepest};
+}
+
 class Dip final : public DepthShape {
  public:
-  Dip(double depth, double length, bool pointed) : depth_(depth), half_(0.5 * length), pointed_(pointed) {}
+  Dip(double depth, double length, bool pointed)
+      : DepthShape(bounds_of(-0.5 * length, 0.5 * length, depth,
+                             (pointed ? 2 : 0.5 * kPi) * std::abs(depth) / (0.5 * length))),
+        depth_(depth),
+        half_(0.5 * length),
+        pointed_(pointed) {}
 
   SurfaceDepth at(double x, double /*y*/) const override {
     const double s = x / half_;
@@ -25,11 +36,6 @@ class Dip final : public DepthShape {
     const double side = s > 0 ? 1 : (s < 0 ? -1 : 0);
     return {depth_ * left * left, -side * 2 * depth_ / half_ * left, 0};
   }
-  double first() const override { return -half_; }
-  double last() const override { return half_; }
-  double highest() const override { return std::max(-depth_, 0.0); }
-  double deepest() const override { return std::max(depth_, 0.0); }
-  double steepest() const override { return (pointed_ ? 2 : 0.5 * kPi) * std::abs(depth_) / half_; }
 
  private:
   double depth_, half_;
@@ -39,7 +45,12 @@ class Dip final : public DepthShape {
 class Dent final : public DepthShape {
  public:
   Dent(double depth, double length, double width, double centre)
-      : depth_(depth), half_length_(0.5 * length), half_width_(0.5 * width), centre_(centre) {}
+      : DepthShape(bounds_of(-0.5 * length, 0.5 * length, depth,
+                             0.5 * kPi * std::abs(depth) / (0.5 * std::min(length, width)))),
+        depth_(depth),
+        half_length_(0.5 * length),
+        half_width_(0.5 * width),
+        centre_(centre) {}
 
   SurfaceDepth at(double x, double y) const override {
     const double s = x / half_length_;
@@ -49,13 +60,6 @@ class Dent final : public DepthShape {
     const double radial = r > 0 ? -0.5 * kPi * depth_ * std::sin(kPi * r) / r : 0;  // of the depth, over r
     return {0.5 * depth_ * (1 + std::cos(kPi * r)), radial * s / half_length_, radial * t / half_width_};
   }
-  double first() const override { return -half_length_; }
-  double last() const override { return half_length_; }
-  double highest() const override { return std::max(-depth_, 0.0); }
-  double deepest() const override { return std::max(depth_, 0.0); }
-  double steepest() const override {
-    return 0.5 * kPi * std::abs(depth_) / std::min(half_length_, half_width_);
-  }
 
  private:
   double depth_, half_length_, half_width_, centre_;
@@ -63,27 +67,23 @@ class Dent final : public DepthShape {
 
 class Waves final : public DepthShape {
  public:
-  Waves(double depth, double wavelength, int count) : depth_(depth), wave_(wavelength), count_(count) {}
+  Waves(double depth, double wavelength, int count)
+      : DepthShape(bounds_of(0, count * wavelength, depth, kPi * std::abs(depth) / wavelength)),
+        depth_(depth),
+        turn_(2 * kPi / wavelength) {}
 
   SurfaceDepth at(double x, double /*y*/) const override {
-    if (x <= 0 || x >= last()) return {};
-    const double turn = 2 * kPi / wave_;
-    return {0.5 * depth_ * (1 - std::cos(turn * x)), 0.5 * depth_ * turn * std::sin(turn * x), 0};
+    if (x <= 0 || x >= bounds().last) return {};
+    return {0.5 * depth_ * (1 - std::cos(turn_ * x)), 0.5 * depth_ * turn_ * std::sin(turn_ * x), 0};
   }
-  double first() const override { return 0; }
-  double last() const override { return count_ * wave_; }
-  double highest() const override { return std::max(-depth_, 0.0); }
-  double deepest() const override { return std::max(depth_, 0.0); }
-  double steepest() const override { return kPi * std::abs(depth_) / wave_; }
 
  private:
-  double depth_, wave_;
-  int count_;
+  double depth_, turn_;
 };
 
 class ChordFlat final : public DepthShape {
  public:
-  ChordFlat(double length, double radius) : radius_(radius), edge_(std::asin(0.5 * length / radius)) {}
+  ChordFlat(double length, double radius) : ChordFlat(radius, Edge{std::asin(0.5 * length / radius)}) {}
 
   SurfaceDepth at(double x, double /*y*/) const override {
     const double angle = x / radius_;
@@ -92,13 +92,17 @@ class ChordFlat final : public DepthShape {
     return {radius_ * (1 - std::cos(edge_) * secant), -std::cos(edge_) * std::sin(angle) * secant * secant,
             0};
   }
-  double first() const override { return -radius_ * edge_; }
-  double last() const override { return radius_ * edge_; }
-  double highest() const override { return 0; }
-  double deepest() const override { return radius_ * (1 - std::cos(edge_)); }
-  double steepest() const override { return std::tan(edge_); }
 
  private:
+  struct Edge {
+    double angle;  ///< [rad]
+  };
+  ChordFlat(double radius, Edge edge)
+      : DepthShape(bounds_of(-radius * edge.angle, radius * edge.angle, radius * (1 - std::cos(edge.angle)),
+                             std::tan(edge.angle))),
+        radius_(radius),
+        edge_(edge.angle) {}
+
   double radius_, edge_;
 };
 
@@ -108,44 +112,49 @@ SurfaceDepth on_line(const MonotoneCubic& line, double x) {
   return {line.value(inside), inside == x ? line.slope(x) : 0, 0};
 }
 
+/// Bounds of measured depths, but for their slope.
+DepthBounds bounds_of(const std::vector<double>& x, const std::vector<double>& depth, double steepest) {
+  const auto [low, high] = std::minmax_element(depth.begin(), depth.end());
+  return {x.front(), x.back(), std::max(-*low, 0.0), std::max(*high, 0.0), steepest};
+}
+
 class Profile final : public DepthShape {
  public:
-  Profile(std::vector<double> x, std::vector<double> depth)
-      : highest_(std::max(-*std::min_element(depth.begin(), depth.end()), 0.0)),
-        deepest_(std::max(*std::max_element(depth.begin(), depth.end()), 0.0)),
-        curve_(std::move(x), std::move(depth)) {}
+  Profile(const std::vector<double>& x, const std::vector<double>& depth)
+      : Profile(x, depth, MonotoneCubic(x, depth)) {}
 
   SurfaceDepth at(double x, double /*y*/) const override { return on_line(curve_, x); }
-  double first() const override { return curve_.first(); }
-  double last() const override { return curve_.last(); }
-  double highest() const override { return highest_; }
-  double deepest() const override { return deepest_; }
-  double steepest() const override { return curve_.steepest(); }
 
  private:
-  double highest_, deepest_;
+  Profile(const std::vector<double>& x, const std::vector<double>& depth, MonotoneCubic curve)
+      : DepthShape(bounds_of(x, depth, curve.steepest())), curve_(std::move(curve)) {}
+
   MonotoneCubic curve_;
 };
+
+/// Monotone cubics along x, by row of y.
+std::vector<MonotoneCubic> rows_of(const std::vector<double>& x, const std::vector<double>& depth) {
+  std::vector<MonotoneCubic> rows;
+  for (auto row = depth.begin(); row != depth.end(); row += static_cast<std::ptrdiff_t>(x.size()))
+    rows.emplace_back(x, std::vector<double>(row, row + static_cast<std::ptrdiff_t>(x.size())));
+  return rows;
+}
+
+double steepest_of(const std::vector<MonotoneCubic>& rows, const std::vector<double>& x,
+                   const std::vector<double>& y, const std::vector<double>& depth) {
+  double steepest = 0;
+  for (const MonotoneCubic& row : rows) steepest = std::max(steepest, row.steepest());
+  for (std::size_t i = x.size(); i < depth.size(); ++i) {
+    const std::size_t j = i / x.size();
+    steepest = std::max(steepest, std::abs(depth[i] - depth[i - x.size()]) / (y[j] - y[j - 1]));
+  }
+  return steepest;
+}
 
 class Map final : public DepthShape {
  public:
   Map(const std::vector<double>& x, std::vector<double> y, const std::vector<double>& depth, double centre)
-      : y_(std::move(y)) {
-    for (double& at : y_) at += centre;
-    for (std::size_t j = 0; j < y_.size(); ++j) {
-      const auto row = depth.begin() + static_cast<std::ptrdiff_t>(j * x.size());
-      rows_.emplace_back(x, std::vector<double>(row, row + static_cast<std::ptrdiff_t>(x.size())));
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        const double here = depth[j * x.size() + i];
-        deepest_ = std::max(deepest_, here);
-        highest_ = std::max(highest_, -here);
-        if (j > 0)
-          steepest_ =
-              std::max(steepest_, std::abs(here - depth[(j - 1) * x.size() + i]) / (y_[j] - y_[j - 1]));
-      }
-    }
-    for (const MonotoneCubic& row : rows_) steepest_ = std::max(steepest_, row.steepest());
-  }
+      : Map(x, std::move(y), depth, rows_of(x, depth), centre) {}
 
   SurfaceDepth at(double x, double y) const override {
     const double inside = std::clamp(y, y_.front(), y_.back());
@@ -157,16 +166,18 @@ class Map final : public DepthShape {
     return {(1 - t) * left.depth + t * right.depth, (1 - t) * left.along + t * right.along,
             inside == y ? (right.depth - left.depth) / (y_[j + 1] - y_[j]) : 0};
   }
-  double first() const override { return rows_.front().first(); }
-  double last() const override { return rows_.front().last(); }
-  double highest() const override { return highest_; }
-  double deepest() const override { return deepest_; }
-  double steepest() const override { return steepest_; }
 
  private:
+  Map(const std::vector<double>& x, std::vector<double> y, const std::vector<double>& depth,
+      std::vector<MonotoneCubic> rows, double centre)
+      : DepthShape(bounds_of(x, depth, steepest_of(rows, x, y, depth))),
+        y_(std::move(y)),
+        rows_(std::move(rows)) {
+    for (double& at : y_) at += centre;
+  }
+
   std::vector<double> y_;
   std::vector<MonotoneCubic> rows_;
-  double highest_ = 0, deepest_ = 0, steepest_ = 0;
 };
 
 }  // namespace
@@ -187,8 +198,8 @@ DepthShapePointer chord_flat(double length, double radius) {
   return std::make_shared<ChordFlat>(length, radius);
 }
 
-DepthShapePointer measured_profile(std::vector<double> x, std::vector<double> depth) {
-  return std::make_shared<Profile>(std::move(x), std::move(depth));
+DepthShapePointer measured_profile(const std::vector<double>& x, const std::vector<double>& depth) {
+  return std::make_shared<Profile>(x, depth);
 }
 
 DepthShapePointer measured_map(const std::vector<double>& x, std::vector<double> y,
@@ -197,16 +208,17 @@ DepthShapePointer measured_map(const std::vector<double>& x, std::vector<double>
 }
 
 void RunningSurface::add(DepthShapePointer shape, double at) {
-  steepest_ += shape->steepest();
+  steepest_ += shape->bounds().steepest;
   shapes_.push_back({std::move(shape), at});
 }
 
 double RunningSurface::room(double radius, double gap) const {
   double sum = 0;
   for (const auto& [shape, at] : shapes_) {
-    const double rise = radius * shape->steepest();
+    const DepthBounds& bounds = shape->bounds();
+    const double rise = radius * bounds.steepest;
     const double reach = rise + std::sqrt(rise * rise + 2 * radius * gap);  // where slope and circle part
-    sum += std::min(shape->deepest() + shape->highest(), shape->steepest() * reach);
+    sum += std::min(bounds.deepest + bounds.highest, bounds.steepest * reach);
   }
   return sum;
 }
@@ -217,7 +229,7 @@ SurfaceDepth RunningSurface::at(double x, double y) const {
     double from_zero = x - at;
     if (radius_ > 0) {
       const double period = 2 * kPi * radius_;
-      const double middle = 0.5 * (shape->first() + shape->last());
+      const double middle = 0.5 * (shape->bounds().first + shape->bounds().last);
       from_zero -= period * std::round((from_zero - middle) / period);
     }
     const SurfaceDepth one = shape->at(from_zero, y);
@@ -226,6 +238,21 @@ SurfaceDepth RunningSurface::at(double x, double y) const {
     sum.across += one.across;
   }
   return sum;
+}
+
+double traced_depth(const RunningSurface& rail, const RunningSurface& wheel, double wheel_radius, double x,
+                    double y) {
+  constexpr double kStep = 2e-4;  // [m]
+  const auto depth = [&](double s) { return rail.at(x + s, y).depth + wheel.at(x + s, y).depth; };
+  double least = depth(0);
+  // Beyond this distance the wheel's own circle is higher than any place that could carry it.
+  constexpr double kAnyGap = std::numeric_limits<double>::infinity();
+  const double range = rail.room(wheel_radius, kAnyGap) + wheel.room(wheel_radius, kAnyGap);
+  const double reach =
+      std::min(2 * wheel_radius * (rail.steepest() + wheel.steepest()), std::sqrt(2 * wheel_radius * range));
+  for (double s = kStep; s < reach + kStep; s += kStep)
+    for (const double at : {-s, s}) least = std::min(least, depth(at) + 0.5 * at * at / wheel_radius);
+  return least;
 }
 
 }  // namespace tread

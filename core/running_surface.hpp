@@ -16,21 +16,28 @@ struct SurfaceDepth {
   double across = 0;  ///< by the place across it [-]
 };
 
+/// Where a shape of depth lies, and how far it reaches.
+struct DepthBounds {
+  double first = 0, last = 0;  ///< beginning and end along the surface [m]
+  double highest = 0;          ///< bound of the height above the smooth surface, 0 or more [m]
+  double deepest = 0;          ///< bound of the depth, 0 or more [m]
+  double steepest = 0;         ///< bound of the derivatives' sizes [-]
+};
+
 /// One shape of depth. x counts along the surface from the shape's own zero, y across from the surface's
 /// middle [m].
 class DepthShape {
  public:
-  DepthShape() = default;
+  explicit DepthShape(const DepthBounds& bounds) : bounds_(bounds) {}
   DepthShape(const DepthShape&) = delete;
   DepthShape& operator=(const DepthShape&) = delete;
   virtual ~DepthShape() = default;
 
   virtual SurfaceDepth at(double x, double y) const = 0;
-  virtual double first() const = 0;     ///< where the shape begins [m]
-  virtual double last() const = 0;      ///< where it ends [m]
-  virtual double highest() const = 0;   ///< bound of the height above the smooth surface, 0 or more [m]
-  virtual double deepest() const = 0;   ///< bound of the depth, 0 or more [m]
-  virtual double steepest() const = 0;  ///< bound of the derivatives' sizes [-]
+  const DepthBounds& bounds() const { return bounds_; }
+
+ private:
+  DepthBounds bounds_;
 };
 
 using DepthShapePointer = std::shared_ptr<const DepthShape>;
@@ -49,7 +56,7 @@ DepthShapePointer waves(double depth, double wavelength, int count);
 DepthShapePointer chord_flat(double length, double radius);
 
 /// Measured depths along the surface [m], the same across. Beyond the ends the depth stays.
-DepthShapePointer measured_profile(std::vector<double> x, std::vector<double> depth);
+DepthShapePointer measured_profile(const std::vector<double>& x, const std::vector<double>& depth);
 
 /// Measured depths at all pairs of x and y, by row of y: depth[j * x.size() + i] belongs to (x[i], y[j] +
 /// `centre`) [m]. Monotone cubics along, straight across. Beyond the ends the depth stays.
@@ -85,5 +92,10 @@ class RunningSurface {
   double radius_, start_;
   double steepest_ = 0;
 };
+
+/// Depth by which a rigid round wheel at x runs lower for the depths of both surfaces: it rolls on the
+/// highest places about x, at y across [m].
+double traced_depth(const RunningSurface& rail, const RunningSurface& wheel, double wheel_radius, double x,
+                    double y);
 
 }  // namespace tread

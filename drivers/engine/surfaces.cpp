@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -34,7 +33,10 @@ Measured measured(const SurfaceSpec& spec, double radius) {
   return closed;
 }
 
-DepthShapePointer shape_of(const SurfaceSpec& spec, double radius) {
+}  // namespace
+
+DepthShapePointer shape_of(const Scene& scene, const SurfaceSpec& spec) {
+  const double radius = scene.wheel ? 0.5 * scene.wheel->diameter : 0;
   if (spec.kind == "dent") return dent(spec.depth, spec.length, spec.width, spec.centre);
   if (spec.kind == "waves")
     return waves(spec.depth, spec.wavelength, static_cast<int>(spec.length / spec.wavelength + 1e-9));
@@ -49,11 +51,13 @@ DepthShapePointer shape_of(const SurfaceSpec& spec, double radius) {
   return dip(spec.depth, spec.length, spec.shape == "pointed");
 }
 
+namespace {
+
 RunningSurface surface_of(const Scene& scene, bool wheel) {
-  const double radius = scene.wheel ? 0.5 * scene.wheel->diameter : 0;
-  RunningSurface surface = wheel ? RunningSurface(radius, scene.start_x()) : RunningSurface();
+  RunningSurface surface =
+      wheel && scene.wheel ? RunningSurface(0.5 * scene.wheel->diameter, scene.start_x()) : RunningSurface();
   for (const auto& [name, spec] : scene.surfaces)
-    if (spec.on_wheel() == wheel) surface.add(shape_of(spec, radius), spec.at);
+    if (spec.on_wheel() == wheel) surface.add(shape_of(scene, spec), spec.at);
   return surface;
 }
 
@@ -68,9 +72,8 @@ RunningSurface wheel_surface(const Scene& scene) {
 }
 
 std::vector<Span> places_of(const Scene& scene, const SurfaceSpec& spec, const Span& way) {
-  const double radius = scene.wheel ? 0.5 * scene.wheel->diameter : 0;
-  const DepthShapePointer shape = shape_of(spec, radius);
-  const Span once{spec.at + shape->first(), spec.at + shape->last()};
+  const DepthBounds bounds = shape_of(scene, spec)->bounds();
+  const Span once{spec.at + bounds.first, spec.at + bounds.last};
   std::vector<Span> places;
   const auto add = [&](double shift) {
     const Span place{std::max(once.first + shift, way.first), std::min(once.last + shift, way.last)};
@@ -80,25 +83,10 @@ std::vector<Span> places_of(const Scene& scene, const SurfaceSpec& spec, const S
     add(0);
     return places;
   }
-  const double turn = 2 * std::numbers::pi * radius;
+  const double turn = std::numbers::pi * scene.wheel->diameter;
   const auto last = static_cast<int>(std::floor((way.last - once.first) / turn));
   for (auto i = static_cast<int>(std::ceil((way.first - once.last) / turn)); i <= last; ++i) add(i * turn);
   return places;
-}
-
-double traced_depth(const RunningSurface& rail, const RunningSurface& wheel, double wheel_radius, double x,
-                    double y) {
-  constexpr double kStep = 2e-4;  // [m]
-  const auto depth = [&](double s) { return rail.at(x + s, y).depth + wheel.at(x + s, y).depth; };
-  double least = depth(0);
-  // Beyond this distance the wheel's own circle is higher than any place that could carry it.
-  constexpr double kAnyGap = std::numeric_limits<double>::infinity();
-  const double range = rail.room(wheel_radius, kAnyGap) + wheel.room(wheel_radius, kAnyGap);
-  const double reach =
-      std::min(2 * wheel_radius * (rail.steepest() + wheel.steepest()), std::sqrt(2 * wheel_radius * range));
-  for (double s = kStep; s < reach + kStep; s += kStep)
-    for (const double at : {-s, s}) least = std::min(least, depth(at) + 0.5 * at * at / wheel_radius);
-  return least;
 }
 
 }  // namespace tread

@@ -9,6 +9,9 @@
 
 namespace tread {
 
+/// The shape that a table states, about its own zero.
+DepthShapePointer shape_of(const Scene& scene, const SurfaceSpec& spec);
+
 /// Depths on the rail besides the corrugation; x as in the scene.
 RunningSurface rail_surface(const Scene& scene);
 
@@ -18,10 +21,5 @@ RunningSurface wheel_surface(const Scene& scene);
 /// Places along the rail, within `way`, where the shape of that name lies, or where a wheel's shape meets the
 /// rail; a wheel's once a turn.
 std::vector<Span> places_of(const Scene& scene, const SurfaceSpec& spec, const Span& way);
-
-/// How much lower a rigid round wheel at x runs for the depths of both surfaces but the corrugation: it rolls
-/// on the highest places about x, at y across [m].
-double traced_depth(const RunningSurface& rail, const RunningSurface& wheel, double wheel_radius, double x,
-                    double y);
 
 }  // namespace tread

@@ -33,21 +33,16 @@ std::string disk_text(const Model& model, const DiskUse& disk) {
   return text + fmt::format("{} more for checkpoints while it runs", bytes_text(disk.checkpoints));
 }
 
-/// What the shape is and where it meets the rail, "0.73 mm deep, at x = 0.875 to 0.925 m".
+/// A shape's depths and where it meets the rail, "flat on the wheel, depths of 0 to 0.73 mm, x = 0.875 to
+/// 0.925 m".
 std::string surface_text(const Scene& scene, const std::string& name, const SurfaceSpec& spec) {
-  const RunningSurface surface = spec.on_wheel() ? wheel_surface(scene) : rail_surface(scene);
-  std::string text = fmt::format("{}: {} on the {}, ", name, spec.kind, spec.on_wheel() ? "wheel" : "rail");
+  const DepthBounds bounds = shape_of(scene, spec)->bounds();
+  std::string text =
+      fmt::format("{}: {} on the {}, depths of {:.4g} to {:.4g} mm, ", name, spec.kind,
+                  spec.on_wheel() ? "wheel" : "rail", -1e3 * bounds.highest + 0.0, 1e3 * bounds.deepest);
   const std::vector<Span> places = places_of(scene, spec, run_span(scene));
   if (places.empty()) return text + "which the run does not meet";
-  double least = 0;
-  double most = 0;
-  for (const Span& place : places)
-    for (int i = 0; i <= 400; ++i) {
-      const double depth = surface.at(place.first + (place.last - place.first) * i / 400, spec.centre).depth;
-      least = std::min(least, depth);
-      most = std::max(most, depth);
-    }
-  text += fmt::format("depths of {:.4g} to {:.4g} mm there, x =", 1e3 * least, 1e3 * most);
+  text += "x =";
   for (const Span& place : places)
     text +=
         fmt::format("{} {:.4g} to {:.4g} m", &place == &places.front() ? "" : ",", place.first, place.last);

@@ -84,7 +84,7 @@ class Contact {
 
   /// Height of the wheel's axis at which its undeformed surface touches the smooth rail [m].
   double touching_height() const { return search_.touching_height(); }
-  /// How much lower it touches over x [m] at the start for the depths of both surfaces but the corrugation
+  /// Depth by which it touches lower over its start x [m] for the depths of both surfaces but the corrugation
   /// [m].
   double touching_depth(double x) const { return search_.touching_depth(x); }
 

@@ -78,21 +78,14 @@ void ContactSearch::choose_edges() {
 }
 
 double ContactSearch::touching_depth(double wheel_x) const {
-  constexpr double kStep = 1e-4;  // [m]
   const RunningSurface& rail = surfaces_.rail_depth();
   const RunningSurface& wheel = surfaces_.wheel_depth();
   if (rail.smooth() && wheel.smooth()) return 0;
   double least = std::numeric_limits<double>::infinity();
-  const auto steps = static_cast<int>(reach() / kStep);
-  for (int i = -steps; i <= steps; ++i) {
-    const double x = i * kStep;
-    const double circle = 0.5 * x * x / options_.wheel_radius;
-    for (int edge = first_edge_; edge < last_edge_; ++edge) {
-      const double y = surfaces_.rail_profile().evaluate(edge, 0.5, options_.surface).p;
-      least = std::min(least, lateral_gap_[static_cast<std::size_t>(edge)] + circle +
-                                  rail.at(wheel_x + x, y).depth +
-                                  wheel.around(-x / options_.wheel_radius, y).depth);
-    }
+  for (int edge = first_edge_; edge < last_edge_; ++edge) {
+    const double y = surfaces_.rail_profile().evaluate(edge, 0.5, options_.surface).p;
+    least = std::min(least, lateral_gap_[static_cast<std::size_t>(edge)] +
+                                traced_depth(rail, wheel, options_.wheel_radius, wheel_x, y));
   }
   return least;
 }

@@ -54,8 +54,8 @@ class ContactSearch {
   double reach() const;
   /// Height of the wheel's axis at which the undeformed wheel touches the smooth rail [m].
   double touching_height() const { return touching_height_; }
-  /// How much lower the undeformed wheel touches over `wheel_x` [m], turned by no angle, for the depths of
-  /// both surfaces but the corrugation [m].
+  /// Depth by which the undeformed wheel touches lower over `wheel_x` [m], its start, for the depths of both
+  /// surfaces but the corrugation [m].
   double touching_depth(double wheel_x) const;
 
   const SurfacePair& surfaces() const { return surfaces_; }

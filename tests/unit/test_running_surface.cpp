@@ -48,18 +48,18 @@ TEST(RunningSurface, SlopesAreThoseOfTheDepths) {
         const double across = (shape->at(x, y + kStep).depth - shape->at(x, y - kStep).depth) / (2 * kStep);
         EXPECT_NEAR(here.along, along, 2e-6) << x << " " << y;
         EXPECT_NEAR(here.across, across, 2e-6) << x << " " << y;
-        EXPECT_LE(here.depth, shape->deepest() + 1e-12);
-        EXPECT_GE(here.depth, -shape->highest() - 1e-12);
-        EXPECT_LE(std::abs(here.along), shape->steepest() * (1 + 1e-9));
+        EXPECT_LE(here.depth, shape->bounds().deepest + 1e-12);
+        EXPECT_GE(here.depth, -shape->bounds().highest - 1e-12);
+        EXPECT_LE(std::abs(here.along), shape->bounds().steepest * (1 + 1e-9));
       }
 }
 
 TEST(RunningSurface, ChordIsStraight) {
   const DepthShapePointer flat = chord_flat(0.06, kRadius);
-  EXPECT_NEAR(flat->deepest(), kRadius - std::sqrt(kRadius * kRadius - 0.03 * 0.03), 1e-15);
+  EXPECT_NEAR(flat->bounds().deepest, kRadius - std::sqrt(kRadius * kRadius - 0.03 * 0.03), 1e-15);
   for (const double x : {0.0, 0.004, -0.021, 0.0299}) {
     const double radius = kRadius - flat->at(x, 0).depth;
-    EXPECT_NEAR(radius * std::cos(x / kRadius), kRadius - flat->deepest(), 1e-15);
+    EXPECT_NEAR(radius * std::cos(x / kRadius), kRadius - flat->bounds().deepest, 1e-15);
   }
 }
 
