@@ -44,13 +44,14 @@ double shortest_wave(const CorrugationSpec& corrugation) {
   return corrugation.kind == "random" ? corrugation.shortest : corrugation.wavelength;
 }
 
-std::string wave_warning(const CorrugationSpec& corrugation, double element) {
-  const double wave = shortest_wave(corrugation);
-  if (wave / element >= kElementsOfWave) return "";
+/// Sentence where a length has too few elements; `part`: what to resolve.
+std::string length_warning(const std::string& what, double length, double element, const char* part) {
+  if (length / element >= kElementsOfWave) return "";
   return fmt::format(
-      "a wave of the corrugation has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, "
-      "forces are off by several per cent; scene.element_size = \"{:.2g} mm\" resolves the wave",
-      wave / element, 1e3 * wave, 1e3 * element, kElementsOfWave, 1e3 * wave / kElementsOfWave);
+      "{} has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, "
+      "forces are off by several per cent; scene.element_size = \"{:.2g} mm\" resolves {}",
+      what, length / element, 1e3 * length, 1e3 * element, kElementsOfWave, 1e3 * length / kElementsOfWave,
+      part);
 }
 
 std::string slope_warning(const CorrugationSpec& corrugation) {
@@ -100,14 +101,7 @@ std::string surface_warning(const Model& model, const std::string& name, const S
           name, places.front().first, places.front().last, zone.first, zone.last, name);
   }
   const std::optional<double> length = shortest_length(spec, model.wheel_radius());
-  const double element = model.sizes.contact;
-  if (!length || *length / element >= kElementsOfWave) return "";
-  return fmt::format(
-      "surface.{} has {:.1f} elements ({:.3g} mm on elements of {:.3g} mm): below {:g}, forces are off by "
-      "several "
-      "per cent; scene.element_size = \"{:.2g} mm\" resolves it",
-      name, *length / element, 1e3 * *length, 1e3 * element, kElementsOfWave,
-      1e3 * *length / kElementsOfWave);
+  return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
 }
 
 }  // namespace
@@ -126,7 +120,8 @@ std::vector<std::string> resolution_warnings(const Model& model) {
       corrugation && corrugation->kind == "table") {
     warnings.push_back(step_warning(*corrugation));
   } else if (corrugation) {
-    warnings.push_back(wave_warning(*corrugation, model.sizes.contact));
+    warnings.push_back(length_warning("a wave of the corrugation", shortest_wave(*corrugation),
+                                      model.sizes.contact, "the wave"));
     warnings.push_back(slope_warning(*corrugation));
   }
   for (const auto& [name, spec] : model.scene.surfaces)
