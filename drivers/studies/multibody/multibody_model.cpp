@@ -148,40 +148,34 @@ std::string track_difference(const MultibodyModel& here, const MultibodyModel& t
   compare("the rail's E I", " N m2", here.rail.bending_stiffness, there.rail.bending_stiffness);
   compare("the rail's kappa G A", " N", here.rail.shear_stiffness, there.rail.shear_stiffness);
   compare("the rail's mass", " kg/m", here.rail.mass, there.rail.mass);
-  const auto count = [](const MultibodyModel& one) { return static_cast<double>(one.supports.size()); };
-  compare("the number of fastenings", "", count(here), count(there));
-  for (std::size_t i = 0; i < std::min(here.supports.size(), there.supports.size()); ++i) {
-    const BeamSupport& ours = here.supports[i];
-    const BeamSupport& theirs = there.supports[i];
+  const auto compare_number = [&](const char* name, const auto& ours, const auto& theirs) {
+    compare(name, "", static_cast<double>(ours.size()), static_cast<double>(theirs.size()));
+  };
+  const auto compare_each = [](const auto& ours, const auto& theirs, const auto& one) {
+    for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i) one(ours[i], theirs[i]);
+  };
+  compare_number("the number of fastenings", here.supports, there.supports);
+  compare_each(here.supports, there.supports, [&](const BeamSupport& ours, const BeamSupport& theirs) {
     compare("a fastening's x", " m", ours.x, theirs.x);
     compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
     compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
-  }
-  compare("the number of sleepers", "", static_cast<double>(here.sleepers.size()),
-          static_cast<double>(there.sleepers.size()));
-  for (std::size_t i = 0; i < std::min(here.sleepers.size(), there.sleepers.size()); ++i) {
-    const SleeperSupport& ours = here.sleepers[i];
-    const SleeperSupport& theirs = there.sleepers[i];
+  });
+  compare_number("the number of sleepers", here.sleepers, there.sleepers);
+  compare_each(here.sleepers, there.sleepers, [&](const SleeperSupport& ours, const SleeperSupport& theirs) {
     compare("a sleeper's x", " m", ours.x, theirs.x);
     compare("a pad's stiffness", " N/m", ours.stiffness, theirs.stiffness);
     compare("a pad's damping", " N s/m", ours.damping, theirs.damping);
     compare("a sleeper's mass", " kg", ours.sleeper.mass, theirs.sleeper.mass);
     compare("a bed's stiffness", " N/m", ours.sleeper.stiffness, theirs.sleeper.stiffness);
     compare("a bed's damping", " N s/m", ours.sleeper.damping, theirs.sleeper.damping);
-  }
-  const auto along = [&](const char* name, const auto& of) {
-    compare(name, "", static_cast<double>(of(here).size()), static_cast<double>(of(there).size()));
-  };
-  along("the number of places where the foot is held along x",
-        [](const MultibodyModel& one) { return one.foot_holds; });
-  along("the number of the foot's springs along x",
-        [](const MultibodyModel& one) { return one.foot_supports; });
-  for (std::size_t i = 0; i < std::min(here.foot_supports.size(), there.foot_supports.size()); ++i) {
-    const BeamSupport& ours = here.foot_supports[i];
-    const BeamSupport& theirs = there.foot_supports[i];
-    compare("a fastening's stiffness along x", " N/m", ours.stiffness, theirs.stiffness);
-    compare("a fastening's damping along x", " N s/m", ours.damping, theirs.damping);
-  }
+  });
+  compare_number("the number of places where the foot is held along x", here.foot_holds, there.foot_holds);
+  compare_number("the number of the foot's springs along x", here.foot_supports, there.foot_supports);
+  compare_each(here.foot_supports, there.foot_supports,
+               [&](const BeamSupport& ours, const BeamSupport& theirs) {
+                 compare("a fastening's stiffness along x", " N/m", ours.stiffness, theirs.stiffness);
+                 compare("a fastening's damping along x", " N s/m", ours.damping, theirs.damping);
+               });
   return first;
 }
 
