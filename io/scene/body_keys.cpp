@@ -153,8 +153,7 @@ void add_rail(Keys& keys) {
   keys.push_back(quantity("rail.length", {Effect::mesh}, at(&Scene::rail, &RailSpec::length), kLength, "m",
                           above(0, 1000), "Length of the rail"));
   keys.push_back(quantity("rail.origin", {Effect::mesh}, at(&Scene::rail, &RailSpec::origin), kLength, "m",
-                          from(0, 1000),
-                          "Distance of x = 0 from the rail's left end"));
+                          from(0, 1000), "Distance of x = 0 from the rail's left end"));
   keys.push_back(choice("rail.support", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::support),
                         {"fastenings", "rigid", "free"},
                         "Support of the rail: fastenings, a fixed bottom, or none"));

@@ -93,9 +93,9 @@ Keys make_keys(const TableNames& names) {
   add_contact(keys);
   add_motion(keys);
   add_corrugation(keys);
-  for (const std::string& name : names.surfaces) add_surface(keys, name);
   add_wear(keys);
   add_impacts(keys);
+  for (const std::string& name : names.surfaces) add_surface(keys, name);
   for (const std::string& name : names.probes) add_probe(keys, name);
   add_output(keys);
   for (const SceneTable& table : make_tables(names))
@@ -193,10 +193,8 @@ std::vector<SceneTable> make_tables(const TableNames& names) {
                 "A kept state, from which runs over other corrugations begin. "
                 "[Long runs](../explanation/long-runs.md)"),
   };
-  for (const SceneTable& table : others) {
-    if (table.name == "wear") add_named(tables, kSurfaceTables, names.surfaces);
-    tables.push_back(table);
-  }
+  tables.insert(tables.end(), others.begin(), others.end());
+  add_named(tables, kSurfaceTables, names.surfaces);
   add_named(tables, kProbeTables, names.probes);
   tables.push_back(always("output", "Intervals of samples, progress lines, checkpoints and frames."));
   tables.push_back(

@@ -384,10 +384,10 @@ class Checker {
               fmt::format(
                   "a chord of {:.4g} mm on a wheel of {:.4g} mm is no flat; state at most half the diameter",
                   1e3 * surface.length, 1e3 * diameter));
-    const double length = surface.kind == "profile" || surface.kind == "map"
-                              ? (surface.file_x.empty() ? 0 : surface.file_x.back() - surface.file_x.front())
-                              : (surface.kind == "polygon" ? 0 : surface.length);
-    require(length <= turn * (1 + 1e-6), {table + (surface.file_x.empty() ? ".length" : ".file"), table},
+    const bool measured = surface.kind == "profile" || surface.kind == "map";
+    if (surface.kind == "polygon" || (measured && surface.file_x.empty())) return;
+    const double length = measured ? surface.file_x.back() - surface.file_x.front() : surface.length;
+    require(length <= turn * (1 + 1e-6), {table + (measured ? ".file" : ".length"), table},
             fmt::format("the depth is {:.6g} m long, the wheel's circumference {:.6g} m", length, turn));
   }
 
@@ -400,27 +400,6 @@ class Checker {
 
 std::vector<SceneProblem> validate(const Scene& scene) {
   return Checker(scene).run();
-}
-
-std::vector<std::string> idle_materials(const Scene& scene) {
-  std::set<std::string> used;
-  for (const MaterialUse& use : material_uses(scene)) {
-    if (!scene.materials.contains(use.name)) return {};
-    used.insert(use.name);
-  }
-  std::vector<std::string> idle;
-  for (const auto& [name, material] : scene.materials)
-    if (!used.contains(name)) idle.push_back(name);
-  return idle;
-}
-
-std::string why_idle(const Scene& scene, const std::string& material) {
-  const std::string user = usual_user(material);
-  if (!user.empty() && !table_of(user)->exists(scene)) return fmt::format("has no effect without [{}]", user);
-  std::string uses;
-  for (const MaterialUse& use : material_uses(scene))
-    uses += fmt::format("{}{} = \"{}\"", uses.empty() ? "" : ", ", use.key, use.name);
-  return fmt::format("has no effect, because no part is of it; the parts state {}", uses);
 }
 
 }  // namespace tread

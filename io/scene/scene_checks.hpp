@@ -17,11 +17,4 @@ struct SceneProblem {
 /// another. Checks across keys leave out those whose own value is already wrong.
 std::vector<SceneProblem> validate(const Scene& scene);
 
-/// Names of the materials that no part is of; none where a part names a material that the scene lacks: one of
-/// them may be meant.
-std::vector<std::string> idle_materials(const Scene& scene);
-
-/// Why a material without a part has no effect, and what would give it one.
-std::string why_idle(const Scene& scene, const std::string& material);
-
 }  // namespace tread

@@ -12,12 +12,13 @@
 
 #include "core/error.hpp"
 #include "io/scene/field_text.hpp"
-#include "io/scene/map_file.hpp"
+#include "io/scene/idle_materials.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/surface_file.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/scene/toml_text.hpp"
 #include "io/scene/toml_value.hpp"
@@ -273,32 +274,16 @@ class SceneBuilder {
     if (scene_.corrugation && scene_.corrugation->kind == "table")
       read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
                    scene_.corrugation->table_depth);
-    for (auto& [name, surface] : scene_.surfaces) read_surface(std::string(kSurfaceTables) + name, surface);
+    const double wheel_radius = scene_.wheel ? 0.5 * scene_.wheel->diameter : 0;
+    for (auto& [table, surface] : scene_.surfaces) {
+      const auto read = [&, &of = surface](const std::string& text, const std::string& name) {
+        set_depths(text, name, wheel_radius, of, problems_);
+      };
+      read_file_of(std::string(kSurfaceTables) + table + ".file", read,
+                   surface.kind == "map" ? read_map_text : read_table_text);
+    }
     if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
-  }
-
-  /// The measured depths of a running surface.
-  void read_surface(const std::string& table, SurfaceSpec& surface) {
-    const std::string key = table + ".file";
-    if (surface.kind == "map") {
-      const auto read = [&](const std::string& text, const std::string& name) {
-        GridColumns grid = parse_grid(text, name, problems_);
-        surface.file_x = std::move(grid.x);
-        surface.file_y = std::move(grid.y);
-        surface.file_depth = std::move(grid.z);
-      };
-      read_file_of(key, read, read_map_text);
-    } else if (surface.kind == "profile") {
-      read_file_of(key, [&](const std::string& text, const std::string& name) {
-        const TableRules rules{.needs_units = true, .increasing = true, .angle_first = surface.on_wheel()};
-        TwoColumns columns = parse_two_columns(text, name, rules, problems_);
-        if (columns.angles && scene_.wheel)
-          for (double& x : columns.first) x *= 0.5 * scene_.wheel->diameter;
-        surface.file_x = std::move(columns.first);
-        surface.file_depth = std::move(columns.second);
-      });
-    }
   }
 
   /// The profile that the key names, if it names a file.

@@ -1,4 +1,4 @@
-#include "io/scene/map_file.hpp"
+#include "io/scene/surface_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -61,6 +62,23 @@ std::string text_of(const Hdf5File& file) {
 
 std::string read_map_text(const std::filesystem::path& path) {
   return is_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
+}
+
+void set_depths(const std::string& text, const std::string& name, double wheel_radius, SurfaceSpec& surface,
+                std::vector<Problem>& problems) {
+  if (surface.kind == "map") {
+    GridColumns grid = parse_grid(text, name, problems);
+    surface.file_x = std::move(grid.x);
+    surface.file_y = std::move(grid.y);
+    surface.file_depth = std::move(grid.z);
+    return;
+  }
+  const TableRules rules{.needs_units = true, .increasing = true, .angle_first = surface.on_wheel()};
+  TwoColumns columns = parse_two_columns(text, name, rules, problems);
+  if (columns.angles)
+    for (double& x : columns.first) x *= wheel_radius;
+  surface.file_x = std::move(columns.first);
+  surface.file_depth = std::move(columns.second);
 }
 
 }  // namespace tread

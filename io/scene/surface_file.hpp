@@ -1,8 +1,12 @@
 #pragma once
-// Measured depths over a surface, from text or HDF5.
+// Measured depths of a running surface, from text or HDF5.
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "core/scene.hpp"
+#include "io/scene/problems.hpp"
 
 namespace tread {
 
@@ -10,5 +14,10 @@ namespace tread {
 /// HDF5 file holds `x`, `y` and `depth`, the last with a row for each y; the attribute `unit` of each states
 /// its unit (without it: m). Throws InputError.
 std::string read_map_text(const std::filesystem::path& path);
+
+/// Takes the depths of the shape, of a profile or a map, from a file's text. `wheel_radius` turns angles into
+/// lengths [m]. Every bad line is added to `problems`.
+void set_depths(const std::string& text, const std::string& name, double wheel_radius, SurfaceSpec& surface,
+                std::vector<Problem>& problems);
 
 }  // namespace tread
