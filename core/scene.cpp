@@ -34,6 +34,16 @@ ElasticPair Scene::elastic_pair() const {
           {of_rail.youngs_modulus, of_rail.poissons_ratio}};
 }
 
+SupportSpec Scene::support(int fastening) const {
+  for (const auto& [name, support] : supports)
+    if (support.fastening == fastening + 1) return support;
+  return {.fastening = fastening + 1};
+}
+
+double Scene::fastening_x(int fastening) const {
+  return fastenings->first + fastening * fastenings->spacing + support(fastening).shift - rail->origin;
+}
+
 std::string Scene::material_names() const {
   std::string names;
   for (const auto& [name, material] : materials) names += (names.empty() ? "" : ", ") + name;

@@ -87,8 +87,6 @@ struct FasteningSpec {
   /// spring-dampers.
   std::string held_at = "pad";
 
-  /// x of the middle of a fastening, from the rail's left end [m]
-  double position(int fastening) const { return first + fastening * spacing; }
   /// Distance of a column from the middle of its fastening [m].
   double column_offset(int column) const { return pad_length * ((column + 0.5) / columns - 0.5); }
   /// Distance of a row from the middle of the foot [m].
@@ -119,7 +117,16 @@ struct SleeperSpec {
   double offset = -0.1;               ///< y of the half's middle from the rail's centre line [m]
   double stiffness = 50e6;            ///< of the bed under the half, vertical [N/m]
   double damping = 50e3;              ///< of the bed under the half, vertical [N s/m]
-  int hanging = 0;                    ///< the sleeper without a bed, counted along x from 1; 0: none
+};
+
+/// [support.NAME]: one fastening, and the sleeper under it, that differs from the others
+struct SupportSpec {
+  int fastening = 1;     ///< counted along x from 1
+  double shift = 0;      ///< of fastening and sleeper along x [m]
+  double stiffness = 1;  ///< of the fastening, vertical, over that of the others [-]
+  double damping = 1;    ///< likewise [-]
+  double bed = 1;        ///< stiffness and damping of the sleeper's bed over those of the others [-]
+  bool holds = true;     ///< the rail's foot along and across, as the others do
 };
 
 /// [vehicle]
@@ -318,6 +325,7 @@ struct Scene {
   std::optional<FasteningSpec> fastenings;
   std::optional<SlabSpec> slab_track;
   std::optional<SleeperSpec> sleepers;
+  std::map<std::string, SupportSpec, std::less<>> supports;  ///< by name; of different fastenings
   std::optional<VehicleSpec> vehicle;
   std::optional<LoadSpec> load;
   std::optional<ContactSpec> contact;
@@ -340,6 +348,11 @@ struct Scene {
   ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
+
+  /// What [support.NAME] states for a fastening, counted from 0; where none does, an unaltered support.
+  SupportSpec support(int fastening) const;
+  /// x of the middle of a fastening, counted from 0, negative before the rail [m]. With [rail], [fastenings].
+  double fastening_x(int fastening) const;
 
   /// x of the wheel at t = 0 and in the static state [m].
   double start_x() const { return motion && motion->run_up ? zone_start - *motion->run_up : 0; }

@@ -74,8 +74,7 @@ void each_spring_damper(const Scene& scene, const SweptBlock& rail, const Act& a
   for (int i = 0; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       for (int row = 0; row < f.rows; ++row)
-        act(static_cast<std::size_t>(i), f.position(i) + f.column_offset(column) - scene.rail->origin,
-            middle + f.row_offset(row));
+        act(i, scene.fastening_x(i) + f.column_offset(column), middle + f.row_offset(row));
 }
 
 /// Indices of the values within `reach` of `at`; where there are none, that of the nearest.
@@ -98,13 +97,17 @@ std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const
   const FasteningSpec& f = *scene.fastenings;
   const int groups = f.columns * f.rows;
   std::vector<SpringDampers::Element> elements;
-  each_spring_damper(scene, rail, [&](std::size_t i, double x, double y) {
+  each_spring_damper(scene, rail, [&](int i, double x, double y) {
+    const SupportSpec own = scene.support(i);
+    const SweptBlock* under = below[static_cast<std::size_t>(i)];
     const Attachment foot = attach(rail, "foot", x, y);
-    const Attachment support = below[i] ? attach(*below[i], "top", x, y) : Attachment{};
-    elements.push_back({foot, support, f.stiffness / groups, f.damping / groups, 2});
+    const Attachment support = under ? attach(*under, "top", x, y) : Attachment{};
+    elements.push_back(
+        {foot, support, own.stiffness * f.stiffness / groups, own.damping * f.damping / groups, 2});
+    const double share = own.holds ? 1.0 / groups : 0;
     for (const auto& [component, hold] : {std::pair(0, &f.along), std::pair(1, &f.across)})
       if (hold->kind == "elastic")
-        elements.push_back({foot, {}, hold->stiffness / groups, hold->damping / groups, component});
+        elements.push_back({foot, {}, share * hold->stiffness, share * hold->damping, component});
   });
   return elements;
 }
@@ -116,11 +119,12 @@ std::size_t elements_of_fastening(const FasteningSpec& f) {
   return directions * static_cast<std::size_t>(f.columns * f.rows);
 }
 
-std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, const SweptBlock& sleeper) {
+std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double share,
+                                                 const SweptBlock& sleeper) {
   const std::vector<int>& bottom = sleeper.section.paths.at("bottom");
   const std::size_t columns = bottom.size() - 1;
   const double middle = 0.5 * (sleeper.stations.front() + sleeper.stations.back());
-  const double count = 2 * static_cast<double>(columns);
+  const double part = share / (2 * static_cast<double>(columns));
   std::vector<SpringDampers::Element> elements;
   for (std::size_t i = 0; i < columns; ++i) {
     const double y = 0.5 * (sleeper.section.p[static_cast<std::size_t>(bottom[i])] +
@@ -128,8 +132,8 @@ std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, const 
     for (const double side : {-0.25, 0.25})
       elements.push_back({attach(sleeper, "bottom", middle + side * spec.width, y),
                           {},
-                          spec.stiffness / count,
-                          spec.damping / count,
+                          part * spec.stiffness,
+                          part * spec.damping,
                           2});
   }
   return elements;
@@ -150,13 +154,15 @@ std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail
         nodes.push_back({foot[static_cast<std::size_t>(i)], station});
   };
   if (f.held_at == "springs") {
-    each_spring_damper(scene, rail,
-                       [&](std::size_t /*i*/, double at_x, double at_y) { hold(at_x, at_y, 0, 0); });
+    each_spring_damper(scene, rail, [&](int i, double at_x, double at_y) {
+      if (scene.support(i).holds) hold(at_x, at_y, 0, 0);
+    });
     return nodes;
   }
   for (int i = 0; i < f.count; ++i)
-    hold(f.position(i) - scene.rail->origin, middle_of_foot(rail), 0.5 * f.pad_length + kRounding,
-         0.5 * f.pad_width + kRounding);
+    if (scene.support(i).holds)
+      hold(scene.fastening_x(i), middle_of_foot(rail), 0.5 * f.pad_length + kRounding,
+           0.5 * f.pad_width + kRounding);
   return nodes;
 }
 

@@ -26,8 +26,10 @@ std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const
 /// Number of spring-dampers of a fastening.
 std::size_t elements_of_fastening(const FasteningSpec& fastening);
 
-/// Vertical spring-dampers of a bed, spread evenly under the block of a half sleeper, to the ground.
-std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, const SweptBlock& sleeper);
+/// Vertical spring-dampers of a bed, spread evenly under the block of a half sleeper, to the ground; `share`
+/// of the stated stiffness and damping.
+std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double share,
+                                                 const SweptBlock& sleeper);
 
 /// A node of the rail's foot: of the section, and its station.
 struct FootNode {

@@ -70,9 +70,8 @@ void Measurements::add_probe(const std::string& name, const ProbeSpec& spec) {
 
 void Measurements::add_fastenings() {
   fastenings_ = true;
-  const FasteningSpec& spec = *model_->scene.fastenings;
-  for (int i = 0; i < spec.count; ++i) {
-    const double x = spec.position(i) - model_->scene.rail->origin;
+  for (int i = 0; i < model_->scene.fastenings->count; ++i) {
+    const double x = model_->scene.fastening_x(i);
     add_column(fmt::format("fastening_{:02}_force", i + 1), "N",
                fmt::format("of the fastening at x = {:.4f} m on the rail, upwards", x));
     channels_.back().at = x;

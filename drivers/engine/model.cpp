@@ -81,9 +81,9 @@ void Model::build_connectors() {
         fastening_elements(scene, *block(index.rail_foot()), below);
     if (scene.sleepers)
       for (std::size_t i = 0; i < below.size(); ++i)
-        if (static_cast<int>(i) + 1 != scene.sleepers->hanging)
-          for (SpringDampers::Element& element : bed_elements(*scene.sleepers, *below[i]))
-            elements.push_back(std::move(element));
+        for (SpringDampers::Element& element :
+             bed_elements(*scene.sleepers, scene.support(static_cast<int>(i)).bed, *below[i]))
+          elements.push_back(std::move(element));
     fastenings.emplace(std::move(elements));
   }
   if (scene.hammer && scene.rail)
@@ -154,7 +154,7 @@ void Model::build_sleepers() {
   const Section section = sleeper_section(spec, foot, sizes);
   const int elements = std::max(2, static_cast<int>(std::lround(spec.width / sizes.slab)));
   for (int i = 0; i < scene.fastenings->count; ++i) {
-    const double middle = scene.fastenings->position(i) - scene.rail->origin;
+    const double middle = scene.fastening_x(i);
     index.sleepers.push_back(add(make_swept_block(fmt::format("sleeper {}", i + 1), Sweep::extruded, section,
                                                   {scene.material(spec.material)}, middle - 0.5 * spec.width,
                                                   {{elements, spec.width / elements, 0}})));

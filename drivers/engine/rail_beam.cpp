@@ -25,16 +25,29 @@ BeamSection rail_beam_section(const Scene& scene) {
 
 namespace {
 
-/// The columns of a scene's fastenings as parts of spring-dampers of a whole fastening.
-std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, double stiffness,
-                                         double damping) {
+/// Stiffness [N/m] and damping [N s/m] of a whole fastening.
+struct Spring {
+  double stiffness;
+  double damping;
+};
+
+/// The columns of a scene's fastenings as parts of the springs spring(i) of whole fastenings.
+template <class SpringOf>
+std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, const SpringOf& spring) {
   const FasteningSpec& f = *scene.fastenings;
   std::vector<BeamSupport> supports;
-  for (int i = -more_spans; i < f.count; ++i)
+  for (int i = -more_spans; i < f.count; ++i) {
+    const auto [stiffness, damping] = spring(i);
     for (int column = 0; column < f.columns; ++column)
-      supports.push_back({f.position(i) + f.column_offset(column) - scene.rail->origin, stiffness / f.columns,
-                          damping / f.columns});
+      supports.push_back(
+          {scene.fastening_x(i) + f.column_offset(column), stiffness / f.columns, damping / f.columns});
+  }
   return supports;
+}
+
+Spring vertical_spring(const Scene& scene, int fastening) {
+  const SupportSpec own = scene.support(fastening);
+  return {own.stiffness * scene.fastenings->stiffness, own.damping * scene.fastenings->damping};
 }
 
 }  // namespace
@@ -42,7 +55,7 @@ std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, dou
 std::vector<BeamSupport> rail_supports(const Scene& scene, int more_spans) {
   if (!scene.rail) throw InputError("a rail beam needs [rail]");
   if (!scene.fastenings) return {};
-  return column_supports(scene, more_spans, scene.fastenings->stiffness, scene.fastenings->damping);
+  return column_supports(scene, more_spans, [&](int i) { return vertical_spring(scene, i); });
 }
 
 std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
@@ -51,11 +64,12 @@ std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
   const SleeperSpec& spec = *scene.sleepers;
   std::vector<SleeperSupport> list;
   for (int i = -more_spans; i < f.count; ++i) {
-    const bool hangs = i + 1 == spec.hanging;
-    list.push_back({f.position(i) - scene.rail->origin,
-                    f.stiffness,
-                    f.damping,
-                    {sleeper_mass(scene), hangs ? 0 : spec.stiffness, hangs ? 0 : spec.damping}});
+    const auto [stiffness, damping] = vertical_spring(scene, i);
+    const double bed = scene.support(i).bed;
+    list.push_back({scene.fastening_x(i),
+                    stiffness,
+                    damping,
+                    {sleeper_mass(scene), bed * spec.stiffness, bed * spec.damping}});
   }
   return list;
 }
@@ -63,7 +77,9 @@ std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
 std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans) {
   if (!scene.fastenings || scene.fastenings->along.kind != "elastic") return {};
   const FootHold& along = scene.fastenings->along;
-  return column_supports(scene, more_spans, along.stiffness, along.damping);
+  return column_supports(scene, more_spans, [&](int i) {
+    return scene.support(i).holds ? Spring{along.stiffness, along.damping} : Spring{0, 0};
+  });
 }
 
 std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
@@ -71,11 +87,15 @@ std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
   const FasteningSpec& f = *scene.fastenings;
   std::vector<FootStretch> holds;
   if (f.held_at == "springs") {
-    for (const BeamSupport& s : column_supports(scene, more_spans, 0, 0)) holds.push_back({s.x, s.x});
+    for (const BeamSupport& s : column_supports(scene, more_spans, [&](int i) {
+           return Spring{scene.support(i).holds ? 1.0 : 0.0, 0};
+         }))
+      if (s.stiffness > 0) holds.push_back({s.x, s.x});
     return holds;
   }
   for (int i = -more_spans; i < f.count; ++i) {
-    const double middle = f.position(i) - scene.rail->origin;
+    if (!scene.support(i).holds) continue;
+    const double middle = scene.fastening_x(i);
     holds.push_back({middle - 0.5 * f.pad_length, middle + 0.5 * f.pad_length});
   }
   return holds;

@@ -179,7 +179,7 @@ RunIn run_in(const Model& model, const AxleBending& axle) {
   const std::vector<double>& rate = passage.beam_rate();
   if (model.scene.sleepers)
     for (int i = 0; i < model.scene.fastenings->count; ++i) {
-      const double x = model.scene.fastenings->position(i) - model.scene.rail->origin;
+      const double x = model.scene.fastening_x(i);
       out.sleepers.push_back({beam.sleeper(state, x) - beam.sleeper(rest, x), beam.sleeper(rate, x)});
     }
   const int last = beam.nodes() - 1;

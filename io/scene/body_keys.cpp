@@ -277,10 +277,29 @@ void add_sleepers(Keys& keys) {
   keys.push_back(quantity("sleepers.damping", {Effect::preload, Effect::cost},
                           at(&Scene::sleepers, &SleeperSpec::damping), kViscousDamping, "kN s/m",
                           from(0, 1e9), "Vertical damping of the bed under a half sleeper"));
-  keys.push_back(number("sleepers.hanging", {Effect::preload, Effect::cost},
-                        at(&Scene::sleepers, &SleeperSpec::hanging), {0, 10000},
-                        "The sleeper that hangs on the rail without a bed, counted along x from 1; 0: none",
-                        Kind::integer));
+}
+
+void add_support(Keys& keys, const std::string& name) {
+  const std::string table = std::string(kSupportTables) + name;
+  const Effects effects = {Effect::preload, Effect::cost};
+  const auto place = [&](auto member) { return at(&Scene::supports, name, member); };
+  const auto share = [&](const char* key, double SupportSpec::*member, const char* description) {
+    return number(table + key, effects, place(member), {0, 1000}, description);
+  };
+  keys.push_back(required(number(table + ".fastening", effects, place(&SupportSpec::fastening), {1, 10000},
+                                 "The fastening, counted along x from 1", Kind::integer)));
+  keys.push_back(quantity(table + ".shift", {Effect::mesh}, place(&SupportSpec::shift), kLength, "mm",
+                          {-10, 10}, "Way along x from the regular place, of the fastening and its sleeper"));
+  keys.push_back(share(".stiffness", &SupportSpec::stiffness,
+                       "Vertical stiffness of the fastening over `fastenings.stiffness`; 0: broken"));
+  keys.push_back(share(".damping", &SupportSpec::damping,
+                       "Vertical damping of the fastening over `fastenings.damping`"));
+  keys.push_back(with_table("sleepers", share(".bed", &SupportSpec::bed,
+                                              "Stiffness and damping of the sleeper's bed over those of the "
+                                              "others; 0: the sleeper hangs on the rail")));
+  keys.push_back(flag(table + ".holds", effects, place(&SupportSpec::holds),
+                      "The fastening holds the rail's foot along and across as the others do; `false`: not "
+                      "at all"));
 }
 
 void add_vehicle_and_load(Keys& keys) {

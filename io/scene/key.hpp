@@ -95,9 +95,13 @@ inline constexpr std::string_view kProbeTables = "probe.";
 /// Begins the path of every table of a surface's depths: "surface.weld".
 inline constexpr std::string_view kSurfaceTables = "surface.";
 
+/// Begins the path of every table of a support that differs: "support.broken".
+inline constexpr std::string_view kSupportTables = "support.";
+
 /// Names that a scene gives to its own tables.
 struct TableNames {
   std::vector<std::string> materials;
+  std::vector<std::string> supports;
   std::vector<std::string> surfaces;
   std::vector<std::string> probes;
 

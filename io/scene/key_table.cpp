@@ -89,6 +89,7 @@ Keys make_keys(const TableNames& names) {
   add_fastenings(keys);
   add_slab(keys);
   add_sleepers(keys);
+  for (const std::string& name : names.supports) add_support(keys, name);
   add_vehicle_and_load(keys);
   add_contact(keys);
   add_motion(keys);
@@ -123,13 +124,19 @@ struct NamedTables {
   }
 };
 
-constexpr std::array<NamedTables, 3> kNamedTables = {
+constexpr std::array<NamedTables, 4> kNamedTables = {
     {{kMaterialTables, add_material,
       "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
       "`slab.material`.",
       [](Scene& scene, const std::string& name) { scene.materials[name] = {.name = name}; },
       [](Scene& scene, const std::string& name) { scene.materials.erase(name); },
       [](const Scene& scene, const std::string& name) { return scene.materials.contains(name); }},
+     {kSupportTables, add_support,
+      "A fastening, with the sleeper under it, that differs from the others: a broken clip, a loose pad, a "
+      "hanging or displaced sleeper.",
+      [](Scene& scene, const std::string& name) { scene.supports[name] = {}; },
+      [](Scene& scene, const std::string& name) { scene.supports.erase(name); },
+      [](const Scene& scene, const std::string& name) { return scene.supports.contains(name); }},
      {kSurfaceTables, add_surface,
       "Depth on the running surface of rail or wheel, added to the contact gap. Depths of all such tables "
       "and of [corrugation] are summed.\nA place on the wheel is where it meets the rail in free rolling, "
@@ -194,6 +201,7 @@ std::vector<SceneTable> make_tables(const TableNames& names) {
                 "[Long runs](../explanation/long-runs.md)"),
   };
   tables.insert(tables.end(), others.begin(), others.end());
+  add_named(tables, kSupportTables, names.supports);
   add_named(tables, kSurfaceTables, names.surfaces);
   add_named(tables, kProbeTables, names.probes);
   tables.push_back(always("output", "Intervals of samples, progress lines, checkpoints and frames."));

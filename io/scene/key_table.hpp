@@ -14,6 +14,8 @@ using Keys = std::vector<Key>;
 
 /// Adds the keys of the material of that name.
 void add_material(Keys& keys, const std::string& name);
+/// Adds the keys of the support of that name.
+void add_support(Keys& keys, const std::string& name);
 /// Adds the keys of the depths of that name on a running surface.
 void add_surface(Keys& keys, const std::string& name);
 /// Adds the keys of the probe of that name.

@@ -11,6 +11,7 @@
 
 #include "core/travel.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/support_checks.hpp"
 
 namespace tread {
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double kRailEndMargin =
     0.02;  ///< the wheel's contact point stays this far from the rail's ends [m]
-constexpr double kLengthTolerance = 1e-9;  ///< lengths that differ by less are equal [m]
 
 class Checker {
  public:
@@ -31,6 +31,9 @@ class Checker {
     if (scene_.contact) check_friction(*scene_.contact);
     if (scene_.wheel) check_wheel(*scene_.wheel);
     if (scene_.rail) check_rail(*scene_.rail);
+    check_supports(scene_, [this](bool condition, std::vector<std::string> keys, std::string message) {
+      require(condition, std::move(keys), std::move(message));
+    });
     if (scene_.motion) check_motion(*scene_.motion);
     if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
     for (const auto& [name, surface] : scene_.surfaces)
@@ -117,7 +120,6 @@ class Checker {
     for (const MaterialUse& use : material_uses(scene_))
       if (!knows(use.name) && missing.insert(use.name).second) report_missing(use);
     if (scene_.slab_track) check_slab(*scene_.slab_track);
-    if (scene_.sleepers && scene_.fastenings) check_sleepers(*scene_.sleepers, *scene_.fastenings);
   }
 
   bool knows(const std::string& material) const { return scene_.materials.contains(material); }
@@ -150,21 +152,6 @@ class Checker {
       for (const std::string& name : names) keys.push_back(std::string(kMaterialTables) + name + key);
     require(std::all_of(names.begin(), names.end(), damped_as_first), keys,
             "slab, gap filler and mortar are damped as one body; state the same damping for all three");
-  }
-
-  void check_sleepers(const SleeperSpec& sleepers, const FasteningSpec& fastenings) {
-    require(fastenings.count == 1 || sleepers.width < fastenings.spacing,
-            {"sleepers.width", "fastenings.spacing"}, "neighbouring sleepers overlap");
-    require(fastenings.pad_length <= sleepers.width + kLengthTolerance,
-            {"sleepers.width", "fastenings.pad_length"}, "the pad is longer than the sleeper is wide");
-    require(sleepers.hanging <= fastenings.count, {"sleepers.hanging", "fastenings.count"},
-            fmt::format("there is no sleeper {}: the fastenings, and their sleepers, count {}",
-                        sleepers.hanging, fastenings.count));
-    const double inner = sleepers.offset - 0.5 * sleepers.length;
-    const double outer = sleepers.offset + 0.5 * sleepers.length;
-    require(inner <= -0.5 * fastenings.pad_width && outer >= 0.5 * fastenings.pad_width,
-            {"sleepers.offset", "sleepers.length"},
-            fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m", inner, outer));
   }
 
   void check_friction(const ContactSpec& contact) {
@@ -227,7 +214,6 @@ class Checker {
     require(fastened || !scene_.fastenings, {"rail.support", "fastenings"},
             fmt::format("a rail with support = \"{}\" has no fastenings; state fastenings.present = false",
                         rail.support));
-    if (scene_.fastenings) check_fastenings(rail, *scene_.fastenings);
     if (!scene_.wheel) return;
     const double left = -rail.origin;
     const double right = rail.length - rail.origin;
@@ -252,25 +238,6 @@ class Checker {
     const double first = std::min(left + kRailEndMargin, scene_.start_x());
     require_on_rail(travel.last <= last + kLengthTolerance, travel.last, last);
     require_on_rail(travel.first >= first - kLengthTolerance, travel.first, first);
-  }
-
-  void check_fastenings(const RailSpec& rail, const FasteningSpec& fastenings) {
-    const double half = fastenings.pad_length / 2;
-    const double last = fastenings.first + (fastenings.count - 1) * fastenings.spacing;
-    require(fastenings.first - half >= -kLengthTolerance, {"fastenings.first", "fastenings.pad_length"},
-            "the first fastening's pad begins before the rail's left end");
-    require(last + half <= rail.length + kLengthTolerance,
-            {"fastenings.count", "fastenings.spacing", "fastenings.first", "fastenings.pad_length",
-             "rail.length"},
-            fmt::format("the last fastening's pad ends at {:.6g} m, beyond the rail of {:.6g} m", last + half,
-                        rail.length));
-    require(fastenings.count == 1 || fastenings.pad_length <= fastenings.spacing,
-            {"fastenings.pad_length", "fastenings.spacing"}, "the pads of neighbouring fastenings overlap");
-    require(fastenings.across.kind != "free" || scene_.plane_strain, {"fastenings.across"},
-            "nothing would hold the rail sideways; state \"held\", or \"elastic\" with "
-            "fastenings.across_stiffness");
-    require(rail.profile != "box" || fastenings.pad_width <= rail.width + kLengthTolerance,
-            {"fastenings.pad_width", "rail.width"}, "the pad is wider than the rail");
   }
 
   void check_motion(const MotionSpec& motion) {

@@ -20,6 +20,8 @@ struct Purpose {
 constexpr std::array kPurposes = {
     Purpose{{"sleeper", "tie", "ties", "ballast", "ballasted"},
             "[sleepers] holds sleepers on ballast, with stiffness and damping of the bed; leave out [slab]"},
+    Purpose{{"support", "hanging", "hanging_sleeper", "broken_clip", "clip", "spacings"},
+            "a table [support.NAME] alters one fastening and its sleeper: fastening = 12, bed = 0"},
     Purpose{{"plasticity", "plastic", "yield", "yield_stress", "hardening"},
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
     Purpose{{"gpu", "cuda", "device"}, "a device belongs to the command: --device gpu, or emulated"},
@@ -51,7 +53,7 @@ constexpr std::array kPurposes = {
     Purpose{{"export", "keyword", "lsdyna", "ls_dyna"},
             "`tread export` writes a keyword deck, `tread mesh -o DIR` nodes and hexahedra as VTKHDF"},
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
-            "section and support are the same along the rail"},
+            "the rail's section is the same along the track; tables [support.NAME] alter single supports"},
     Purpose{{"wheelset", "axle", "brake_discs", "web"},
             "the wheelset is a flexible half; wheel.web_thickness and wheel.brake_rings shape it"},
     Purpose{{"wear", "growth"}, "`tread develop` wears the rail, with the keys of [wear]"},
@@ -85,6 +87,7 @@ std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) 
   const auto dot = path.rfind('.');
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
   if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
+  if (parent + "." == kSupportTables) return "a support's name consists of letters, digits, _ and -";
   if (parent + "." == kSurfaceTables)
     return "the name of a surface's depth consists of letters, digits, _ and -";
   if (parent + "." == kProbeTables) return "a probe's name consists of letters, digits, _ and -";

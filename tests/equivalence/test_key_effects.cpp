@@ -139,6 +139,10 @@ const BaseScene& base_scene(const std::string& name) {
        {kTrack,
         {"slab.present=false", "material.slab.present=false", "material.gap_filler.present=false",
          "sleepers.material=hard"}}},
+      {"odd support",
+       {kTrack,
+        {"slab.present=false", "material.slab.present=false", "material.gap_filler.present=false",
+         "sleepers.material=hard", "support.odd.fastening=2", "support.odd.stiffness=0.8"}}},
       {"dipped",
        {kTrack,
         {"surface.shape.kind=dip", "surface.shape.at=5 mm", "surface.shape.depth=0.05 mm",
@@ -459,7 +463,12 @@ const std::vector<Change>& changes() {
       {"sleepers.material", "steel", "ballasted", {}, {"material.hard.present=false"}},
       {"sleepers.stiffness", "60 MN/m", "ballasted"},
       {"sleepers.damping", "600 MN s/m", "ballasted", {"sleepers.damping=500 MN s/m"}},
-      {"sleepers.hanging", "1", "ballasted"},
+      {"support.odd.fastening", "1", "odd support"},
+      {"support.odd.shift", "20 mm", "odd support"},
+      {"support.odd.stiffness", "0.5", "odd support"},
+      {"support.odd.damping", "1000", "odd support"},
+      {"support.odd.bed", "0", "odd support"},
+      {"support.odd.holds", "false", "odd support"},
       {"probe.midspan.body", "axle_box", "probed"},
       {"probe.midspan.x", "0.1 m", "probed"},
       {"probe.midspan.y", "3 mm", "probed"},
@@ -542,7 +551,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, KeysOf, testing::ValuesIn(tables()),
                          [](const auto& table) { return table.param; });
 
 TEST(KeyEffects, EveryKeyIsChanged) {
-  for (const Key& key : scene_keys(TableNames{{"steel"}, {"shape"}, {"midspan"}})) {
+  for (const Key& key : scene_keys(TableNames{{"steel"}, {"odd"}, {"shape"}, {"midspan"}})) {
     const auto is_of_key = [&](const Change& change) { return change.key == key.path; };
     const auto count = std::count_if(changes().begin(), changes().end(), is_of_key);
     EXPECT_EQ(count, key.kind == Kind::directive ? 0 : 1) << key.path;

@@ -85,7 +85,7 @@ std::vector<double> bed_forces(const Model& model, const Preload& preload) {
   const std::vector<SpringDampers::Element>& elements = model.fastenings->elements();
   const ConstNodeField u = preload.displacement.data();
   std::size_t at = elements_of_fastening(*model.scene.fastenings) * model.index.sleepers.size();
-  const std::size_t beds = model.index.sleepers.size() - (model.scene.sleepers->hanging > 0 ? 1 : 0);
+  const std::size_t beds = model.index.sleepers.size();
   const std::size_t group = (elements.size() - at) / beds;
   std::vector<double> forces(beds);
   for (double& force : forces)
@@ -121,11 +121,76 @@ TEST(Sleepers, BedsCarryWheelRailAndSleepers) {
 
 TEST(Sleepers, AHangingOneLeavesTheLoadToItsNeighbours) {
   Model whole(samples::tyre_scene(ballasted()));
-  Model hanging(samples::tyre_scene(ballasted({"sleepers.hanging=2"})));
+  Model hanging(samples::tyre_scene(ballasted({"support.hanging.fastening=2", "support.hanging.bed=0"})));
   const Preload before = at_rest(whole);
   const Preload after = at_rest(hanging);
   EXPECT_GT(after.rail_deflection, 1.2 * before.rail_deflection);
   EXPECT_GT(bed_forces(hanging, after)[0], 1.2 * bed_forces(whole, before)[0]);
+  EXPECT_EQ(bed_forces(hanging, after)[1], 0);
+}
+
+TEST(Supports, ABrokenOneLeavesTheRailToItsNeighbours) {
+  const std::vector<std::string> broken = {"support.clip.fastening=2", "support.clip.stiffness=0",
+                                           "support.clip.holds=false"};
+  Model model(samples::tyre_scene(ballasted(broken)));
+  Model whole(samples::tyre_scene(ballasted()));
+  const Preload after = at_rest(model);
+  const std::vector<double> forces = bed_forces(model, after);
+  EXPECT_NEAR(forces[1], model.scene.gravity * mass_of(model, {model.index.sleepers[1]}), 1e-3 * forces[0]);
+  EXPECT_GT(after.rail_deflection, 1.2 * at_rest(whole).rail_deflection);
+  EXPECT_LT(held_foot_nodes(model.scene, model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())])
+                .size(),
+            held_foot_nodes(whole.scene, whole.mesh.blocks[static_cast<std::size_t>(whole.index.rail_foot())])
+                .size());
+}
+
+TEST(Supports, AShiftedOneTakesItsSleeperAlong) {
+  const Model model(
+      samples::tyre_scene(ballasted({"support.moved.fastening=1", "support.moved.shift=60 mm"})));
+  const double place = -0.75 + 0.15 + 0.06;
+  const SweptBlock& sleeper = model.mesh.blocks[static_cast<std::size_t>(model.index.sleepers[0])];
+  EXPECT_NEAR(0.5 * (sleeper.stations.front() + sleeper.stations.back()), place, 1e-12);
+  // Its held nodes lie on the shifted pad.
+  const SweptBlock& rail = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())];
+  double left = 0;
+  double right = -1;
+  for (const FootNode& node : held_foot_nodes(model.scene, rail)) {
+    const double x = rail.stations[static_cast<std::size_t>(node.station)];
+    if (x > place + 0.3) continue;
+    left = std::min(left, x);
+    right = std::max(right, x);
+  }
+  const double half = 0.5 * model.scene.fastenings->pad_length;
+  EXPECT_GE(left, place - half - 1e-9);
+  EXPECT_GT(right, place);
+  EXPECT_LE(right, place + half + 1e-9);
+}
+
+TEST(SupportKeys, AreCheckedAgainstTheFastenings) {
+  const auto problem = [](std::vector<std::string> more) -> std::string {
+    more.emplace_back("support.one.fastening=2");
+    try {
+      samples::tyre_scene(ballasted(more));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [&](const std::vector<std::string>& more, const char* text) {
+    EXPECT_NE(problem(more).find(text), std::string::npos) << problem(more);
+  };
+  EXPECT_EQ(problem({}), "");
+  says({"support.far.fastening=4"}, "there is no fastening 4");
+  says({"support.two.fastening=2"}, "alters fastening 2 too");
+  says({"support.one.shift=0.5 m"}, "it overlaps its neighbour");
+  says({"support.end.fastening=1", "support.end.shift=-0.2 m"}, "reaches beyond the rail");
+  says({"support.one.stiffness=0", "support.one.bed=0"}, "nothing carries its sleeper");
+  says({"support.one.bed=0", "support.a.fastening=1", "support.a.bed=0", "support.b.fastening=3",
+        "support.b.stiffness=0"},
+       "nothing carries the rail");
+  says({"support.one.holds=false", "support.a.fastening=1", "support.a.holds=false", "support.b.fastening=3",
+        "support.b.holds=false"},
+       "nothing holds the rail's foot");
 }
 
 TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
@@ -140,7 +205,6 @@ TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
   EXPECT_EQ(problem({}), "");
   EXPECT_NE(problem({"sleepers.width=0.7 m"}).find("neighbouring sleepers overlap"), std::string::npos);
   EXPECT_NE(problem({"sleepers.width=0.1 m"}).find("the pad is longer"), std::string::npos);
-  EXPECT_NE(problem({"sleepers.hanging=4"}).find("there is no sleeper 4"), std::string::npos);
   EXPECT_NE(problem({"sleepers.offset=2 m"}).find("the pad does not lie on the sleeper"), std::string::npos);
 }
 

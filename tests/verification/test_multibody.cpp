@@ -70,10 +70,11 @@ TEST(ModalTrack, StaticDeflectionIsThatOfTheBeam) {
 
 TEST(ModalTrack, SleepersAreThoseOfTheBeam) {
   const Scene ballasted =
-      resolve_scene(SceneSource{"test",
-                                "[scene]\nbased_on = \"ballasted-cn60\"\n[sleepers]\nhanging = "
-                                "12\n[motion]\nspeed = \"140 km/h\"\n",
-                                {}})
+      resolve_scene(
+          SceneSource{"test",
+                      "[scene]\nbased_on = \"ballasted-cn60\"\n[support.hanging]\nfastening = "
+                      "12\nbed = 0\nstiffness = 0.5\nshift = \"40 mm\"\n[motion]\nspeed = \"140 km/h\"\n",
+                      {}})
           .scene;
   for (const BeamTheory theory : {BeamTheory::euler, BeamTheory::spread}) {
     const MultibodyModel model = multibody_model(ballasted, theory);

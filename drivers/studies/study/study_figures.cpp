@@ -48,9 +48,9 @@ Range in_sight(const std::vector<FinishedRun>& runs, const Range& way) {
 
 bool same_track(const Scene& a, const Scene& b) {
   const auto places = [](const Scene& s) {
-    return s.fastenings && s.rail ? std::array{s.rail->origin, s.fastenings->first, s.fastenings->spacing,
-                                               static_cast<double>(s.fastenings->count)}
-                                  : std::array{0.0, 0.0, 0.0, 0.0};
+    std::vector<double> x;
+    for (int i = 0; s.fastenings && s.rail && i < s.fastenings->count; ++i) x.push_back(s.fastening_x(i));
+    return x;
   };
   return places(a) == places(b);
 }
