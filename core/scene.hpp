@@ -26,8 +26,11 @@ struct WheelSpec {
   double lateral_offset = 6.5e-3;  ///< rail centre line in wheel coordinates, positive to the field side [m]
   double mass = 586;               ///< mass that web or brake rings are sized to reach [kg] (half_wheelset)
   std::optional<double>
-      web_thickness;           ///< absent: by the mass, or 30 mm with brake rings [m] (half_wheelset)
-  bool brake_rings = false;    ///< two plates on the web, sized by the mass (half_wheelset)
+      web_thickness;         ///< absent: by the mass, or 30 mm with brake rings [m] (half_wheelset)
+  bool brake_rings = false;  ///< two plates on the web, sized by the mass (half_wheelset)
+  double web_offset =
+      0;                ///< of the web at the rim to the field side of the web at the hub [m] (half_wheelset)
+  double web_wave = 0;  ///< of an S-shaped web to either side [m] (half_wheelset)
   double axle_bore = 0.060;    ///< bore of the hollow axle [m] (half_wheelset)
   double crown_radius = 0.43;  ///< lateral radius of the profile "arc" [m] (tyre)
   double width = 0.060;        ///< width of the ring [m] (tyre)

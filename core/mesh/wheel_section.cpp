@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -165,12 +166,12 @@ struct DiscLines {
   int web = 0;                   // number of columns through the web
 };
 
-/// Left wing, flared web and right wing over |x| <= half.
-std::vector<double> winged(double half, double web_half, int web, double size) {
-  const int wing = count_of(half - web_half, size, 1);
-  auto line = evenly(-half, -web_half, wing);
-  append(line, evenly(-web_half, web_half, web));
-  append(line, evenly(web_half, half, wing));
+/// Left wing, flared web about `middle` and right wing over |x| <= half.
+std::vector<double> winged(double half, double middle, double web_half, int web, double size) {
+  const double left = middle - web_half, right = middle + web_half;
+  auto line = evenly(-half, left, count_of(left + half, size, 1));
+  append(line, evenly(left, right, web));
+  append(line, evenly(right, half, count_of(half - right, size, 1)));
   return line;
 }
 
@@ -178,9 +179,9 @@ DiscLines disc_lines(double rim_width, const WheelShape& shape, const SectionSiz
   const double web_end = shape.web_thickness / 2 + kFlare;
   DiscLines lines;
   lines.web = count_of(shape.web_thickness, size.coarse, 2);
-  lines.rim = winged(rim_width / 2, web_end, lines.web, size.coarse);
+  lines.rim = winged(rim_width / 2, shape.web_line(1).p, web_end, lines.web, size.coarse);
   lines.axle_hub = evenly(-kHubLength / 2, kHubLength / 2, count_of(kHubLength, kAxleRatio * size.coarse, 3));
-  lines.hub = winged(kHubLength / 2, web_end, lines.web, size.coarse);
+  lines.hub = winged(kHubLength / 2, shape.web_line(0).p, web_end, lines.web, size.coarse);
   return lines;
 }
 
@@ -238,9 +239,13 @@ Section make_disc(const DiscLines& lines, const WheelShape& shape, const Section
 
   PatchSides rim_sides;
   rim_sides.top = at_height(lines.rim, tie);
-  for (const double x : lines.rim)
-    rim_sides.bottom.push_back(
-        {x, rim + kRimSlant * std::max(0.0, (std::abs(x) - web_end) / (lines.rim.back() - web_end))});
+  const double rim_middle = shape.web_line(1).p;
+  for (const double x : lines.rim) {
+    const double beside = std::abs(x - rim_middle) - web_end;
+    const double wing =
+        (x > rim_middle ? lines.rim.back() - rim_middle : rim_middle - lines.rim.front()) - web_end;
+    rim_sides.bottom.push_back({x, rim + kRimSlant * std::max(0.0, beside / wing)});
+  }
   const int rim_count = count_of(tie - rim, size.coarse, 2);
   rim_sides.left = straight(rim_sides.bottom.front(), rim_sides.top.front(), rim_count);
   rim_sides.right = straight(rim_sides.bottom.back(), rim_sides.top.back(), rim_count);
@@ -249,9 +254,11 @@ Section make_disc(const DiscLines& lines, const WheelShape& shape, const Section
   PatchSides web;
   for (const double r : rows.r) {
     const double reach = std::max(0.0, 1 - std::min(r - kHubOuterRadius, rim - r) / kFlareLength);
-    const double half = shape.web_thickness / 2 + kFlare * reach * reach;
-    web.left.push_back({-half, r});
-    web.right.push_back({half, r});
+    const WebLine line = shape.web_line((r - kHubOuterRadius) / (rim - kHubOuterRadius));
+    const double lean = std::hypot(1, line.slope / (rim - kHubOuterRadius));
+    const double half = lean * shape.web_thickness / 2 + kFlare * reach * reach;
+    web.left.push_back({line.p - half, r});
+    web.right.push_back({line.p + half, r});
   }
   web.bottom = straight(web.left.front(), web.right.front(), lines.web);
   web.top = straight(web.left.back(), web.right.back(), lines.web);
@@ -340,11 +347,24 @@ void check_shape(const WheelShape& shape) {
   refuse("lateral_offset", shape.lateral_offset, -0.03, 0.03, "the rail has to lie under the tread");
   refuse("web_thickness", shape.web_thickness, kThinnestWeb, kThickestWeb,
          "the web has to fit between rim and hub");
+  refuse("web_offset", shape.web_offset, -kMostOffset, kMostOffset, "the web has to end within rim and hub");
+  refuse("web_wave", shape.web_wave, -kMostWave, kMostWave, "the elements of a steeper web would be skewed");
   refuse("brake_ring_thickness", shape.brake_ring_thickness, 0, 0.1,
          "two rings of this thickness make up the mass");
 }
 
 }  // namespace
+
+WebLine WheelShape::web_line(double share) const {
+  using std::numbers::pi;
+  constexpr double kTop = 0.7698003589195010;  // the largest value of the S: 4 / (3 sqrt 3)
+  const double s = share;
+  const double wave = std::sin(2 * pi * s) * std::sin(pi * s);
+  const double steep =
+      2 * pi * std::cos(2 * pi * s) * std::sin(pi * s) + pi * std::sin(2 * pi * s) * std::cos(pi * s);
+  return {web_offset * (s * s * (3 - 2 * s) - 0.5) + web_wave / kTop * wave,
+          web_offset * 6 * s * (1 - s) + web_wave / kTop * steep};
+}
 
 WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape& shape,
                                   const SectionSize& wanted) {

@@ -149,6 +149,8 @@ class WheelBuilder {
     shape.diameter = scene.wheel->diameter;
     shape.lateral_offset = scene.wheel->lateral_offset;
     shape.axle_bore = scene.wheel->axle_bore;
+    shape.web_offset = scene.wheel->web_offset;
+    shape.web_wave = scene.wheel->web_wave;
   }
 
   WheelShape shape;

@@ -101,6 +101,12 @@ void add_wheel(Keys& keys) {
                              "Thickness of the web; absent: as the mass needs, or 30 mm with brake rings. "
                              "Without brake rings it has "
                              "to agree with the mass within 1 %")));
+  keys.push_back(half_wheelset(
+      quantity("wheel.web_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_offset), kLength, "mm",
+               {-0.04, 0.04}, "Way from the web's middle at the hub to that at the rim, to the field side")));
+  keys.push_back(half_wheelset(quantity(
+      "wheel.web_wave", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_wave), kLength, "mm", {-0.03, 0.03},
+      "Largest way of an S-shaped web to either side; positive: to the field side near the hub")));
   keys.push_back(
       half_wheelset(flag("wheel.brake_rings", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::brake_rings),
                          "Two ring plates on the web, bolted along a circle, as thick as the mass needs")));

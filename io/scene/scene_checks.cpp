@@ -196,6 +196,10 @@ class Checker {
               "the wheel rolls on most of its ring; leave the overhang out");
     } else {
       require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA, S1002 or a file");
+      require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),
+              {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
+              "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "
+              "wheel.web_offset and wheel.web_wave");
     }
   }
 

@@ -55,7 +55,8 @@ constexpr std::array kPurposes = {
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
             "the rail's section is the same along the track; tables [support.NAME] alter single supports"},
     Purpose{{"wheelset", "axle", "brake_discs", "web"},
-            "the wheelset is a flexible half; wheel.web_thickness and wheel.brake_rings shape it"},
+            "the wheelset is a flexible half; wheel.web_thickness, web_offset, web_wave and brake_rings "
+            "shape it"},
     Purpose{{"wear", "growth"}, "`tread develop` wears the rail, with the keys of [wear]"},
     Purpose{{"crack", "cracks", "fatigue", "residual_stress"},
             "there are no cracks; surface.h5 and the frames hold the stresses for a criterion of your own"},

@@ -338,6 +338,8 @@ const std::vector<Change>& changes() {
       {"wheel.mass", "600 kg", "wheelset"},
       {"wheel.web_thickness", "28 mm", "wheelset", {"wheel.brake_rings=true"}},
       {"wheel.brake_rings", "true", "wheelset"},
+      {"wheel.web_offset", "10 mm", "wheelset"},
+      {"wheel.web_wave", "8 mm", "wheelset"},
       {"wheel.axle_bore", "58 mm", "wheelset"},
       {"wheel.crown_radius", "0.31 m"},
       {"wheel.width", "62 mm"},

@@ -281,6 +281,53 @@ TEST(WheelSection, IsWellShapedAndNestedForAllSizes) {
       }
 }
 
+TEST(WheelSection, WebsOfAnyShapeAreWellShapedAndNested) {
+  for (const double coarse : {9.0, 13.0, 18.0})
+    for (const double diameter : {0.7, 0.86, 1.1})
+      for (const double web : {12.0, 25.0, 60.0})
+        for (const double offset : {-40.0, -15.0, 0.0, 40.0})
+          for (const double wave : {-30.0, 12.0, 30.0}) {
+            SCOPED_TRACE(testing::Message() << coarse << " mm, diameter " << diameter << " m, web " << web
+                                            << ", offset " << offset << ", wave " << wave << " mm");
+            WheelShape shape;
+            shape.diameter = diameter;
+            shape.web_thickness = web * mm;
+            shape.web_offset = offset * mm;
+            shape.web_wave = wave * mm;
+            const double rim = 0.5 * diameter - 0.065;
+            const bool steep = std::abs(wave) > 100 * (rim - 0.145);  // beyond 40 degrees
+            if (steep) continue;
+            const WheelSections wheel = make_wheel_sections(lma(), shape, size_of(2.2, coarse));
+            EXPECT_GT(worst_quality(wheel.disc), 0.3);
+            expect_nested(wheel.tread, wheel.tread.paths.at("tie"), wheel.disc,
+                          wheel.disc.paths.at("tie_outer"));
+            expect_nested(wheel.disc, wheel.disc.paths.at("tie_inner"), wheel.axle,
+                          wheel.axle.paths.at("tie"));
+          }
+}
+
+TEST(WheelSection, WebLeavesHubAndRimRadially) {
+  WheelShape shape;
+  shape.web_offset = 30 * mm;
+  shape.web_wave = 20 * mm;
+  EXPECT_NEAR(shape.web_line(0).p, -15 * mm, 1e-15);
+  EXPECT_NEAR(shape.web_line(1).p, 15 * mm, 1e-15);
+  EXPECT_NEAR(shape.web_line(0).slope, 0, 1e-15);
+  EXPECT_NEAR(shape.web_line(1).slope, 0, 1e-15);
+  shape.web_offset = 0;
+  double largest = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    const double share = 1e-3 * i;
+    largest = std::max(largest, shape.web_line(share).p);
+    EXPECT_NEAR(shape.web_line(share).p, -shape.web_line(1 - share).p, 1e-15);
+    const double step = 1e-6;
+    EXPECT_NEAR((shape.web_line(share + step).p - shape.web_line(share - step).p) / (2 * step),
+                shape.web_line(share).slope, 1e-9);
+  }
+  EXPECT_NEAR(largest, 20 * mm, 1e-7);
+  EXPECT_GT(shape.web_line(0.3).p, 0);  // to the field side near the hub
+}
+
 TEST(WheelSection, FlangeLeavesTheStepToThePitch) {
   for (const double surface : {1.1, 2.2, 3.0, 4.0, 4.5, 5.0, 5.5, 6.0, 8.0}) {
     const Section tread = make_wheel_sections(lma(), {}, size_of(surface, 13)).tread;
