@@ -149,8 +149,8 @@ void Contact::add_forces(NodeField force) const {
     std::array<Vec3, 4> local{};
     for (std::size_t i = 0; i < 4; ++i) local[i] = localise(point.wheel_cosine[i], point.wheel_sine[i], load);
     for (std::size_t k = 0; k < kSupport; ++k) {
-      force.add(point.rail_slot[k], -point.rail_weight[k] * load);
-      force.add(point.wheel_slot[k], point.wheel_weight[k] * local[k / 4]);
+      force.add(point.rail.slot[k], -point.rail.weight(k) * load);
+      force.add(point.wheel.slot[k], point.wheel.weight(k) * local[k / 4]);
     }
   }
 }
@@ -162,8 +162,8 @@ std::vector<Spring> Contact::springs() const {
     for (std::size_t k = 0; k < kSupport; ++k) {
       const Vec3 wheel_normal = localise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4], point.normal);
       for (int c = 0; c < 3; ++c) {
-        weights[dof(point.rail_slot[k], c)] += point.rail_weight[k] * point.normal[c];
-        weights[dof(point.wheel_slot[k], c)] -= point.wheel_weight[k] * wheel_normal[c];
+        weights[dof(point.rail.slot[k], c)] += point.rail.weight(k) * point.normal[c];
+        weights[dof(point.wheel.slot[k], c)] -= point.wheel.weight(k) * wheel_normal[c];
       }
     }
     Spring spring;

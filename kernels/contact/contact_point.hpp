@@ -19,12 +19,19 @@ struct PointHistory {
   double pressure = 0;  ///< [Pa]
 };
 
+/// Nodes that carry a point of a surface.
+struct SurfaceSupport {
+  std::array<std::int64_t, kSupport> slot;  ///< station by station
+  std::array<double, 4> along;              ///< weights of the stations
+  std::array<double, 4> across;             ///< weights of a station's nodes
+
+  double weight(std::size_t k) const { return along[k / 4] * across[k % 4]; }
+};
+
 /// Place, bases, history and tractions of a point in a step.
 struct ContactPoint {
-  std::array<std::int64_t, kSupport> rail_slot;   ///< nodes about the point, station by station
-  std::array<std::int64_t, kSupport> wheel_slot;  ///< nodes about the opposite point of the wheel
-  std::array<double, kSupport> rail_weight;
-  std::array<double, kSupport> wheel_weight;
+  SurfaceSupport rail;                             ///< nodes about the point
+  SurfaceSupport wheel;                            ///< nodes about the opposite point of the wheel
   std::array<double, 4> wheel_angle;               ///< space angle of the four wheel stations [rad]
   std::array<double, 4> wheel_cosine, wheel_sine;  ///< of these angles
   std::array<double, 4> face_share;  ///< shares of the rail face's corners in the point (for nodal averages)

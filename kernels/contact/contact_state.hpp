@@ -20,7 +20,7 @@ struct ContactState {
 inline Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
-    v += point.rail_weight[k] * state.velocity.at(point.rail_slot[k]);
+    v += point.rail.weight(k) * state.velocity.at(point.rail.slot[k]);
   return v;
 }
 
@@ -28,8 +28,8 @@ inline Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) 
 inline Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
-    v += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
-                                           state.velocity.at(point.wheel_slot[k]));
+    v += point.wheel.weight(k) * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
+                                           state.velocity.at(point.wheel.slot[k]));
   const Vec3 arm = point.position - point.gap * point.normal - state.wheel->origin;
   return v + state.wheel->velocity + cross({0, state.wheel->spin, 0}, arm);
 }

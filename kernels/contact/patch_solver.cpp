@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <variant>
 
-#include "core/parallel/parallel.hpp"
 #include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
@@ -19,22 +18,6 @@ constexpr double kDivergence = 100;
 /// Change of a closing speed in a step that no contact reaches: that of a pressure that jumps by 0.2 GPa
 /// [m/s].
 constexpr double kSpare = 5;
-/// Points from which on threads share the work: below, waiting for one another takes longer.
-constexpr std::size_t kWorthSharing = 2048;
-static_assert(kLinkedNodes == 2 * kSupport);
-
-/// Calls body(i) for i below n, by all threads if the patch has points enough.
-template <class Body>
-void share(std::size_t points, std::size_t n, const Body& body) {
-  const auto run = [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) body(static_cast<std::size_t>(i));
-  };
-  if (points < kWorthSharing)
-    run(0, static_cast<std::int64_t>(n));
-  else
-    parallel_ranges(static_cast<std::int64_t>(n), run);
-}
-
 PatchVector padded(const Vec3& v) {
   return {{v.x, v.y, v.z, 0}};
 }
@@ -44,18 +27,6 @@ Vec3 vector(const PatchVector& v) {
 
 Traction slip_of(const ContactPoint& point, const Vec3& velocity) {
   return {dot(velocity, point.along), dot(velocity, point.across)};
-}
-
-/// Velocity of the wheel against the rail at a point without contact. [m/s]
-Vec3 free_velocity(const ContactPoint& point, const BodyFrame& wheel, const NodeMotion& motion) {
-  Vec3 free =
-      wheel.velocity + cross({0, wheel.spin, 0}, point.position - point.gap * point.normal - wheel.origin);
-  for (std::size_t k = 0; k < kSupport; ++k) {
-    free += point.wheel_weight[k] * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],
-                                              motion.velocity.at(point.wheel_slot[k]));
-    free -= point.rail_weight[k] * motion.velocity.at(point.rail_slot[k]);
-  }
-  return free;
 }
 
 /// Removes points that were apart and stay so unless they close by more than kSpare faster than in the step
@@ -69,64 +40,29 @@ void remove_open(std::vector<ContactPoint>& points, double dt) {
 
 }  // namespace
 
-PatchSolver::PatchSolver() : lanes_(tile_forces().front()) {}
+PatchSolver::PatchSolver() : respond_(tile_forces().front()->patch_respond) {}
 
 void PatchSolver::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
-  node_of_.assign(static_cast<std::size_t>(slots), -1);
+  cells_.reserve(slots, points, nodes);
   tiles_.reserve(points / kLanes + 1);
   free_.reserve(points);
   impulse_.reserve(points);
-  nodes_.reserve(nodes);
+  mobility_.reserve(points);
   change_.reserve(nodes);
-  first_point_.reserve(nodes + 2);
-  for (auto* numbers : {&node_, &point_}) numbers->reserve(points * kLinkedNodes);
-  for (auto* weights : {&node_weight_, &point_weight_}) weights->reserve(points * kLinkedNodes);
 }
 
-void PatchSolver::link(const std::vector<ContactPoint>& points, const BodyFrame& wheel,
-                       const NodeMotion& motion) {
-  nodes_.clear();
-  free_.resize(points.size());
-  node_.resize(points.size() * kLinkedNodes);
-  node_weight_.resize(node_.size());
-  const auto number = [&](const Node& node) {
-    int& known = node_of_[static_cast<std::size_t>(node.slot)];
-    if (known < 0) {
-      known = static_cast<int>(nodes_.size());
-      nodes_.push_back(node);
-      nodes_.back().mobility = std::sqrt(motion.inverse_mass[node.slot]);
-    }
-    return known;
-  };
+void PatchSolver::set_free(const std::vector<ContactPoint>& points, const BodyFrame& wheel,
+                           const NodeMotion& motion) {
+  for (std::size_t n = 0; n < change_.size(); ++n) {
+    const PatchCells::Node& node = cells_.nodes()[n];
+    const Vec3 velocity = motion.velocity.at(node.slot);
+    change_[n] = padded(node.of_wheel ? globalise(node.cosine, node.sine, velocity) : -1 * velocity);
+  }
+  cells_.to_points(change_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& point = points[i];
-    const auto tie = [&](std::size_t k, double weight, const Node& node) {
-      const int n = number(node);
-      node_[i * kLinkedNodes + k] = n;
-      node_weight_[i * kLinkedNodes + k] = weight * nodes_[static_cast<std::size_t>(n)].mobility;
-    };
-    for (std::size_t k = 0; k < kSupport; ++k) {
-      tie(k, point.wheel_weight[k],
-          {point.wheel_slot[k], true, point.wheel_cosine[k / 4], point.wheel_sine[k / 4], 0});
-      tie(kSupport + k, -point.rail_weight[k], {point.rail_slot[k], false, 1, 0, 0});
-    }
-    free_[i] = padded(free_velocity(point, wheel, motion));
-  }
-  impulse_.resize(points.size());
-  change_.resize(nodes_.size());
-  list_points_of_nodes();
-}
-
-void PatchSolver::list_points_of_nodes() {
-  first_point_.assign(nodes_.size() + 2, 0);
-  for (const int node : node_) ++first_point_[static_cast<std::size_t>(node) + 2];
-  for (std::size_t n = 2; n < first_point_.size(); ++n) first_point_[n] += first_point_[n - 1];
-  point_.resize(node_.size());
-  point_weight_.resize(node_.size());
-  for (std::size_t term = 0; term < node_.size(); ++term) {
-    const auto place = static_cast<std::size_t>(first_point_[static_cast<std::size_t>(node_[term]) + 1]++);
-    point_[place] = static_cast<int>(term / kLinkedNodes);
-    point_weight_[place] = node_weight_[term];
+    const Vec3 arm = point.position - point.gap * point.normal - wheel.origin;
+    free_[i] = padded(wheel.velocity + cross({0, wheel.spin, 0}, arm) + cells_.sum(i));
   }
 }
 
@@ -151,16 +87,9 @@ void PatchSolver::fill_tiles(const std::vector<ContactPoint>& points, double dt)
   }
 }
 
-PatchTerms PatchSolver::nodes_of(std::size_t point) const {
-  return {node_.data() + point * kLinkedNodes, node_weight_.data() + point * kLinkedNodes};
-}
-
 void PatchSolver::sum_impulses() {
-  share(impulse_.size(), nodes_.size(), [&](std::size_t n) {
-    const int first = first_point_[n];
-    change_[n] = lanes_->patch_sum({point_.data() + first, point_weight_.data() + first},
-                                   first_point_[n + 1] - first, impulse_.data(), {});
-  });
+  cells_.to_nodes(impulse_, change_);
+  cells_.to_points(change_);
 }
 
 /// The coefficients of the step, from the sliding in the step before. A point starts to slide in its first
@@ -189,13 +118,10 @@ void PatchSolver::advance(const std::vector<ContactPoint>& points, FrictionOf<La
 void PatchSolver::set_compliances(const std::vector<ContactPoint>& points, double dt) {
   for (std::size_t i = 0; i < points.size(); ++i) impulse_[i] = {{0.5 * dt * dt * points[i].area, 0, 0, 0}};
   sum_impulses();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const PatchTerms terms = nodes_of(i);
-    double own = 0;
-    for (int k = 0; k < kLinkedNodes; ++k) own += terms.weight[k] * terms.weight[k];
-    const double all = lanes_->patch_sum(terms, kLinkedNodes, change_.data(), {}).value[0];
-    tiles_[i / kLanes].compliance[i % kLanes] = std::max(0.5 * dt * dt * points[i].area * own, all);
-  }
+  cells_.own_mobility(mobility_);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    tiles_[i / kLanes].compliance[i % kLanes] =
+        std::max(0.5 * dt * dt * points[i].area * mobility_[i], cells_.sum(i).x);
 }
 
 /// Sets the tractions that the points would have if the surfaces went on as in the step before.
@@ -216,11 +142,12 @@ void PatchSolver::guess(const std::vector<ContactPoint>& points, const PointSpri
 }
 
 PatchSolver::Progress PatchSolver::respond(std::size_t points, const PointIteration& iteration) {
-  share(points, tiles_.size(), [&](std::size_t t) {
+  share_patch(points, tiles_.size(), [&](std::size_t t) {
     const std::size_t first = t * kLanes;
-    lanes_->patch_respond(tiles_[t], static_cast<int>(std::min<std::size_t>(kLanes, points - first)),
-                          iteration, nodes_of(first), change_.data(), free_.data() + first,
-                          impulse_.data() + first);
+    const PatchVelocities velocities{free_.data() + first,
+                                     {cells_.sums(0).data() + first, cells_.sums(1).data() + first}};
+    respond_(tiles_[t], static_cast<int>(std::min<std::size_t>(kLanes, points - first)), iteration,
+             velocities, impulse_.data() + first);
   });
   double change[kLanes] = {};
   double largest[kLanes] = {};
@@ -277,7 +204,7 @@ void PatchSolver::settle(std::vector<ContactPoint>& points, double dt) {
 void PatchSolver::set_speeds(std::vector<ContactPoint>& points) const {
   for (std::size_t i = 0; i < points.size(); ++i) {
     ContactPoint& point = points[i];
-    const Vec3 after = vector(lanes_->patch_sum(nodes_of(i), kLinkedNodes, change_.data(), free_[i]));
+    const Vec3 after = vector(free_[i]) + cells_.sum(i);
     const Vec3 mean = 0.5 * (point.velocity_before + after);
     point.closing_speed = dot(mean, point.normal);
     point.slip_speed = slip_of(point, mean);
@@ -287,7 +214,11 @@ void PatchSolver::set_speeds(std::vector<ContactPoint>& points) const {
 void PatchSolver::solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
                         const BodyFrame& wheel, const NodeMotion& motion, double dt) {
   remove_open(points, dt);
-  link(points, wheel, motion);
+  cells_.link(points, motion.inverse_mass);
+  change_.resize(cells_.nodes().size());
+  for (std::vector<PatchVector>* vectors : {&free_, &impulse_}) vectors->resize(points.size());
+  mobility_.resize(points.size());
+  set_free(points, wheel, motion);
   fill_tiles(points, dt);
   std::visit([&](auto& of) { advance(points, of, dt); }, friction);
   set_compliances(points, dt);
@@ -308,13 +239,14 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
   // In the spinning frame half of an impulse acts before the turn of the relative velocity, half after it.
   const double cosine = 0.5 * (1 + std::cos(2 * spin * dt));
   const double sine = 0.5 * std::sin(2 * spin * dt);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Node& node = nodes_[i];
-    node_of_[static_cast<std::size_t>(node.slot)] = -1;
-    Vec3 change = node.mobility * vector(change_[i]);
+  for (std::size_t n = 0; n < change_.size(); ++n) {
+    const PatchCells::Node& node = cells_.nodes()[n];
+    Vec3 change = vector(change_[n]);
     if (node.of_wheel) {
       change = localise(node.cosine, node.sine, change);
       change = {cosine * change.x - sine * change.z, change.y, sine * change.x + cosine * change.z};
+    } else {
+      change = -1 * change;
     }
     motion.velocity.add(node.slot, change);
     motion.displacement.add(node.slot, dt * change);
@@ -322,12 +254,10 @@ void PatchSolver::write_back(const NodeMotion& motion, double spin, double dt) {
 }
 
 std::int64_t PatchSolver::bytes() const {
-  const std::size_t terms = node_.capacity() + point_.capacity();
   const std::size_t vectors = free_.capacity() + impulse_.capacity() + change_.capacity();
-  return static_cast<std::int64_t>(node_of_.size() * sizeof(int) +
-                                   nodes_.capacity() * (sizeof(Node) + sizeof(int)) +
-                                   tiles_.capacity() * sizeof(PointTile) + vectors * sizeof(PatchVector) +
-                                   terms * (sizeof(int) + sizeof(double)));
+  return cells_.bytes() +
+         static_cast<std::int64_t>(tiles_.capacity() * sizeof(PointTile) + vectors * sizeof(PatchVector) +
+                                   mobility_.capacity() * sizeof(double));
 }
 
 }  // namespace tread

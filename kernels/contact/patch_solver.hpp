@@ -10,11 +10,10 @@
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/friction/friction_law.hpp"
 #include "kernels/contact/friction/point_response.hpp"
+#include "kernels/contact/patch_cells.hpp"
 #include "kernels/lanes/patch_loop.hpp"
 
 namespace tread {
-
-struct TileForces;
 
 /// Nodal fields after a step without contact, components in the nodes' local bases.
 struct NodeMotion {
@@ -44,20 +43,14 @@ class PatchSolver {
   std::int64_t bytes() const;
 
  private:
-  struct Node {
-    std::int64_t slot;
-    bool of_wheel;
-    double cosine, sine;  ///< of the space angle of its basis (wheel)
-    double mobility;      ///< square root of the inverse mass [kg^-1/2]
-  };
   /// Largest values over all points. [Pa]
   struct Progress {
     double change;   ///< of a traction
     double largest;  ///< pressure
   };
 
-  void link(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion);
-  void list_points_of_nodes();
+  /// Sets the points' velocities without contact.
+  void set_free(const std::vector<ContactPoint>& points, const BodyFrame& wheel, const NodeMotion& motion);
   void fill_tiles(const std::vector<ContactPoint>& points, double dt);
   template <class Law>
   void advance(const std::vector<ContactPoint>& points, FrictionOf<Law>& friction, double dt);
@@ -65,28 +58,21 @@ class PatchSolver {
   void guess(const std::vector<ContactPoint>& points, const PointSprings& springs, double dt);
   void iterate(const std::vector<ContactPoint>& points, const PointSprings& springs, double dt);
   Progress respond(std::size_t points, const PointIteration& iteration);
-  /// Sets the nodes' change of velocity from the impulses of their points.
+  /// Sets the change of velocity of nodes and points from the impulses of the points.
   void sum_impulses();
-  PatchTerms nodes_of(std::size_t point) const;
   /// Sets the tractions of the points, and the impulses to them alone.
   void settle(std::vector<ContactPoint>& points, double dt);
   void set_speeds(std::vector<ContactPoint>& points) const;
   void write_back(const NodeMotion& motion, double spin, double dt);
 
-  const TileForces* lanes_;   ///< the widest instruction set's loops
-  std::vector<int> node_of_;  ///< by slot, -1: none
-  std::vector<Node> nodes_;
+  PatchRespond respond_;  ///< the widest instruction set's
+  PatchCells cells_;
   std::vector<PointTile> tiles_;
   std::vector<PatchVector> free_;     ///< velocity of the points, wheel against rail, without contact [m/s]
   std::vector<PatchVector> impulse_;  ///< of the points on the wheel [N s]
-  std::vector<PatchVector> change_;   ///< of the nodes' velocities by contact, over their mobility
-  /// Nodes of the points, kLinkedNodes each, and the wheel's weights against the rail's, times mobility
-  /// [kg^-1/2].
-  std::vector<int> node_;
-  std::vector<double> node_weight_;
-  /// The same by node: terms first_point_[n] to first_point_[n + 1].
-  std::vector<int> first_point_, point_;
-  std::vector<double> point_weight_;
+  /// By node: change of the velocity by contact, on the rail turned round, so that both close the gap [m/s].
+  std::vector<PatchVector> change_;
+  std::vector<double> mobility_;  ///< of the points: PatchCells::own_mobility
   int iterations_ = 0;
 };
 

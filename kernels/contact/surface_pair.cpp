@@ -60,13 +60,15 @@ void SurfacePair::place(const ContactState& state, std::array<int, 2> face, cons
       const std::size_t k = 4 * i + j;
       const int node = rail_profile_.node(across.ordinal[j]);
       const int station = along.ordinal[i];
-      point.rail_slot[k] = rail_->base + rail_->slot(node, station);
-      point.rail_weight[k] = along.value[i] * across.value[j];
-      x += point.rail_weight[k] * u.at(point.rail_slot[k]);
+      point.rail.slot[k] = rail_->base + rail_->slot(node, station);
+      const double weight = along.value[i] * across.value[j];
+      x += weight * u.at(point.rail.slot[k]);
       if (!exact)
-        depth += point.rail_weight[k] * depth_at(rail_->stations[static_cast<std::size_t>(station)],
-                                                 rail_->section.p[static_cast<std::size_t>(node)]);
+        depth += weight * depth_at(rail_->stations[static_cast<std::size_t>(station)],
+                                   rail_->section.p[static_cast<std::size_t>(node)]);
     }
+  point.rail.along = along.value;
+  point.rail.across = across.value;
   x.z -= depth;
   point.position = x;
   point.face = face;
@@ -103,9 +105,8 @@ SurfacePair::WheelSurface SurfacePair::wheel_surface(const ContactState& state, 
     for (std::size_t j = 0; j < 4; ++j) {
       const int node = wheel_profile_.node(over.ordinal[j]);
       const std::size_t k = 4 * i + j;
-      point.wheel_slot[k] = wheel_->base + wheel_->slot(node, around.ordinal[i]);
-      point.wheel_weight[k] = around.value[i] * over.value[j];
-      Vec3 nodal = u.at(point.wheel_slot[k]);
+      point.wheel.slot[k] = wheel_->base + wheel_->slot(node, around.ordinal[i]);
+      Vec3 nodal = u.at(point.wheel.slot[k]);
       if (!exact) {
         const double across = wheel_->section.p[static_cast<std::size_t>(node)];
         nodal += {0, across, wheel_->section.q[static_cast<std::size_t>(node)]};
@@ -124,6 +125,8 @@ SurfacePair::WheelSurface SurfacePair::wheel_surface(const ContactState& state, 
     // The stations' angles do not depend on phi, so that all points of a station have the same bits.
     point.wheel_angle[i] = state.wheel->angle + wheel_->stations[static_cast<std::size_t>(around.ordinal[i])];
   }
+  point.wheel.along = around.value;
+  point.wheel.across = over.value;
   return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Points of the contact patch: sums over their nodes, their responses, and sums of the nodes over their
+// Points of the contact patch: their responses, sums over their nodes, and sums of the nodes over their
 // points.
 
 #include "core/mesh/swept_block.hpp"
@@ -12,14 +12,20 @@ struct alignas(32) PatchVector {
   double value[4] = {};
 };
 
-/// Terms of weighted sums of vectors.
-struct PatchTerms {
-  const int* number;  ///< of the vector
-  const double* weight;
+/// Nodes of a cell: 4 stations x 4 nodes across.
+inline constexpr int kCellNodes = 16;
+
+/// Weights of a cell's nodes in a point: those of its stations times those of a station's nodes.
+struct PatchWeights {
+  double along[4], across[4];
 };
 
-/// Terms of a point's velocity: nodes that carry it, on the wheel and on the rail.
-inline constexpr int kLinkedNodes = 32;
+/// Points that the same nodes of a body carry.
+struct CellPoints {
+  int count;
+  const int* number;            ///< of the point
+  const PatchWeights* weights;  ///< of the nodes
+};
 
 /// kLanes points, a lane each; unused lanes hold zeros.
 struct alignas(64) PointTile {
@@ -42,14 +48,23 @@ struct PointIteration {
   double momentum;  ///< share of the response's last change that `held` gets beyond the response
 };
 
-/// Sets response, change and held tractions of a tile with `points` points, and the impulses of the held
-/// tractions on the wheel [N s]. `terms`: kLinkedNodes a point; `change`: of the nodes' velocities; `free`:
-/// the points' velocities without contact [m/s].
-using PatchRespond = void (*)(PointTile& tile, int points, const PointIteration& iteration, PatchTerms terms,
-                              const PatchVector* change, const PatchVector* free, PatchVector* impulse);
+/// Velocities of the points of a tile, those of the wheel against the rail: without contact, and its changes
+/// by contact in both bodies. [m/s]
+struct PatchVelocities {
+  const PatchVector* free;
+  const PatchVector* change[2];
+};
 
-/// start + the weighted sum of `count` terms, added over four partial sums.
-using PatchSum = PatchVector (*)(PatchTerms terms, int count, const PatchVector* vectors,
-                                 const PatchVector& start);
+/// Sets response, change and held tractions of a tile with `points` points, and the impulses of the held
+/// tractions on the wheel [N s].
+using PatchRespond = void (*)(PointTile& tile, int points, const PointIteration& iteration,
+                              const PatchVelocities& velocities, PatchVector* impulse);
+
+/// Sets `sums` of kCellNodes nodes to the weighted sums over the points of a cell.
+using CellToNodes = void (*)(const CellPoints& cell, const PatchVector* of_points, PatchVector* sums);
+
+/// Sets the points of a cell to the weighted sums over its nodes, `node` their numbers.
+using CellToPoints = void (*)(const CellPoints& cell, const int* node, const PatchVector* of_nodes,
+                              PatchVector* of_points);
 
 }  // namespace tread

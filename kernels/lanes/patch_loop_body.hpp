@@ -9,24 +9,35 @@ namespace {
 
 using PatchRegister = Vector<double, 4>::type;
 
-TREAD_INLINE PatchRegister sum_terms(PatchTerms terms, int count, const PatchVector* vectors,
-                                     PatchRegister start) {
-  constexpr int kSums = 4;  // so that additions wait less for one another
-  PatchRegister part[kSums] = {start};
-  int k = 0;
-  for (; k + kSums <= count; k += kSums)
-    for (int i = 0; i < kSums; ++i)
-      part[i] += terms.weight[k + i] * load<PatchRegister>(vectors[terms.number[k + i]].value);
-  for (int i = 0; k + i < count; ++i)
-    part[i] += terms.weight[k + i] * load<PatchRegister>(vectors[terms.number[k + i]].value);
-  return (part[0] + part[1]) + (part[2] + part[3]);
+inline void cell_to_nodes(const CellPoints& cell, const PatchVector* of_points, PatchVector* sums) {
+  PatchRegister sum[kCellNodes] = {};
+  for (int p = 0; p < cell.count; ++p) {
+    const PatchWeights& weights = cell.weights[p];
+    const PatchRegister vector = load<PatchRegister>(of_points[cell.number[p]].value);
+    for (int i = 0; i < 4; ++i) {
+      const PatchRegister part = weights.along[i] * vector;
+      for (int j = 0; j < 4; ++j) sum[4 * i + j] += weights.across[j] * part;
+    }
+  }
+  for (int k = 0; k < kCellNodes; ++k) store(sums[k].value, sum[k]);
 }
 
-inline PatchVector patch_sum(PatchTerms terms, int count, const PatchVector* vectors,
-                             const PatchVector& start) {
-  PatchVector sum;
-  store(sum.value, sum_terms(terms, count, vectors, load<PatchRegister>(start.value)));
-  return sum;
+inline void cell_to_points(const CellPoints& cell, const int* node, const PatchVector* of_nodes,
+                           PatchVector* of_points) {
+  PatchRegister vector[kCellNodes];
+  for (int k = 0; k < kCellNodes; ++k) vector[k] = load<PatchRegister>(of_nodes[node[k]].value);
+  for (int p = 0; p < cell.count; ++p) {
+    const PatchWeights& weights = cell.weights[p];
+    PatchRegister station[4];
+    for (int i = 0; i < 4; ++i) {
+      const PatchRegister* v = vector + 4 * i;
+      station[i] = (weights.across[0] * v[0] + weights.across[1] * v[1]) +
+                   (weights.across[2] * v[2] + weights.across[3] * v[3]);
+    }
+    store(of_points[cell.number[p]].value,
+          (weights.along[0] * station[0] + weights.along[1] * station[1]) +
+              (weights.along[2] * station[2] + weights.along[3] * station[3]));
+  }
 }
 
 using TileLanes = Vector<double, kLanes>::type;
@@ -71,14 +82,13 @@ TREAD_INLINE void respond_lanes(PointTile& tile, const PointIteration& iteration
                                      held[2] * lanes_of(tile.across[c])));
 }
 
-inline void patch_respond(PointTile& tile, int points, const PointIteration& iteration, PatchTerms terms,
-                          const PatchVector* change, const PatchVector* free, PatchVector* impulse) {
+inline void patch_respond(PointTile& tile, int points, const PointIteration& iteration,
+                          const PatchVelocities& velocities, PatchVector* impulse) {
   double vector[3][kLanes] = {};  // velocities, then impulses
-  for (int l = 0; l < points; ++l) {
-    const PatchTerms own{terms.number + l * kLinkedNodes, terms.weight + l * kLinkedNodes};
-    const PatchRegister v = sum_terms(own, kLinkedNodes, change, load<PatchRegister>(free[l].value));
-    for (int c = 0; c < 3; ++c) vector[c][l] = v[c];
-  }
+  for (int l = 0; l < points; ++l)
+    for (int c = 0; c < 3; ++c)
+      vector[c][l] =
+          velocities.free[l].value[c] + velocities.change[0][l].value[c] + velocities.change[1][l].value[c];
   respond_lanes(tile, iteration, vector, vector);
   for (int l = 0; l < points; ++l)
     store(impulse[l].value, PatchRegister{vector[0][l], vector[1][l], vector[2][l], 0});

@@ -145,7 +145,8 @@ struct TileForces {
   TieSum<double> tie_in_double;
   TieSum<float> tie_in_float;
   PatchRespond patch_respond;
-  PatchSum patch_sum;
+  CellToNodes cell_to_nodes;
+  CellToPoints cell_to_points;
 
   template <class Real, class U>
   const TileLoops<Real, U>& loops() const {

@@ -10,6 +10,7 @@ const TileForces tile_forces_avx2 = {"avx2",
                                      tie_sum<double>,
                                      tie_sum<float>,
                                      patch_respond,
-                                     patch_sum};
+                                     cell_to_nodes,
+                                     cell_to_points};
 
 }  // namespace tread

@@ -10,6 +10,7 @@ const TileForces tile_forces_baseline = {"baseline",
                                          tie_sum<double>,
                                          tie_sum<float>,
                                          patch_respond,
-                                         patch_sum};
+                                         cell_to_nodes,
+                                         cell_to_points};
 
 }  // namespace tread

@@ -56,16 +56,8 @@ class Patch {
   /// A point with this gap [m], on nodes of the rail and of the wheel.
   ContactPoint& add(double gap, const Weighted& rail, const Weighted& wheel) {
     ContactPoint point{};
-    point.rail_slot.fill(rail.front().first);
-    point.wheel_slot.fill(wheel_ + wheel.front().first);
-    for (std::size_t k = 0; k < rail.size(); ++k) {
-      point.rail_slot[k] = rail[k].first;
-      point.rail_weight[k] = rail[k].second;
-    }
-    for (std::size_t k = 0; k < wheel.size(); ++k) {
-      point.wheel_slot[k] = wheel_ + wheel[k].first;
-      point.wheel_weight[k] = wheel[k].second;
-    }
+    place(point.rail, rail, 0);
+    place(point.wheel, wheel, wheel_);
     // At this angle the local components (t, y, r) are (-x, y, -z).
     point.wheel_cosine.fill(1);
     point.wheel_sine.fill(0);
@@ -93,6 +85,16 @@ class Patch {
   std::vector<ContactPoint> points;
 
  private:
+  /// On up to four nodes of one station, numbered from slot `first` on.
+  static void place(SurfaceSupport& support, const Weighted& nodes, int first) {
+    support.slot.fill(first + nodes.front().first);
+    support.along[0] = 1;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      support.slot[k] = first + nodes[k].first;
+      support.across[k] = nodes[k].second;
+    }
+  }
+
   int wheel_;  ///< first slot of the wheel's nodes
   AlignedVector<double> u_, v_, inverse_mass_;
   PatchSolver solver_;

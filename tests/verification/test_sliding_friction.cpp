@@ -219,9 +219,9 @@ class MassOnBelt {
     double& u = u_[dof(kWheel, 0)];
     double& v = v_[dof(kWheel, 0)];
     ContactPoint point{};
-    point.rail_slot.fill(kRail);
-    point.wheel_slot.fill(kWheel);
-    point.rail_weight[0] = point.wheel_weight[0] = 1;
+    point.rail.slot.fill(kRail);
+    point.wheel.slot.fill(kWheel);
+    for (SurfaceSupport* support : {&point.rail, &point.wheel}) support->along[0] = support->across[0] = 1;
     point.wheel_cosine.fill(1);
     point.normal = {0, 0, -1};
     point.along = {1, 0, 0};

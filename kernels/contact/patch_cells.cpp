@@ -1,0 +1,179 @@
+#include "kernels/contact/patch_cells.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "kernels/lanes/tile_force.hpp"
+
+namespace tread {
+
+namespace {
+
+static_assert(kCellNodes == kSupport);
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+const SurfaceSupport& support_of(const ContactPoint& point, int body) {
+  return body == 0 ? point.rail : point.wheel;
+}
+
+}  // namespace
+
+PatchCells::PatchCells() : lanes_(tile_forces().front()) {}
+
+void PatchCells::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
+  node_of_.assign(index(slots), -1);
+  cell_of_.assign(index(slots), -1);
+  nodes_.reserve(nodes);
+  // No body has more cells than nodes.
+  const std::size_t cells = std::min(2 * points, nodes);
+  cells_.reserve(cells);
+  cell_number_.reserve(2 * points);
+  point_.reserve(2 * points);
+  weights_.reserve(2 * points);
+  cell_sums_.reserve(cells * kCellNodes);
+  first_term_.reserve(nodes + 2);
+  term_.reserve(cells * kCellNodes);
+  for (std::vector<PatchVector>& sums : sums_) sums.reserve(points);
+}
+
+void PatchCells::link(const std::vector<ContactPoint>& points, const double* inverse_mass) {
+  inverse_mass_ = inverse_mass;
+  nodes_.clear();
+  cells_.clear();
+  cell_number_.clear();
+  for (const int body : {0, 1}) find_cells(points, body);
+  for (const Node& node : nodes_) node_of_[index(node.slot)] = cell_of_[index(node.slot)] = -1;
+  list_points(points);
+  list_terms();
+  for (std::vector<PatchVector>& sums : sums_) sums.resize(points.size());
+}
+
+void PatchCells::find_cells(const std::vector<ContactPoint>& points, int body) {
+  for (const ContactPoint& point : points) {
+    const int cell = cell_of(point, body);
+    cell_number_.push_back(cell);
+    ++cells_[index(cell)].count;
+  }
+}
+
+/// The number of the point's cell, a new one if no point before lies in it.
+int PatchCells::cell_of(const ContactPoint& point, int body) {
+  const SurfaceSupport& support = support_of(point, body);
+  int& known = cell_of_[index(support.slot[5])];  // the corner of the face: no other face has it
+  const auto same = [&](const Cell& cell) {
+    for (std::size_t k = 0; k < kSupport; ++k)
+      if (nodes_[index(cell.node[k])].slot != support.slot[k]) return false;
+    return true;
+  };
+  if (known >= 0 && same(cells_[index(known)])) return known;
+  Cell cell{};
+  cell.body = body;
+  for (std::size_t k = 0; k < kSupport; ++k) {
+    const std::int64_t slot = support.slot[k];
+    int& node = node_of_[index(slot)];
+    if (node < 0) {
+      node = static_cast<int>(std::ssize(nodes_));
+      const bool wheel = body == 1;
+      nodes_.push_back({slot, wheel, wheel ? point.wheel_cosine[k / 4] : 1,
+                        wheel ? point.wheel_sine[k / 4] : 0, inverse_mass_[slot]});
+    }
+    cell.node[k] = node;
+  }
+  known = static_cast<int>(std::ssize(cells_));
+  cells_.push_back(cell);
+  return known;
+}
+
+/// Lists points and weights by cells.
+void PatchCells::list_points(const std::vector<ContactPoint>& points) {
+  int first = 0;
+  for (Cell& cell : cells_) {
+    cell.first = first;
+    first += cell.count;
+    cell.count = 0;
+  }
+  point_.resize(cell_number_.size());
+  weights_.resize(cell_number_.size());
+  for (std::size_t i = 0; i < cell_number_.size(); ++i) {
+    Cell& cell = cells_[index(cell_number_[i])];
+    const std::size_t point = i % points.size();
+    const std::size_t place = index(cell.first + cell.count++);
+    const SurfaceSupport& support = support_of(points[point], cell.body);
+    point_[place] = static_cast<int>(point);
+    std::copy(support.along.begin(), support.along.end(), weights_[place].along);
+    std::copy(support.across.begin(), support.across.end(), weights_[place].across);
+  }
+}
+
+/// Lists the cells' sums by nodes.
+void PatchCells::list_terms() {
+  cell_sums_.resize(cells_.size() * kCellNodes);
+  term_.resize(cell_sums_.size());
+  first_term_.assign(nodes_.size() + 2, 0);
+  for (const Cell& cell : cells_)
+    for (const int node : cell.node) ++first_term_[index(node) + 2];
+  for (std::size_t n = 2; n < first_term_.size(); ++n) first_term_[n] += first_term_[n - 1];
+  int term = 0;
+  for (const Cell& cell : cells_)
+    for (const int node : cell.node) term_[index(first_term_[index(node) + 1]++)] = term++;
+}
+
+CellPoints PatchCells::points_of(const Cell& cell) const {
+  return {cell.count, point_.data() + cell.first, weights_.data() + cell.first};
+}
+
+void PatchCells::to_nodes(const std::vector<PatchVector>& points, std::vector<PatchVector>& nodes) {
+  share_patch(points.size(), cells_.size(), [&](std::size_t c) {
+    lanes_->cell_to_nodes(points_of(cells_[c]), points.data(), cell_sums_.data() + c * kCellNodes);
+  });
+  share_patch(points.size(), nodes_.size(), [&](std::size_t n) {
+    PatchVector sum;
+    for (int t = first_term_[n]; t < first_term_[n + 1]; ++t)
+      for (int c = 0; c < 4; ++c) sum.value[c] += cell_sums_[index(term_[index(t)])].value[c];
+    for (double& value : sum.value) value *= nodes_[n].inverse_mass;
+    nodes[n] = sum;
+  });
+}
+
+void PatchCells::to_points(const std::vector<PatchVector>& nodes) {
+  share_patch(sums_[0].size(), cells_.size(), [&](std::size_t c) {
+    const Cell& cell = cells_[c];
+    lanes_->cell_to_points(points_of(cell), cell.node.data(), nodes.data(), sums_[index(cell.body)].data());
+  });
+}
+
+Vec3 PatchCells::sum(std::size_t point) const {
+  const double* rail = sums_[0][point].value;
+  const double* wheel = sums_[1][point].value;
+  return {rail[0] + wheel[0], rail[1] + wheel[1], rail[2] + wheel[2]};
+}
+
+void PatchCells::own_mobility(std::vector<double>& of_points) const {
+  std::fill(of_points.begin(), of_points.end(), 0.0);
+  for (const Cell& cell : cells_) {
+    double mobility[kCellNodes];
+    for (std::size_t k = 0; k < kCellNodes; ++k) mobility[k] = nodes_[index(cell.node[k])].inverse_mass;
+    const CellPoints points = points_of(cell);
+    for (int p = 0; p < points.count; ++p) {
+      double& own = of_points[index(points.number[p])];
+      for (int k = 0; k < kCellNodes; ++k) {
+        const double weight = points.weights[p].along[k / 4] * points.weights[p].across[k % 4];
+        own += weight * weight * mobility[k];
+      }
+    }
+  }
+}
+
+std::int64_t PatchCells::bytes() const {
+  const std::size_t numbers =
+      node_of_.size() + cell_of_.size() + cell_number_.capacity() + point_.capacity() + 2 * term_.capacity();
+  const std::size_t vectors = cell_sums_.capacity() + sums_[0].capacity() + sums_[1].capacity();
+  return static_cast<std::int64_t>(numbers * sizeof(int) + vectors * sizeof(PatchVector) +
+                                   nodes_.capacity() * sizeof(Node) + cells_.capacity() * sizeof(Cell) +
+                                   weights_.capacity() * sizeof(PatchWeights));
+}
+
+}  // namespace tread
