@@ -12,7 +12,7 @@
 namespace tread {
 
 ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
-                       const std::vector<BeamSupport>& foot, const std::vector<SleeperSupport>& sleepers)
+                       const std::vector<FootSpring>& foot, const std::vector<SleeperSupport>& sleepers)
     : beam_(std::move(beam)), omega_(beam_.omega()) {
   const std::size_t modes = omega_.size();
   omega_.resize(modes + sleepers.size(), 0.0);
@@ -26,10 +26,16 @@ ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
     beam_.shapes(s.x, values);
     add(s.stiffness, s.damping);
   }
-  for (const BeamSupport& s : foot) {
-    beam_.foot_shapes(s.x, values);
+  std::vector<double> there(modes);
+  for (const FootSpring& s : foot) {
+    std::fill(values.begin(), values.end(), 0.0);
+    for (const auto& [x, weight] : s.places) {
+      beam_.foot_shapes(x, there);
+      for (std::size_t i = 0; i < modes; ++i) values[i] += weight * there[i];
+    }
     add(s.stiffness, s.damping);
   }
+  std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t i = 0; i < sleepers.size(); ++i) {
     const SleeperSupport& s = sleepers[i];
     beam_.shapes(s.x, values);
@@ -115,8 +121,9 @@ double ModalTrack::support_damping() const {
   return supports() == 0 ? 0 : largest(damping_);
 }
 
-ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt)
-    : track_(&track), vehicle_(vehicle), dt_(dt) {
+ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt,
+                           const ModalWheel& wheel)
+    : track_(&track), vehicle_(vehicle), dt_(dt), modal_wheel_(wheel), waves_(2 * wheel.modes.size()) {
   if (vehicle.bending) throw std::logic_error("the wheel of a modal passage does not bend");
   state_ = track.static_state(x, vehicle.load());
   rate_.resize(state_.size());
@@ -128,10 +135,14 @@ ModalPassage::ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, 
   double modal = 0;
   track.beam().head_shapes(x, shape_);
   for (std::size_t i = 0; i < state_.size(); ++i) modal += shape_[i] * state_[i];
-  wheel_.z = modal + track.beam().residual_flexibility() * vehicle.load() +
-             std::pow(vehicle.load() / vehicle.contact, 2.0 / 3);
+  wheel_.z = modal + flexibility() * vehicle.load() + std::pow(vehicle.load() / vehicle.contact, 2.0 / 3);
+  for (std::size_t k = 0; k < wheel.modes.size(); ++k) {
+    const WheelMode& mode = wheel.modes[k];
+    waves_[2 * k].z = mode.amplitude * vehicle.load() / (mode.omega * mode.omega);
+    wheel_.z += mode.amplitude * waves_[2 * k].z;
+  }
   sprung_.z = wheel_.z + vehicle.static_stretch();
-  accelerate(x, 0);
+  accelerate(x, 0, {});
 }
 
 void ModalPassage::Mass::move(double dt, double blend) {
@@ -140,7 +151,7 @@ void ModalPassage::Mass::move(double dt, double blend) {
   before = acceleration;
 }
 
-void ModalPassage::step(double x, double roughness) {
+void ModalPassage::step(double x, double roughness, const ContactRelief& relief) {
   const double blend = std::exchange(first_, false) ? 0 : 0.5;  // psi and phi
   const double now = dt_ * dt_ * (0.5 + blend);
   const double then = dt_ * dt_ * blend;
@@ -151,8 +162,9 @@ void ModalPassage::step(double x, double roughness) {
   before_.swap(acceleration_);
   wheel_.move(dt_, blend);
   sprung_.move(dt_, blend);
+  for (Mass& wave : waves_) wave.move(dt_, blend);
   time_ += dt_;
-  accelerate(x, roughness);
+  accelerate(x, roughness, relief);
   if (!std::isfinite(force_) || std::abs(wheel_.z) > 1)
     throw NumericalError(
         fmt::format("the multi-body model became unstable at x = {:.4f} m with a step of {:.3e} s; state a "
@@ -162,28 +174,39 @@ void ModalPassage::step(double x, double roughness) {
 
 namespace {
 
-/// Solves F = C (approach - flexibility F)^1.5 for F > 0 by Newton's method from above; 0 without contact.
-double contact_force(double approach, double contact, double flexibility) {
-  if (approach <= 0) return 0;
-  double d = approach;  // compression of the spring alone
+/// Solves approach = (F / C)^(2/3) + flexibility F + relief for F > 0 by Newton's method; 0 without contact.
+double contact_force(double approach, double contact, double flexibility, const ContactRelief& relief) {
+  if (approach <= relief.at(0)) return 0;
+  const double hertz = std::pow(contact, -2.0 / 3);
+  double s = std::max(0.0, approach - relief.at(0)) / hertz;  // F^(2/3), from above
   for (int i = 0; i < 50; ++i) {
-    const double root = std::sqrt(d);
-    const double change =
-        (d + flexibility * contact * root * d - approach) / (1 + 1.5 * flexibility * contact * root);
-    d -= change;
-    if (std::abs(change) < 1e-14 * approach) break;
+    const double root = std::sqrt(s);
+    double value = hertz * s + flexibility * s * root;
+    double slope = hertz + 1.5 * flexibility * root;
+    if (relief.pitch > 0) {
+      const auto [more, steeper] = relief.value(s);
+      value += more;
+      slope += steeper;
+    }
+    const double next = std::max(0.0, s - (value - approach) / slope);
+    const double change = next - s;
+    s = next;
+    if (std::abs(change) <= 1e-14 * s) break;
   }
-  return contact * std::pow(std::max(d, 0.0), 1.5);
+  return s * std::sqrt(s);
 }
 
 }  // namespace
 
-void ModalPassage::accelerate(double x, double roughness) {
+void ModalPassage::accelerate(double x, double roughness, const ContactRelief& relief) {
   const ModalBeam& beam = track_->beam();
   beam.head_shapes(x, shape_);
   double modal = 0;
   for (std::size_t i = 0; i < state_.size(); ++i) modal += shape_[i] * state_[i];
-  force_ = contact_force(wheel_.z - modal - roughness, vehicle_.contact, beam.residual_flexibility());
+  double bent = 0;
+  for (std::size_t k = 0; k < modal_wheel_.modes.size(); ++k)
+    bent += modal_wheel_.modes[k].amplitude * waves_[2 * k].z;
+  force_ = contact_force(wheel_.z - bent - modal - roughness, vehicle_.contact, flexibility(), relief);
   rail_ = modal + beam.residual_flexibility() * force_;
 
   for (std::size_t i = 0; i < state_.size(); ++i)
@@ -193,10 +216,19 @@ void ModalPassage::accelerate(double x, double roughness) {
   const double suspension =
       vehicle_.stiffness * (wheel_.z - sprung_.z) + vehicle_.damping * (wheel_.rate - sprung_.rate);
   wheel_.acceleration = vehicle_.gravity + (vehicle_.pressed - force_ - suspension) / vehicle_.unsprung_mass;
+  for (std::size_t k = 0; k < modal_wheel_.modes.size(); ++k) {
+    const WheelMode& mode = modal_wheel_.modes[k];
+    Mass& wave = waves_[2 * k];
+    Mass& companion = waves_[2 * k + 1];
+    const double square = mode.omega * mode.omega;
+    const double coupling = 2 * modal_wheel_.spin * mode.turning;
+    wave.acceleration = mode.amplitude * force_ - square * wave.z - coupling * companion.rate;
+    companion.acceleration = coupling * wave.rate - square * companion.z;
+  }
   sprung_.acceleration = vehicle_.sprung_mass > 0 ? vehicle_.gravity + suspension / vehicle_.sprung_mass : 0;
 }
 
-double passage_step(const ModalTrack& track, const BeamVehicle& vehicle) {
+double passage_step(const ModalTrack& track, const BeamVehicle& vehicle, const ModalWheel& wheel) {
   const ModalBeam& beam = track.beam();
   // The estimate takes the contact at ten times the static load, on the wheel and on the beam where its modes
   // add up.
@@ -206,7 +238,8 @@ double passage_step(const ModalTrack& track, const BeamVehicle& vehicle) {
   beam.head_shapes(beam.left(), shape);
   double mobility = 1 / vehicle.unsprung_mass;
   for (const double value : shape) mobility += 0.5 * value * value;  // at the end cos^2 = 1, elsewhere half
-  const double stiff = contact / (1 + contact * beam.residual_flexibility());
+  for (const WheelMode& mode : wheel.modes) mobility += mode.amplitude * mode.amplitude;
+  const double stiff = contact / (1 + contact * (beam.residual_flexibility() + wheel.flexibility));
   const double top = *std::max_element(beam.omega().begin(), beam.omega().end());
   const double omega = std::sqrt(top * top + track.support_stiffness() + stiff * mobility);
   return 0.5 / (0.5 * omega + track.support_damping());
