@@ -5,57 +5,11 @@
 #include <vector>
 
 #include "drivers/engine/beam/beam_passage.hpp"
-#include "drivers/studies/multibody/modal_beam.hpp"
+#include "drivers/studies/multibody/modal_track.hpp"
 #include "drivers/studies/multibody/modal_wheel.hpp"
 #include "drivers/studies/multibody/sine_contact.hpp"
 
 namespace tread {
-
-/// A spring-damper that a weighted sum of the foot's motions along x stretches.
-struct FootSpring {
-  struct Place {
-    double x = 0;       ///< [m]
-    double weight = 0;  ///< [-]
-  };
-  std::vector<Place> places;
-  double stiffness = 0;  ///< [N/m]
-  double damping = 0;    ///< [N s/m]
-};
-
-/// The modal rail on its supports.
-class ModalTrack {
- public:
-  /// `foot`: only under a beam whose foot moves. A sleeper's
-  /// deflection times the root of its mass is one more coordinate after those of the modes.
-  ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
-             const std::vector<FootSpring>& foot = {}, const std::vector<SleeperSupport>& sleepers = {});
-
-  const ModalBeam& beam() const { return beam_; }
-  std::size_t coordinates() const { return omega_.size(); }
-  /// Angular frequencies by coordinate, without the supports; 0 of sleepers [rad/s].
-  const std::vector<double>& omega() const { return omega_; }
-
-  /// Coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
-  std::vector<double> static_state(double x, double force) const;
-
-  /// Adds the modal forces of springs and dampers. `scratch` holds a value for each support.
-  void support_forces(const std::vector<double>& state, const std::vector<double>& rate,
-                      std::vector<double>& forces, std::vector<double>& scratch) const;
-  std::size_t supports() const { return stiffness_.size(); }
-
-  /// Estimates of the supports' largest contribution to the squares of the modes' frequencies [rad2/s2], and
-  /// of their largest rate of decay [1/s].
-  double support_stiffness() const;
-  double support_damping() const;
-
- private:
-  double largest(const std::vector<double>& weight) const;
-
-  ModalBeam beam_;
-  std::vector<double> omega_;
-  std::vector<double> stiffness_, damping_;  ///< values by support
-  std::vector<double> by_support_;           ///< what a coordinate stretches, support by support [1/sqrt(kg)]
-};
 
 /// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference without damping,
 /// second order with dampers, one evaluation of the forces per step. [theory.md, eq. M4] A copy goes on by
@@ -84,7 +38,7 @@ class ModalPassage {
     void move(double dt, double blend);
   };
   void accelerate(double x, double roughness, const ContactRelief& relief);
-  double flexibility() const { return track_->beam().residual_flexibility() + modal_wheel_.flexibility; }
+  double flexibility(double x) const { return track_->flexibility(x) + modal_wheel_.flexibility; }
 
   const ModalTrack* track_;
   BeamVehicle vehicle_;

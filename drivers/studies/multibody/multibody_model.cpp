@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kTopFrequency = 20e3;        ///< highest frequency of the modes [Hz]
 constexpr double kTopFrequencyOfFoot = 30e3;  ///< the same where the foot is held along x [Hz]
+constexpr double kTopOfTrack = 6e3;           ///< highest frequency of a solid rail on its supports [Hz]
 constexpr double kBeyond = 0.1;               ///< length of the passage beyond the evaluated stretch [m]
 constexpr double kEndOfRail = 0.3;            ///< least distance of the wheel from the rail's ends [m]
 
@@ -319,7 +320,8 @@ ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
         along.push_back(std::move(spring));
       }
   }
-  return {std::move(beam), model.supports, along, model.sleepers};
+  ModalTrack track(std::move(beam), model.supports, along, model.sleepers);
+  return model.solid ? track.diagonal(kTopOfTrack) : track;
 }
 
 }  // namespace tread

@@ -79,9 +79,9 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
   const double longest = 4 * passage_step(track, model.vehicle, model.wheel);
   if (step.step && *step.step > longest)
     throw InputError(fmt::format("--step {:.4g} s: steps beyond {:.2g} s cannot be stable with {} modes",
-                                 *step.step, longest, track.beam().modes()));
+                                 *step.step, longest, track.modes()));
   MultibodyResult r;
-  r.modes = track.beam().modes();
+  r.modes = track.modes();
   r.dt = step.step.value_or(chosen_step(track, model, model.speed, wavelength_of(model)));
   const ModalWheel wheel = model.wheel_at(model.speed);
   r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt, wheel).rail();

@@ -67,29 +67,25 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
   const auto of_foot = [&](int n) { return std::pow(held.coefficient(wave_number(n)), 2) * mean(n); };
   for (int n = 0; n <= dense; ++n)
     out.foot_residual.push_back(n == 0 ? 0 : of_foot(n) * along[static_cast<std::size_t>(n)]);
-  // Rounding also finds odd motions.
-  const double rigid_motion = 1 / std::sqrt(beam.mass * length);
-  const auto moves = [&](const HarmonicMode& mode) {
-    return std::any_of(mode.amplitude.begin(), mode.amplitude.end(),
-                       [&](double a) { return std::abs(a) > kLeastMotion * rigid_motion; });
+  // Rounding finds rigid motions more than once, and odd motions.
+  const double rigid = 1 / std::sqrt(beam.mass * length);
+  out.modes.push_back({0, 0, rigid, rigid, 0});
+  const auto counts = [&](const HarmonicMode& mode) {
+    return !mode.rigid() && mode.stiffness < highest * highest &&
+           std::max(std::abs(mode.amplitude[kHead]), std::abs(mode.amplitude[kFoot])) > kLeastMotion * rigid;
   };
   // By families, along which the harmonics follow one another.
   for (std::size_t family = 0; family < static_cast<std::size_t>(kOfLow); ++family)
     for (std::size_t i = 0; i <= static_cast<std::size_t>(dense); ++i) {
-      if (family >= harmonics[i].modes.size()) continue;
+      if (family >= harmonics[i].modes.size() || !counts(harmonics[i].modes[family])) continue;
       const HarmonicMode& mode = harmonics[i].modes[family];
-      if (mode.stiffness > highest * highest || !moves(mode)) continue;
       const int n = some[i];
       const double share = region.coefficient(wave_number(n));
-      const double share_along = held.coefficient(wave_number(n));
-      const bool rigid = mode.rigid() && n == 0;
-      out.modes.push_back({n, rigid ? 0 : std::sqrt(mode.stiffness), mode.amplitude[kFoot],
-                           share * mode.amplitude[kHead], share_along * mode.amplitude[kFootAlong]});
-      if (rigid) continue;
-      const BeamMode& last = out.modes.back();
+      const double foot = n == 0 ? 0 : held.coefficient(wave_number(n)) * mode.amplitude[kFootAlong];
+      out.modes.push_back(
+          {n, std::sqrt(mode.stiffness), mode.amplitude[kFoot], share * mode.amplitude[kHead], foot});
       out.residual -= mean(n) * share * share * mode.flexibility;
-      if (n > 0)
-        out.foot_residual[static_cast<std::size_t>(n)] -= mean(n) * last.foot * last.foot / mode.stiffness;
+      out.foot_residual[i] -= mean(n) * foot * foot / mode.stiffness;
     }
   return {-scene.rail->origin, length, std::move(out)};
 }
