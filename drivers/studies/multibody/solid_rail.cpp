@@ -31,44 +31,60 @@ HarmonicSolid upright(const Scene& scene, double element) {
   return {{{sections.cap, material}, {sections.base, material}}, {{0, "tie", 1, "tie"}}, length};
 }
 
+/// Harmonics of the rail: each of the first, which have modes in the band, and some beyond.
+struct RailHarmonics {
+  int dense = 0;  ///< last of those that are solved each
+  std::vector<int> some;
+  std::vector<HarmonicModes> solved;  ///< by `some`
+
+  std::vector<double> flexibilities(std::size_t load) const {
+    std::vector<double> values;
+    for (const HarmonicModes& one : solved) values.push_back(one.flexibility[load]);
+    return values;
+  }
+};
+
+RailHarmonics rail_harmonics(const Scene& scene, const ForceRegion& region, int dense, double element) {
+  const HarmonicSolid solid = upright(scene, element);
+  const std::size_t base = scene.rail->profile == "box" ? 0 : 1;
+  // In the middle a force leaves the odd motions at rest.
+  const std::vector<double> head =
+      solid.surface_load(0, 2, [&](double p) { return region.density(region.centre + p); });
+  const double last = region.last_wave_number() * scene.rail->length / std::numbers::pi;
+  RailHarmonics out{dense, some_harmonics(dense, std::max(dense, static_cast<int>(last))), {}};
+  out.solved =
+      solid.modes(out.some, {head, solid.path_load(base, 0, "foot")}, {solid.path_load(base, 2, "foot")},
+                  [&](int n) { return n <= dense ? kOfLow : kOfHigh; });
+  return out;
+}
+
 }  // namespace
 
 ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, double element) {
-  const HarmonicSolid solid = upright(scene, element);
   const double length = scene.rail->length;
-  const std::size_t base = scene.rail->profile == "box" ? 0 : 1;
-  // In the middle a force leaves the odd motions at rest.
-  const std::vector<double> head_load =
-      solid.surface_load(0, 2, [&](double p) { return region.density(region.centre + p); });
+  // No even wave is as slow as those of bending.
+  const BeamProperties beam = timoshenko(rail_beam_section(scene), scene.rail_material());
+  const RailHarmonics rail = rail_harmonics(scene, region, 10 + modes_below(beam, length, top), element);
   // A spring along the foot holds the stretch about it.
   const ForceRegion held{0, kFootPitch};
-  const auto wave_number = [&](int n) { return n * std::numbers::pi / length; };
-  // No wave is as slow as those of bending.
-  const BeamProperties beam = timoshenko(rail_beam_section(scene), scene.rail_material());
-  const int dense = 10 + modes_below(beam, length, top);
-  const std::vector<int> some = some_harmonics(
-      dense, std::max(dense, static_cast<int>(region.last_wave_number() * length / std::numbers::pi)));
-  const std::vector<HarmonicModes> harmonics =
-      solid.modes(some, {head_load, solid.path_load(base, 0, "foot")}, {solid.path_load(base, 2, "foot")},
-                  [&](int n) { return n <= dense ? kOfLow : kOfHigh; });
-
-  ModalBeam::Modes out;
-  const double highest = 2 * std::numbers::pi * top;
-  std::vector<double> head, along;
+  const auto share_of = [&](const ForceRegion& at, int n) {
+    return at.coefficient(n * std::numbers::pi / length);
+  };
   // A harmonic counts with half its peak, the mean along the rail.
   const auto mean = [](int n) { return n == 0 ? 1.0 : 0.5; };
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    head.push_back(harmonics[i].flexibility[kHead]);
-    along.push_back(harmonics[i].flexibility[kFootAlong]);
-  }
-  const auto of_head = [&](int n) { return std::pow(region.coefficient(wave_number(n)), 2) * mean(n); };
-  out.residual =
-      sum_of_harmonics(some, head, of_head) - half_space_flexibility(region, scene.rail_material());
-  const auto of_foot = [&](int n) { return std::pow(held.coefficient(wave_number(n)), 2) * mean(n); };
-  for (int n = 0; n <= dense; ++n)
-    out.foot_residual.push_back(n == 0 ? 0 : of_foot(n) * along[static_cast<std::size_t>(n)]);
+
+  ModalBeam::Modes out;
+  out.residual = sum_of_harmonics(rail.some, rail.flexibilities(kHead),
+                                  [&](int n) { return mean(n) * std::pow(share_of(region, n), 2); }) -
+                 half_space_flexibility(region, scene.rail_material());
+  out.foot_residual = rail.flexibilities(kFootAlong);
+  out.foot_residual.resize(static_cast<std::size_t>(rail.dense) + 1);
+  out.foot_residual[0] = 0;
+  for (int n = 1; n <= rail.dense; ++n)
+    out.foot_residual[static_cast<std::size_t>(n)] *= mean(n) * std::pow(share_of(held, n), 2);
   // Rounding finds rigid motions more than once, and odd motions.
   const double rigid = 1 / std::sqrt(beam.mass * length);
+  const double highest = 2 * std::numbers::pi * top;
   out.modes.push_back({0, 0, rigid, rigid, 0});
   const auto counts = [&](const HarmonicMode& mode) {
     return !mode.rigid() && mode.stiffness < highest * highest &&
@@ -76,12 +92,13 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
   };
   // By families, along which the harmonics follow one another.
   for (std::size_t family = 0; family < static_cast<std::size_t>(kOfLow); ++family)
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(dense); ++i) {
-      if (family >= harmonics[i].modes.size() || !counts(harmonics[i].modes[family])) continue;
-      const HarmonicMode& mode = harmonics[i].modes[family];
-      const int n = some[i];
-      const double share = region.coefficient(wave_number(n));
-      const double foot = n == 0 ? 0 : held.coefficient(wave_number(n)) * mode.amplitude[kFootAlong];
+    for (int n = 0; n <= rail.dense; ++n) {
+      const auto i = static_cast<std::size_t>(n);
+      const std::vector<HarmonicMode>& modes = rail.solved[i].modes;
+      if (family >= modes.size() || !counts(modes[family])) continue;
+      const HarmonicMode& mode = modes[family];
+      const double share = share_of(region, n);
+      const double foot = n == 0 ? 0 : share_of(held, n) * mode.amplitude[kFootAlong];
       out.modes.push_back(
           {n, std::sqrt(mode.stiffness), mode.amplitude[kFoot], share * mode.amplitude[kHead], foot});
       out.residual -= mean(n) * share * share * mode.flexibility;
