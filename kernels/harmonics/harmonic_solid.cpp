@@ -105,7 +105,7 @@ void HarmonicSolid::tie(const SolidTie& tie) {
       follows_[index(node)] = {{a, n[0]}, {edge_middle(tie.primary, line[i], line[i + 1]), n[1]}, {b, n[2]}};
       return;
     }
-    throw NumericalError("verify: a tied node of the wheelset's section lies beyond the other body");
+    throw NumericalError("a tied node of the section of a wheelset or rail lies beyond the other body");
   };
   const std::vector<int>& path = parts_[tie.secondary].section.paths.at(tie.secondary_path);
   for (std::size_t i = 0; i < path.size(); ++i) {
