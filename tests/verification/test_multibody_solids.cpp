@@ -148,7 +148,7 @@ TEST(ModalWheel, HardlyDependsOnRegionAndMesh) {
     const ModalWheel wheel = modal_wheel(usual, {0, half}, 5000, element);
     EXPECT_NEAR(wheel.mass, usual.wheel->mass + usual.vehicle->unsprung_mass, 5);
     double sum = wheel.flexibility;
-    // Of more than 2 kHz: at a passing frequency of 1 kHz they answer at once.
+    // Modes that answer at once to a passing frequency of 1 kHz.
     for (const WheelMode& mode : wheel.modes)
       if (mode.omega > 2 * std::numbers::pi * 1900) sum += std::pow(mode.amplitude / mode.omega, 2);
     return sum;
