@@ -19,9 +19,17 @@ void add_multibody(CLI::App& app, const std::string& command_line) {
   command.add_option("-o,--output", options.output, "directory for CSV, summary and report");
   command
       .add_option("--beam", options.beam,
-                  "model of the rail: euler (default), timoshenko, or spread: timoshenko with forces spread "
-                  "by the head")
-      ->check(CLI::IsMember({"euler", "timoshenko", "spread"}));
+                  "model of the rail: euler (default), timoshenko, spread: timoshenko with forces spread "
+                  "by the head, or solid: waves of the section by finite elements")
+      ->check(CLI::IsMember({"euler", "timoshenko", "spread", "solid"}));
+  command
+      .add_option("--wheel", options.wheel,
+                  "rigid (default), or modal: the wheelset's modes by finite elements")
+      ->check(CLI::IsMember({"rigid", "modal"}));
+  command
+      .add_option("--contact", options.contact,
+                  "hertz (default): a spring, or half-space: a patch pressed on the sine")
+      ->check(CLI::IsMember({"hertz", "half-space"}));
   command.add_option("--modes", options.modes, "modes of the rail (default: all below 20 kHz)")
       ->check(CLI::Range(2, 3000));
   command.add_option("--step", options.step, "time step, e.g. \"5 us\" (default: half the stable one)");

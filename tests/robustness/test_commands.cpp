@@ -244,6 +244,13 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
        {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz", "Provenance"})
     EXPECT_TRUE(has(content("report.html"), part)) << part;
   EXPECT_TRUE(has(content("figures/map.svg"), "xmlns"));
+  const Outcome local =
+      call(fmt::format("multibody {} -t 1 --quiet --json --beam solid --wheel modal --contact "
+                       "half-space",
+                       scene("corrugation-d.toml")));
+  EXPECT_EQ(local.code, 0);
+  for (const char* part : {"\"beam\": \"Solid\"", "\"contact\": \"half-space\""})
+    EXPECT_TRUE(has(local.out, part)) << part << local.out;
   // Its own curve is a run's history: the fit finds the spring that it was made with.
   std::ofstream(folder_ / "histories.csv") << content("multibody.csv");
   const Outcome fitted =
@@ -261,6 +268,8 @@ TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
        {good + " --beam rayleigh", good + " --step 5", good + " --step \"0 s\"", good + " --step \"1 s\"",
         good + " --modes 1", good + " --map speed=100:500:10km/h", good + " --dots " + folder_.string(),
         good + " --calibrate " + folder_.string(), good + " --set \"rail.length=8 m\"",
+        good + " --beam solid --modes 40", good + " --filter --contact half-space", good + " --wheel soft",
+        "multibody --quiet --contact half-space " + scene("smooth.toml"),
         "multibody --quiet " + scene("tyre.toml"), "multibody --quiet " + scene("bar-wave.toml"),
         "multibody --quiet --filter " + scene("smooth.toml")})
     EXPECT_EQ(call(wrong).code, 2) << wrong;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace tread {
 
@@ -16,7 +17,7 @@ ModalBeam::ModalBeam(const BeamProperties& properties, double left, double lengt
     throw std::logic_error("only a Timoshenko beam has a foot that moves along");
   const bool shears = p.shear_stiffness > 0;
   const double rigid = 1 / std::sqrt(p.mass * length);
-  add(0, {0, rigid, rigid, 0});
+  add({0, 0, rigid, rigid, 0});
   const auto wave_number = [&](int n) { return n * std::numbers::pi / length; };
   const auto share = [&](int n) { return std::exp(-0.5 * std::pow(wave_number(n) * spread, 2)); };
   // Each harmonic counts with half its peak, the mean over the beam. The omitted harmonics add less than a
@@ -43,7 +44,7 @@ ModalBeam::ModalBeam(const BeamProperties& properties, double left, double lengt
   for (int n = 1; n < harmonics; ++n) {
     const double omega = wave_number(n) * std::sqrt(p.axial_stiffness / p.mass);
     if (omega > top) break;
-    add(omega, {n, 0, 0, 1 / std::sqrt(0.5 * length * p.mass)});
+    add({n, omega, 0, 0, 1 / std::sqrt(0.5 * length * p.mass)});
   }
   for (std::size_t i = 1; i < mode_.size(); ++i)
     foot_residual_[static_cast<std::size_t>(mode_[i].harmonic)] -=
@@ -57,8 +58,16 @@ double ModalBeam::foot_residual_flexibility(double distance) const {
   return sum;
 }
 
-void ModalBeam::add(double omega, const Mode& mode) {
-  omega_.push_back(omega);
+ModalBeam::ModalBeam(double left, double length, Modes modes)
+    : left_(left),
+      length_(length),
+      residual_(modes.residual),
+      foot_residual_(std::move(modes.foot_residual)) {
+  for (const BeamMode& mode : modes.modes) add(mode);
+}
+
+void ModalBeam::add(const BeamMode& mode) {
+  omega_.push_back(mode.omega);
   mode_.push_back(mode);
 }
 
@@ -68,11 +77,11 @@ void ModalBeam::add_bending(const BeamProperties& p, int harmonic, double omega,
   const double turn = p.shear_stiffness > 0 ? k - p.mass * omega * omega / (p.shear_stiffness * k) : k;
   const double mass = 0.5 * length_ * (p.mass + p.rotary_inertia * turn * turn);
   const double amplitude = 1 / std::sqrt(mass);
-  add(omega, {harmonic, amplitude, share * amplitude, p.foot * turn * amplitude});
+  add({harmonic, omega, amplitude, share * amplitude, p.foot * turn * amplitude});
   residual_ -= 0.5 * share * share / (mass * omega * omega);
 }
 
-void ModalBeam::values_at(double x, double Mode::*amplitude, std::vector<double>& values) const {
+void ModalBeam::values_at(double x, double BeamMode::*amplitude, std::vector<double>& values) const {
   // cos((n + 1) a) = 2 cos(a) cos(n a) - cos((n - 1) a), begun again with each family of modes
   const double angle = std::numbers::pi * (x - left_) / length_;
   const double twice = 2 * std::cos(angle);
@@ -80,7 +89,7 @@ void ModalBeam::values_at(double x, double Mode::*amplitude, std::vector<double>
   double now = 0;
   int harmonic = -2;
   for (std::size_t i = 0; i < mode_.size(); ++i) {
-    const Mode& mode = mode_[i];
+    const BeamMode& mode = mode_[i];
     if (mode.harmonic != harmonic + 1) {
       before = std::cos((mode.harmonic - 1) * angle);
       now = std::cos(mode.harmonic * angle);

@@ -5,56 +5,25 @@
 #include <vector>
 
 #include "drivers/engine/beam/beam_passage.hpp"
-#include "drivers/studies/multibody/modal_beam.hpp"
+#include "drivers/studies/multibody/modal_track.hpp"
+#include "drivers/studies/multibody/modal_wheel.hpp"
+#include "drivers/studies/multibody/sine_contact.hpp"
 
 namespace tread {
-
-/// The modal rail on its supports.
-class ModalTrack {
- public:
-  /// `foot`: spring-dampers that act along x at the foot; only under a beam whose foot moves. A sleeper's
-  /// deflection times the root of its mass is one more coordinate after those of the modes.
-  ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
-             const std::vector<BeamSupport>& foot = {}, const std::vector<SleeperSupport>& sleepers = {});
-
-  const ModalBeam& beam() const { return beam_; }
-  std::size_t coordinates() const { return omega_.size(); }
-  /// Angular frequencies by coordinate, without the supports; 0 of sleepers [rad/s].
-  const std::vector<double>& omega() const { return omega_; }
-
-  /// Coordinates at rest under a force on the head at x, downwards [m sqrt(kg)].
-  std::vector<double> static_state(double x, double force) const;
-
-  /// Adds the modal forces of springs and dampers. `scratch` holds a value for each support.
-  void support_forces(const std::vector<double>& state, const std::vector<double>& rate,
-                      std::vector<double>& forces, std::vector<double>& scratch) const;
-  std::size_t supports() const { return stiffness_.size(); }
-
-  /// Estimates of the supports' largest contribution to the squares of the modes' frequencies [rad2/s2], and
-  /// of their largest rate of decay [1/s].
-  double support_stiffness() const;
-  double support_damping() const;
-
- private:
-  double largest(const std::vector<double>& weight) const;
-
-  ModalBeam beam_;
-  std::vector<double> omega_;
-  std::vector<double> stiffness_, damping_;  ///< values by support
-  std::vector<double> by_support_;           ///< what a coordinate stretches, support by support [1/sqrt(kg)]
-};
 
 /// The passage by Zhai's explicit two-step method with psi = phi = 1/2: central difference without damping,
 /// second order with dampers, one evaluation of the forces per step. [theory.md, eq. M4] A copy goes on by
 /// itself over the same track, so that runs with a common beginning share it.
 class ModalPassage {
  public:
-  /// Starts in equilibrium at x, at rest. The vehicle does not bend (no BeamVehicle::bending).
-  ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt);
+  /// Starts in equilibrium at x, at rest. The vehicle does not bend (no BeamVehicle::bending); the modes and
+  /// the flexibility of `wheel` move the contact besides its mass.
+  ModalPassage(const ModalTrack& track, const BeamVehicle& vehicle, double x, double dt,
+               const ModalWheel& wheel = {});
 
   /// Does one step, after which the wheel is at x over `roughness` [m] (positive: the rail is lower). Throws
   /// NumericalError if the step is not stable.
-  void step(double x, double roughness = 0);
+  void step(double x, double roughness = 0, const ContactRelief& relief = {});
 
   double time() const { return time_; }
   double dt() const { return dt_; }
@@ -68,7 +37,8 @@ class ModalPassage {
     double z = 0, rate = 0, acceleration = 0, before = 0;  ///< downwards [m], [m/s], [m/s2]
     void move(double dt, double blend);
   };
-  void accelerate(double x, double roughness);
+  void accelerate(double x, double roughness, const ContactRelief& relief);
+  double flexibility(double x) const { return track_->flexibility(x) + modal_wheel_.flexibility; }
 
   const ModalTrack* track_;
   BeamVehicle vehicle_;
@@ -76,11 +46,13 @@ class ModalPassage {
   std::vector<double> state_, rate_, acceleration_, before_;  ///< by coordinate; before_: of the last step
   std::vector<double> shape_, scratch_;
   Mass wheel_, sprung_;
+  ModalWheel modal_wheel_;
+  std::vector<Mass> waves_;  ///< a wave and its companion for each mode, upwards [m sqrt(kg)]
   bool first_ = true;
   double time_ = 0, force_ = 0, rail_ = 0;
 };
 
 /// Half the step [s] at which track and vehicle together become unstable, by estimates.
-double passage_step(const ModalTrack& track, const BeamVehicle& vehicle);
+double passage_step(const ModalTrack& track, const BeamVehicle& vehicle, const ModalWheel& wheel = {});
 
 }  // namespace tread

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTopFrequency = 20e3;        ///< highest frequency of the modes [Hz]
 constexpr double kTopFrequencyOfFoot = 30e3;  ///< the same where the foot is held along x [Hz]
-constexpr double kFootPitch = 0.06;           ///< most between springs that stand in for a held foot [m]
+constexpr double kTopOfTrack = 6e3;           ///< highest frequency of a solid rail on its supports [Hz]
 constexpr double kBeyond = 0.1;               ///< length of the passage beyond the evaluated stretch [m]
 constexpr double kEndOfRail = 0.3;            ///< least distance of the wheel from the rail's ends [m]
 
@@ -74,6 +74,8 @@ const char* name_of(BeamTheory theory) {
       return "Euler";
     case BeamTheory::timoshenko:
       return "Timoshenko";
+    case BeamTheory::solid:
+      return "Solid";
     default:
       return "Timoshenko (spread)";
   }
@@ -83,6 +85,22 @@ double MultibodyModel::roughness(double x) const {
   const double depth = corrugation.depth(x, contact_y);
   if (rail_surface.smooth() && wheel_surface.smooth()) return depth;
   return depth + traced_depth(rail_surface, wheel_surface, 0.5 * scene.wheel->diameter, x, contact_y);
+}
+
+ContactRelief MultibodyModel::relief(double x) const {
+  const double first = corrugation.first();
+  const double last = corrugation.last();
+  if (sine.empty() || x <= first || x >= last) return {};
+  // Within a quarter of a wave from either end the patch also stands on the smooth rail.
+  const double wavelength = scene.corrugation->wavelength;
+  const double share = std::min(1.0, 4 * std::min(x - first, last - x) / wavelength);
+  return sine.at(2 * std::numbers::pi * (x - first) / wavelength, share);
+}
+
+ModalWheel MultibodyModel::wheel_at(double at_speed) const {
+  ModalWheel at = wheel;
+  at.spin = at_speed / (0.5 * scene.wheel->diameter);
+  return at;
 }
 
 double MultibodyModel::contact_stiffness() const {
@@ -97,7 +115,7 @@ MultibodyModel multibody_model(const Scene& scene, BeamTheory theory) {
   const BeamSection section = rail_beam_section(scene);
   const Material& material = scene.rail_material();
   model.rail = theory == BeamTheory::euler ? euler(section, material) : timoshenko(section, material);
-  if (theory == BeamTheory::timoshenko) model.rail.depth = 0;
+  if (theory == BeamTheory::timoshenko || theory == BeamTheory::solid) model.rail.depth = 0;
   model.sleepers = rail_sleepers(scene);
   if (model.sleepers.empty()) model.supports = rail_supports(scene);
   if (model.rail.has_foot()) {
@@ -247,18 +265,30 @@ double apply_contact_filter(MultibodyModel& model) {
 
 namespace {
 
-/// Springs of the modes' foot, evenly over a stretch where the rail's foot is held along x [N/m]: each the
-/// stiffness of the higher modes, which share it with their neighbours.
-std::vector<double> springs_of_held_foot(const ModalBeam& beam, double length) {
-  const int parts = static_cast<int>(std::ceil(length / kFootPitch));
-  const double pitch = parts > 0 ? length / parts : 0;
-  std::vector<double> flexibility;  // by distance in pitches
-  for (int i = 0; i <= parts; ++i) flexibility.push_back(beam.foot_residual_flexibility(i * pitch));
-  std::vector<double> springs;
-  for (int i = 0; i <= parts; ++i) {
-    double missing = 0;
-    for (int j = 0; j <= parts; ++j) missing += flexibility[static_cast<std::size_t>(std::abs(i - j))];
-    springs.push_back(1 / missing);
+/// Stands in for a stretch from x = 0 on where the rail's foot is held along x: the inverse of the
+/// flexibility that the modes lack at places at most kFootPitch apart, as springs of 1 N/m on weighted sums
+/// of the motions there. [theory.md, eq. M5]
+std::vector<FootSpring> springs_of_held_foot(const ModalBeam& beam, double length) {
+  const auto parts = static_cast<std::size_t>(std::ceil(length / kFootPitch));
+  const double pitch = parts > 0 ? length / static_cast<double>(parts) : 0;
+  // Row i of the inverse of the Cholesky factor L of the flexibility is spring i.
+  std::vector<std::vector<double>> factor(parts + 1, std::vector<double>(parts + 1));
+  std::vector<std::vector<double>> inverse = factor;
+  for (std::size_t i = 0; i <= parts; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double rest = beam.foot_residual_flexibility(static_cast<double>(i - j) * pitch);
+      for (std::size_t k = 0; k < j; ++k) rest -= factor[i][k] * factor[j][k];
+      factor[i][j] = i == j ? std::sqrt(rest) : rest / factor[j][j];
+    }
+  std::vector<FootSpring> springs(parts + 1);
+  for (std::size_t i = 0; i <= parts; ++i) {
+    springs[i].stiffness = 1;
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = i == j ? 1 : 0;
+      for (std::size_t k = j; k < i; ++k) sum -= factor[i][k] * inverse[k][j];
+      inverse[i][j] = sum / factor[i][i];
+      springs[i].places.push_back({static_cast<double>(j) * pitch, inverse[i][j]});
+    }
   }
   return springs;
 }
@@ -270,25 +300,28 @@ ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
   const double length = model.scene.rail->length;
   const int count =
       modes.value_or(modes_below(model.rail, length, foot ? kTopFrequencyOfFoot : kTopFrequency));
-  ModalBeam beam(model.rail, -model.scene.rail->origin, length, count, head_spread(model.scene, model.rail),
-                 foot ? ModalBeam::Foot::moves : ModalBeam::Foot::still);
-  std::vector<BeamSupport> along;
+  ModalBeam beam = model.solid ? *model.solid
+                               : ModalBeam(model.rail, -model.scene.rail->origin, length, count,
+                                           head_spread(model.scene, model.rail),
+                                           foot ? ModalBeam::Foot::moves : ModalBeam::Foot::still);
+  std::vector<FootSpring> along;
   if (!model.foot_supports.empty()) {
     const double missing = beam.foot_residual_flexibility(0);
     for (const BeamSupport& s : model.foot_supports)
-      along.push_back({s.x, 1 / (1 / s.stiffness + missing), s.damping});
+      along.push_back({{{s.x, 1}}, 1 / (1 / s.stiffness + missing), s.damping});
   }
   if (!model.foot_holds.empty()) {
     // All stretches are of the same length.
     const FootStretch& one = model.foot_holds.front();
-    const std::vector<double> springs = springs_of_held_foot(beam, one.last - one.first);
-    const double pitch =
-        springs.size() > 1 ? (one.last - one.first) / static_cast<double>(springs.size() - 1) : 0;
+    const std::vector<FootSpring> springs = springs_of_held_foot(beam, one.last - one.first);
     for (const FootStretch& s : model.foot_holds)
-      for (std::size_t i = 0; i < springs.size(); ++i)
-        along.push_back({s.first + static_cast<double>(i) * pitch, springs[i], 0});
+      for (FootSpring spring : springs) {
+        for (FootSpring::Place& place : spring.places) place.x += s.first;
+        along.push_back(std::move(spring));
+      }
   }
-  return {std::move(beam), model.supports, along, model.sleepers};
+  ModalTrack track(std::move(beam), model.supports, along, model.sleepers);
+  return model.solid ? track.diagonal(kTopOfTrack) : track;
 }
 
 }  // namespace tread

@@ -16,7 +16,8 @@ namespace tread {
 enum class BeamTheory {
   euler,
   timoshenko,  ///< Timoshenko's beam; forces act at points
-  spread       ///< Timoshenko's beam; forces on the head are spread for the fastenings, as in rail_beam
+  spread,      ///< Timoshenko's beam; forces on the head are spread for the fastenings, as in rail_beam
+  solid        ///< waves of the section by finite elements, once use_solid_rail has made them
 };
 
 /// Name for readers, such as "Euler".
@@ -33,6 +34,9 @@ struct MultibodyModel {
   BeamVehicle vehicle;                     ///< vehicle; the whole wheelset and M_a are one mass
   double contact_y = 0;                    ///< touching point, from the crown's centre line [m]
   double radius_y = 0;                     ///< lateral radius of the gap there [m]
+  std::optional<ModalBeam> solid;          ///< the rail as a solid; takes the place of the beam
+  ModalWheel wheel;                        ///< a mass, but for use_modal_wheel
+  SineContact sine;                        ///< empty, but for use_half_space_contact
   HertzPatch patch;                        ///< patch under the static load
   Corrugation corrugation;  ///< corrugation; its centre is at contact_y unless the scene states one
   double speed = 0;         ///< [m/s]
@@ -44,6 +48,10 @@ struct MultibodyModel {
   /// Depth that the wheel follows at x [m]: the corrugation's, and of the other depths the highest places
   /// that a round wheel rolls on.
   double roughness(double x) const;
+  /// Relief of a sine at x; none without use_half_space_contact.
+  ContactRelief relief(double x) const;
+  /// The wheel as it spins at a speed [m/s].
+  ModalWheel wheel_at(double at_speed) const;
   /// Contact stiffness d F / d approach under the static load [N/m].
   double contact_stiffness() const;
 };
@@ -74,8 +82,8 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength);
 double apply_contact_filter(MultibodyModel& model);
 
 /// The rail with all modes below 20 kHz, of a rail whose foot is held along x below 30 kHz, or as many of the
-/// lower branch as stated. Springs of the flexibility that the modes lack stand in for a held foot.
-/// [theory.md, eq. M5]
+/// lower branch as stated; a solid rail as it is. Springs of the flexibility that the modes lack stand in for
+/// a held foot. [theory.md, eq. M5]
 ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes);
 
 }  // namespace tread

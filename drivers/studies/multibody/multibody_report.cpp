@@ -203,7 +203,7 @@ Chapter model_chapter(const MultibodyOutcome& o) {
   const auto add = [&](std::string name, std::string value, std::string unit, std::string remark = "") {
     table.rows.push_back({std::move(name), std::move(value), std::move(unit), std::move(remark)});
   };
-  add("Rail", name_of(m.theory), "beam", fmt::format("{} modes, ends that do not turn", r.modes));
+  add("Rail", name_of(m.theory), "", fmt::format("{} modes, ends that do not turn", r.modes));
   add("E I", readable(1e-6 * m.rail.bending_stiffness), "MN m²", "the scene's section");
   if (m.rail.shear_stiffness > 0) add("kappa G A", readable(1e-6 * m.rail.shear_stiffness), "MN");
   add("Mass of the rail", readable(m.rail.mass), "kg/m");
@@ -212,7 +212,9 @@ Chapter model_chapter(const MultibodyOutcome& o) {
         fmt::format("columns of {} fastenings on rigid ground", m.scene.fastenings->count));
   else
     add("Supports", std::to_string(m.sleepers.size()), "", "fastenings on rigid sleepers on their beds");
-  add("Wheel", readable(m.vehicle.unsprung_mass), "kg", "half wheelset and M_a, one mass");
+  add("Wheel", readable(m.vehicle.unsprung_mass), "kg",
+      m.wheel.modes.empty() ? "half wheelset and M_a, one mass"
+                            : fmt::format("half wheelset and M_a, {} modes", m.wheel.modes.size()));
   add("Sprung mass", readable(m.vehicle.sprung_mass), "kg", "on the primary suspension");
   add("Lateral radius of the gap", readable(1e3 * m.radius_y), "mm",
       fmt::format("touching at y = {:.2f} mm", 1e3 * m.contact_y));
@@ -222,11 +224,11 @@ Chapter model_chapter(const MultibodyOutcome& o) {
   add("Start", readable(m.start), "m", "at rest in equilibrium");
   add("Computing time", duration_text(o.seconds), "");
   Chapter chapter{"Model", {table}};
-  chapter.blocks.emplace_back(Text{
-      "The multi-body approach knows no wheel that bends or vibrates, no contact patch (unless its filter "
-      "is asked "
-      "for), no longitudinal force, no slab and no local deformation of rail head and wheel beyond "
-      "the Hertz spring."});
+  std::string lacks = "The multi-body approach knows no longitudinal force and no slab";
+  if (m.wheel.modes.empty()) lacks += ", no wheel that bends or vibrates";
+  if (m.sine.empty() && !o.filter_gain) lacks += ", no contact patch";
+  if (!m.solid) lacks += ", no deformation of the rail's section";
+  chapter.blocks.emplace_back(Text{lacks + "."});
   return chapter;
 }
 
@@ -236,8 +238,10 @@ Report multibody_report(const MultibodyOutcome& o, const std::string& scene, con
   const MultibodyResult& r = o.result;
   Report report;
   report.title = o.model.scene.title;
-  report.subtitle = fmt::format("Multi-body approach · {:.4g} km/h · {} beam{}", 3.6 * o.model.speed,
-                                name_of(o.model.theory), o.filter_gain ? " · contact filter" : "");
+  report.subtitle =
+      fmt::format("Multi-body approach · {:.4g} km/h · {} rail{}{}{}", 3.6 * o.model.speed,
+                  name_of(o.model.theory), o.model.wheel.modes.empty() ? "" : " · modal wheel",
+                  o.model.sine.empty() ? "" : " · half-spaces", o.filter_gain ? " · contact filter" : "");
   Chapter result{"Result", {}};
   result.blocks.emplace_back(KeyFigures{{"Largest F_N", readable(1e-3 * r.force.max), "kN"},
                                         {"Smallest F_N", readable(1e-3 * r.force.min), "kN"},

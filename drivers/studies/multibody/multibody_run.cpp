@@ -67,26 +67,26 @@ double mean_shift(const std::vector<CrestPeak>& peaks) {
   return peaks.empty() ? 0 : sum / static_cast<double>(peaks.size());
 }
 
-double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double speed, double wavelength) {
+double chosen_step(const ModalTrack& track, const MultibodyModel& model, double speed, double wavelength) {
   constexpr double kOfAWave = 40;
-  const double stable = passage_step(track, vehicle);
+  const double stable = passage_step(track, model.vehicle, model.wheel);
   return wavelength > 0 ? std::min(stable, wavelength / speed / kOfAWave) : stable;
 }
 
 MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& step) {
   const ModalTrack track = modal_track(model, step.modes);
   // Estimates of the stable step are good to a factor of two; a longer step cannot be stable.
-  const double longest = 4 * passage_step(track, model.vehicle);
+  const double longest = 4 * passage_step(track, model.vehicle, model.wheel);
   if (step.step && *step.step > longest)
     throw InputError(fmt::format("--step {:.4g} s: steps beyond {:.2g} s cannot be stable with {} modes",
-                                 *step.step, longest, track.beam().modes()));
+                                 *step.step, longest, track.modes()));
   MultibodyResult r;
-  r.modes = track.beam().modes();
-  r.dt = step.step.value_or(chosen_step(track, model.vehicle, model.speed, wavelength_of(model)));
-  r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt).rail();
-  ModalPassage passage(track, model.vehicle, model.start, r.dt);
-  const auto depth = [&](double x) { return model.roughness(x); };
-  roll(passage, model.speed, model.start, model.end, depth, [&](double x, double roughness) {
+  r.modes = track.modes();
+  r.dt = step.step.value_or(chosen_step(track, model, model.speed, wavelength_of(model)));
+  const ModalWheel wheel = model.wheel_at(model.speed);
+  r.static_rail = ModalPassage(track, model.vehicle, model.scene.start_x(), r.dt, wheel).rail();
+  ModalPassage passage(track, model.vehicle, model.start, r.dt, wheel);
+  roll(passage, model, model.speed, model.end, [&](double x, double roughness) {
     ++r.steps;
     if (x >= 0)
       r.samples.push_back(

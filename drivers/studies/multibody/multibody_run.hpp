@@ -60,17 +60,17 @@ std::vector<CrestPeak> crest_peaks(const Corrugation& corrugation, double wavele
 double mean_shift(const std::vector<CrestPeak>& peaks);
 
 /// Step of a passage [s] at a speed [m/s] over waves no shorter than `wavelength` [m] (0: a smooth rail).
-double chosen_step(const ModalTrack& track, const BeamVehicle& vehicle, double speed, double wavelength);
+double chosen_step(const ModalTrack& track, const MultibodyModel& model, double speed, double wavelength);
 
-/// Rolls on to x = `to` and calls visit(x, roughness) after every step. The wheel started at `start`.
-template <class Roughness, class Visit>
-void roll(ModalPassage& passage, double speed, double start, double to, const Roughness& roughness,
-          const Visit& visit) {
+/// Rolls over the model's surfaces on to x = `to` and calls visit(x, roughness) after every step. The wheel
+/// started at `start`.
+template <class Visit>
+void roll(ModalPassage& passage, const MultibodyModel& model, double speed, double to, const Visit& visit) {
   for (;;) {
-    const double x = start + speed * (passage.time() + passage.dt());
+    const double x = model.start + speed * (passage.time() + passage.dt());
     if (x > to) return;
-    const double depth = roughness(x);
-    passage.step(x, depth);
+    const double depth = model.roughness(x);
+    passage.step(x, depth, model.relief(x));
     visit(x, depth);
   }
 }

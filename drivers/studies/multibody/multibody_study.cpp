@@ -7,6 +7,7 @@
 #include "drivers/process/progress.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
+#include "drivers/studies/multibody/local_parts.hpp"
 #include "drivers/studies/multibody/multibody_report.hpp"
 #include "io/files/output_file.hpp"
 #include "io/report/figure_files.hpp"
@@ -35,12 +36,18 @@ MultibodyStep step_of(const MultibodyOptions& options) {
 
 BeamTheory theory_of(const std::string& beam) {
   if (beam == "spread") return BeamTheory::spread;
+  if (beam == "solid") return BeamTheory::solid;
   return beam == "euler" ? BeamTheory::euler : BeamTheory::timoshenko;
 }
 
 void check(const MultibodyOptions& options) {
   if (options.map.empty() && !options.dots.empty())
     throw InputError("--dots: they belong on a map; add --map speed=... wavelength=...");
+  if (options.beam == "solid" && options.modes)
+    throw InputError("--modes: the solid rail has all modes that it needs; leave --modes out");
+  if (options.contact == "half-space" && options.filter)
+    throw InputError(
+        "--filter: the pressed half-spaces of --contact half-space filter the sine; leave one out");
   if (!options.output.empty()) require_no_run(options.output);
 }
 
@@ -65,6 +72,9 @@ void run_multibody_study(const ResolvedScene& resolved, const MultibodyOptions& 
   const MultibodyStep step = step_of(options);
   MultibodyOutcome outcome;
   outcome.model = multibody_model(resolved.scene, theory_of(options.beam));
+  if (options.beam == "solid") use_solid_rail(outcome.model);
+  if (options.wheel == "modal") use_modal_wheel(outcome.model);
+  if (options.contact == "half-space") use_half_space_contact(outcome.model);
   const MultibodyModel unfiltered = outcome.model;
   if (options.filter) {
     outcome.filter_gain = apply_contact_filter(outcome.model);

@@ -13,7 +13,9 @@
 namespace tread {
 
 struct MultibodyOptions {
-  std::string beam = "euler";               ///< "timoshenko" or "spread"
+  std::string beam = "euler";               ///< "timoshenko", "spread" or "solid"
+  std::string wheel = "rigid";              ///< "modal"
+  std::string contact = "hertz";            ///< "half-space"
   std::optional<int> modes;                 ///< absent: all below 20 kHz
   std::string step;                         ///< "5 us"; empty: chosen
   bool filter = false;                      ///< the corrugation as deep as the contact filter leaves it

@@ -87,7 +87,7 @@ Table multibody_table(const MultibodyOutcome& o) {
     add("Mean over the crests", in_pi(mean_shift(r.peaks)), "pi");
   }
   add("Rail deflection at rest", readable(1e3 * r.static_rail), "mm",
-      fmt::format("{} beam, under the wheel at x = {:g}", name_of(m.theory), m.scene.start_x()));
+      fmt::format("{} rail, under the wheel at x = {:g}", name_of(m.theory), m.scene.start_x()));
   add("Contact stiffness at rest", readable(1e-9 * m.contact_stiffness()), "GN/m",
       fmt::format("C = {} N/m^1.5", readable(m.vehicle.contact)));
   if (o.filter_gain) add("Gain of the contact filter", readable(*o.filter_gain), "");
@@ -123,6 +123,8 @@ std::string multibody_json(const MultibodyOutcome& o) {
   Json json = {{"title", m.scene.title},
                {"beam", name_of(m.theory)},
                {"modes", r.modes},
+               {"wheel_modes", m.wheel.modes.size()},
+               {"contact", m.sine.empty() ? "hertz" : "half-space"},
                {"dt_s", r.dt},
                {"steps", r.steps},
                {"seconds", o.seconds},

@@ -11,6 +11,7 @@
 #include "drivers/engine/evaluated_stretch.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/run/run_folder.hpp"
+#include "drivers/studies/multibody/local_parts.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -102,31 +103,28 @@ ResponseMap response_map(const MultibodyModel& model, const MapAxes& axes, const
       throw InputError(fmt::format("--map: no whole wave of {:.4g} mm fits corrugation.length = {:.4g} mm",
                                    1e3 * waves[i], 1e3 * model.scene.corrugation->length));
     if (filtered) apply_contact_filter(m);
+    if (!m.sine.empty()) use_half_space_contact(m);
   });
 
   ResponseMap map{axes, std::vector<MapPoint>(speeds.size() * waves.size()), 0, 0};
   const auto dt = [&](double speed) {
-    return step.step.value_or(chosen_step(track, model.vehicle, speed, waves.front()));
+    return step.step.value_or(chosen_step(track, model, speed, waves.front()));
   };
   map.dt_first = dt(speeds.front());
   map.dt_last = dt(speeds.back());
   const double load = model.vehicle.load();
   each_item(speeds.size(), [&](std::size_t i) {
     const double speed = speeds[i];
-    ModalPassage before(track, model.vehicle, model.start, dt(speed));
-    roll(
-        before, speed, model.start, model.scene.corrugation->start, [](double) { return 0.0; },
-        [](double, double) {});
+    ModalPassage before(track, model.vehicle, model.start, dt(speed), model.wheel_at(speed));
+    roll(before, models.front(), speed, model.scene.corrugation->start, [](double, double) {});
     for (std::size_t j = 0; j < waves.size(); ++j) {
       const MultibodyModel& m = models[j];
       const Span stretch = evaluated_stretch(m.scene, m.corrugation);
       ModalPassage passage = before;
       Extremes extremes;
-      roll(
-          passage, speed, model.start, stretch.last, [&](double x) { return m.roughness(x); },
-          [&](double x, double) {
-            if (x >= stretch.first) extremes.add(passage.force());
-          });
+      roll(passage, m, speed, stretch.last, [&](double x, double) {
+        if (x >= stretch.first) extremes.add(passage.force());
+      });
       map.points[i * waves.size() + j] = {extremes.max / load, extremes.min / load,
                                           static_cast<double>(extremes.lost) / extremes.steps};
     }
