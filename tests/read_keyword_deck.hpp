@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -29,11 +30,12 @@ struct ReadDeck {
     double friction = 0;       ///< of fast slip
     double slow_friction = 0;  ///< without slip
     double decay = 0;          ///< [ms/mm]
+    double reach = 0;          ///< of a tie [mm]
   };
   struct Load {
     std::int64_t node = 0, curve = 0;
-    int direction = 0;
     double value = 0;
+    bool turns = false;  ///< with the plane of three nodes; otherwise vertical
     std::array<std::int64_t, 3> plane = {};
   };
 
@@ -47,9 +49,12 @@ struct ReadDeck {
   std::map<std::int64_t, std::vector<std::array<std::int64_t, 4>>> segment_sets;
   std::map<std::int64_t, std::vector<std::array<double, 2>>> curves;
   std::map<std::int64_t, Vec3> orientations;
-  std::vector<Card> held;  ///< of *BOUNDARY_SPC_SET
+  std::map<std::int64_t, std::array<std::int64_t, 3>> coordinates;  ///< nodes that they turn with
+  std::vector<Card> held;                                           ///< of *BOUNDARY_SPC_SET
   std::vector<Contact> contacts;
   std::vector<Load> loads;
+  Card time_step;                  ///< of *CONTROL_TIMESTEP
+  std::set<std::int64_t> watched;  ///< nodes whose histories are written
   double gravity = 0, end = 0;
 };
 
@@ -110,6 +115,10 @@ class DeckParser {
         !keyword_.starts_with("*CONTROL_") && keyword_ != "*TITLE")
       ADD_FAILURE() << "unknown keyword " << keyword_;
     if (keyword_ == "*CONTROL_TERMINATION") deck_.end = real(tens(cards_.at(0))[0]);
+    if (keyword_ == "*CONTROL_TIMESTEP") deck_.time_step = tens(cards_.at(0));
+    if (keyword_ == "*DATABASE_HISTORY_NODE")
+      for (const std::string& field : tens(cards_.at(0)))
+        if (!field.empty()) deck_.watched.insert(whole(field));
     cards_.clear();
   }
 
@@ -160,6 +169,10 @@ class DeckParser {
         const auto f = tens(card);
         add_new(deck_.orientations, whole(f[0]), Vec3{real(f[2]), real(f[3]), real(f[4])});
       }
+    } else if (keyword_ == "*DEFINE_COORDINATE_NODES") {
+      const auto f = tens(cards_.at(0));
+      EXPECT_EQ(f[4], "1");
+      add_new(deck_.coordinates, whole(f[0]), std::array{whole(f[1]), whole(f[2]), whole(f[3])});
     } else if (keyword_ == "*DEFINE_CURVE") {
       std::vector<std::array<double, 2>> points;
       for (std::size_t i = 1; i < cards_.size(); ++i) {
@@ -193,14 +206,17 @@ class DeckParser {
       EXPECT_EQ(cards_.size(), 4U);
       const auto sides = tens(cards_.at(1));
       const auto friction = tens(cards_.at(2));
+      const auto scales = tens(cards_.at(3));
       deck_.contacts.push_back({keyword_, whole(sides[0]), whole(sides[1]), std::stoi(sides[2]),
-                                std::stoi(sides[3]), real(friction[1]), real(friction[0]),
-                                real(friction[2])});
+                                std::stoi(sides[3]), real(friction[1]), real(friction[0]), real(friction[2]),
+                                0.6 * std::abs(real(scales[2]) + real(scales[3]))});
     } else if (keyword_ == "*LOAD_NODE_POINT") {
       for (const std::string& card : cards_) {
         const auto f = tens(card);
-        deck_.loads.push_back(
-            {whole(f[0]), whole(f[2]), std::stoi(f[1]), real(f[3]), {whole(f[5]), whole(f[6]), whole(f[7])}});
+        EXPECT_EQ(f[1], "3");
+        ReadDeck::Load load{whole(f[0]), whole(f[2]), real(f[3]), whole(f[4]) > 0, {}};
+        if (load.turns) load.plane = deck_.coordinates.at(whole(f[4]));
+        deck_.loads.push_back(load);
       }
     } else if (keyword_ == "*LOAD_BODY_Z") {
       deck_.gravity = real(tens(cards_.at(0))[1]);
@@ -273,7 +289,7 @@ inline void expect_whole(const ReadDeck& deck) {
   for (const ReadDeck::Load& load : deck.loads) {
     node(load.node);
     EXPECT_EQ(deck.curves.count(load.curve), 1U);
-    if (load.direction == 4)
+    if (load.turns)
       for (const std::int64_t corner : load.plane) node(corner);
   }
   for (const auto& [number, velocity] : deck.velocities) EXPECT_EQ(deck.nodes.count(number), 1U);

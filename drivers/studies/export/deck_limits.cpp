@@ -43,13 +43,15 @@ namespace {
 
 class Differences {
  public:
-  Differences(const Model& model, const DeckOptions& options) : model_(model), options_(options) {}
+  Differences(const Model& model, const DeckOptions& options, double step)
+      : model_(model), options_(options), step_(step) {}
 
   std::vector<std::string> list() {
     add_element();
     add_damping();
     if (!model_.tie_specs.empty())
-      add("Ties: the reader's own; nodes of the fine side follow the faces of the coarse side.");
+      add("Ties: the reader's own; nodes of the fine side follow the faces of the coarse side. That of "
+          "OpenRadioss (Spotflag 28) adds mass to those faces.");
     add_springs();
     if (model_.wheelset || model_.scene.gravity != 0) add_preload();
     if (model_.contact) add_contact();
@@ -64,7 +66,8 @@ class Differences {
   void add_element() {
     add(options_.reader == DeckReader::openradioss
             ? "Element: one stress point. Without a card *HOURGLASS, OpenRadioss takes its Isolid 24, whose "
-              "physical hourglass stiffness is the nearest; types 4 to 7 would select Isolid 5."
+              "physical hourglass stiffness is the nearest; types 1 to 5 would select another. Its bulk "
+              "viscosity (0.05 and 1.1) stays."
             : "Element: one stress point with the hourglass stiffness of type 6, QM = 1 (Belytschko and "
               "Bindeman), the nearest.");
     const bool held = std::any_of(model_.mesh.blocks.begin(), model_.mesh.blocks.end(),
@@ -92,19 +95,17 @@ class Differences {
 
   void add_springs() {
     if (!model_.fastenings) return;
-    constexpr double kMass = 2e-3;  // that OpenRadioss gives a discrete element [kg]
+    double mass = 0;
     std::int64_t elements = 0;
-    double step = 1;
     for (const SpringDampers::Element& element : model_.fastenings->elements()) {
       const DeckSpring spring{element.component, element.stiffness, element.damping};
       elements += spring.elements();
-      step = std::min(step, spring.stable_step(kMass));
+      mass += 2 * spring.end_mass(step_);
     }
     add(fmt::format(
-        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces. "
-        "OpenRadioss gives each element a mass of 2 g, {:.3g} kg together; by that mass alone its "
-        "step would be {:.2g} s.",
-        elements, kMass * static_cast<double>(elements), step));
+        "Fastenings and bed: {} discrete elements, whose ends are nodes tied to the faces or held. The nodes "
+        "have {:.3g} kg together, by which they are stable at the step of this program.",
+        elements, mass));
   }
 
   void add_preload() {
@@ -156,14 +157,15 @@ class Differences {
 
   const Model& model_;
   DeckOptions options_;
+  double step_;  ///< of this program [s]
   bool damped_ = false;
   std::vector<std::string> list_;
 };
 
 }  // namespace
 
-std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options) {
-  return Differences(model, options).list();
+std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options, double step) {
+  return Differences(model, options, step).list();
 }
 
 }  // namespace tread

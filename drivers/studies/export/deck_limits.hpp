@@ -14,6 +14,6 @@ namespace tread {
 void require_deck_can_hold(const Model& model);
 
 /// Sentences on all that the deck leaves out or states in another way.
-std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options);
+std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options, double step);
 
 }  // namespace tread

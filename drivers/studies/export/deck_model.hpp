@@ -17,7 +17,8 @@ namespace tread {
 
 /// The numbers of a deck given out last, by kind. Nodes, elements and sets of all kinds count through.
 struct DeckNumbers {
-  std::int64_t node = 0, element = 0, part = 0, section = 0, material = 0, set = 0, curve = 0, contact = 0;
+  std::int64_t node = 0, element = 0, part = 0, section = 0, material = 0, set = 0, curve = 0, contact = 0,
+               coordinates = 0;
 };
 
 class DeckModel {
@@ -37,6 +38,8 @@ class DeckModel {
     return node(block.base + block.slot(section_node, station));
   }
   std::int64_t slot(const VtkGrid::Point& point) const;
+  /// Numbers of the nodes that carry a point of a face.
+  std::vector<std::int64_t> nodes_of(const Attachment& point) const;
 
   /// Place of a node in space at t = 0 [m].
   Vec3 place(const VtkGrid::Point& point) const;
@@ -50,6 +53,7 @@ class DeckModel {
   double duration() const { return scene().motion->duration; }
 
   DeckNumbers numbers;  ///< nodes of the mesh are numbered
+  double step = 0;      ///< of this program [s]
   /// Nodes that are held, by their directions: 1 along, 2 across, 4 vertical, added up.
   std::map<int, std::vector<std::int64_t>> held;
   std::int64_t sprung = 0;                            ///< node of the sprung mass; 0: there is none

@@ -26,24 +26,44 @@ std::map<std::int64_t, int> held_directions(const DeckModel& deck) {
   return directions;
 }
 
-constexpr int kVertical = 3;  ///< direction of a force on a node
-constexpr int kFollower = 4;  ///< normal to the plane of three nodes
-
-/// A force on a node; `plane`: three nodes whose normal it follows.
+/// A force on a node along the third axis of coordinates, which are 0 for those of the deck.
 struct NodeForce {
   std::int64_t node = 0;
-  int direction = kVertical;
   std::int64_t curve = 0;
   double share = 0;  ///< of the curve [kN per its unit]
-  std::array<std::int64_t, 3> plane = {};
+  std::int64_t coordinates = 0;
 };
 
 /// A keyword for each: readers may take the first card alone.
 void write_force(const NodeForce& force, KeywordDeck& out) {
+  constexpr int kThird = 3;
   out.keyword("*LOAD_NODE_POINT");
-  out.card({force.node, force.direction, force.curve, force.share, 0, force.plane[0], force.plane[1],
-            force.plane[2]});
+  out.card({force.node, kThird, force.curve, force.share, force.coordinates});
 }
+
+/// Coordinates that turn with three nodes and whose third axis is normal to their plane. Follower forces
+/// (direction 4) would do, but OpenRadioss gives them numbers that it also gives to a wheel's velocity.
+class TurningCoordinates {
+ public:
+  TurningCoordinates(DeckModel& deck, KeywordDeck& out) : deck_(deck), out_(out) {}
+
+  /// Number of the plane's coordinates, written when first asked for.
+  std::int64_t of(const std::array<std::int64_t, 3>& plane) {
+    const auto [known, added] = numbers_.try_emplace(plane, 0);
+    if (!added) return known->second;
+    known->second = ++deck_.numbers.coordinates;
+    constexpr int kMoving = 1;
+    out_.keyword("*DEFINE_COORDINATE_NODES");
+    out_.names({"cid", "n1", "n2", "n3", "flag"});
+    out_.card({known->second, plane[0], plane[1], plane[2], kMoving});
+    return known->second;
+  }
+
+ private:
+  DeckModel& deck_;
+  KeywordDeck& out_;
+  std::map<std::array<std::int64_t, 3>, std::int64_t> numbers_;
+};
 
 /// Writes a curve of (time [s], value in the deck's units) and returns its number.
 std::int64_t write_curve(DeckModel& deck, const std::vector<std::array<double, 2>>& points,
@@ -98,8 +118,8 @@ void write_journal_load(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
   if (load == 0) return;
   out.remark("Static load on the journal. The weight of a sprung mass is in its spring from the start.");
   for (const auto& [node, share] : journal_shares(deck))
-    write_force({node, kVertical, curve, -deck_unit::kForce * load * share, {}}, out);
-  if (deck.sprung > 0) write_force({deck.sprung, kVertical, curve, deck_unit::kForce * load, {}}, out);
+    write_force({node, curve, -deck_unit::kForce * load * share}, out);
+  if (deck.sprung > 0) write_force({deck.sprung, curve, deck_unit::kForce * load}, out);
 }
 
 /// Three nodes of the section at a node's station whose plane has the tangent as its normal, by node of the
@@ -127,6 +147,7 @@ void write_torque(DeckModel& deck, KeywordDeck& out) {
   AlignedVector<double> force = rest;
   model.torque.apply(1, rest.data(), rest.data(), deck.wheel(), force.data());
   std::map<int, std::vector<std::array<int, 3>>> planes;  // by block
+  TurningCoordinates coordinates(deck, out);
   for (const VtkGrid::Point& point : deck.grid().points) {
     const double along = -ConstNodeField(force.data()).at(deck.slot(point)).x;
     if (along == 0) continue;
@@ -135,11 +156,8 @@ void write_torque(DeckModel& deck, KeywordDeck& out) {
     if (added) at->second = planes_across(block.section);
     const std::array<int, 3>& plane = at->second[static_cast<std::size_t>(point.node)];
     const auto corner = [&](std::size_t i) { return deck.node(block, plane[i], point.station); };
-    write_force({deck.node(deck.slot(point)),
-                 kFollower,
-                 curve,
-                 deck_unit::kForce * full * along,
-                 {corner(0), corner(1), corner(2)}},
+    write_force({deck.node(deck.slot(point)), curve, deck_unit::kForce * full * along,
+                 coordinates.of({corner(0), corner(1), corner(2)})},
                 out);
   }
 }
@@ -154,8 +172,7 @@ void write_hammer(DeckModel& deck, KeywordDeck& out) {
   const Attachment& point = *deck.model().hammer;
   for (std::size_t k = 0; k < point.slot.size(); ++k)
     if (point.slot[k] >= 0 && point.weight[k] > 0)
-      write_force({deck.node(point.slot[k]), kVertical, curve, -deck_unit::kForce * point.weight[k], {}},
-                  out);
+      write_force({deck.node(point.slot[k]), curve, -deck_unit::kForce * point.weight[k]}, out);
 }
 
 }  // namespace

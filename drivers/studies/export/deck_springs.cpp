@@ -70,39 +70,31 @@ std::int64_t DiscreteParts::write() {
 namespace {
 
 /// The ends of the model's spring-dampers: each point of a face, or of the ground below it, has one node.
+/// Both ends of an element share a place. OpenRadioss gives an element with a length a mass of 1e-12 kg/mm,
+/// by which its damper alone would bound the step; one without a length uses the masses of its nodes.
 class SpringEnds {
  public:
   explicit SpringEnds(DeckModel& deck) : deck_(deck) {}
 
-  /// Number of the node at a point of a face.
-  std::int64_t on_face(const Attachment& point) {
-    const auto [known, added] = points_.try_emplace({point.slot, point.weight}, End{});
-    if (added) {
-      Vec3 at;
-      for_each_node_of(point, [&](std::int64_t node, double weight) { at += weight * deck_.place(node); });
-      known->second = {++deck_.numbers.node, at};
-    }
-    return known->second.node;
-  }
-
-  /// Number of the node of the ground at the place of another spring's end.
-  std::int64_t on_ground(const Attachment& above) {
-    constexpr int kAllDirections = 1 + 2 + 4;
-    const std::int64_t end = on_face(above);
-    const auto [known, added] = ground_.try_emplace(end, End{});
-    if (added) {
-      known->second = {++deck_.numbers.node, points_.at({above.slot, above.weight}).at};
-      deck_.held[kAllDirections].push_back(known->second.node);
-    }
-    return known->second.node;
+  /// Adds the ends of a spring-damper and returns their nodes, the upper one first.
+  std::pair<std::int64_t, std::int64_t> add(const SpringDampers::Element& element, const DeckSpring& spring) {
+    End& upper = on_face(element.upper, nullptr);
+    End& lower = grounded(element.lower) ? on_ground(upper) : on_face(element.lower, &upper.at);
+    for (End* end : {&upper, &lower}) end->mass += spring.end_mass(deck_.step);
+    return {upper.node, lower.node};
   }
 
   void write(KeywordDeck& out) {
     out.remark("Ends of the spring-dampers on faces and on the ground.");
     out.keyword("*NODE");
     out.names(kNodeCard, {"nid", "x", "y", "z"});
-    for (const auto& [point, end] : points_) write_node(end, out);
-    for (const auto& [above, end] : ground_) write_node(end, out);
+    for_each_end([&](const End& end) {
+      const Vec3 at = deck_unit::kLength * end.at;
+      out.card(kNodeCard, {end.node, at.x, at.y, at.z});
+    });
+    out.keyword("*ELEMENT_MASS");
+    out.names(kMassCard, {"eid", "nid", "mass"});
+    for_each_end([&](const End& end) { out.card(kMassCard, {++deck_.numbers.element, end.node, end.mass}); });
     write_ties(out);
   }
 
@@ -110,8 +102,45 @@ class SpringEnds {
   using Point = std::pair<std::array<std::int64_t, 4>, std::array<double, 4>>;
   struct End {
     std::int64_t node = 0;
-    Vec3 at;  ///< [m]
+    Vec3 at;              ///< [m]
+    double distance = 0;  ///< from its face [m]
+    double mass = 0;      ///< [kg]
   };
+
+  static bool grounded(const Attachment& point) {
+    return std::all_of(point.slot.begin(), point.slot.end(), [](std::int64_t slot) { return slot < 0; });
+  }
+
+  /// The end at a point of a face, or at `place` beside it.
+  End& on_face(const Attachment& point, const Vec3* place) {
+    const auto [known, added] = points_.try_emplace({point.slot, point.weight}, End{});
+    if (added) {
+      Vec3 at;
+      for_each_node_of(point, [&](std::int64_t node, double weight) { at += weight * deck_.place(node); });
+      known->second.node = ++deck_.numbers.node;
+      known->second.at = place ? *place : at;
+      known->second.distance = norm(known->second.at - at);
+    }
+    return known->second;
+  }
+
+  /// The end on the ground below another one.
+  End& on_ground(const End& above) {
+    constexpr int kAllDirections = 1 + 2 + 4;
+    const auto [known, added] = ground_.try_emplace(above.node, End{});
+    if (added) {
+      known->second.node = ++deck_.numbers.node;
+      known->second.at = above.at;
+      deck_.held[kAllDirections].push_back(known->second.node);
+    }
+    return known->second;
+  }
+
+  template <class Visit>
+  void for_each_end(const Visit& visit) const {
+    for (const auto& [point, end] : points_) visit(end);
+    for (const auto& [above, end] : ground_) visit(end);
+  }
 
   template <class Visit>
   void for_each_node_of(const Attachment& point, const Visit& visit) const {
@@ -119,21 +148,18 @@ class SpringEnds {
       if (point.slot[k] >= 0) visit(deck_.node(point.slot[k]), point.weight[k]);
   }
 
-  static void write_node(const End& end, KeywordDeck& out) {
-    const Vec3 at = deck_unit::kLength * end.at;
-    out.card(kNodeCard, {end.node, at.x, at.y, at.z});
-  }
-
   /// One tie for each block: surfaces of two blocks may lie upon one another.
   void write_ties(KeywordDeck& out) {
     struct Tie {
       std::vector<std::int64_t> nodes;
       std::set<DeckFace> faces;
+      double distance = 0;  ///< largest of a node from its face [m]
     };
     std::map<const SweptBlock*, Tie> ties;
     for (const auto& [point, end] : points_) {
       Tie& tie = ties[&block_of(point.first[0])];
       tie.nodes.push_back(end.node);
+      tie.distance = std::max(tie.distance, end.distance);
       // Nodes of an attachment stand row by row; those of a face follow its border.
       const auto corner = [&, &slots = point.first](std::size_t k) { return deck_.node(slots[k]); };
       tie.faces.insert({corner(0), corner(1), corner(3), corner(2)});
@@ -143,7 +169,7 @@ class SpringEnds {
       sides.secondary = write_node_set(deck_, tie.nodes, out);
       sides.secondary_kind = ContactSides::kNodes;
       sides.primary = write_segment_set(deck_, {tie.faces.begin(), tie.faces.end()}, out);
-      write_tie_contact(deck_, "spring-dampers to " + block->name, sides, out);
+      write_tie_contact(deck_, "spring-dampers to " + block->name, sides, tie.distance, out);
     }
   }
 
@@ -160,20 +186,15 @@ class SpringEnds {
   std::map<std::int64_t, End> ground_;  ///< by the node above
 };
 
-bool grounded(const Attachment& point) {
-  return std::all_of(point.slot.begin(), point.slot.end(), [](std::int64_t slot) { return slot < 0; });
-}
-
 }  // namespace
 
 void add_springs(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   if (!deck.model().fastenings) return;
   SpringEnds ends(deck);
   for (const SpringDampers::Element& element : deck.model().fastenings->elements()) {
-    const std::int64_t upper = ends.on_face(element.upper);
-    const std::int64_t lower =
-        grounded(element.lower) ? ends.on_ground(element.upper) : ends.on_face(element.lower);
-    parts.add(upper, lower, {element.component, element.stiffness, element.damping});
+    const DeckSpring spring{element.component, element.stiffness, element.damping};
+    const auto [upper, lower] = ends.add(element, spring);
+    parts.add(upper, lower, spring);
   }
   ends.write(out);
 }

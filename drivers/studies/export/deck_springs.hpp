@@ -1,8 +1,6 @@
 #pragma once
 // Fastenings, bed of the sleepers and elastic foot holds as discrete elements between nodes.
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -21,10 +19,8 @@ struct DeckSpring {
 
   /// Number of its discrete elements.
   int elements() const { return (stiffness > 0) + (damping > 0); }
-  /// Step at which either becomes unstable by itself if it has this mass [kg]. [s]
-  double stable_step(double mass) const {
-    return std::min(std::sqrt(mass / std::max(stiffness, 1e-9)), 0.5 * mass / std::max(damping, 1e-9));
-  }
+  /// Mass of each end with which both are stable at this step [s]. [kg]
+  double end_mass(double step) const { return step * (1.1 * damping + 0.5 * step * stiffness); }
 };
 
 /// Parts and elements of spring-dampers: two nodes each; equal values share a part.

@@ -78,15 +78,15 @@ std::int64_t write_segment_set(DeckModel& deck, const std::vector<DeckFace>& fac
   return set;
 }
 
-void write_tie_contact(DeckModel& deck, const std::string& title, const ContactSides& sides,
+void write_tie_contact(DeckModel& deck, const std::string& title, const ContactSides& sides, double distance,
                        KeywordDeck& out) {
-  // Nodes lie on the faces; a negative thickness is a distance up to which they are tied. [mm]
-  constexpr double kReach = -0.1;
+  // A negative thickness is a distance up to which nodes are tied. [mm]
+  const double reach = -(0.1 + deck_unit::kLength * distance);
   begin_contact(deck, "*CONTACT_TIED_NODES_TO_SURFACE_ID", "tie of " + title, sides, out);
   out.names({"fs", "fd"});
   out.card({0.0, 0.0});
   out.names({"sfs", "sfm", "sst", "mst"});
-  out.card({0.0, 0.0, kReach, kReach});
+  out.card({0.0, 0.0, reach, reach});
 }
 
 void write_ties(DeckModel& deck, KeywordDeck& out) {
@@ -101,7 +101,7 @@ void write_ties(DeckModel& deck, KeywordDeck& out) {
     sides.secondary_kind = ContactSides::kNodes;
     const Edges edges = edges_of(coarse.section.paths.at(tie.primary_path));
     sides.primary = write_segment_set(deck, faces_over(deck, coarse, edges), out);
-    write_tie_contact(deck, title, sides, out);
+    write_tie_contact(deck, title, sides, 0, out);
   }
 }
 

@@ -28,8 +28,8 @@ struct ContactSides {
 std::int64_t write_node_set(DeckModel& deck, std::span<const std::int64_t> nodes, KeywordDeck& out);
 std::int64_t write_segment_set(DeckModel& deck, const std::vector<DeckFace>& faces, KeywordDeck& out);
 
-/// Writes the tie of nodes that lie on faces.
-void write_tie_contact(DeckModel& deck, const std::string& title, const ContactSides& sides,
+/// Writes the tie of nodes that lie on faces, or up to `distance` [m] beside them.
+void write_tie_contact(DeckModel& deck, const std::string& title, const ContactSides& sides, double distance,
                        KeywordDeck& out);
 
 /// Writes the ties of blocks: nodes of the fine side on the faces of the coarse side.

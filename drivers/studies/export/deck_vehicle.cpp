@@ -43,7 +43,6 @@ void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   if (!deck.scene().vehicle || deck.model().journal.empty()) return;
   const VehicleSpec& vehicle = *deck.scene().vehicle;
   const auto ring = journal_shares(deck);
-  constexpr double kAbove = 0.5;  // of the sprung mass over the axle box, for the eye alone [m]
   const Vec3 box = axle_box(deck, ring);
   const std::int64_t unsprung = ++deck.numbers.node;
   const std::int64_t sprung = ++deck.numbers.node;
@@ -53,8 +52,9 @@ void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   out.remark("Axle box with the unsprung mass, and the sprung mass.");
   out.keyword("*NODE");
   out.names(kNodeCard, {"nid", "x", "y", "z"});
-  for (const auto& [node, above] : {std::pair(unsprung, 0.0), std::pair(sprung, kAbove)}) {
-    const Vec3 at = deck_unit::kLength * (box + Vec3{0, 0, above});
+  // Both at one place: see SpringEnds.
+  for (const std::int64_t node : {unsprung, sprung}) {
+    const Vec3 at = deck_unit::kLength * box;
     out.card(kNodeCard, {node, at.x, at.y, at.z});
   }
   out.keyword("*ELEMENT_MASS");

@@ -34,6 +34,8 @@ void write_head(const DeckModel& deck, const DeckSummary& summary, const std::st
 }
 
 /// A step no larger than this program's, where the reader obeys LCTM, and in any case its own times TSSFAC.
+/// DT2MS scales no mass, as no step is so short. It makes OpenRadioss take the step of the nodes: the step of
+/// its discrete elements knows their own mass alone, which is next to nothing.
 void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out) {
   const double end = deck_unit::kTime * summary.duration;
   const double step = deck_unit::kTime * summary.step;
@@ -53,7 +55,7 @@ void write_control(DeckModel& deck, const DeckSummary& summary, KeywordDeck& out
   out.card(kCurveCard, {2 * end, step});
   out.keyword("*CONTROL_TIMESTEP");
   out.names({"dtinit", "tssfac", "isdo", "tslimt", "dt2ms", "lctm"});
-  out.card({step, summary.step_factor, 0, 0.0, 0.0, curve});
+  out.card({step, summary.step_factor, 0, 0.0, -1e-6 * step, curve});
 }
 
 void write_output(const DeckModel& deck, KeywordDeck& out) {
@@ -64,6 +66,14 @@ void write_output(const DeckModel& deck, KeywordDeck& out) {
     out.keyword(keyword);
     out.names({"dt"});
     out.card({interval});
+  }
+  if (deck.model().hammer) {
+    out.remark("Displacements about the struck point.");
+    out.keyword("*DATABASE_NODOUT");
+    out.names({"dt"});
+    out.card({interval});
+    out.keyword("*DATABASE_HISTORY_NODE");
+    out.list(deck.nodes_of(*deck.model().hammer));
   }
   out.keyword("*DATABASE_BINARY_D3PLOT");
   out.names({"dt"});
@@ -88,10 +98,11 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
   const StepLimit limit = step_limit(model);
   const double safety = deck.scene().motion->step_safety;
   summary.step = safety * limit.stable_step;
+  deck.step = summary.step;
   summary.step_factor =
       safety * std::min(1.0, limit.stable_step / limit.stiffest[limit.stiffest_block()].step);
   summary.duration = deck.duration();
-  summary.differences = deck_differences(model, options);
+  summary.differences = deck_differences(model, options, summary.step);
 
   write_head(deck, summary, origin, out);
   write_control(deck, summary, out);
