@@ -10,12 +10,6 @@
 
 namespace tread {
 
-/// Bytes to another rank, or room for those that it sends.
-struct RankMessage {
-  int rank = 0;
-  std::span<std::byte> bytes;
-};
-
 /// Calls that a rank has made for steps.
 struct RankTraffic {
   std::int64_t waits = 0;     ///< number of calls
@@ -37,8 +31,6 @@ class Ranks {
   virtual int on_host() const { return count(); }
   virtual int on_cores() const { return count(); }
 
-  /// Sends and receives. Messages of one rank to another arrive in the order of the lists.
-  virtual void exchange(std::span<const RankMessage> sent, std::span<const RankMessage> received) = 0;
   /// Gives each rank the values of all: rank r has those of [first[r], first[r + 1]).
   template <class T>
   void gather(T* values, std::span<const std::int64_t> first) {

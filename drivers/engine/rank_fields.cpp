@@ -14,11 +14,6 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-template <class T>
-std::span<std::byte> bytes_of(std::span<T> values) {
-  return std::as_writable_bytes(values);
-}
-
 }  // namespace
 
 template <class Real, class U>
@@ -27,6 +22,7 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
   cut(model.mesh);
   choose_groups(model);
   join_tiles();
+  place_packed();
 }
 
 /// Fields are contiguous in the order of blocks and tiles, and so is a stretch of them.
@@ -65,9 +61,7 @@ void RankFields<Real, U>::choose_groups(const Model& model) {
   for (const std::int64_t value : first_value_) {
     const auto at = std::lower_bound(groups_.begin(), groups_.end(), value / kGroupValues);
     first_group_.push_back(at - groups_.begin());
-    first_packed_.push_back(first_group_.back() * kGroupValues);
   }
-  packed_f_.resize(groups_.size() * kGroupValues);
 }
 
 template <class Real, class U>
@@ -76,86 +70,98 @@ int RankFields<Real, U>::rank_of(std::size_t tile) const {
   return static_cast<int>(std::find_if(stretches_.begin(), stretches_.end(), holds) - stretches_.begin());
 }
 
-/// Where the last element of a rank's tile ends in another rank's: its far force goes there, the motion of
-/// its far station comes from there. All ranks list these places in one order.
 template <class Real, class U>
 void RankFields<Real, U>::join_tiles() {
-  std::vector<int> to, from;
+  const Mesh& mesh = this->mesh();
+  std::vector<std::int64_t> kept;
   std::size_t before = 0;
-  for (std::size_t b = 0; b < this->mesh().blocks.size(); before += this->mesh().blocks[b++].tiles.size())
-    for (std::size_t tile = 0; tile < this->mesh().blocks[b].tiles.size(); ++tile) {
-      const int next = this->mesh().blocks[b].tiles[tile].next;
-      if (next < 0 || this->mesh().blocks[b].tiles[tile].elements == 0) continue;
-      const int near = rank_of(before + tile);
-      const int far = rank_of(before + index(next));
-      if (near == far || (near != ranks_->rank() && far != ranks_->rank())) continue;
-      const RankMessage carry = {near == ranks_->rank() ? far : near,
-                                 bytes_of(this->internal().carry(before + tile))};
-      const bool sends = near == ranks_->rank();
-      (sends ? carries_sent_ : carries_received_).push_back(carry);
-      (sends ? received_halos_ : sent_halos_).push_back(halo_of(static_cast<int>(b), next));
-      (sends ? from : to).push_back(carry.rank);
+  for (std::size_t b = 0; b < mesh.blocks.size(); before += mesh.blocks[b++].tiles.size()) {
+    const SweptBlock& block = mesh.blocks[b];
+    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile) {
+      if (block.tiles[tile].elements == 0) continue;
+      const int next = block.tiles[tile].next;
+      Joint joint;
+      joint.near = rank_of(before + tile);
+      joint.far = rank_of(before + index(next));
+      joint.tile = before + tile;
+      if (joint.near == joint.far) continue;
+      joint.nodes = block.section.nodes();
+      joint.slot = block.base + next * joint.nodes * kLanes;
+      for (std::int64_t node = 0; node < joint.nodes; ++node) {
+        if (joint.near == ranks_->rank()) kept.push_back(joint.slot + node * kLanes);
+        if (std::binary_search(groups_.begin(), groups_.end(), joint.slot / kLanes + node))
+          for (int c = 0; c < 3; ++c) joint.featured.push_back(3 * node + c);
+      }
+      joints_.push_back(std::move(joint));
     }
-  const auto list = [](std::vector<Halo>& halos, const std::vector<int>& others,
-                       std::vector<RankMessage>& messages) {
-    for (std::size_t i = 0; i < halos.size(); ++i) {
-      messages.push_back({others[i], bytes_of(std::span(halos[i].u))});
-      if (!halos[i].d.empty()) messages.push_back({others[i], bytes_of(std::span(halos[i].d))});
+  }
+  this->update().defer(kept);
+}
+
+/// What a rank sends lies together: forces of its groups, then those at joints.
+template <class Real, class U>
+void RankFields<Real, U>::place_packed() {
+  std::int64_t place = 0;
+  for (std::size_t rank = 0; rank < stretches_.size(); ++rank) {
+    first_packed_.push_back(place);
+    place += (first_group_[rank + 1] - first_group_[rank]) * kGroupValues;
+    for (Joint& joint : joints_) {
+      if (joint.near == static_cast<int>(rank))
+        joint.element_force = std::exchange(place, place + 3 * joint.nodes);
+      if (joint.far == static_cast<int>(rank))
+        joint.other_force = std::exchange(place, place + 3 * joint.nodes);
     }
-  };
-  list(sent_halos_, to, halos_sent_);
-  list(received_halos_, from, halos_received_);
+  }
+  first_packed_.push_back(place);
+  packed_.resize(index(place));
 }
 
-/// The lag of a block's branch or the velocity; null where the block has no damping.
+/// Packed forces of a rank's groups, counted from those of the first group of all.
 template <class Real, class U>
-Real* RankFields<Real, U>::damping(int block) {
-  if (this->internal().branch(block) != 0) return this->q()->values().data();
-  return this->internal().beta(block) != 0 ? this->v().data() : nullptr;
-}
-
-template <class Real, class U>
-typename RankFields<Real, U>::Halo RankFields<Real, U>::halo_of(int block, int tile) {
-  const SweptBlock& swept = this->mesh().blocks[index(block)];
-  Halo halo;
-  halo.block = block;
-  halo.slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-  halo.u.resize(index(3 * swept.section.nodes()));
-  halo.d.resize(damping(block) != nullptr ? halo.u.size() : 0);
-  return halo;
+Real* RankFields<Real, U>::packed_groups(std::size_t rank) {
+  return packed_.data() + first_packed_[rank] - first_group_[rank] * kGroupValues;
 }
 
 template <class Real, class U>
-template <class Copy>
-void RankFields<Real, U>::for_halo(Halo& halo, const Copy& copy) {
-  const auto for_values = [&](auto* field, auto& values) {
-    field += dof(halo.slot, 0);
-    for (std::size_t i = 0; i < values.size(); ++i) copy(field[i * kLanes], values[i]);
-  };
-  for_values(this->u().data(), halo.u);
-  if (!halo.d.empty()) for_values(damping(halo.block), halo.d);
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::exchange_halos() {
-  for (Halo& halo : sent_halos_) for_halo(halo, [](const auto& field, auto& value) { value = field; });
-  ranks_->exchange(halos_sent_, halos_received_);
-  for (Halo& halo : received_halos_) for_halo(halo, [](auto& field, const auto& value) { field = value; });
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::share_forces() {
-  const std::int64_t first = first_group_[own_];
-  const std::int64_t last = first_group_[own_ + 1];
-  for_groups(groups_, first, last, [&](std::int64_t packed, std::int64_t place) {
-    std::copy_n(this->f().data() + place, kGroupValues, packed_f_.data() + packed);
+void RankFields<Real, U>::pack() {
+  Real* const packed = packed_groups(own_);
+  for_groups(groups_, first_group_[own_], first_group_[own_ + 1], [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(this->f().data() + place, kGroupValues, packed + at);
   });
-  ranks_->gather(packed_f_.data(), first_packed_);
-  const auto unpack = [&](std::int64_t packed, std::int64_t place) {
-    std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
-  };
-  for_groups(groups_, 0, first, unpack);
-  for_groups(groups_, last, std::ssize(groups_), unpack);
+  for (const Joint& joint : joints_) {
+    if (joint.near == ranks_->rank())
+      std::copy_n(this->internal().carry(joint.tile).data(), 3 * joint.nodes,
+                  packed_.data() + joint.element_force);
+    if (joint.far == ranks_->rank())
+      for (std::int64_t i = 0; i < 3 * joint.nodes; ++i)
+        packed_[index(joint.other_force + i)] = this->f()[index(dof(joint.slot, 0) + i * kLanes)];
+  }
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::unpack() {
+  for (std::size_t rank = 0; rank < stretches_.size(); ++rank) {
+    if (rank == own_) continue;
+    const Real* const packed = packed_groups(rank);
+    for_groups(groups_, first_group_[rank], first_group_[rank + 1], [&](std::int64_t at, std::int64_t place) {
+      std::copy_n(packed + at, kGroupValues, this->f().data() + place);
+    });
+  }
+  for (const Joint& joint : joints_) join_forces(joint);
+}
+
+/// Forces at the joint's station on the nodes that this rank moves there, in one process's order of addition.
+template <class Real, class U>
+void RankFields<Real, U>::join_forces(const Joint& joint) {
+  const Real* const element = packed_.data() + joint.element_force;
+  const Real* const others = packed_.data() + joint.other_force;
+  Real* const f = this->f().data() + dof(joint.slot, 0);
+  if (joint.far == ranks_->rank())
+    for (std::int64_t i = 0; i < 3 * joint.nodes; ++i) f[i * kLanes] += element[i];
+  else if (joint.near == ranks_->rank())
+    for (std::int64_t i = 0; i < 3 * joint.nodes; ++i) f[i * kLanes] = others[i] + element[i];
+  else
+    for (const std::int64_t i : joint.featured) f[i * kLanes] += element[i];
 }
 
 template <class Real, class U>
@@ -185,11 +191,10 @@ void RankFields<Real, U>::internal_force() {
 
 template <class Real, class U>
 void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
-  if (!whole_) exchange_halos();
   this->internal().move(stretches_[own_], this->update(), loads, this->force_fields());
-  ranks_->exchange(carries_sent_, carries_received_);
-  this->internal().add_carries(stretches_[own_], this->f().data());
-  share_forces();
+  pack();
+  ranks_->gather(packed_.data(), first_packed_);
+  unpack();
   whole_ = false;
   if (ranks_->spoils_copies()) spoil();
 }
@@ -197,27 +202,38 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
 template <class Real, class U>
 void RankFields<Real, U>::advance_lag(double dt) {
   if (!this->q()) return;
-  if (whole_)
+  if (whole_) {
     Base::advance_lag(dt);
-  else
-    this->q()->advance(this->v().data(), dt, first_value_[own_] / 3, first_value_[own_ + 1] / 3);
+    return;
+  }
+  this->q()->advance(this->v().data(), dt, first_value_[own_] / 3, first_value_[own_ + 1] / 3);
+  for (const Joint& joint : joints_)
+    if (joint.near == ranks_->rank())
+      this->q()->advance(this->v().data(), dt, joint.slot, joint.slot + joint.nodes * kLanes);
 }
 
 /// Whoever reads another rank's values without fetching them is found out.
 template <class Real, class U>
 void RankFields<Real, U>::spoil() {
-  const auto spoil_field = [](auto* field, std::int64_t place) {
-    std::fill_n(field + place, kGroupValues,
-                std::numeric_limits<std::remove_pointer_t<decltype(field)>>::quiet_NaN());
+  const auto spoil_lanes = [](auto* field, std::int64_t group, int first) {
+    for (int c = 0; c < 3; ++c)
+      for (int lane = first; lane < kLanes; ++lane)
+        field[group * kGroupValues + c * kLanes + lane] =
+            std::numeric_limits<std::remove_pointer_t<decltype(field)>>::quiet_NaN();
   };
   for (std::int64_t group = 0; group < first_value_.back() / kGroupValues; ++group) {
-    const std::int64_t place = group * kGroupValues;
-    if (place >= first_value_[own_] && place < first_value_[own_ + 1]) continue;
-    if (this->q()) spoil_field(this->q()->values().data(), place);
+    const std::int64_t value = group * kGroupValues;
+    if (value >= first_value_[own_] && value < first_value_[own_ + 1]) continue;
+    const bool joined = std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
+      const std::int64_t node = group - joint.slot / kLanes;
+      return joint.near == ranks_->rank() && node >= 0 && node < joint.nodes;
+    });
+    const int first = joined ? 1 : 0;
+    if (this->q()) spoil_lanes(this->q()->values().data(), group, first);
     if (std::binary_search(groups_.begin(), groups_.end(), group)) continue;
-    spoil_field(this->u().data(), place);
-    spoil_field(this->v().data(), place);
-    spoil_field(this->f().data(), place);
+    spoil_lanes(this->u().data(), group, first);
+    spoil_lanes(this->v().data(), group, first);
+    spoil_lanes(this->f().data(), group, first);
   }
 }
 

@@ -2,7 +2,8 @@
 // The fields of a run whose steps several processes share. [docs/records/ranks.md]
 //
 // Each rank computes the elements of a stretch of tiles and moves the nodes on which they alone act. Nodes
-// that features touch are everyone's: each rank gets their forces and moves them in the same way. The views
+// that features touch are everyone's: each rank gets their forces and moves them in the same way. Those where
+// two stretches meet belong to both ranks. One exchange of forces a step makes all of them. The views
 // of NodeFields hold them, the rank's own nodes and, after fetch(), all.
 
 #include <memory>
@@ -30,25 +31,28 @@ class RankFields final : public PreciseFields<Real, U> {
 
  private:
   using Base = PreciseFields<Real, U>;
-  /// The first station of a tile, which another rank's last element reads.
-  struct Halo {
-    int block = 0;
-    std::int64_t slot = 0;  ///< of section node 0
-    AlignedVector<U> u;     ///< displacement, by section node and component [m]
-    AlignedVector<Real> d;  ///< values that damp, or empty: lag [m] or velocity [m/s]
+  /// Where the last element of a rank's tile ends at the first station of another rank's tile. Both ranks
+  /// move the nodes of that station.
+  struct Joint {
+    int near = 0, far = 0;  ///< ranks of the element and of the station
+    std::size_t tile = 0;   ///< of the element
+    std::int64_t slot = 0;  ///< of section node 0 at the station
+    std::int64_t nodes = 0;
+    /// Places in packed_ of the force of the element and of those of all others on the station: [section
+    /// node][3].
+    std::int64_t element_force = 0, other_force = 0;
+    std::vector<std::int64_t> featured;  ///< those of the values whose nodes features touch
   };
 
   void cut(const Mesh& mesh);
   void choose_groups(const Model& model);
   void join_tiles();
   int rank_of(std::size_t tile) const;
-  Halo halo_of(int block, int tile);
-  Real* damping(int block);
-  /// copy(value in a field, value in the halo)
-  template <class Copy>
-  void for_halo(Halo& halo, const Copy& copy);
-  void exchange_halos();
-  void share_forces();
+  void place_packed();
+  Real* packed_groups(std::size_t rank);
+  void pack();
+  void unpack();
+  void join_forces(const Joint& joint);
   void spoil();
 
   std::shared_ptr<Ranks> ranks_;
@@ -59,11 +63,9 @@ class RankFields final : public PreciseFields<Real, U> {
 
   std::vector<std::int64_t> groups_;        ///< groups of featured nodes, ascending
   std::vector<std::int64_t> first_group_;   ///< by rank, and the end, in groups_
-  std::vector<std::int64_t> first_packed_;  ///< the same in packed_f_
-  AlignedVector<Real> packed_f_;            ///< [group][component][lane]
-
-  std::vector<Halo> sent_halos_, received_halos_;
-  std::vector<RankMessage> halos_sent_, halos_received_, carries_sent_, carries_received_;
+  std::vector<Joint> joints_;               ///< in the order of their tiles
+  std::vector<std::int64_t> first_packed_;  ///< by rank, and the end, in packed_
+  AlignedVector<Real> packed_;              ///< forces: of groups, of elements at joints, of stations there
   bool whole_ = true;  ///< the views hold all values of the present, the same on all ranks
 };
 

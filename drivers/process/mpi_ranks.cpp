@@ -81,25 +81,6 @@ class MpiRanks final : public Ranks {
   int on_host() const override { return on_host_; }
   int on_cores() const override { return on_cores_; }
 
-  void exchange(std::span<const RankMessage> sent, std::span<const RankMessage> received) override {
-    if (sent.empty() && received.empty()) return;
-    const Clock::time_point started = Clock::now();
-    requests_.resize(sent.size() + received.size());
-    std::size_t next = 0;
-    for (const RankMessage& message : received) {
-      MPI_Irecv(message.bytes.data(), size_of(message), MPI_BYTE, message.rank, 0, MPI_COMM_WORLD,
-                &requests_[next++]);
-      traffic.received += std::ssize(message.bytes);
-    }
-    for (const RankMessage& message : sent) {
-      MPI_Isend(message.bytes.data(), size_of(message), MPI_BYTE, message.rank, 0, MPI_COMM_WORLD,
-                &requests_[next++]);
-      traffic.sent += std::ssize(message.bytes);
-    }
-    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-    note_wait(started);
-  }
-
   void broadcast(std::span<std::byte> bytes) override {
     constexpr std::size_t kPiece = 1 << 30;
     while (!bytes.empty()) {
@@ -137,17 +118,12 @@ class MpiRanks final : public Ranks {
     note_wait(started);
   }
 
-  static int size_of(const RankMessage& message) {
-    TREAD_EXPECT(message.bytes.size() <= std::numeric_limits<int>::max());
-    return static_cast<int>(message.bytes.size());
-  }
   void note_wait(Clock::time_point started) {
     ++traffic.waits;
     traffic.seconds += std::chrono::duration<double>(Clock::now() - started).count();
   }
 
   int rank_ = 0, count_ = 1, on_host_ = 1, on_cores_ = 1;
-  std::vector<MPI_Request> requests_;
   std::vector<int> counts_, places_;
 };
 

@@ -99,7 +99,7 @@ Real* BasicInternalForce<Real, U>::carry(const Item& item) const {
 }
 
 template <class Real, class U>
-std::span<Real> BasicInternalForce<Real, U>::carry(std::size_t tile) const {
+std::span<const Real> BasicInternalForce<Real, U>::carry(std::size_t tile) const {
   const SweptBlock& swept = mesh_.blocks[index(items_[tile].block)];
   return {carry(items_[tile]), index(3 * swept.section.nodes())};
 }
@@ -126,7 +126,7 @@ template <class Real, class U>
 void BasicInternalForce<Real, U>::move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update,
                                        const StepLoads& loads, const ForceFields<Real, U>& at) const {
   std::fill(unmoved_.begin(), unmoved_.end(), 0);
-  evaluate_elements(stretch.first, stretch.last, moved_fields(update, loads, at));
+  evaluate(stretch.first, stretch.last, moved_fields(update, loads, at));
 }
 
 template <class Real, class U>
@@ -139,8 +139,12 @@ void BasicInternalForce<Real, U>::evaluate_elements(std::size_t first, std::size
 
 template <class Real, class U>
 void BasicInternalForce<Real, U>::add_carries(const TileStretch& stretch, Real* f) const {
-  for (std::size_t i = stretch.first; i < stretch.last; ++i)
-    if (pending_[i]) add_carry(items_[i], f);
+  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+    if (!pending_[i]) continue;
+    const BlockData& data = blocks_[index(items_[i].block)];
+    if (stretch.holds(data.first_item + index(data.elements.previous(items_[i].tile))))
+      add_carry(items_[i], f);
+  }
 }
 
 template <class Real, class U>

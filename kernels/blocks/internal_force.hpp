@@ -97,14 +97,12 @@ class BasicInternalForce {
 
   /// Stretches of like cost that cover all tiles; some are empty where there are few tiles.
   std::vector<TileStretch> cut(int stretches) const;
-  /// move() of a stretch alone. Forces of tiles before it are missing until add_carries(). Other tiles are
-  /// not marked.
+  /// move() of a stretch alone. The forces in carry() of tiles outside that end in it are missing. Other
+  /// tiles are not marked.
   void move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
             const ForceFields<Real, U>& at) const;
-  /// Adds the forces that tiles before those of a stretch have left in carry(), after move(). [N]
-  void add_carries(const TileStretch& stretch, Real* f) const;
   /// Force of a tile's last element on the station behind it: [section node][3] [N].
-  std::span<Real> carry(std::size_t tile) const;
+  std::span<const Real> carry(std::size_t tile) const;
 
   /// internal_force for the slots of one block. Pointers are those of the whole fields.
   void internal_force(int block, const U* u, const Real* v, Real* f) const;
@@ -211,6 +209,8 @@ class BasicInternalForce {
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
+  /// Adds the forces that tiles of the stretch have left for others of it.
+  void add_carries(const TileStretch& stretch, Real* f) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;

@@ -26,11 +26,9 @@ namespace {
 
 /// Where threads of a process find one another.
 struct Meeting {
-  explicit Meeting(int count)
-      : barrier(count), values(static_cast<std::size_t>(count)), sent(values.size()) {}
+  explicit Meeting(int count) : barrier(count), values(static_cast<std::size_t>(count)) {}
   std::barrier<> barrier;
   std::vector<std::byte*> values;
-  std::vector<std::span<const RankMessage>> sent;
 };
 
 class ThreadRanks final : public Ranks {
@@ -41,21 +39,6 @@ class ThreadRanks final : public Ranks {
   int count() const override { return static_cast<int>(meeting_->values.size()); }
   bool spoils_copies() const override { return true; }
   void end_all(int code) override { std::exit(code); }
-
-  void exchange(std::span<const RankMessage> sent, std::span<const RankMessage> received) override {
-    meeting_->sent[static_cast<std::size_t>(rank_)] = sent;
-    meeting_->barrier.arrive_and_wait();
-    std::vector<std::size_t> next(meeting_->values.size(), 0);
-    for (const RankMessage& message : received) {
-      const auto other = static_cast<std::size_t>(message.rank);
-      const auto& from = meeting_->sent[other];
-      while (from[next[other]].rank != rank_) ++next[other];
-      const std::span<std::byte> bytes = from[next[other]++].bytes;
-      ASSERT_EQ(bytes.size(), message.bytes.size());
-      std::copy(bytes.begin(), bytes.end(), message.bytes.begin());
-    }
-    meeting_->barrier.arrive_and_wait();
-  }
 
   void broadcast(std::span<std::byte> bytes) override {
     meeting_->values[static_cast<std::size_t>(rank_)] = bytes.data();
