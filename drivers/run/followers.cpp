@@ -86,7 +86,7 @@ const std::string kBackend = "ranks/backend";
 /// The run of rank 0 on this rank.
 class FollowedRun {
  public:
-  explicit FollowedRun(SealedContent content) {
+  explicit FollowedRun(const SealedContent& content) {
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
                  sealed_entry<std::string>(content, kBackend)});
     const RunOrder order = unpack_order(content);
@@ -158,7 +158,7 @@ void Followers::end() const {
 }
 
 std::string Followers::description(std::int64_t steps) const {
-  std::string text = fmt::format("{} ranks, {} threads each", ranks_->count(), threads());
+  std::string text = fmt::format("{} ranks, threads of each: {}", ranks_->count(), threads());
   if (steps == 0) return text;
   const RankTraffic& traffic = ranks_->traffic;
   const auto per_step = [steps](auto sum) { return static_cast<double>(sum) / static_cast<double>(steps); };

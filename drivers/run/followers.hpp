@@ -28,7 +28,7 @@ class Followers {
   /// The run is over: the others free its memory.
   void end() const;
 
-  /// "3 ranks, 2 threads each", with what a step exchanges once steps have been taken.
+  /// "3 ranks, threads of each: 2", with what a step exchanges once steps have been taken.
   std::string description(std::int64_t steps) const;
 
  private:

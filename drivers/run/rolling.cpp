@@ -144,7 +144,7 @@ void Rolling::look() {
 
 void Rolling::notice_busy_cores() {
   const double passed = session_->progress.seconds() - started_;
-  if (noticed_busy_cores_ || passed < kNoticeAfter) return;
+  if (noticed_busy_cores_ || passed < kNoticeAfter || !followers_.absent()) return;
   const double share = (processor_seconds() - started_processor_) / (passed * threads());
   if (share >= kBusyShare) return;
   noticed_busy_cores_ = true;

@@ -85,7 +85,7 @@ TEST_F(LaunchedRanks, FilesAreThoseOfOneProcess) {
     ASSERT_EQ(call(run(one, of_precision(precision))), 0) << errors();
     for (const int count : counts) {
       ASSERT_EQ(call_on(count, run(folder_, "--overwrite " + of_precision(precision))), 0) << errors();
-      EXPECT_TRUE(has(errors(), fmt::format("[ranks] {} ranks, 1 threads each", count))) << errors();
+      EXPECT_TRUE(has(errors(), fmt::format("[ranks] {} ranks, threads of each: 1", count))) << errors();
       expect_same_run(one, folder_);
     }
   }
