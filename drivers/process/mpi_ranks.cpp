@@ -47,18 +47,18 @@ std::string cores_text() {
   return text;
 }
 
-/// Waits without a core of its own where the others take long.
+/// Waits. A rank that has waited long sleeps: on a busy machine it then gets its core back sooner than one
+/// that keeps asking, and ranks that wait for the preload leave their cores to it.
 void await(MPI_Request request) {
-  constexpr auto kPatience = std::chrono::milliseconds(20);
-  constexpr auto kSleep = std::chrono::milliseconds(1);
+  using std::chrono::microseconds;
+  constexpr microseconds kAwake{200};  ///< as long as an exchange among idle cores takes
+  constexpr microseconds kLong{20000};
   const Clock::time_point started = Clock::now();
   for (int done = 0;;) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
     if (done != 0) return;
-    if (Clock::now() - started > kPatience)
-      std::this_thread::sleep_for(kSleep);
-    else
-      std::this_thread::yield();
+    const Clock::duration waited = Clock::now() - started;
+    if (waited > kAwake) std::this_thread::sleep_for(waited > kLong ? microseconds(1000) : microseconds(20));
   }
 }
 
@@ -111,7 +111,10 @@ class MpiRanks final : public Ranks {
       places_[i] = static_cast<int>(first[i]);
     }
     const MPI_Datatype type = size == 1 ? MPI_BYTE : size == 4 ? MPI_UINT32_T : MPI_UINT64_T;
-    MPI_Allgatherv(MPI_IN_PLACE, 0, type, values, counts_.data(), places_.data(), type, MPI_COMM_WORLD);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgatherv(MPI_IN_PLACE, 0, type, values, counts_.data(), places_.data(), type, MPI_COMM_WORLD,
+                    &request);
+    await(request);
     const std::int64_t own = counts_[static_cast<std::size_t>(rank_)];
     traffic.sent += own * size * (count_ - 1);
     traffic.received += (first.back() - own) * size;
