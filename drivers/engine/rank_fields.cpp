@@ -98,7 +98,7 @@ void RankFields<Real, U>::join_tiles() {
   this->update().defer(kept);
 }
 
-/// What a rank sends lies together: forces of its groups, then those at joints.
+/// Forces that a rank sends lie together: those of its groups, then those at joints.
 template <class Real, class U>
 void RankFields<Real, U>::place_packed() {
   std::int64_t place = 0;
