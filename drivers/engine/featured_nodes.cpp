@@ -1,5 +1,6 @@
 #include "drivers/engine/featured_nodes.hpp"
 
+#include "drivers/engine/restraints.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
 namespace tread {
@@ -26,7 +27,7 @@ std::vector<std::int64_t> featured_slots(const Model& model) {
     for (const std::int64_t unknown : unknowns)
       slots.push_back(unknown / kGroupValues * kLanes + unknown % kLanes);
   };
-  add_nodes_of(model.restrained);
+  add_nodes_of(held_unknowns(model.mesh, model.restrained));
   if (model.guide) add_nodes_of(model.guide->unknowns());
   if (model.contact) {
     const ContactOptions& contact = model.contact->options();
