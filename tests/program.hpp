@@ -53,11 +53,11 @@ inline pid_t child(const std::function<void()>& action) {
 }
 
 /// Starts the program in a shell, with its output in `folder`/out and `folder`/errors. `before`: commands
-/// that the shell runs first.
+/// that the shell runs first. `launcher`: words before the program.
 inline pid_t start_program(const std::string& arguments, const std::filesystem::path& folder,
-                           const std::string& before = "") {
-  const std::string command = fmt::format("{} exec {} {} >{}/out 2>{}/errors", before, TREAD_EXECUTABLE,
-                                          arguments, folder.string(), folder.string());
+                           const std::string& before = "", const std::string& launcher = "") {
+  const std::string command = fmt::format("{} exec {} {} {} >{}/out 2>{}/errors", before, launcher,
+                                          TREAD_EXECUTABLE, arguments, folder.string(), folder.string());
   return child([&] {
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -16,9 +18,11 @@
 #include "drivers/cli/program_name.hpp"
 #include "drivers/cli/wrong_word.hpp"
 #include "drivers/process/host.hpp"
+#include "drivers/process/launched_ranks.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/process/version.hpp"
+#include "drivers/run/followers.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
 
@@ -111,24 +115,61 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Returns the exit code of `act`; its error goes to stderr behind `who`.
+int reported(const std::string& who, const std::function<int()>& act) {
   try {
-    tread::give_back_large_arrays();
-    return run(argc, argv);
+    return act();
   } catch (const tread::Error& error) {
     // An error of the command line names the command, "tread run: ...".
     const std::string_view what = error.what();
     const bool named = what.starts_with("tread ") || what.starts_with("tread: ");
-    fmt::print(stderr, "{}{}\n", named ? "" : "tread: ", error.what());
+    fmt::print(stderr, "{}{}{}\n", who, named ? "" : "tread: ", error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n");
+    fmt::print(
+        stderr,
+        "{}tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n", who);
     return static_cast<int>(tread::ExitCode::resources);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tread: unexpected failure: {}\n", error.what());
+    fmt::print(stderr, "{}tread: unexpected failure: {}\n", who, error.what());
     return static_cast<int>(tread::ExitCode::resources);
   }
+}
+
+/// Throws InputError for a command whose work ranks cannot share.
+void require_shared_command(int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.empty() || word.starts_with('-') || word == "run" || word == "resume" || word == "version") return;
+  throw tread::InputError(fmt::format(
+      "tread {}: ranks share the work of `run` and `resume` alone; start it without mpirun", word));
+}
+
+/// Rank 0 does the command, the others follow. An error of one rank ends all.
+int run_on(tread::Ranks& ranks, int argc, char** argv) {
+  const int rank = ranks.rank();
+  const int code = reported(rank == 0 ? "" : fmt::format("rank {}: ", rank), [&] {
+    if (rank != 0) {
+      tread::follow(ranks);
+      return 0;
+    }
+    require_shared_command(argc, argv);
+    const int done = run(argc, argv);
+    tread::dismiss(ranks);
+    return done;
+  });
+  if (code != 0) ranks.end_all(code);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return reported("", [&] {
+    tread::give_back_large_arrays();
+    const std::shared_ptr<tread::Ranks> ranks = tread::launched_ranks();
+    tread::choose_ranks(ranks);
+    const int code = ranks ? run_on(*ranks, argc, argv) : run(argc, argv);
+    tread::choose_ranks(nullptr);
+    return code;
+  });
 }

@@ -9,6 +9,7 @@
 #include "drivers/cli/commands.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/process/launched_ranks.hpp"
 #include "drivers/process/version.hpp"
 #include "io/scene/schema.hpp"
 #include "io/text/json.hpp"
@@ -22,12 +23,14 @@ namespace {
 void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   const std::vector<std::string> cards = gpus();
+  const std::string library = rank_library();
   if (!json) {
     fmt::print(
         "{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\ndevices           cpu, "
-        "emulated, {}\n",
+        "emulated, {}\nranks             {}\n",
         program_name(), TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES,
-        cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("gpu: {}", fmt::join(cards, ", ")));
+        cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("gpu: {}", fmt::join(cards, ", ")),
+        library.empty() ? "one alone: built without MPI" : "mpirun, " + library);
     return;
   }
   Json packages = Json::object();
@@ -44,7 +47,8 @@ void print_version(bool json) {
                               {"build", TREAD_BUILD},
                               {"instruction_sets", sets},
                               {"packages", packages},
-                              {"gpus", cards}}));
+                              {"gpus", cards},
+                              {"mpi", library}}));
 }
 
 /// docs/reference/scene.md on stdout, as JSON one member `markdown`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "drivers/engine/energy_sums.hpp"
+#include "drivers/engine/restraints.hpp"
 
 namespace tread {
 
@@ -10,19 +11,6 @@ namespace {
 
 // A node of std::map: key, value, colour and three links.
 constexpr std::int64_t kMapNode = 64;
-
-/// Restrained unknowns less those that the update leaves alone.
-std::vector<std::int64_t> held_unknowns(const Model& model) {
-  std::vector<std::int64_t> held = model.restrained;
-  for (const SweptBlock& block : model.mesh.blocks) {
-    if (!block.vertical_only) continue;
-    std::erase_if(held, [&](std::int64_t unknown) {
-      return unknown >= 3 * block.base && unknown < 3 * (block.base + block.slots()) &&
-             unknown / kLanes % 3 != 2;
-    });
-  }
-  return held;
-}
 
 /// The run's fields are copies of the static state's, in another precision.
 bool rounded(const Model& model) {
@@ -51,7 +39,7 @@ const char* updated_blocks(const Model& model) {
 
 }  // namespace
 
-Bodies::Bodies(const Model& model) : model_(&model), held_(held_unknowns(model)) {}
+Bodies::Bodies(const Model& model) : model_(&model), held_(held_unknowns(model.mesh, model.restrained)) {}
 
 std::vector<PhaseInfo> Bodies::phases() const {
   std::vector<RunField> reads = {RunField::coefficients, RunField::displacement, RunField::velocity};

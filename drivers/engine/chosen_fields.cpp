@@ -2,6 +2,7 @@
 
 #include "drivers/engine/device_fields.hpp"
 #include "drivers/engine/precise_fields.hpp"
+#include "drivers/engine/rank_fields.hpp"
 
 namespace tread {
 
@@ -11,6 +12,8 @@ template <class Real, class U>
 std::unique_ptr<NodeFields> fields_of(const Model& model) {
   if (std::shared_ptr<Device> device = chosen_device())
     return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
+  if (std::shared_ptr<Ranks> ranks = chosen_ranks())
+    return std::make_unique<RankFields<Real, U>>(model, std::move(ranks));
   return std::make_unique<PreciseFields<Real, U>>(model);
 }
 

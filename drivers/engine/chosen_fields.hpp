@@ -1,5 +1,5 @@
 #pragma once
-// The fields of a run in the scene's precision, on the chosen device.
+// The fields of a run in the scene's precision, on the chosen device or ranks.
 
 #include <memory>
 

@@ -5,57 +5,14 @@
 #include <utility>
 
 #include "core/contract.hpp"
-#include "core/parallel/chunks.hpp"
-#include "kernels/contact/contact_surface.hpp"
+#include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
 
 namespace {
 
-constexpr int kGroupValues = 3 * kLanes;
-
 std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
-}
-
-/// Nodes of a block's running surface.
-void add_surface(const SweptBlock& block, std::vector<std::int64_t>& slots) {
-  const SurfaceProfile profile(block.section);
-  for (int ordinal = 0; ordinal <= profile.edges(); ++ordinal)
-    for (int station = 0; station < block.station_count(); ++station)
-      slots.push_back(block.base + block.slot(profile.node(ordinal), station));
-}
-
-/// Nodes that features read or write in any step.
-std::vector<std::int64_t> featured_slots(const Model& model) {
-  std::vector<std::int64_t> slots = model.loaded_slots();
-  const auto add_nodes_of = [&](const std::vector<std::int64_t>& unknowns) {
-    for (const std::int64_t unknown : unknowns)
-      slots.push_back(unknown / kGroupValues * kLanes + unknown % kLanes);
-  };
-  add_nodes_of(model.restrained);
-  if (model.guide) add_nodes_of(model.guide->unknowns());
-  if (model.contact) {
-    const ContactOptions& contact = model.contact->options();
-    for (const int block : {contact.rail_block, contact.wheel_block})
-      add_surface(model.mesh.blocks[index(block)], slots);
-  }
-  return slots;
-}
-
-/// Marks of the groups of kLanes slots that hold one of these.
-std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
-  std::vector<unsigned char> marks(index(mesh.slots / kLanes), 0);
-  for (const std::int64_t slot : slots) marks[index(slot / kLanes)] = 1;
-  return marks;
-}
-
-/// Copies groups between a field and packed values: copy(packed, in the field), of kGroupValues each.
-template <class Copy>
-void for_groups(const std::vector<std::int64_t>& groups, const Copy& copy) {
-  parallel_ranges(std::ssize(groups), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) copy(i * kGroupValues, groups[index(i)] * kGroupValues);
-  });
 }
 
 }  // namespace
@@ -154,7 +111,7 @@ void DeviceFields<Real, U>::send() {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::send_host_groups() {
-  for_groups(groups_, [&](std::int64_t packed, std::int64_t place) {
+  for_groups(groups_, 0, std::ssize(groups_), [&](std::int64_t packed, std::int64_t place) {
     std::copy_n(this->u().data() + place, kGroupValues, packed_u_.data() + packed);
     std::copy_n(this->v().data() + place, kGroupValues, packed_v_.data() + packed);
   });
@@ -239,7 +196,7 @@ void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   std::swap(now_.u, next_.u);
   std::swap(now_.v, next_.v);
   device_f_.download(packed_f_.data());
-  for_groups(groups_, [&](std::int64_t packed, std::int64_t place) {
+  for_groups(groups_, 0, std::ssize(groups_), [&](std::int64_t packed, std::int64_t place) {
     std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
   });
   host_whole_ = false;

@@ -138,13 +138,13 @@ class PreciseFields : public NodeFields {
   AlignedVector<Real>& f() { return f_; }
   std::optional<BranchLag<Real>>& q() { return q_; }
   std::optional<LawState<Real>>& law_state() { return state_; }
+  ForceFields<Real, U> force_fields() {
+    return {u_.data(), v_.data(), f_.data(), lag(), state_ ? &*state_ : nullptr};
+  }
 
  private:
   const Real* lag() const { return q_ ? q_->data() : nullptr; }
   const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
-  ForceFields<Real, U> force_fields() {
-    return {u_.data(), v_.data(), f_.data(), lag(), state_ ? &*state_ : nullptr};
-  }
   ElementEnergy element_energy(int b) const {
     if constexpr (std::is_same_v<Real, double>) {
       // In the linear blocks u . K u / 2; the force still holds K (u + beta v) alone.

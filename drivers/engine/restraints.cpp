@@ -94,4 +94,15 @@ std::vector<std::int64_t> restrained_unknowns(const Scene& scene, const TiedBodi
   return Restraints(scene, bodies).collect();
 }
 
+std::vector<std::int64_t> held_unknowns(const Mesh& mesh, std::vector<std::int64_t> restrained) {
+  for (const SweptBlock& block : mesh.blocks) {
+    if (!block.vertical_only) continue;
+    std::erase_if(restrained, [&](std::int64_t unknown) {
+      return unknown >= 3 * block.base && unknown < 3 * (block.base + block.slots()) &&
+             unknown / kLanes % 3 != 2;
+    });
+  }
+  return restrained;
+}
+
 }  // namespace tread

@@ -22,4 +22,7 @@ struct TiedBodies {
 /// Sorted unknowns (dof()) that stay zero.
 std::vector<std::int64_t> restrained_unknowns(const Scene& scene, const TiedBodies& bodies);
 
+/// Restrained unknowns less those that the update leaves alone.
+std::vector<std::int64_t> held_unknowns(const Mesh& mesh, std::vector<std::int64_t> restrained);
+
 }  // namespace tread

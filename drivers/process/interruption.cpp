@@ -24,9 +24,10 @@ std::atomic<bool> g_checkpoint = false;
 constexpr std::size_t kLongest = 1000;
 char g_early[kLongest + 1];
 char g_late[kLongest + 1];
+char g_asked[kLongest + 1];
 
 void set_sentence(char* place, const std::string& text) {
-  std::strncpy(place, (text + "\n").c_str(), kLongest);
+  std::strncpy(place, text.empty() ? "" : (text + "\n").c_str(), kLongest);
 }
 
 /// `timeout`, batch systems and shells signal a process and then its group: signals within this time are one
@@ -39,12 +40,17 @@ std::int64_t steady_now() {
   return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
 }
 
+void write_sentence(const char* sentence) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence, std::strlen(sentence));
+}
+
 /// Notes the first request to stop. Returns true if this is a second one.
 bool asks_again(int signal) {
   const std::int64_t now = steady_now();
   std::int64_t asked_at = 0;
   if (!g_asked_at.compare_exchange_strong(asked_at, now)) return now - asked_at >= kSameRequest;
   g_stop = signal;
+  write_sentence(g_asked);
   return false;
 }
 
@@ -53,8 +59,7 @@ extern "C" void on_signal(int signal) {
   if (signal == SIGUSR1) {
     g_checkpoint = true;
   } else if (!g_deferred || asks_again(signal)) {
-    const char* sentence = g_deferred ? g_late : g_early;
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence, std::strlen(sentence));
+    write_sentence(g_deferred ? g_late : g_early);
     ::_exit(static_cast<int>(ExitCode::resumable));
   }
   errno = error;
@@ -62,9 +67,10 @@ extern "C" void on_signal(int signal) {
 
 }  // namespace
 
-Interruption::Interruption(const std::string& early, const std::string& late) {
+Interruption::Interruption(const std::string& early, const std::string& late, const std::string& asked) {
   set_sentence(g_early, early);
   set_sentence(g_late, late);
+  set_sentence(g_asked, asked);
   g_deferred = false;
   g_stop = 0;
   g_asked_at = 0;

@@ -15,8 +15,9 @@ namespace tread {
 /// error.
 class Interruption {
  public:
-  /// `early` and `late`: the sentences, before defer() and after it.
-  Interruption(const std::string& early, const std::string& late);
+  /// `early` and `late`: the sentences, before defer() and after it. `asked`: what the first signal says
+  /// then, if anything.
+  Interruption(const std::string& early, const std::string& late, const std::string& asked = "");
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;

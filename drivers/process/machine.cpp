@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "core/parallel/ranks.hpp"
 
 namespace tread {
 
@@ -30,10 +31,12 @@ std::int64_t machine_memory() {
 
 void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
-  if (options.number > machine_cores())
+  const std::shared_ptr<Ranks> ranks = chosen_ranks();
+  const int cores = ranks ? std::max(1, machine_cores() / ranks->on_cores()) : machine_cores();
+  if (options.number > cores && (!ranks || ranks->rank() == 0))
     fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
-               options.number, machine_cores(), machine_cores());
-  set_threads(options.number > 0 ? options.number : machine_cores());
+               options.number, cores, cores);
+  set_threads(options.number > 0 ? options.number : cores);
 }
 
 double processor_seconds() {

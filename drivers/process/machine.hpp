@@ -17,8 +17,8 @@ int machine_cores();
 /// Memory of the machine [B].
 std::int64_t machine_memory();
 
-/// Sets the number and the backend of the threads. Warns of more threads than cores. Throws InputError for an
-/// unknown backend.
+/// Sets the number and the backend of the threads; by default this rank's share of the cores. Warns of more
+/// threads than cores. Throws InputError for an unknown backend.
 void use_threads(const ThreadOptions& options);
 
 /// Time that this process has used on all cores [s].

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/parallel/ranks.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/inventory.hpp"
 #include "io/report/plain_text.hpp"
@@ -16,12 +17,14 @@ std::int64_t least_bytes(const MeshCount& count) {
 
 void require_memory(const MeshCount& count, const MeshSizes& sizes) {
   const std::int64_t needed = least_bytes(count);
-  const std::int64_t there = machine_memory();
+  const std::shared_ptr<Ranks> ranks = chosen_ranks();
+  const std::int64_t there = machine_memory() / (ranks ? ranks->on_host() : 1);
   if (needed <= there) return;
   throw ResourceError(
-      fmt::format("the scene has {} elements, which need at least {} of memory; this machine has {}; raise "
+      fmt::format("the scene has {} elements, which need at least {} of memory; this machine has {}{}; raise "
                   "scene.element_size ({:.3g} mm) or shorten solution_zone.length",
-                  grouped(count.elements), bytes_text(needed), bytes_text(there), 1e3 * sizes.contact));
+                  grouped(count.elements), bytes_text(needed), bytes_text(there),
+                  ranks ? " for each rank" : "", 1e3 * sizes.contact));
 }
 
 }  // namespace tread

@@ -60,7 +60,19 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                                  instant(written_->time, written_->steps)));
 }
 
+/// The other ranks take the run over as a process that resumes it would.
+void Rolling::begin_ranks() {
+  if (followers_.absent()) return;
+  followers_.begin(pack_all(""), session_->options.threads);
+  session_->progress.say("[ranks] " + followers_.description(0));
+}
+
+SealedContent Rolling::pack_all(std::string patch) {
+  return pack_run(session_->order, *results_, *model_, *simulation_, std::move(patch));
+}
+
 void Rolling::to_the_end() {
+  begin_ranks();
   simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
   started_ = checkpoint_at_ = session_->progress.seconds();
   started_steps_ = simulation_->steps();
@@ -86,7 +98,7 @@ void Rolling::step_to_the_end() {
       end<ResourceError>(
           fmt::format("stop.steps = {} ends the run here, and each `tread resume` at once", most));
     if (simulation_->steps() == fork_step_) keep_for_forks();
-    simulation_->step();
+    followers_.step(*simulation_);
     if (simulation_->sampled()) {
       keep_sample();
     }
@@ -132,7 +144,7 @@ void Rolling::look() {
 
 void Rolling::notice_busy_cores() {
   const double passed = session_->progress.seconds() - started_;
-  if (noticed_busy_cores_ || passed < kNoticeAfter) return;
+  if (noticed_busy_cores_ || passed < kNoticeAfter || !followers_.absent()) return;
   const double share = (processor_seconds() - started_processor_) / (passed * threads());
   if (share >= kBusyShare) return;
   noticed_busy_cores_ = true;
@@ -164,12 +176,11 @@ void Rolling::check_penetration() {
 /// Writes a checkpoint, except of a motion that is not finite; the energies' watch soon ends such a motion.
 void Rolling::write_checkpoint() {
   wait_for_writer();
+  followers_.fetch(*simulation_);
   if (!simulation_->finite()) return;
   const Mark mark{simulation_->steps(), simulation_->time()};
   results_->seconds_rolling = seconds();
-  writer_.start([this, mark,
-                 content = pack_run(session_->order, *results_, *model_, *simulation_,
-                                    files_->patch_bytes())]() mutable {
+  writer_.start([this, mark, content = pack_all(files_->patch_bytes())]() mutable {
     session_->checkpoints.write(mark.steps, std::move(content), session_->options.observer);
   });
   being_written_ = mark;
@@ -179,10 +190,10 @@ void Rolling::write_checkpoint() {
 
 void Rolling::keep_for_forks() {
   wait_for_writer();
+  followers_.fetch(*simulation_);
   results_->seconds_rolling = seconds();
   const CheckpointFolder folder(session_->folder / kForkFolder);
-  folder.keep(simulation_->steps(),
-              pack_run(session_->order, *results_, *model_, *simulation_, files_->patch_bytes()));
+  folder.keep(simulation_->steps(), pack_all(files_->patch_bytes()));
   session_->progress.say(
       fmt::format("[fork] {} is kept: `tread run OTHER.toml --from {} -o OTHER` begins there",
                   instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
@@ -191,6 +202,7 @@ void Rolling::keep_for_forks() {
 /// Writes a frame of a finite motion.
 void Rolling::write_frame() {
   wait_for_writer();
+  followers_.fetch(*simulation_);
   if (!simulation_->finite()) return;
   frames_->copy(*simulation_);
   writer_.start([this] { frames_->write(); });
@@ -208,6 +220,7 @@ void Rolling::wait_for_writer() {
 /// Writes a checkpoint and throws Interrupted, except for a motion that is not finite: that motion ends by
 /// its own error.
 void Rolling::leave(const std::string& why) {
+  followers_.fetch(*simulation_);
   if (!simulation_->finite()) return;
   write_checkpoint();
   wait_for_writer();
@@ -312,6 +325,10 @@ std::string Rolling::status() const {
 }
 
 void Rolling::fill_results() {
+  followers_.fetch(*simulation_);
+  followers_.end();
+  if (!followers_.absent())
+    session_->progress.say("[ranks] " + followers_.description(simulation_->steps() - started_steps_));
   results_->seconds_rolling = seconds();
   results_->steps = simulation_->steps();
   results_->state_hash = simulation_->state_hash();

@@ -12,6 +12,7 @@
 #include "drivers/results/frame_files.hpp"
 #include "drivers/results/growing_files.hpp"
 #include "drivers/results/run_results.hpp"
+#include "drivers/run/followers.hpp"
 #include "drivers/run/run_session.hpp"
 
 namespace tread {
@@ -35,6 +36,8 @@ class Rolling {
     std::int64_t steps;
     double time;  ///< [s]
   };
+  void begin_ranks();
+  SealedContent pack_all(std::string patch);
   void step_to_the_end();
   void keep_sample();
   void look();
@@ -63,6 +66,7 @@ class Rolling {
   Model* model_;
   RunResults* results_;
   std::optional<Simulation> simulation_;
+  Followers followers_;
   std::optional<GrowingFiles> files_;
   std::optional<FrameFiles> frames_;
   std::int64_t end_ = 0;                   ///< steps of the whole run

@@ -11,6 +11,8 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "core/parallel/ranks.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/report/run_report.hpp"
@@ -25,6 +27,7 @@
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
 #include "drivers/run/rolling.hpp"
+#include "drivers/run/run_model.hpp"
 #include "drivers/run/run_session.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/files/output_file.hpp"
@@ -58,20 +61,6 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
   results.movie = read_patch(patch, even_places(stretch, kMovieFrames));
 }
 
-/// Changes of the run, as later values of the keys that a run may change.
-void adopt_later_values(Model& model, const Scene& later) {
-  model.scene.output = later.output;
-  model.scene.stop = later.stop;
-  if (!model.scene.motion) return;
-  const double planned = model.scene.motion->duration;
-  if (model.scene.wheel && later.motion->duration > planned)
-    throw InputError(
-        fmt::format("motion.duration = {:g} ms: the rail is divided for the {:g} ms that the run "
-                    "began with; state a longer duration when a run begins and end it early",
-                    1e3 * later.motion->duration, 1e3 * planned));
-  model.scene.motion->duration = later.motion->duration;
-}
-
 void obey_before_first_step(const RunSession& session) {
   if (session.folder.take_stop())
     throw Interrupted(
@@ -79,10 +68,14 @@ void obey_before_first_step(const RunSession& session) {
 }
 
 void solve_statics(const RunSession& session, Model& model, RunResults& results) {
+  // The other ranks sleep meanwhile: their cores are free.
+  const int own = threads();
+  if (const auto ranks = chosen_ranks()) set_threads(std::min(machine_cores(), own * ranks->on_cores()));
   results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
     session.enter("preload", text);
     obey_before_first_step(session);
   });
+  set_threads(own);
 }
 
 /// From the cache, where that has it or another process is about to put it there. `resolved`: what the model
@@ -108,12 +101,6 @@ void find_statics(const RunSession& session, const ResolvedScene& resolved, Mode
     if (cache) keep_preload(*cache, key, results.preload, say);
   }
   results.seconds_preload = session.progress.seconds() - started;
-}
-
-/// y of the corrugation's deepest line; without corrugation it matters to nothing [m].
-double deepest_line(const Scene& scene, const RunResults& results) {
-  const double peak = results.preload.contact.pressure_peak.y;
-  return scene.corrugation ? scene.corrugation->centre.value_or(peak) : peak;
 }
 
 void require_disk(const Model& model, const RunResults& results) {
@@ -279,12 +266,6 @@ std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session
   return found;
 }
 
-ResolvedScene resolve_with_later(const RunOrder& order) {
-  std::vector<std::string> all = order.overrides;
-  all.insert(all.end(), order.later.begin(), order.later.end());
-  return resolve_scene(order.scene, all);
-}
-
 /// The run that options.from names must not be the one that is thrown away for the new one.
 Fork read_other(const RunOptions& options, const RunOrder& wanted) {
   Fork fork = fork_from(options.from, wanted, Progress(options.quiet));
@@ -315,13 +296,23 @@ std::filesystem::path dated_folder(const std::filesystem::path& scene) {
   return fmt::format("{}-{:%Y%m%d-%H%M%S}", scene.stem().string(), local);
 }
 
+/// Threads and device of a run.
+void take_machine(const RunOptions& options) {
+  use_threads(options.threads);
+  choose_device(options.device);
+  if (chosen_ranks() && chosen_device())
+    throw InputError(
+        fmt::format("--device {}: the steps of several ranks are the processors'; start one process, or "
+                    "leave --device cpu",
+                    options.device));
+}
+
 }  // namespace
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
   if (options.output.empty()) options.output = dated_folder(resolved.source.name);
-  use_threads(options.threads);
-  choose_device(options.device);
+  take_machine(options);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};
   std::optional<Fork> fork;
@@ -338,8 +329,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
 }
 
 void resume_run(const RunOptions& options) {
-  use_threads(options.threads);
-  choose_device(options.device);
+  take_machine(options);
   if (!std::filesystem::is_directory(options.output))
     throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
                                  options.output.string()));

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/parallel/ranks.hpp"
 #include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
@@ -23,6 +24,13 @@ std::string resumption(const std::filesystem::path& directory) {
   return fmt::format("`tread resume {}`", directory.string());
 }
 
+/// A launcher that has lost a rank asks the others to stop, and ends them soon after.
+std::string last_word(const std::filesystem::path& directory) {
+  if (!chosen_ranks()) return "";
+  return fmt::format("tread: asked to stop, or a rank is lost; {} goes on from the last checkpoint",
+                     resumption(directory));
+}
+
 }  // namespace
 
 RunSession::RunSession(const RunOptions& given)
@@ -33,7 +41,8 @@ RunSession::RunSession(const RunOptions& given)
       interruption(fmt::format("tread: stopped before the first step; {} starts again",
                                given.from.empty() ? resumption(given.output) : "the same command"),
                    fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
-                               resumption(given.output))) {}
+                               resumption(given.output)),
+                   last_word(given.output)) {}
 
 std::string RunSession::resume_command() const {
   return resumption(folder.path());

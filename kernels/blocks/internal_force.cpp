@@ -43,6 +43,12 @@ void law_stress(int law, const Material& material, const State& state, const Rea
   });
 }
 
+/// Cost of an element in force and motion, by the components that it has and by its sweep.
+/// [docs/records/performance.md, Kernels]
+std::int64_t element_cost(const SweptBlock& block) {
+  return block.vertical_only ? 2 : block.sweep == Sweep::extruded ? 4 : 5;
+}
+
 /// Scratch of a thread; grows in its first calls only.
 template <class Real>
 Real* front_of(const FrontPlan& plan, int law) {
@@ -72,8 +78,8 @@ BasicInternalForce<Real, U>::BasicInternalForce(const Mesh& mesh)
     data.first_item = items_.size();
     for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
       items_.push_back({block, tile});
-      const auto quads = static_cast<std::int64_t>(swept.section.quads.size());
-      cost_.push_back(cost_.back() + (swept.tiles[index(tile)].elements > 0 ? quads : 1));
+      const std::int64_t cost = element_cost(swept) * std::ssize(swept.section.quads);
+      cost_.push_back(cost_.back() + (swept.tiles[index(tile)].elements > 0 ? cost : 1));
     }
   }
   pending_.resize(items_.size(), 0);
@@ -93,18 +99,52 @@ Real* BasicInternalForce<Real, U>::carry(const Item& item) const {
 }
 
 template <class Real, class U>
-void BasicInternalForce<Real, U>::evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
+std::span<const Real> BasicInternalForce<Real, U>::carry(std::size_t tile) const {
+  const SweptBlock& swept = mesh_.blocks[index(items_[tile].block)];
+  return {carry(items_[tile]), index(3 * swept.section.nodes())};
+}
+
+/// First of the items [first, last) that has this cost before it; tiles that the loop joins stay together.
+template <class Real, class U>
+std::size_t BasicInternalForce<Real, U>::item_at(std::size_t first, std::size_t last,
+                                                 std::int64_t cost) const {
   const auto begin = cost_.begin() + static_cast<std::ptrdiff_t>(first);
   const auto end = cost_.begin() + static_cast<std::ptrdiff_t>(last);
-  const auto item_at = [&](std::int64_t cost) {
-    const auto i = static_cast<std::size_t>(std::lower_bound(begin, end, *begin + cost) - cost_.begin());
-    return i > first && i < last && joined(i - 1) ? i + 1 : i;
-  };
-  parallel_ranges(*end - *begin, [&](std::int64_t from, std::int64_t to) {
-    evaluate_items(item_at(from), item_at(to), fields);
+  const auto i = static_cast<std::size_t>(std::lower_bound(begin, end, *begin + cost) - cost_.begin());
+  return i > first && i < last && joined(i - 1) ? i + 1 : i;
+}
+
+template <class Real, class U>
+std::vector<TileStretch> BasicInternalForce<Real, U>::cut(int stretches) const {
+  const auto place = [&](int i) { return item_at(0, items_.size(), cost_.back() * i / stretches); };
+  std::vector<TileStretch> cuts;
+  for (int i = 0; i < stretches; ++i) cuts.push_back({place(i), place(i + 1)});
+  return cuts;
+}
+
+template <class Real, class U>
+void BasicInternalForce<Real, U>::move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update,
+                                       const StepLoads& loads, const ForceFields<Real, U>& at) const {
+  std::fill(unmoved_.begin(), unmoved_.end(), 0);
+  evaluate(stretch.first, stretch.last, moved_fields(update, loads, at));
+}
+
+template <class Real, class U>
+void BasicInternalForce<Real, U>::evaluate_elements(std::size_t first, std::size_t last,
+                                                    const Fields& fields) const {
+  parallel_ranges(cost_[last] - cost_[first], [&](std::int64_t from, std::int64_t to) {
+    evaluate_items(item_at(first, last, from), item_at(first, last, to), fields);
   });
-  for (std::size_t i = first; i < last; ++i)
-    if (pending_[i]) add_carry(items_[i], fields.f);
+}
+
+template <class Real, class U>
+void BasicInternalForce<Real, U>::add_carries(const TileStretch& stretch, Real* f) const {
+  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+    if (!pending_[i]) continue;
+    const BlockData& data = blocks_[index(items_[i].block)];
+    if (stretch.holds(data.first_item + index(data.elements.previous(items_[i].tile))))
+      add_carry(items_[i], f);
+  }
 }
 
 template <class Real, class U>

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -20,6 +21,14 @@ namespace tread {
 
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
+
+/// Successive tiles [first, last) in the order of blocks and tiles.
+struct TileStretch {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  bool holds(std::size_t tile) const { return first <= tile && tile < last; }
+};
 
 /// Fields that the elements' loop reads and moves.
 template <class Real, class U>
@@ -81,17 +90,20 @@ class BasicInternalForce {
   /// in f.
   void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
             const ForceFields<Real, U>& at) const {
-    evaluate(0, items_.size(),
-             {at.displacement,
-              at.velocity,
-              at.lag,
-              at.force,
-              false,
-              {&update, &loads, at.displacement, at.velocity},
-              at.laws});
+    evaluate(0, items_.size(), moved_fields(update, loads, at));
   }
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
+
+  /// Stretches of like cost that cover all tiles; some are empty where there are few tiles.
+  std::vector<TileStretch> cut(int stretches) const;
+  /// move() of a stretch alone. The forces in carry() of tiles outside that end in it are missing. Other
+  /// tiles are not marked.
+  void move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+            const ForceFields<Real, U>& at) const;
+  /// Force of a tile's last element on the station behind it: [section node][3] [N].
+  std::span<const Real> carry(std::size_t tile) const;
+
   /// internal_force for the slots of one block. Pointers are those of the whole fields.
   void internal_force(int block, const U* u, const Real* v, Real* f) const;
 
@@ -181,20 +193,31 @@ class BasicInternalForce {
     const Item& at = items_[item];
     return elements(at.block).joins_next(at.tile);
   }
-  /// Force of a tile's last element on the station behind it: [section node][3].
   Real* carry(const Item& item) const;
-  void evaluate(std::size_t first, std::size_t last, const Fields& fields) const;
+  static Fields moved_fields(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+                             const ForceFields<Real, U>& at) {
+    const Moved moved = {&update, &loads, at.displacement, at.velocity};
+    return {at.displacement, at.velocity, at.lag, at.force, false, moved, at.laws};
+  }
+  void evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
+    evaluate_elements(first, last, fields);
+    add_carries({first, last}, fields.f);
+  }
+  void evaluate_elements(std::size_t first, std::size_t last, const Fields& fields) const;
+  std::size_t item_at(std::size_t first, std::size_t last, std::int64_t cost) const;
   void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
+  /// Adds the forces that tiles of the stretch have left for others of it.
+  void add_carries(const TileStretch& stretch, Real* f) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;
   const TileForces* forces_;
   std::vector<BlockData> blocks_;
   std::vector<Item> items_;
-  std::vector<std::int64_t> cost_;                    ///< elements before each item, to share the work evenly
+  std::vector<std::int64_t> cost_;                    ///< of all tiles before each, to share the work evenly
   AlignedVector<Real> no_carry_;                      ///< zeros
   mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
   mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part

@@ -1,5 +1,6 @@
 #include "kernels/material/branch_lag.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,15 +19,17 @@ LagAdvance<Real> BranchLag<Real>::advance_of(int block, double dt) const {
 }
 
 template <class Real>
-void BranchLag<Real>::advance(const Real* v, double dt) {
+void BranchLag<Real>::advance(const Real* v, double dt, std::int64_t first, std::int64_t last) {
   for (std::size_t b = 0; b < branches_.size(); ++b) {
-    if (!branches_[b]) continue;
-    const LagAdvance<Real> advance = advance_of(static_cast<int>(b), dt);
     const SweptBlock& block = mesh_.blocks[b];
-    Real* const q = q_.data() + dof(block.base, 0);
-    const Real* const of = v + dof(block.base, 0);
-    for_chunks(3 * block.slots(), [=](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) q[i] = advance.of(q[i], of[i]);
+    const std::int64_t from = std::max(first, block.base);
+    const std::int64_t to = std::min(last, block.base + block.slots());
+    if (!branches_[b] || from >= to) continue;
+    const LagAdvance<Real> advance = advance_of(static_cast<int>(b), dt);
+    Real* const q = q_.data() + dof(from, 0);
+    const Real* const of = v + dof(from, 0);
+    for_chunks(3 * (to - from), [=](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) q[i] = advance.of(q[i], of[i]);
     });
   }
 }

@@ -2,6 +2,7 @@
 // The inner variable of Maxwell branches: by node, for the elasticity of a block is linear and its branches
 // have one time of relaxation. [theory.md, Maxwell branch]
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -29,7 +30,9 @@ class BranchLag {
   BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches);
 
   /// Exact over a step of dt [s] with the velocity v [m/s], a vector field.
-  void advance(const Real* v, double dt);
+  void advance(const Real* v, double dt) { advance(v, dt, 0, mesh_.slots); }
+  /// The same for the slots [first, last) alone.
+  void advance(const Real* v, double dt, std::int64_t first, std::int64_t last);
 
   /// For a block that has a branch.
   LagAdvance<Real> advance_of(int block, double dt) const;

@@ -215,6 +215,13 @@ TEST(Layering, ThreadLibrariesStandBehindTheOneInterface) {
     }
 }
 
+TEST(Layering, TheLibraryOfMessagesIsIncludedInOneFile) {
+  for (const std::string folder : {"core", "kernels", "io", "drivers", "tests"})
+    for (const Include& include : includes_of(folder))
+      EXPECT_TRUE(include.target != "mpi.h" || include.file == "drivers/process/mpi_ranks.cpp")
+          << include.file;
+}
+
 TEST(Layering, PragmasForThreadsStandInTheOneInterface) {
   const fs::path root = TREAD_SOURCE_DIR;
   for (const std::string folder : {"core", "kernels", "io", "drivers"})

@@ -1,0 +1,59 @@
+#pragma once
+// Processes that share the steps of a run. Rank 0 leads: it alone reads, writes, prints and decides.
+//
+// All ranks make the same calls in the same order; each call returns once its data are there.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace tread {
+
+/// Calls that a rank has made for steps.
+struct RankTraffic {
+  std::int64_t waits = 0;     ///< number of calls
+  std::int64_t sent = 0;      ///< [B]
+  std::int64_t received = 0;  ///< [B]
+  double seconds = 0;         ///< time in the calls [s]
+};
+
+class Ranks {
+ public:
+  Ranks() = default;
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+  virtual ~Ranks() = default;
+
+  virtual int rank() const = 0;
+  virtual int count() const = 0;
+  /// Number of ranks, this one included, on this machine; and of those that may use the same of its cores.
+  virtual int on_host() const { return count(); }
+  virtual int on_cores() const { return count(); }
+
+  /// Gives each rank the values of all: rank r has those of [first[r], first[r + 1]).
+  template <class T>
+  void gather(T* values, std::span<const std::int64_t> first) {
+    gather_values(reinterpret_cast<std::byte*>(values), static_cast<int>(sizeof(T)), first);
+  }
+  /// Gives all ranks the bytes of rank 0. A rank that has to wait long for them leaves its core to others.
+  virtual void broadcast(std::span<std::byte> bytes) = 0;
+
+  /// Ends the processes of all ranks; the launcher returns `code`.
+  [[noreturn]] virtual void end_all(int code) = 0;
+
+  /// True where copies of what another rank moves shall be spoilt, so that tests find out who reads them.
+  virtual bool spoils_copies() const { return false; }
+
+  RankTraffic traffic;
+
+ private:
+  /// `size`: 1, 4 or 8 bytes.
+  virtual void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) = 0;
+};
+
+/// Shares the steps of all runs that begin from here on among these ranks; null: none.
+void choose_ranks(std::shared_ptr<Ranks> ranks);
+std::shared_ptr<Ranks> chosen_ranks();
+
+}  // namespace tread

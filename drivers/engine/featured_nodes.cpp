@@ -1,0 +1,46 @@
+#include "drivers/engine/featured_nodes.hpp"
+
+#include "drivers/engine/restraints.hpp"
+#include "kernels/contact/contact_surface.hpp"
+
+namespace tread {
+
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Nodes of a block's running surface.
+void add_surface(const SweptBlock& block, std::vector<std::int64_t>& slots) {
+  const SurfaceProfile profile(block.section);
+  for (int ordinal = 0; ordinal <= profile.edges(); ++ordinal)
+    for (int station = 0; station < block.station_count(); ++station)
+      slots.push_back(block.base + block.slot(profile.node(ordinal), station));
+}
+
+}  // namespace
+
+std::vector<std::int64_t> featured_slots(const Model& model) {
+  std::vector<std::int64_t> slots = model.loaded_slots();
+  const auto add_nodes_of = [&](const std::vector<std::int64_t>& unknowns) {
+    for (const std::int64_t unknown : unknowns)
+      slots.push_back(unknown / kGroupValues * kLanes + unknown % kLanes);
+  };
+  add_nodes_of(held_unknowns(model.mesh, model.restrained));
+  if (model.guide) add_nodes_of(model.guide->unknowns());
+  if (model.contact) {
+    const ContactOptions& contact = model.contact->options();
+    for (const int block : {contact.rail_block, contact.wheel_block})
+      add_surface(model.mesh.blocks[index(block)], slots);
+  }
+  return slots;
+}
+
+std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
+  std::vector<unsigned char> marks(index(mesh.slots / kLanes), 0);
+  for (const std::int64_t slot : slots) marks[index(slot / kLanes)] = 1;
+  return marks;
+}
+
+}  // namespace tread

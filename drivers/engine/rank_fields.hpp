@@ -1,0 +1,76 @@
+#pragma once
+// The fields of a run whose steps several processes share. [docs/records/ranks.md]
+//
+// Each rank computes the elements of a stretch of tiles and moves the nodes on which they alone act. Nodes
+// that features touch are everyone's: each rank gets their forces and moves them in the same way. Those where
+// two stretches meet belong to both ranks. One exchange of forces a step makes all of them. The views
+// of NodeFields hold them, the rank's own nodes and, after fetch(), all.
+
+#include <memory>
+#include <vector>
+
+#include "core/parallel/ranks.hpp"
+#include "drivers/engine/precise_fields.hpp"
+
+namespace tread {
+
+template <class Real, class U>
+class RankFields final : public PreciseFields<Real, U> {
+ public:
+  RankFields(const Model& model, std::shared_ptr<Ranks> ranks);
+
+  void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
+  void fetch() override;
+  void changed() override { whole_ = true; }
+
+  /// All ranks compute all elements, so that all fields stay whole until the next step.
+  void internal_force() override;
+  void internal_force_and_move(const StepLoads& loads) override;
+  void advance_lag(double dt) override;
+  void list_state(StateList& list) override;
+
+ private:
+  using Base = PreciseFields<Real, U>;
+  /// Where the last element of a rank's tile ends at the first station of another rank's tile. Both ranks
+  /// move the nodes of that station.
+  struct Joint {
+    int near = 0, far = 0;  ///< ranks of the element and of the station
+    std::size_t tile = 0;   ///< of the element
+    std::int64_t slot = 0;  ///< of section node 0 at the station
+    std::int64_t nodes = 0;
+    /// Places in packed_ of the force of the element and of those of all others on the station: [section
+    /// node][3].
+    std::int64_t element_force = 0, other_force = 0;
+    std::vector<std::int64_t> featured;  ///< those of the values whose nodes features touch
+  };
+
+  void cut(const Mesh& mesh);
+  void choose_groups(const Model& model);
+  void join_tiles();
+  int rank_of(std::size_t tile) const;
+  void place_packed();
+  Real* packed_groups(std::size_t rank);
+  void pack();
+  void unpack();
+  void join_forces(const Joint& joint);
+  void spoil();
+
+  std::shared_ptr<Ranks> ranks_;
+  std::size_t own_ = 0;                                 ///< this rank
+  std::vector<TileStretch> stretches_;                  ///< by rank
+  std::vector<std::int64_t> first_value_;               ///< by rank, and the end, in vector fields
+  std::vector<std::vector<std::int64_t>> first_state_;  ///< by block the same in the state of its law
+
+  std::vector<std::int64_t> groups_;        ///< groups of featured nodes, ascending
+  std::vector<std::int64_t> first_group_;   ///< by rank, and the end, in groups_
+  std::vector<Joint> joints_;               ///< in the order of their tiles
+  std::vector<std::int64_t> first_packed_;  ///< by rank, and the end, in packed_
+  AlignedVector<Real> packed_;              ///< forces: of groups, of elements at joints, of stations there
+  bool whole_ = true;  ///< the views hold all values of the present, the same on all ranks
+};
+
+extern template class RankFields<double, double>;
+extern template class RankFields<float, double>;
+extern template class RankFields<float, float>;
+
+}  // namespace tread

@@ -1,0 +1,149 @@
+// Ranks by MPI. The name stands in this file and in the choice of sources alone (drivers/mpi.cmake).
+
+#include <mpi.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/contract.hpp"
+#include "core/error.hpp"
+#include "drivers/process/host.hpp"
+#include "drivers/process/launched_ranks.hpp"
+#include "drivers/process/launcher.hpp"
+
+namespace tread {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Number of ranks whose texts are this rank's.
+int alike(const std::string& text) {
+  int count = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  const std::size_t own = std::hash<std::string>{}(text);
+  std::vector<std::size_t> all(static_cast<std::size_t>(count));
+  MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
+  return static_cast<int>(std::count(all.begin(), all.end(), own));
+}
+
+/// Machine and cores that this process may use.
+std::string cores_text() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ::sched_getaffinity(0, sizeof(allowed), &allowed);
+  std::string text = host_name();
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &allowed)) text += " " + std::to_string(core);
+  return text;
+}
+
+/// Waits. A rank that has waited long sleeps: on a busy machine it then gets its core back sooner than one
+/// that keeps asking, and ranks that wait for the preload leave their cores to it.
+void await(MPI_Request request) {
+  using std::chrono::microseconds;
+  constexpr microseconds kAwake{200};  ///< as long as an exchange among idle cores takes
+  constexpr microseconds kLong{20000};
+  const Clock::time_point started = Clock::now();
+  for (int done = 0;;) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done != 0) return;
+    const Clock::duration waited = Clock::now() - started;
+    if (waited > kAwake) std::this_thread::sleep_for(waited > kLong ? microseconds(1000) : microseconds(20));
+  }
+}
+
+class MpiRanks final : public Ranks {
+ public:
+  /// Threads of this process compute and write; the one that makes this object exchanges.
+  MpiRanks() {
+    int level = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &count_);
+    on_host_ = alike(host_name());
+    on_cores_ = alike(cores_text());
+    if (level < MPI_THREAD_FUNNELED) throw ResourceError("this MPI allows a process no threads");
+  }
+  ~MpiRanks() override { MPI_Finalize(); }
+
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+  int on_host() const override { return on_host_; }
+  int on_cores() const override { return on_cores_; }
+
+  void broadcast(std::span<std::byte> bytes) override {
+    constexpr std::size_t kPiece = 1 << 30;
+    while (!bytes.empty()) {
+      const std::span<std::byte> piece = bytes.first(std::min(kPiece, bytes.size()));
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Ibcast(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+      await(request);
+      bytes = bytes.subspan(piece.size());
+    }
+  }
+
+  [[noreturn]] void end_all(int code) override {
+    std::fflush(nullptr);
+    MPI_Abort(MPI_COMM_WORLD, code);
+    std::_Exit(code);
+  }
+
+ private:
+  void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
+    TREAD_EXPECT(std::ssize(first) == count_ + 1);
+    if (first.back() > std::numeric_limits<int>::max())
+      throw ResourceError("a field has more than 2^31 values, too many for several ranks; start one process");
+    const Clock::time_point started = Clock::now();
+    counts_.resize(first.size() - 1);
+    places_.resize(counts_.size());
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      counts_[i] = static_cast<int>(first[i + 1] - first[i]);
+      places_[i] = static_cast<int>(first[i]);
+    }
+    const MPI_Datatype type = size == 1 ? MPI_BYTE : size == 4 ? MPI_UINT32_T : MPI_UINT64_T;
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgatherv(MPI_IN_PLACE, 0, type, values, counts_.data(), places_.data(), type, MPI_COMM_WORLD,
+                    &request);
+    await(request);
+    const std::int64_t own = counts_[static_cast<std::size_t>(rank_)];
+    traffic.sent += own * size * (count_ - 1);
+    traffic.received += (first.back() - own) * size;
+    note_wait(started);
+  }
+
+  void note_wait(Clock::time_point started) {
+    ++traffic.waits;
+    traffic.seconds += std::chrono::duration<double>(Clock::now() - started).count();
+  }
+
+  int rank_ = 0, count_ = 1, on_host_ = 1, on_cores_ = 1;
+  std::vector<int> counts_, places_;
+};
+
+}  // namespace
+
+std::shared_ptr<Ranks> launched_ranks() {
+  if (launched_count() == 1) return nullptr;
+  auto ranks = std::make_shared<MpiRanks>();
+  return ranks->count() > 1 ? ranks : nullptr;
+}
+
+std::string rank_library() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string whole(text.data());
+  return whole.substr(0, whole.find_first_of(",\n"));
+}
+
+}  // namespace tread

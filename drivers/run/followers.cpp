@@ -1,0 +1,182 @@
+#include "drivers/run/followers.hpp"
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
+#include "drivers/process/machine.hpp"
+#include "drivers/results/memory_need.hpp"
+#include "drivers/run/run_checkpoint.hpp"
+#include "drivers/run/run_model.hpp"
+#include "io/report/plain_text.hpp"
+
+namespace tread {
+
+namespace {
+
+enum class Word : std::int64_t { begin, step, fetch, end, dismiss };
+
+template <class T>
+void broadcast_value(Ranks& ranks, T& value) {
+  ranks.broadcast(std::as_writable_bytes(std::span(&value, 1)));
+}
+
+void say(Ranks& ranks, Word word) {
+  broadcast_value(ranks, word);
+}
+
+Word next_word(Ranks& ranks) {
+  Word word = Word::dismiss;
+  broadcast_value(ranks, word);
+  return word;
+}
+
+/// Text or array of rank 0.
+template <class Values>
+void broadcast_values(Ranks& ranks, Values& values) {
+  auto count = static_cast<std::int64_t>(values.size());
+  broadcast_value(ranks, count);
+  values.resize(static_cast<std::size_t>(count));
+  ranks.broadcast(std::as_writable_bytes(std::span(values.data(), values.size())));
+}
+
+/// A value of the type with this index.
+template <std::size_t i = 0>
+SealedValues empty_values(std::size_t type) {
+  if constexpr (i + 1 < std::variant_size_v<SealedValues>)
+    if (type != i) return empty_values<i + 1>(type);
+  return std::variant_alternative_t<i, SealedValues>{};
+}
+
+void send(Ranks& ranks, SealedContent content) {
+  auto count = static_cast<std::int64_t>(content.size());
+  broadcast_value(ranks, count);
+  while (!content.empty()) {
+    auto entry = content.extract(content.begin());
+    broadcast_values(ranks, entry.key());
+    auto type = static_cast<std::int64_t>(entry.mapped().index());
+    broadcast_value(ranks, type);
+    std::visit([&](auto& values) { broadcast_values(ranks, values); }, entry.mapped());
+  }
+}
+
+SealedContent receive(Ranks& ranks) {
+  SealedContent content;
+  std::int64_t count = 0;
+  broadcast_value(ranks, count);
+  for (; count > 0; --count) {
+    std::string name;
+    broadcast_values(ranks, name);
+    std::int64_t type = 0;
+    broadcast_value(ranks, type);
+    SealedValues& entry = content[name] = empty_values(static_cast<std::size_t>(type));
+    std::visit([&](auto& values) { broadcast_values(ranks, values); }, entry);
+  }
+  return content;
+}
+
+const std::string kThreads = "ranks/threads";
+const std::string kBackend = "ranks/backend";
+
+/// The run of rank 0 on this rank.
+class FollowedRun {
+ public:
+  explicit FollowedRun(const SealedContent& content) {
+    use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
+                 sealed_entry<std::string>(content, kBackend)});
+    const RunOrder order = unpack_order(content);
+    unpack_results(content, results_);
+    const ResolvedScene made = resolve_scene(order.scene, order.overrides);
+    model_.emplace(made.scene, deepest_line(made.scene, results_), require_memory);
+    adopt_later_values(*model_, resolve_with_later(order).scene);
+    if (const std::string other = other_origin(content, *model_); !other.empty())
+      throw ResourceError(fmt::format(
+          "{}, so ranks would not have the same bits; start all of them with the same program, and "
+          "the environment's TREAD_INSTRUCTION_SET=avx2 on different processors",
+          other));
+    simulation_.emplace(*model_, results_.preload.contact.centre.y, results_.dt);
+    unpack_state(content, *model_, *simulation_);
+    simulation_->set_sampling_interval(sampling_interval(model_->scene, results_.dt));
+  }
+
+  /// Steps and fetches until another word.
+  Word follow(Ranks& ranks) {
+    for (Word word = next_word(ranks);; word = next_word(ranks)) {
+      if (word == Word::step)
+        step();
+      else if (word == Word::fetch)
+        simulation_->fields();
+      else
+        return word;
+    }
+  }
+
+ private:
+  /// Every rank meets a numerical error in the same step; rank 0 reports it and ends all.
+  void step() {
+    try {
+      simulation_->step();
+    } catch (const NumericalError&) {
+    }
+  }
+
+  RunResults results_;
+  std::optional<Model> model_;
+  std::optional<Simulation> simulation_;
+};
+
+}  // namespace
+
+Followers::Followers() : ranks_(chosen_ranks()) {}
+
+void Followers::begin(SealedContent run, const ThreadOptions& threads) const {
+  if (absent()) return;
+  say(*ranks_, Word::begin);
+  run[kThreads] = std::vector<std::int64_t>{threads.number};
+  run[kBackend] = threads.backend;
+  send(*ranks_, std::move(run));
+}
+
+void Followers::step(Simulation& simulation) const {
+  if (!absent()) say(*ranks_, Word::step);
+  simulation.step();
+}
+
+void Followers::fetch(const Simulation& simulation) const {
+  if (absent()) return;
+  say(*ranks_, Word::fetch);
+  simulation.fields();
+}
+
+void Followers::end() const {
+  if (!absent()) say(*ranks_, Word::end);
+}
+
+std::string Followers::description(std::int64_t steps) const {
+  std::string text = fmt::format("{} ranks, threads of each: {}", ranks_->count(), threads());
+  if (steps == 0) return text;
+  const RankTraffic& traffic = ranks_->traffic;
+  const auto per_step = [steps](auto sum) { return static_cast<double>(sum) / static_cast<double>(steps); };
+  return text +
+         fmt::format("; in a step rank 0 sends {:.0f} B, receives {:.0f} B, waits {:.2f} times, {:.1f} us",
+                     per_step(traffic.sent), per_step(traffic.received), per_step(traffic.waits),
+                     1e6 * per_step(traffic.seconds));
+}
+
+void follow(Ranks& ranks) {
+  // Rank 0 obeys signals. The launcher sends them to all.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);
+  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;)
+    word = word == Word::begin ? FollowedRun(receive(ranks)).follow(ranks) : next_word(ranks);
+}
+
+void dismiss(Ranks& ranks) {
+  say(ranks, Word::dismiss);
+}
+
+}  // namespace tread

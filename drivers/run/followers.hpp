@@ -1,0 +1,45 @@
+#pragma once
+// The ranks beside rank 0: they take the steps of its run with it, and hold nothing else of the run.
+
+#include <memory>
+#include <string>
+
+#include "core/parallel/ranks.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/run/run_options.hpp"
+#include "io/files/sealed_file.hpp"
+
+namespace tread {
+
+/// Rank 0's word to the other ranks. Without other ranks every call is the simulation's alone.
+class Followers {
+ public:
+  /// Those of the chosen ranks.
+  Followers();
+
+  bool absent() const { return !ranks_; }
+
+  /// Hands the run over: its content between two steps, as pack_run() packs it.
+  void begin(SealedContent run, const ThreadOptions& threads) const;
+  /// A step on all ranks.
+  void step(Simulation& simulation) const;
+  /// Brings all values of the fields to rank 0.
+  void fetch(const Simulation& simulation) const;
+  /// The run is over: the others free its memory.
+  void end() const;
+
+  /// "3 ranks, threads of each: 2", with what a step exchanges once steps have been taken.
+  std::string description(std::int64_t steps) const;
+
+ private:
+  std::shared_ptr<Ranks> ranks_;
+};
+
+/// Does on another rank than 0 what rank 0 says, run by run, until dismiss(). Errors leave as those of
+/// Simulation do, except those that all ranks meet in the same step: rank 0 reports them.
+void follow(Ranks& ranks);
+
+/// Ends follow() on the other ranks.
+void dismiss(Ranks& ranks);
+
+}  // namespace tread

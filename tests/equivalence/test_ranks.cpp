@@ -1,0 +1,191 @@
+// Steps that several ranks share have the bits of one process. Ranks are threads here; copies of what another
+// rank moves are NaN, so whoever reads them without fetching them is found out.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <barrier>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/parallel/parallel.hpp"
+#include "core/parallel/ranks.hpp"
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/run_results.hpp"
+#include "tests/state_copies.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread {
+namespace {
+
+/// Where threads of a process find one another.
+struct Meeting {
+  explicit Meeting(int count) : barrier(count), values(static_cast<std::size_t>(count)) {}
+  std::barrier<> barrier;
+  std::vector<std::byte*> values;
+};
+
+class ThreadRanks final : public Ranks {
+ public:
+  ThreadRanks(std::shared_ptr<Meeting> meeting, int rank) : meeting_(std::move(meeting)), rank_(rank) {}
+
+  int rank() const override { return rank_; }
+  int count() const override { return static_cast<int>(meeting_->values.size()); }
+  bool spoils_copies() const override { return true; }
+  void end_all(int code) override { std::exit(code); }
+
+  void broadcast(std::span<std::byte> bytes) override {
+    meeting_->values[static_cast<std::size_t>(rank_)] = bytes.data();
+    meeting_->barrier.arrive_and_wait();
+    if (rank_ != 0) std::memcpy(bytes.data(), meeting_->values[0], bytes.size());
+    meeting_->barrier.arrive_and_wait();
+  }
+
+ private:
+  void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
+    meeting_->values[static_cast<std::size_t>(rank_)] = values;
+    meeting_->barrier.arrive_and_wait();
+    for (std::size_t other = 0; other + 1 < first.size(); ++other) {
+      if (other == static_cast<std::size_t>(rank_)) continue;
+      const std::int64_t from = first[other] * size;
+      std::memcpy(values + from, meeting_->values[other] + from,
+                  static_cast<std::size_t>(first[other + 1] * size - from));
+    }
+    meeting_->barrier.arrive_and_wait();
+  }
+
+  std::shared_ptr<Meeting> meeting_;
+  int rank_;
+};
+
+constexpr std::int64_t kSampling = 70;
+
+/// A scene from its preload on.
+class Case {
+ public:
+  explicit Case(const Scene& scene) : scene_(scene), model_(scene) {
+    preload_ = solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {});
+    if (scene.corrugation) {
+      deepest_ = preload_.contact.pressure_peak.y;
+      model_.apply_corrugation(*deepest_);
+    }
+    dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
+    one_.emplace(model_, preload_, dt_);
+    one_->set_sampling_interval(kSampling);
+  }
+
+  /// Steps on `count` ranks are those of one process; all fields are compared at these steps.
+  void expect_same_steps(int count, const std::vector<std::int64_t>& looks) {
+    const auto meeting = std::make_shared<Meeting>(count);
+    std::vector<std::unique_ptr<Model>> models;
+    std::vector<std::unique_ptr<Simulation>> shared;
+    for (int rank = 0; rank < count; ++rank) {
+      models.push_back(std::make_unique<Model>(scene_, deepest_));
+      choose_ranks(std::make_shared<ThreadRanks>(meeting, rank));
+      shared.push_back(std::make_unique<Simulation>(*models.back(), preload_.contact.centre.y, dt_));
+      choose_ranks(nullptr);
+      shared.back()->set_sampling_interval(kSampling);
+      samples::copy(one_->state(), shared.back()->state());
+    }
+    for (const std::int64_t look : looks) {
+      std::vector<std::thread> threads;
+      const std::int64_t steps = one_->steps() + look;
+      for (const auto& simulation : shared)
+        threads.emplace_back([&simulation, steps] {
+          while (simulation->steps() < steps) simulation->step();
+          simulation->fields();
+        });
+      for (std::thread& thread : threads) thread.join();
+      while (one_->steps() < steps) one_->step();
+      for (const auto& simulation : shared) {
+        EXPECT_EQ(samples::differences(one_->state(), simulation->state()), "")
+            << count << " ranks, " << steps;
+        EXPECT_EQ(history_row(model_, one_->sample()), history_row(model_, simulation->sample()));
+      }
+    }
+  }
+
+ private:
+  Scene scene_;
+  Model model_;
+  Preload preload_;
+  std::optional<double> deepest_;
+  double dt_ = 0;
+  std::optional<Simulation> one_;
+};
+
+/// The runs of all numbers of ranks follow one another.
+void expect_same_bits(const Scene& scene, const std::vector<std::int64_t>& looks = {1, 63, 36}) {
+  Case of(scene);
+  for (const int count : {2, 3, 4, 7}) of.expect_same_steps(count, looks);
+}
+
+Scene tyre(const std::string& precision, std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(), {"scene.element_size=10 mm", "motion.duration=1 ms",
+                                     "solution_zone.start=5 mm", "scene.precision=" + precision});
+  return samples::tyre_scene(overrides);
+}
+
+Scene file(const std::string& name, const std::string& precision, std::vector<std::string> overrides) {
+  overrides.push_back("scene.precision=" + precision);
+  return read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/" + name + ".toml", overrides);
+}
+
+constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
+
+TEST(Ranks, TractionOverCorrugation) {
+  for (const char* precision : kPrecisions)
+    expect_same_bits(
+        tyre(precision,
+             {"motion.traction.torque=13.8 kN m", "motion.traction.ramp=0.05 ms", "corrugation.kind=sine",
+              "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm", "corrugation.width=30 mm",
+              "corrugation.start=5 mm", "corrugation.length=40 mm", "corrugation.apply=nodes"}));
+}
+
+TEST(Ranks, MaxwellBranches) {
+  for (const char* precision : kPrecisions)
+    expect_same_bits(samples::tyre_with_maxwell_branches(
+        {"scene.element_size=10 mm", "motion.duration=0.5 ms", std::string("scene.precision=") + precision}));
+}
+
+TEST(Ranks, PlasticMaterialWithDamping) {
+  for (const char* precision : kPrecisions)
+    expect_same_bits(
+        tyre(precision, {"material.steel.law=j2", "material.steel.yield_stress=300 MPa",
+                         "material.steel.isotropic_hardening=20 GPa",
+                         "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}));
+}
+
+TEST(Ranks, GuidedBoreAndFallingFriction) {
+  expect_same_bits(
+      tyre("double", {"wheel.bore=guided", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
+                      "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}));
+}
+
+TEST(Ranks, HammerOnARailOnFastenings) {
+  expect_same_bits(file("hammer", "double", {}));
+}
+
+TEST(Ranks, WheelsetWithAVehicleOnASlab) {
+  for (const char* precision : kPrecisions)
+    expect_same_bits(
+        file("smooth", precision,
+             {"scene.element_size=10 mm", "motion.duration=0.1 ms", "motion.start=moving",
+              "rail.length=2.6 m", "rail.origin=1.3 m", "fastenings.count=4", "fastenings.first=0.325 m",
+              "solution_zone.start=20 mm", "solution_zone.length=50 mm"}));
+}
+
+/// A tile more or less for a rank does not show, and ranks without a tile are idle.
+TEST(Ranks, MoreRanksThanTiles) {
+  Case of(tyre("double", {"scene.element_size=20 mm"}));
+  of.expect_same_steps(40, {1, 20});
+}
+
+}  // namespace
+}  // namespace tread

@@ -1,0 +1,142 @@
+// Runs on several processes that mpirun starts: the files of one process, on any number of them, resumed on
+// another number, after a rank was lost. More ranks than cores yield to one another.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "drivers/process/launched_ranks.hpp"
+#include "drivers/run/run_folder.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "tests/program_test.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace samples;
+
+class LaunchedRanks : public ProgramTest {
+ protected:
+  static void SetUpTestSuite() { make_root(); }
+  void SetUp() override {
+    if (rank_library().empty()) GTEST_SKIP() << "built without MPI";
+    if (std::system("command -v mpirun >/dev/null") != 0) GTEST_SKIP() << "there is no mpirun";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static pid_t start_on(int ranks, const std::string& arguments) {
+    return start_program(arguments, root_,
+                         "export TREAD_CACHE=off OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                         "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1;",
+                         fmt::format("mpirun -n {}", ranks));
+  }
+  static int call_on(int ranks, const std::string& arguments) { return wait_for(start_on(ranks, arguments)); }
+
+  static std::string run(const fs::path& folder, const std::string& more = "") {
+    return fmt::format("run {} -t 1 -o {} {} {}", kTyre, folder.string(), kSize, more);
+  }
+
+  /// Starts a run on three ranks and waits until it has a checkpoint of its rolling.
+  static pid_t start_rolling(const fs::path& folder) {
+    const pid_t process = start_on(3, run(folder, "--set \"output.progress_interval=10 ms\""));
+    EXPECT_TRUE(wait_until([&] { return has(content_of(folder / "status.json"), "\"rolling\""); }))
+        << errors();
+    leave_request(folder, RunRequest::checkpoint);
+    EXPECT_TRUE(wait_until([&] { return CheckpointFolder(folder / "checkpoint").states().size() == 2; }));
+    return process;
+  }
+
+  /// The process that mpirun has started besides the one that status.json names.
+  static pid_t other_rank(pid_t launcher, const fs::path& folder) {
+    const std::string status = content_of(folder / "status.json");
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      const pid_t process = std::atoi(entry.path().filename().c_str());
+      std::ifstream stat(entry.path() / "stat");
+      std::string number, name, state;
+      pid_t parent = 0;
+      if (process > 0 && stat >> number >> name >> state >> parent && parent == launcher &&
+          !has(status, fmt::format("\"process\": {}", process)))
+        return process;
+    }
+    return 0;
+  }
+
+  static constexpr const char* kSize = "--set \"scene.element_size=8 mm\"";
+  fs::path folder_ = root_ / "shared";
+};
+
+std::string of_precision(const std::string& precision) {
+  return fmt::format("--precision {} --set output.frames=4 --set \"motion.duration=0.15 ms\"", precision);
+}
+
+TEST_F(LaunchedRanks, FilesAreThoseOfOneProcess) {
+  for (const auto& [precision, counts] : std::vector<std::pair<std::string, std::vector<int>>>{
+           {"double", {2, 3, 4, 7}}, {"mixed", {3}}, {"single", {2}}}) {
+    const fs::path one = root_ / precision;
+    ASSERT_EQ(call(run(one, of_precision(precision))), 0) << errors();
+    for (const int count : counts) {
+      ASSERT_EQ(call_on(count, run(folder_, "--overwrite " + of_precision(precision))), 0) << errors();
+      EXPECT_TRUE(has(errors(), fmt::format("[ranks] {} ranks, threads of each: 1", count))) << errors();
+      expect_same_run(one, folder_);
+    }
+  }
+}
+
+TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
+  const std::string short_run = "--set \"motion.duration=0.3 ms\"";
+  ASSERT_EQ(call(run(root_ / "whole", short_run)), 0) << errors();
+  EXPECT_EQ(call_on(3, run(folder_, short_run + " --set stop.steps=100")), 4);
+  EXPECT_TRUE(has(errors(), "stop.steps = 100 ends the run here")) << errors();
+  const std::string resume = fmt::format("resume {} -t 1 --set stop.steps=", folder_.string());
+  EXPECT_EQ(call_on(2, resume + "201"), 4) << errors();
+  EXPECT_EQ(call(resume + "222"), 4) << errors();
+  EXPECT_EQ(call_on(4, resume + "0"), 0) << errors();
+  expect_same_run(root_ / "whole", folder_);
+}
+
+TEST_F(LaunchedRanks, StoppedFromOutsideAndAfterTheLossOfARank) {
+  ASSERT_EQ(call(run(root_ / "long")), 0) << errors();
+  const pid_t stopped = start_rolling(folder_);
+  leave_request(folder_, RunRequest::stop);
+  EXPECT_EQ(wait_for(stopped), 75);
+  EXPECT_TRUE(has(errors(), "by tread ctl; nothing is lost: `tread resume")) << errors();
+
+  fs::remove_all(folder_);
+  const pid_t launcher = start_rolling(folder_);
+  const pid_t rank = other_rank(launcher, folder_);
+  ASSERT_GT(rank, 0);
+  ::kill(rank, SIGKILL);
+  EXPECT_NE(wait_for(launcher), 0);
+  EXPECT_TRUE(has(errors(), "a rank is lost; `tread resume")) << errors();
+  EXPECT_EQ(call(fmt::format("resume {} -t 1", folder_.string())), 0) << errors();
+  expect_same_run(root_ / "long", folder_);
+}
+
+int times(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
+  EXPECT_EQ(call_on(3, run(folder_, "--set motion.sped=3")), 2);
+  EXPECT_EQ(times(errors(), "motion.sped"), 1) << errors();
+  EXPECT_EQ(call_on(2, "check " + kTyre), 2);
+  EXPECT_EQ(times(errors(), "tread check: ranks share the work of `run` and `resume` alone"), 1) << errors();
+  EXPECT_EQ(call_on(2, run(folder_, "--device emulated")), 2);
+  EXPECT_EQ(times(errors(), "--device emulated: "), 1) << errors();
+  EXPECT_EQ(call_on(2, "version"), 0);
+  EXPECT_EQ(times(output(), "mpirun, " + rank_library()), 1) << output();
+}
+
+}  // namespace
+}  // namespace tread
