@@ -19,21 +19,27 @@ void add_surface(const SweptBlock& block, std::vector<std::int64_t>& slots) {
       slots.push_back(block.base + block.slot(profile.node(ordinal), station));
 }
 
+void add_nodes_of(const std::vector<std::int64_t>& unknowns, std::vector<std::int64_t>& slots) {
+  for (const std::int64_t unknown : unknowns)
+    slots.push_back(unknown / kGroupValues * kLanes + unknown % kLanes);
+}
+
 }  // namespace
 
-std::vector<std::int64_t> featured_slots(const Model& model) {
+std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
   std::vector<std::int64_t> slots = model.loaded_slots();
-  const auto add_nodes_of = [&](const std::vector<std::int64_t>& unknowns) {
-    for (const std::int64_t unknown : unknowns)
-      slots.push_back(unknown / kGroupValues * kLanes + unknown % kLanes);
-  };
-  add_nodes_of(held_unknowns(model.mesh, model.restrained));
-  if (model.guide) add_nodes_of(model.guide->unknowns());
+  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
   if (model.contact) {
     const ContactOptions& contact = model.contact->options();
     for (const int block : {contact.rail_block, contact.wheel_block})
       add_surface(model.mesh.blocks[index(block)], slots);
   }
+  return slots;
+}
+
+std::vector<std::int64_t> featured_slots(const Model& model) {
+  std::vector<std::int64_t> slots = loaded_and_read_slots(model);
+  add_nodes_of(held_unknowns(model.mesh, model.restrained), slots);
   return slots;
 }
 

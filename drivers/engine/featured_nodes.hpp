@@ -14,6 +14,8 @@ inline constexpr int kGroupValues = 3 * kLanes;  ///< values of a group in a vec
 
 /// Slots of the featured nodes, in any order, some of them more than once.
 std::vector<std::int64_t> featured_slots(const Model& model);
+/// Those that are more than restrained. A restraint sets values to zero wherever they are.
+std::vector<std::int64_t> loaded_and_read_slots(const Model& model);
 
 /// Marks of the groups of a mesh that hold one of these slots.
 std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots);

@@ -53,7 +53,7 @@ void RankFields<Real, U>::cut(const Mesh& mesh) {
 
 template <class Real, class U>
 void RankFields<Real, U>::choose_groups(const Model& model) {
-  const std::vector<std::int64_t> slots = featured_slots(model);
+  const std::vector<std::int64_t> slots = loaded_and_read_slots(model);
   this->update().defer(slots);
   const std::vector<unsigned char> marks = groups_of(model.mesh, slots);
   for (std::int64_t group = 0; group < std::ssize(marks); ++group)
