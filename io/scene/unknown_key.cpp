@@ -26,7 +26,8 @@ constexpr std::array kPurposes = {
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
     Purpose{{"gpu", "cuda", "device"}, "a device belongs to the command: --device gpu, or emulated"},
     Purpose{{"mpi", "ranks", "nodes"},
-            "there is no MPI; -t states the threads, and --launcher runs the points of a study on a cluster"},
+            "`mpirun -n 2 tread run` shares a run among processes, -t states the threads, and --launcher runs "
+            "the points of a study on a cluster"},
     Purpose{{"threads", "cores"}, "threads belong to the command: -t"},
     Purpose{{"yaw", "angle_of_attack"}, "the axle stays square to the rail"},
     Purpose{{"lateral", "hunting", "lateral_motion"},
