@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "core/error.hpp"
@@ -334,42 +333,12 @@ Section make_axle(const DiscLines& lines, double hub_centre, const WheelShape& s
   return builder.take();
 }
 
-void check_shape(const WheelShape& shape) {
-  const auto refuse = [](const char* key, double value, double least, double most, const char* reason) {
-    if (!(value >= least && value <= most))
-      throw InputError(
-          fmt::format("wheel.{} = {} m is outside {} ... {} m: {}", key, value, least, most, reason));
-  };
-  refuse("diameter", shape.diameter, 0.66, 1.4,
-         "rim, brake ring and hub need their room between tread and axle");
-  refuse("axle_bore", shape.axle_bore, 0.02, 0.11,
-         "the axle is swept about its axis and leaves a wall in the journal");
-  refuse("lateral_offset", shape.lateral_offset, -0.03, 0.03, "the rail has to lie under the tread");
-  refuse("web_thickness", shape.web_thickness, kThinnestWeb, kThickestWeb,
-         "the web has to fit between rim and hub");
-  refuse("web_offset", shape.web_offset, -kMostOffset, kMostOffset, "the web has to end within rim and hub");
-  refuse("web_wave", shape.web_wave, -kMostWave, kMostWave, "the elements of a steeper web would be skewed");
-  refuse("brake_ring_thickness", shape.brake_ring_thickness, 0, 0.1,
-         "two rings of this thickness make up the mass");
-}
-
 }  // namespace
-
-WebLine WheelShape::web_line(double share) const {
-  using std::numbers::pi;
-  constexpr double kTop = 0.7698003589195010;  // the largest value of the S: 4 / (3 sqrt 3)
-  const double s = share;
-  const double wave = std::sin(2 * pi * s) * std::sin(pi * s);
-  const double steep =
-      2 * pi * std::cos(2 * pi * s) * std::sin(pi * s) + pi * std::sin(2 * pi * s) * std::cos(pi * s);
-  return {web_offset * (s * s * (3 - 2 * s) - 0.5) + web_wave / kTop * wave,
-          web_offset * 6 * s * (1 - s) + web_wave / kTop * steep};
-}
 
 WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape& shape,
                                   const SectionSize& wanted) {
   check(wanted, kTieDepth, "wheel");
-  check_shape(shape);
+  shape.check();
   SectionSize size = wanted;
   size.coarse = std::max(size.coarse, kCoarseRatio * size.surface);
   size.band_centre += shape.lateral_offset;

@@ -32,6 +32,8 @@ struct WheelShape {
   /// Middle line of the web: it leaves hub and rim radially; offset (3 s^2 - 2 s^3 - 1/2) and the S
   /// sin(2 pi s) sin(pi s), `web_wave` at its largest.
   WebLine web_line(double share) const;
+  /// InputError for a shape that does not fit.
+  void check() const;
 };
 
 /// Sections in (p, q) = (y_wheel - lateral_offset, r). Nodes of tread.paths["tie"] lie on the edges of

@@ -38,8 +38,8 @@ struct BlockGroup {
 };
 std::vector<BlockGroup> block_groups(const Model& model);
 
-/// The measures of each group: counts and masses added up, the most extreme elements; quads and stations of one
-/// of its blocks.
+/// The measures of each group: counts and masses added up, the most extreme elements; quads and stations of
+/// one of its blocks.
 std::vector<BlockMeasures> by_group(const Model& model, const std::vector<BlockMeasures>& blocks);
 
 /// (x, y, z) for a table.

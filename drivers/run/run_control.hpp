@@ -13,8 +13,9 @@ struct CtlOptions {
 };
 
 /// Prints status.json with `alive` (a process works on the folder) and `resumable` (none does, and
-/// `tread resume` goes on with the run; Interrupted is thrown then), or leaves the request and waits until the run has taken it; after "stop" until the run
-/// has ended. InputError where no process works on the folder; ResourceError where none answers.
+/// `tread resume` goes on with the run; Interrupted is thrown then), or leaves the request and waits until
+/// the run has taken it; after "stop" until the run has ended. InputError where no process works on the
+/// folder; ResourceError where none answers.
 void control_run(const CtlOptions& options);
 
 }  // namespace tread

@@ -25,9 +25,10 @@ constexpr std::array kPurposes = {
     Purpose{{"plasticity", "plastic", "yield", "yield_stress", "hardening"},
             "plasticity is a law of a material: law = \"j2\" in [material.NAME]"},
     Purpose{{"gpu", "cuda", "device"}, "a device belongs to the command: --device gpu, or emulated"},
-    Purpose{{"mpi", "ranks", "nodes"},
-            "`mpirun -n 2 tread run` shares a run among processes, -t states the threads, and --launcher runs "
-            "the points of a study on a cluster"},
+    Purpose{
+        {"mpi", "ranks", "nodes"},
+        "`mpirun -n 2 tread run` shares a run among processes, -t states the threads, and --launcher runs "
+        "the points of a study on a cluster"},
     Purpose{{"threads", "cores"}, "threads belong to the command: -t"},
     Purpose{{"yaw", "angle_of_attack"}, "the axle stays square to the rail"},
     Purpose{{"lateral", "hunting", "lateral_motion"},
