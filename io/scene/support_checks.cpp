@@ -83,7 +83,7 @@ void check_altered(const Scene& scene, Require require) {
     return f.count > std::count_if(scene.supports.begin(), scene.supports.end(),
                                    [&](const auto& named) { return !property(named.second); });
   };
-  const std::vector<std::string> keys = {"support"};
+  const std::vector<std::string> keys = {"support", "fastenings.count"};
   require(left([](const SupportSpec& s) { return s.stiffness > 0 && s.bed > 0; }), keys,
           "nothing carries the rail: every support is broken or hangs");
   require(left([](const SupportSpec& s) { return s.holds; }), keys,
