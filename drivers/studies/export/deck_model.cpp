@@ -26,13 +26,6 @@ std::int64_t DeckModel::slot(const VtkGrid::Point& point) const {
   return block.base + block.slot(point.node, point.station);
 }
 
-std::vector<std::int64_t> DeckModel::nodes_of(const Attachment& point) const {
-  std::vector<std::int64_t> nodes;
-  for (std::size_t k = 0; k < point.slot.size(); ++k)
-    if (point.slot[k] >= 0 && point.weight[k] > 0) nodes.push_back(node(point.slot[k]));
-  return nodes;
-}
-
 Vec3 DeckModel::place(const VtkGrid::Point& point) const {
   const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(point.block)];
   const Vec3 at = position(block, point.node, point.station);

@@ -38,8 +38,12 @@ class DeckModel {
     return node(block.base + block.slot(section_node, station));
   }
   std::int64_t slot(const VtkGrid::Point& point) const;
-  /// Numbers of the nodes that carry a point of a face.
-  std::vector<std::int64_t> nodes_of(const Attachment& point) const;
+  /// Calls visit(number of the node, its weight) for the nodes that carry a point of a face.
+  template <class Visit>
+  void for_each_node_of(const Attachment& point, const Visit& visit) const {
+    for (std::size_t k = 0; k < point.slot.size(); ++k)
+      if (point.slot[k] >= 0 && point.weight[k] > 0) visit(node(point.slot[k]), point.weight[k]);
+  }
 
   /// Place of a node in space at t = 0 [m].
   Vec3 place(const VtkGrid::Point& point) const;

@@ -169,10 +169,9 @@ void write_hammer(DeckModel& deck, KeywordDeck& out) {
   const std::int64_t curve = write_curve(
       deck, sampled(deck.duration(), hammer.duration, 1, [&](double time) { return hammer.force_at(time); }),
       out);
-  const Attachment& point = *deck.model().hammer;
-  for (std::size_t k = 0; k < point.slot.size(); ++k)
-    if (point.slot[k] >= 0 && point.weight[k] > 0)
-      write_force({deck.node(point.slot[k]), curve, -deck_unit::kForce * point.weight[k]}, out);
+  deck.for_each_node_of(*deck.model().hammer, [&](std::int64_t node, double weight) {
+    write_force({node, curve, -deck_unit::kForce * weight}, out);
+  });
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ class SpringEnds {
     const auto [known, added] = points_.try_emplace({point.slot, point.weight}, End{});
     if (added) {
       Vec3 at;
-      for_each_node_of(point, [&](std::int64_t node, double weight) { at += weight * deck_.place(node); });
+      deck_.for_each_node_of(point,
+                             [&](std::int64_t node, double weight) { at += weight * deck_.place(node); });
       known->second.node = ++deck_.numbers.node;
       known->second.at = place ? *place : at;
       known->second.distance = norm(known->second.at - at);
@@ -140,12 +141,6 @@ class SpringEnds {
   void for_each_end(const Visit& visit) const {
     for (const auto& [point, end] : points_) visit(end);
     for (const auto& [above, end] : ground_) visit(end);
-  }
-
-  template <class Visit>
-  void for_each_node_of(const Attachment& point, const Visit& visit) const {
-    for (std::size_t k = 0; k < point.slot.size(); ++k)
-      if (point.slot[k] >= 0) visit(deck_.node(point.slot[k]), point.weight[k]);
   }
 
   /// One tie for each block: surfaces of two blocks may lie upon one another.

@@ -73,7 +73,10 @@ void write_output(const DeckModel& deck, KeywordDeck& out) {
     out.names({"dt"});
     out.card({interval});
     out.keyword("*DATABASE_HISTORY_NODE");
-    out.list(deck.nodes_of(*deck.model().hammer));
+    std::vector<std::int64_t> struck;
+    deck.for_each_node_of(*deck.model().hammer,
+                          [&](std::int64_t node, double /*weight*/) { struck.push_back(node); });
+    out.list(struck);
   }
   out.keyword("*DATABASE_BINARY_D3PLOT");
   out.names({"dt"});
