@@ -86,17 +86,17 @@ std::vector<FootStretch> rail_foot_holds(const Scene& scene, int more_spans) {
   if (!scene.fastenings || scene.fastenings->along.kind != "held") return {};
   const FasteningSpec& f = *scene.fastenings;
   std::vector<FootStretch> holds;
-  if (f.held_at == "springs") {
-    for (const BeamSupport& s : column_supports(scene, more_spans, [&](int i) {
-           return Spring{scene.support(i).holds ? 1.0 : 0.0, 0};
-         }))
-      if (s.stiffness > 0) holds.push_back({s.x, s.x});
-    return holds;
-  }
   for (int i = -more_spans; i < f.count; ++i) {
     if (!scene.support(i).holds) continue;
     const double middle = scene.fastening_x(i);
-    holds.push_back({middle - 0.5 * f.pad_length, middle + 0.5 * f.pad_length});
+    if (f.held_at == "pad") {
+      holds.push_back({middle - 0.5 * f.pad_length, middle + 0.5 * f.pad_length});
+      continue;
+    }
+    for (int column = 0; column < f.columns; ++column) {
+      const double x = middle + f.column_offset(column);
+      holds.push_back({x, x});
+    }
   }
   return holds;
 }
