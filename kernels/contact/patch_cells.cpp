@@ -25,8 +25,8 @@ PatchCells::PatchCells() : lanes_(tile_forces().front()) {}
 
 void PatchCells::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
   node_of_.assign(index(slots), -1);
-  cell_of_.assign(index(slots), -1);
   nodes_.reserve(nodes);
+  last_cell_.reserve(nodes);
   // No body has more cells than nodes.
   const std::size_t cells = std::min(2 * points, nodes);
   cells_.reserve(cells);
@@ -42,10 +42,11 @@ void PatchCells::reserve(std::int64_t slots, std::size_t points, std::size_t nod
 void PatchCells::link(const std::vector<ContactPoint>& points, const double* inverse_mass) {
   inverse_mass_ = inverse_mass;
   nodes_.clear();
+  last_cell_.clear();
   cells_.clear();
   cell_number_.clear();
   for (const int body : {0, 1}) find_cells(points, body);
-  for (const Node& node : nodes_) node_of_[index(node.slot)] = cell_of_[index(node.slot)] = -1;
+  for (const Node& node : nodes_) node_of_[index(node.slot)] = -1;
   list_points(points);
   list_terms();
   for (std::vector<PatchVector>& sums : sums_) sums.resize(points.size());
@@ -61,29 +62,40 @@ void PatchCells::find_cells(const std::vector<ContactPoint>& points, int body) {
 
 /// The number of the point's cell, a new one if no point before lies in it.
 int PatchCells::cell_of(const ContactPoint& point, int body) {
+  constexpr std::size_t kCorner = 5;  // of the face: no other face has this node there
   const SurfaceSupport& support = support_of(point, body);
-  int& known = cell_of_[index(support.slot[5])];  // the corner of the face: no other face has it
   const auto same = [&](const Cell& cell) {
     for (std::size_t k = 0; k < kSupport; ++k)
       if (nodes_[index(cell.node[k])].slot != support.slot[k]) return false;
     return true;
   };
+  const int corner = node_of_[index(support.slot[kCorner])];
+  const int known = corner < 0 ? -1 : last_cell_[index(corner)];
   if (known >= 0 && same(cells_[index(known)])) return known;
   Cell cell{};
   cell.body = body;
   for (std::size_t k = 0; k < kSupport; ++k) {
-    const std::int64_t slot = support.slot[k];
-    int& node = node_of_[index(slot)];
-    if (node < 0) {
-      node = static_cast<int>(std::ssize(nodes_));
-      const bool wheel = body == 1;
-      nodes_.push_back({slot, wheel, wheel ? point.wheel_cosine[k / 4] : 1,
-                        wheel ? point.wheel_sine[k / 4] : 0, inverse_mass_[slot]});
+    Node node{support.slot[k], body == 1, 1, 0, inverse_mass_[support.slot[k]]};
+    if (node.of_wheel) {
+      node.cosine = point.wheel_cosine[k / 4];
+      node.sine = point.wheel_sine[k / 4];
     }
-    cell.node[k] = node;
+    cell.node[k] = number(node);
   }
-  known = static_cast<int>(std::ssize(cells_));
+  const auto added = static_cast<int>(std::ssize(cells_));
+  last_cell_[index(cell.node[kCorner])] = added;
   cells_.push_back(cell);
+  return added;
+}
+
+/// The number of a node, a new one if no cell before has it.
+int PatchCells::number(const Node& node) {
+  int& known = node_of_[index(node.slot)];
+  if (known < 0) {
+    known = static_cast<int>(std::ssize(nodes_));
+    nodes_.push_back(node);
+    last_cell_.push_back(-1);
+  }
   return known;
 }
 
@@ -168,8 +180,8 @@ void PatchCells::own_mobility(std::vector<double>& of_points) const {
 }
 
 std::int64_t PatchCells::bytes() const {
-  const std::size_t numbers =
-      node_of_.size() + cell_of_.size() + cell_number_.capacity() + point_.capacity() + 2 * term_.capacity();
+  const std::size_t numbers = node_of_.size() + last_cell_.capacity() + cell_number_.capacity() +
+                              point_.capacity() + term_.capacity() + first_term_.capacity();
   const std::size_t vectors = cell_sums_.capacity() + sums_[0].capacity() + sums_[1].capacity();
   return static_cast<std::int64_t>(numbers * sizeof(int) + vectors * sizeof(PatchVector) +
                                    nodes_.capacity() * sizeof(Node) + cells_.capacity() * sizeof(Cell) +

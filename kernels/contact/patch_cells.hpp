@@ -70,6 +70,7 @@ class PatchCells {
 
   void find_cells(const std::vector<ContactPoint>& points, int body);
   int cell_of(const ContactPoint& point, int body);
+  int number(const Node& node);
   void list_points(const std::vector<ContactPoint>& points);
   void list_terms();
   CellPoints points_of(const Cell& cell) const;
@@ -77,8 +78,8 @@ class PatchCells {
   const TileForces* lanes_;  ///< the widest instruction set's loops
   const double* inverse_mass_ = nullptr;
   std::vector<int> node_of_;  ///< by slot, -1: none
-  std::vector<int> cell_of_;  ///< by the slot of the sixth node, the last cell with it; -1: none
   std::vector<Node> nodes_;
+  std::vector<int> last_cell_;  ///< by node, the last cell at whose corner it is, -1: none
   std::vector<Cell> cells_;
   std::vector<int> cell_number_;  ///< by body and point
   std::vector<int> point_;        ///< by cell
