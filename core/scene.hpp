@@ -352,7 +352,7 @@ struct Scene {
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
 
-  /// What [support.NAME] states for a fastening, counted from 0; where none does, an unaltered support.
+  /// The support of a fastening, counted from 0, as [support.NAME] states it; unaltered where none does.
   SupportSpec support(int fastening) const;
   /// x of the middle of a fastening, counted from 0, negative before the rail [m]. With [rail], [fastenings].
   double fastening_x(int fastening) const;

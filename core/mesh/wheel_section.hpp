@@ -10,6 +10,7 @@ namespace tread {
 
 /// Webs that fit between rim and hub [m].
 inline constexpr double kThinnestWeb = 0.01, kThickestWeb = 0.1;
+/// Largest offset and wave of a web between them [m].
 inline constexpr double kMostOffset = 0.04, kMostWave = 0.03;
 
 /// Place across and slope of the web's middle line at a share of its height, from hub to rim.

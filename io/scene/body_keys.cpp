@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "core/mesh/wheel_section.hpp"
 #include "io/scene/key_builders.hpp"
 #include "io/scene/key_table.hpp"
 
@@ -95,18 +96,20 @@ void add_wheel(Keys& keys) {
   keys.push_back(
       half_wheelset(quantity("wheel.mass", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::mass), kMass, "kg",
                              above(0, 1e4), "Mass that the web, or the brake rings, are sized to reach")));
-  keys.push_back(
-      half_wheelset(quantity("wheel.web_thickness", {Effect::mesh},
-                             at(&Scene::wheel, &WheelSpec::web_thickness), kLength, "mm", {0.01, 0.1},
-                             "Thickness of the web; absent: as the mass needs, or 30 mm with brake rings. "
-                             "Without brake rings it has "
-                             "to agree with the mass within 1 %")));
   keys.push_back(half_wheelset(
-      quantity("wheel.web_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_offset), kLength, "mm",
-               {-0.04, 0.04}, "Way from the web's middle at the hub to that at the rim, to the field side")));
-  keys.push_back(half_wheelset(quantity(
-      "wheel.web_wave", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_wave), kLength, "mm", {-0.03, 0.03},
-      "Largest way of an S-shaped web to either side; positive: to the field side near the hub")));
+      quantity("wheel.web_thickness", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_thickness), kLength,
+               "mm", {kThinnestWeb, kThickestWeb},
+               "Thickness of the web; absent: as the mass needs, or 30 mm with brake rings. "
+               "Without brake rings it has "
+               "to agree with the mass within 1 %")));
+  keys.push_back(
+      half_wheelset(quantity("wheel.web_offset", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_offset),
+                             kLength, "mm", {-kMostOffset, kMostOffset},
+                             "Way from the web's middle at the hub to that at the rim, to the field side")));
+  keys.push_back(half_wheelset(
+      quantity("wheel.web_wave", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_wave), kLength, "mm",
+               {-kMostWave, kMostWave},
+               "Largest way of an S-shaped web to either side; positive: to the field side near the hub")));
   keys.push_back(
       half_wheelset(flag("wheel.brake_rings", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::brake_rings),
                          "Two ring plates on the web, bolted along a circle, as thick as the mass needs")));

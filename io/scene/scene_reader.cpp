@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
+#include "io/scene/setting.hpp"
 #include "io/scene/surface_file.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/scene/toml_text.hpp"
@@ -35,26 +35,6 @@ namespace {
 constexpr std::size_t kLargestScene = 1 << 20;  // [bytes]
 constexpr std::size_t kLongestMessage = 500;    // [characters]
 constexpr std::size_t kSuggestions = 50;        // problems after which none is searched for
-
-/// Where values come from; a higher level overrides a lower one.
-enum class Level { library, file, command_line };
-
-struct Place {
-  std::string file;
-  int line = 0;
-  int column = 0;
-};
-
-struct Origin {
-  Level level = Level::library;
-  Place place;
-  std::string source;  ///< as Entry::source
-};
-
-struct Setting {
-  std::unique_ptr<toml::node> node;
-  Origin origin;
-};
 
 class SceneBuilder {
  public:

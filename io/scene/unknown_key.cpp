@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "io/scene/key.hpp"
 #include "io/scene/schema.hpp"
@@ -77,6 +78,13 @@ constexpr std::array kPurposes = {
             "`tread resume DIR` goes on with a run, `tread run --from DIR` begins with its state"},
 };
 
+/// Names that a scene gives to its tables, by the start of their paths.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOwnNames = {
+    {{kMaterialTables, "a material's name"},
+     {kSupportTables, "a support's name"},
+     {kSurfaceTables, "the name of a surface's depth"},
+     {kProbeTables, "a probe's name"}}};
+
 }  // namespace
 
 std::string instead_of(std::string_view word) {
@@ -89,11 +97,8 @@ std::string instead_of(std::string_view word) {
 std::string unknown_key(const std::string& path, bool is_a_table, bool suggest) {
   const auto dot = path.rfind('.');
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
-  if (parent + "." == kMaterialTables) return "a material's name consists of letters, digits, _ and -";
-  if (parent + "." == kSupportTables) return "a support's name consists of letters, digits, _ and -";
-  if (parent + "." == kSurfaceTables)
-    return "the name of a surface's depth consists of letters, digits, _ and -";
-  if (parent + "." == kProbeTables) return "a probe's name consists of letters, digits, _ and -";
+  for (const auto& [tables, name] : kOwnNames)
+    if (parent + "." == tables) return fmt::format("{} consists of letters, digits, _ and -", name);
   const std::string what = is_a_table ? "table" : "key";
   const std::string instead =
       instead_of(std::string_view(path).substr(dot == std::string::npos ? 0 : dot + 1));
