@@ -55,10 +55,10 @@ void check_shift(const Scene& scene, const std::string& table, int fastening, Re
            scene.fastening_x(after) - scene.fastening_x(before) >= length - kLengthTolerance;
   };
   require(apart(fastening - 1, fastening) && apart(fastening, fastening + 1), keys,
-          fmt::format("at x = {:.6g} m it overlaps its neighbour", at));
+          fmt::format("at x = {:.6g} m it overlaps its neighbour; state a smaller shift", at));
   require(at - 0.5 * f.pad_length >= left - kLengthTolerance &&
               at + 0.5 * f.pad_length <= left + scene.rail->length + kLengthTolerance,
-          keys, fmt::format("at x = {:.6g} m its pad reaches beyond the rail", at));
+          keys, fmt::format("at x = {:.6g} m its pad reaches beyond the rail; state a smaller shift", at));
 }
 
 void check_altered(const Scene& scene, Require require) {

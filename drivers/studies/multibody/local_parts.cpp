@@ -27,7 +27,9 @@ void use_modal_wheel(MultibodyModel& model) {
 void use_half_space_contact(MultibodyModel& model) {
   if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
     throw InputError(
-        "tread multibody --contact half-space: the wheel is pressed on a sine; [corrugation] is none");
+        "tread multibody --contact half-space: the wheel is pressed on a sine, and [corrugation] is none; "
+        "state "
+        "corrugation.kind = \"sine\", or leave the option out");
   const CorrugationSpec& sine = *model.scene.corrugation;
   model.sine = SineContact(
       {0.5 * model.scene.wheel->diameter, model.radius_y, sine.depth, sine.wavelength, sine.width},
