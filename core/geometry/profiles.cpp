@@ -8,12 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/geometry/rounded_corner.hpp"
+#include "core/millimetre.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 /// Tangent circle between a straight face and the web's arc.
 struct Fillet {

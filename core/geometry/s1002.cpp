@@ -6,12 +6,11 @@
 #include <span>
 
 #include "core/geometry/profiles.hpp"
+#include "core/millimetre.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 /// Value and slope of a polynomial, coefficients by rising power [mm].
 struct Polynomial {

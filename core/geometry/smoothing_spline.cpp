@@ -5,12 +5,11 @@
 #include <cstddef>
 
 #include "core/math/band_matrix.hpp"
+#include "core/millimetre.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 /// Second divided differences of values at the distances `h`: Q^T v of Reinsch's paper.
 std::vector<double> bends(const std::vector<double>& h, const std::vector<double>& v) {

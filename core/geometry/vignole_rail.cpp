@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/geometry/rounded_corner.hpp"
+#include "core/millimetre.hpp"
 
 namespace tread {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180;
 
 struct Head {

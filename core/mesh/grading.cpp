@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.hpp"
+
 namespace tread {
 
 namespace {
 
 constexpr double kColumnGrowth = 0.22;  // d(size)/d(distance): neighbours grow by about exp(0.22)
 constexpr double kRowGrowth = 1.45;     // largest growth from row to row
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

@@ -10,16 +10,13 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 namespace tread {
 
 namespace {
 
 constexpr double kMerge = 1e-7;  // [m]
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 

@@ -15,7 +15,6 @@ namespace tread {
 namespace {
 
 constexpr std::int64_t kTriadValues = std::int64_t{1} << 24;  ///< of an array, beyond the caches of cards too
-constexpr double kBeta = 1e-10;                               ///< of damped blocks [s]
 
 /// A block on the device, with the fields before and after a step.
 template <class Real, class U>
@@ -25,7 +24,7 @@ class MarchedBlock {
       : device_(&device),
         mesh_(mesh_of(variant, elements)),
         internal_(mesh_),
-        march_(device, internal_.elements(0), variant.damped ? kBeta : 0),
+        march_(device, internal_.elements(0), variant.damped ? kDampedBeta : 0),
         u_(copy(made_up_field<U>(mesh_, 1e-5))),
         v_(copy(made_up_field<Real>(mesh_, 0.1))),
         moved_u_(device, u_.size()),

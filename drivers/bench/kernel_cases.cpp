@@ -16,7 +16,6 @@ namespace {
 constexpr double kDisplacement = 1e-5;  ///< size of made-up displacements [m]
 constexpr double kVelocity = 0.1;       ///< [m/s]
 constexpr double kForce = 1;            ///< [N]
-constexpr double kBeta = 1e-10;         ///< beta of damped paths [s]
 constexpr double kStep = 1e-10;         ///< step so short that repeated steps hardly change the data [s]
 
 PreparedKernel prepare_empty(std::int64_t elements) {
@@ -39,7 +38,7 @@ struct BlockData {
         update(mesh, inverse_mass.data()) {
     mesh.blocks.front().vertical_only = variant.vertical_only;
     internal.set_finite_rotation(0, variant.finite_rotation);
-    if (variant.damped) internal.set_beta(0, kBeta);
+    if (variant.damped) internal.set_beta(0, kDampedBeta);
     loads.dt = kStep;
     loads.gravity = 9.81;
     loads.frame.spin = 194;

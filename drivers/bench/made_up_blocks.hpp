@@ -10,6 +10,8 @@
 
 namespace tread {
 
+inline constexpr double kDampedBeta = 1e-10;  ///< beta of damped blocks [s]
+
 /// One block of about `elements` elements. A revolved block is a full turn. `shifted`: every node is moved a
 /// little, so that all elements carry coefficients of their own.
 Mesh made_up_mesh(Sweep sweep, bool shifted, std::int64_t elements);

@@ -5,17 +5,12 @@
 #include <utility>
 
 #include "core/contract.hpp"
+#include "core/index.hpp"
 #include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
 
-namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 DeviceNeed device_need(const Model& model) {
   const std::vector<unsigned char> marks = groups_of(model.mesh, featured_slots(model));

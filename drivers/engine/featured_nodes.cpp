@@ -1,15 +1,12 @@
 #include "drivers/engine/featured_nodes.hpp"
 
+#include "core/index.hpp"
 #include "drivers/engine/restraints.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
 namespace tread {
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Nodes of a block's running surface.
 void add_surface(const SweptBlock& block, std::vector<std::int64_t>& slots) {

@@ -26,7 +26,7 @@ BeamSection rail_beam_section(const Scene& scene) {
 namespace {
 
 /// Stiffness [N/m] and damping [N s/m] of a whole fastening.
-struct Spring {
+struct SupportSpring {
   double stiffness;
   double damping;
 };
@@ -45,7 +45,7 @@ std::vector<BeamSupport> column_supports(const Scene& scene, int more_spans, con
   return supports;
 }
 
-Spring vertical_spring(const Scene& scene, int fastening) {
+SupportSpring vertical_spring(const Scene& scene, int fastening) {
   const SupportSpec own = scene.support(fastening);
   return {own.stiffness * scene.fastenings->stiffness, own.damping * scene.fastenings->damping};
 }
@@ -78,7 +78,7 @@ std::vector<BeamSupport> rail_foot_supports(const Scene& scene, int more_spans) 
   if (!scene.fastenings || scene.fastenings->along.kind != "elastic") return {};
   const FootHold& along = scene.fastenings->along;
   return column_supports(scene, more_spans, [&](int i) {
-    return scene.support(i).holds ? Spring{along.stiffness, along.damping} : Spring{0, 0};
+    return scene.support(i).holds ? SupportSpring{along.stiffness, along.damping} : SupportSpring{0, 0};
   });
 }
 

@@ -4,17 +4,12 @@
 #include <limits>
 #include <utility>
 
+#include "core/index.hpp"
 #include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
 
-namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)

@@ -16,7 +16,7 @@ namespace tread {
 
 namespace {
 
-struct Column {
+struct HistoryColumn {
   Channel channel;
   double (*value)(const Sample&);
 };
@@ -25,8 +25,8 @@ double traction(const Sample& s) {
   return s.vertical_force > 0 ? s.longitudinal_force / s.vertical_force : 0.0;
 }
 
-const std::vector<Column>& wheel_columns() {
-  static const std::vector<Column> columns = {
+const std::vector<HistoryColumn>& wheel_columns() {
+  static const std::vector<HistoryColumn> columns = {
       {{"wheel_x", "m", "position of the wheel's axis along the rail"},
        [](const Sample& s) { return s.wheel_x; }},
       {{"vertical_force", "N", "F_N, contact force on the wheel, upwards"},
@@ -72,8 +72,8 @@ const std::vector<Column>& wheel_columns() {
   return columns;
 }
 
-const std::vector<Column>& body_columns() {
-  static const std::vector<Column> columns = {
+const std::vector<HistoryColumn>& body_columns() {
+  static const std::vector<HistoryColumn> columns = {
       {{"kinetic_energy", "J", "of all bodies"}, [](const Sample& s) { return s.energy.kinetic; }},
       {{"strain_energy", "J", "elastic, hourglass part included"},
        [](const Sample& s) { return s.energy.strain; }},
@@ -89,8 +89,8 @@ const std::vector<Column>& body_columns() {
   return columns;
 }
 
-const std::vector<Column>& hammer_columns() {
-  static const std::vector<Column> columns = {
+const std::vector<HistoryColumn>& hammer_columns() {
+  static const std::vector<HistoryColumn> columns = {
       {{"hammer_force", "N", "on the rail head, downwards"}, [](const Sample& s) { return s.hammer_force; }},
       {{"hammer_displacement", "m", "of the struck point since the start, downwards"},
        [](const Sample& s) { return s.hammer_displacement; }},
@@ -99,8 +99,8 @@ const std::vector<Column>& hammer_columns() {
   return columns;
 }
 
-std::vector<Column> columns_of(const Model& model) {
-  std::vector<Column> columns;
+std::vector<HistoryColumn> columns_of(const Model& model) {
+  std::vector<HistoryColumn> columns;
   if (model.contact) columns = wheel_columns();
   if (model.hammer) columns.insert(columns.end(), hammer_columns().begin(), hammer_columns().end());
   columns.insert(columns.end(), body_columns().begin(), body_columns().end());
@@ -117,13 +117,13 @@ std::vector<Column> columns_of(const Model& model) {
 
 std::vector<Channel> history_channels(const Model& model) {
   std::vector<Channel> channels = {{"time", "s", "since the start of rolling"}};
-  for (const Column& column : columns_of(model)) channels.push_back(column.channel);
+  for (const HistoryColumn& column : columns_of(model)) channels.push_back(column.channel);
   return channels;
 }
 
 std::vector<double> history_row(const Model& model, const Sample& sample) {
   std::vector<double> row = {sample.time};
-  for (const Column& column : columns_of(model)) row.push_back(column.value(sample));
+  for (const HistoryColumn& column : columns_of(model)) row.push_back(column.value(sample));
   return row;
 }
 

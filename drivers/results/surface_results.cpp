@@ -59,7 +59,7 @@ double largest(const SurfaceFields& fields, const SurfaceResults& surface, const
 }
 
 /// A field of surface.h5.
-struct Field {
+struct SurfaceDataset {
   const char* name;
   const char* unit;
   const char* description;
@@ -68,7 +68,7 @@ struct Field {
   int less = 0;                       ///< number of stations at the end without a value
 };
 
-void write_field(Hdf5File& file, const Field& field, int first, int last) {
+void write_field(Hdf5File& file, const SurfaceDataset& field, int first, int last) {
   const auto count = static_cast<std::uint64_t>(std::max(0, last - field.less - first));
   const auto values = std::span<const double>(field.values)
                           .subspan(static_cast<std::size_t>(first) * field.columns, count * field.columns);
@@ -125,18 +125,21 @@ void write_surface(const std::filesystem::path& path, const SurfaceFields& field
     write_field(file, {"/y", "m", "nodes across the rail, field side positive", grid.y, 1}, 0, grid.rows());
     write_field(file, {"/width", "m", "of the profile that a node stands for", grid.width, 1}, 0,
                 grid.rows());
-    for (const Field& field :
-         {Field{"/x", "m", "nodes along the rail", grid.x, 1},
-          Field{"/length", "m", "of the rail that a node stands for", grid.length, 1},
-          Field{"/max_pressure", "Pa", "largest contact pressure at the node", fields.max_pressure(), rows},
-          Field{"/max_shear", "Pa", "largest surface shear stress at the node", fields.max_shear(), rows},
-          Field{"/max_von_mises", "Pa",
-                "largest Von Mises stress of the surface element between four nodes, at samples",
-                fields.max_von_mises(), rows - 1, 1},
-          Field{"/frictional_work", "J/m2", "at the node, of every step", fields.frictional_work(), rows},
-          Field{"/frictional_work_sampled", "J/m2",
-                "at the node, shear stress times micro-slip times interval, at samples",
-                fields.sampled_frictional_work(), rows}})
+    for (const SurfaceDataset& field :
+         {SurfaceDataset{"/x", "m", "nodes along the rail", grid.x, 1},
+          SurfaceDataset{"/length", "m", "of the rail that a node stands for", grid.length, 1},
+          SurfaceDataset{"/max_pressure", "Pa", "largest contact pressure at the node", fields.max_pressure(),
+                         rows},
+          SurfaceDataset{"/max_shear", "Pa", "largest surface shear stress at the node", fields.max_shear(),
+                         rows},
+          SurfaceDataset{"/max_von_mises", "Pa",
+                         "largest Von Mises stress of the surface element between four nodes, at samples",
+                         fields.max_von_mises(), rows - 1, 1},
+          SurfaceDataset{"/frictional_work", "J/m2", "at the node, of every step", fields.frictional_work(),
+                         rows},
+          SurfaceDataset{"/frictional_work_sampled", "J/m2",
+                         "at the node, shear stress times micro-slip times interval, at samples",
+                         fields.sampled_frictional_work(), rows}})
       write_field(file, field, first, last);
     file.close();
   });

@@ -7,6 +7,8 @@
 
 namespace tread {
 
+inline constexpr double kSteelDensity = 7790;  ///< that of the paper's wheel [kg/m3]
+
 VerifyCase hertz_sphere_case();   // hertz.cpp
 VerifyCase hertz_ellipse_case();  // hertz.cpp
 

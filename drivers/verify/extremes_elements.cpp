@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kQuads = 3;     ///< quads along both sides of the section
 constexpr int kElements = 9;  ///< elements along the sweep: more than one tile
-constexpr double kDensity = 7790;
 constexpr double kModulus = 205.9e9;
 
 /// A block of elements of one shape.
@@ -53,7 +52,7 @@ Section grid(const Shape& shape) {
 }
 
 Material material_of(const Shape& shape) {
-  return {"steel", kModulus, shape.poissons_ratio, kDensity, 0, 0};
+  return {"steel", kModulus, shape.poissons_ratio, kSteelDensity, 0, 0};
 }
 
 SweptBlock block_of(const Shape& shape) {

@@ -20,7 +20,6 @@ namespace tread {
 namespace {
 
 constexpr int kSamples = 1000;
-constexpr double kDensity = 7790;           // [kg/m3]
 constexpr double kYoungsModulus = 205.9e9;  // [Pa]
 constexpr double kPoissonsRatio = 0.3;
 
@@ -70,7 +69,7 @@ speed = "{speed} m/s"
 duration = "{duration} s"
 {more})",
       fmt::arg("h", element_size), fmt::arg("slice", slice), fmt::arg("E", kYoungsModulus),
-      fmt::arg("nu", kPoissonsRatio), fmt::arg("zone", fine()), fmt::arg("density", kDensity),
+      fmt::arg("nu", kPoissonsRatio), fmt::arg("zone", fine()), fmt::arg("density", kSteelDensity),
       fmt::arg("damping", damping), fmt::arg("diameter", 2 * radius), fmt::arg("width", width()),
       fmt::arg("thickness", thickness()), fmt::arg("speed", speed), fmt::arg("duration", way / speed),
       fmt::arg("more", more));
@@ -122,7 +121,7 @@ void compare_hoop(const Model& model, ConstNodeField u, double spin, Run& run) {
                model.internal->stress(model.index.tread, quad, station, u)[0];
   run.hoop_stress = force / section.area;
   const double second = section.yy / section.area + section.centroid.y * section.centroid.y;
-  run.wanted_hoop = kDensity * spin * spin * second;
+  run.wanted_hoop = kSteelDensity * spin * spin * second;
 }
 
 Moment moment_of(const Model& model, const Simulation& simulation) {

@@ -14,8 +14,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kDensity = 7790;  // [kg/m3]
-constexpr int kMostWaves = 4;
+constexpr int kMostRingWaves = 4;
 
 Scene ring_scene(const PlaneRing& ring, double element_size) {
   const std::string text = fmt::format(
@@ -53,10 +52,10 @@ CaseResult ring_modes(const VerifyInputs& inputs, const ProgressText& progress) 
                     "of {:.3g} mm are small enough, and {:.3g} mm, 0.6 of the radius",
                     1e3 * thickness, 1e3 * size / 0.3, 1e3 * size, 600 * radius));
   const PlaneRing ring{radius - thickness, radius, inputs["youngs_modulus"], inputs["poissons_ratio"],
-                       kDensity};
+                       kSteelDensity};
   const Model model(ring_scene(ring, size));
   // Three rigid modes and the pairs are asked for; thick rings have others between them.
-  const std::vector<NaturalMode> modes = natural_modes(model, 3 + 2 * kMostWaves + 4, progress);
+  const std::vector<NaturalMode> modes = natural_modes(model, 3 + 2 * kMostRingWaves + 4, progress);
   CaseResult result;
   Series ours{"finite elements", {}, {}, Stroke::solid};
   Series exact{"elasticity", {}, {}, Stroke::dashed};
@@ -66,7 +65,7 @@ CaseResult ring_modes(const VerifyInputs& inputs, const ProgressText& progress) 
     if (mode.waves < 2 && mode.frequency < 0.1 * thin_ring_frequency(ring, 2))
       rigid = std::max(rigid, mode.frequency);
   result.findings.push_back({"rigid modes", "Hz", rigid, 0, 0.1, true});
-  for (int waves = 2; waves <= kMostWaves; ++waves) {
+  for (int waves = 2; waves <= kMostRingWaves; ++waves) {
     double frequency = 0;
     for (const NaturalMode& mode : modes)
       if (mode.waves == waves && frequency == 0) frequency = mode.frequency;

@@ -61,16 +61,16 @@ struct HalfSpace {
   }
 };
 
-struct Peak {
+struct ShearPeak {
   double x = 0;      ///< [m]
   double shear = 0;  ///< [Pa]
 };
 
 /// Largest mean over a box that passes the patch at y, in steps of an eighth of a cell.
-Peak largest_shear(const HalfSpace& half_space, double size, double y) {
+ShearPeak largest_shear(const HalfSpace& half_space, double size, double y) {
   constexpr int kPerCell = 8;
   const half_space::Grid& grid = half_space.grid();
-  Peak peak;
+  ShearPeak peak;
   for (int i = 0; i <= kPerCell * (grid.nx - 1); ++i) {
     const double x = grid.x(0) + i * (grid.x(1) - grid.x(0)) / kPerCell;
     const double shear = half_space.mean_shear(half_space.per_box, size, x, y).size();
@@ -80,7 +80,7 @@ Peak largest_shear(const HalfSpace& half_space, double size, double y) {
 }
 
 /// Values of the half-space.
-struct Reference {
+struct SteadyReference {
   double creepage = 0;
   double slip_fraction = 0;
   double slip_length = 0;  ///< length of the slip zone on the axis [m]
@@ -104,10 +104,10 @@ double row_aside(const TyreOnBlock& bodies) {
   return std::abs(bodies.grid_offset) * bodies.element_size;
 }
 
-Reference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, double force) {
+SteadyReference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, double force) {
   const HertzPatch patch = bodies.hertz_patch();
   const double h = bodies.element_size;
-  Reference reference;
+  SteadyReference reference;
   reference.creepage =
       half_space::extrapolated_summary({half_space.influence.material, bodies.radius, bodies.crown_radius,
                                         bodies.load, bodies.friction, force, h},
@@ -116,7 +116,7 @@ Reference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_space, d
   reference.slip_fraction = half_space.state.slip_fraction;
   reference.slip_length = slip_length(half_space);
   reference.work = half_space::centre_element_work(half_space.grid(), half_space.state, h) / (h * h);
-  const Peak box = largest_shear(half_space, h, row_aside(bodies));
+  const ShearPeak box = largest_shear(half_space, h, row_aside(bodies));
   reference.max_shear = box.shear;
   // Elements stand beside the axis when nodes stand on it; the largest stress is near the largest shear.
   reference.von_mises =
@@ -165,7 +165,7 @@ CaseResult steady_rolling(const VerifyInputs& inputs, const ProgressText& progre
                  fmt::format("traction = {{ mu = {}, ramp = \"{} s\", shape = \"smooth\" }}", mu, ramp));
   const Rolled rolled = roll_tyre(bodies, observed, progress);
   const HalfSpace half_space(bodies, rolled.force);
-  const Reference reference = reference_of(bodies, half_space, rolled.force);
+  const SteadyReference reference = reference_of(bodies, half_space, rolled.force);
   // The shear is largest where slip begins, and all work is done in the slip zone.
   const auto in_slip_zone = [&](double factor, const Finding& finding) {
     return judged_by_slip_zone(finding, factor, bodies.element_size, reference.slip_length);

@@ -33,12 +33,12 @@ struct Curve {
 };
 
 /// The half-space: a shift, then rolling under a constant force. The distance counts from the shift.
-struct Reference {
+struct TransientReference {
   Curve curve;
   double steady = 0;  ///< creepage [-]
 };
 
-Reference reference_of(const TyreOnBlock& bodies, double force, double way) {
+TransientReference reference_of(const TyreOnBlock& bodies, double force, double way) {
   using namespace half_space;
   const HertzPatch patch = bodies.hertz_patch();
   const double semi = std::min(patch.semi_axis_x, patch.semi_axis_y);
@@ -50,7 +50,7 @@ Reference reference_of(const TyreOnBlock& bodies, double force, double way) {
   const NormalContact contact =
       press(influence, quadratic_gap(bodies.radius, bodies.crown_radius), bodies.load);
   const RollingContact rolling(influence, contact, bodies.friction);
-  Reference reference;
+  TransientReference reference;
   reference.steady = rolling.steady(force).creepage;
   FrictionState state = rolling.shift(rolling.free_state(), force);
   for (int step = 0; step * cell < way; ++step) {
@@ -133,14 +133,14 @@ double turning_period(const TyreOnBlock& bodies) {
 }
 
 /// The largest creepage of a curve and its place.
-struct Peak {
+struct CreepagePeak {
   double size = 0;  ///< [-]
   double way = 0;   ///< [m]
 };
 
 /// Largest creepage times `sign` from the distance `from` [m] on.
-Peak peak_of(const Curve& curve, double from, double sign) {
-  Peak peak;
+CreepagePeak peak_of(const Curve& curve, double from, double sign) {
+  CreepagePeak peak;
   for (std::size_t i = 0; i < curve.way.size(); ++i)
     if (curve.way[i] >= from && sign * curve.creepage[i] > peak.size)
       peak = {sign * curve.creepage[i], curve.way[i]};
@@ -159,7 +159,7 @@ Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
 }
 
 /// Creepage from the way `from` [m] on beside the half-space, and the traction coefficient.
-Figure transient_figure(const Transient& transient, const Curve& ours, const Reference& reference,
+Figure transient_figure(const Transient& transient, const Curve& ours, const TransientReference& reference,
                         double from) {
   Series force{"F_L / F_N", {}, {}, Stroke::solid};
   for (const Place& place : transient.places) {
@@ -202,7 +202,7 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
 
   const double window = grown / kPeriods;
   const Curve ours = creepage_curve(transient, window);
-  Reference reference = reference_of(bodies, mu * bodies.load, way);
+  TransientReference reference = reference_of(bodies, mu * bodies.load, way);
   for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift lies in the middle of the growth
   double difference = 0;
   const Statistics full = statistics(
@@ -214,8 +214,8 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
     if (ours.way[i] < from) continue;
     difference = std::max(difference, std::abs(ours.creepage[i] - interpolate(reference.curve, ours.way[i])));
   }
-  const Peak highest = peak_of(ours, from, sign);
-  const Peak top = peak_of(reference.curve, 0, sign);
+  const CreepagePeak highest = peak_of(ours, from, sign);
+  const CreepagePeak top = peak_of(reference.curve, 0, sign);
   CaseResult result;
   result.findings = {{"largest difference of the creepages / steady value", "-",
                       difference / std::abs(reference.steady), 0, 0.1, true},

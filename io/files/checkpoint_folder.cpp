@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -32,12 +31,6 @@ void remove_states(const fs::path& folder, const std::vector<std::int64_t>& all)
   for (const std::int64_t steps : all) fs::remove(step_file(folder, steps, kSuffix), ignored);
 }
 
-void create(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
-}
-
 void write_verified(const fs::path& path, SealedContent content, const CheckpointObserver& observer) {
   const auto digests = digests_of(content);
   const auto reached = [&](CheckpointStage stage) {
@@ -62,7 +55,7 @@ void write_verified(const fs::path& path, SealedContent content, const Checkpoin
 }  // namespace
 
 void CheckpointFolder::write_order(SealedContent order) const {
-  create(folder_);
+  create_folder(folder_);
   write_verified(folder_ / "order.h5", std::move(order), {});
 }
 
@@ -72,7 +65,7 @@ SealedContent CheckpointFolder::read_order() const {
 
 void CheckpointFolder::write(std::int64_t steps, SealedContent content,
                              const CheckpointObserver& observer) const {
-  create(folder_);
+  create_folder(folder_);
   remove_parts(folder_);
   write_verified(step_file(folder_, steps, kSuffix), std::move(content), observer);
   std::vector<std::int64_t> old = newest_first(folder_);
@@ -84,7 +77,7 @@ void CheckpointFolder::write(std::int64_t steps, SealedContent content,
 }
 
 void CheckpointFolder::keep(std::int64_t steps, const SealedContent& content) const {
-  create(folder_);
+  create_folder(folder_);
   remove_parts(folder_);
   write_verified(step_file(folder_, steps, kSuffix), content, {});
 }

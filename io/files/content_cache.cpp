@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <span>
-#include <system_error>
 #include <thread>
 
 #include "core/error.hpp"
@@ -18,12 +17,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kKind = "cached";
+constexpr const char* kCachedKind = "cached";
 /// Version of the files' form. Raise it whenever the form changes; the version of their content is part of
 /// the key.
 constexpr int kVersion = 1;
 constexpr const char* kKey = "key";
-constexpr const char* kSuffix = ".h5";
+constexpr const char* kEntrySuffix = ".h5";
 constexpr const char* kClaims = "claims.lock";  ///< name of the lock file, which stays empty in the folder
 constexpr std::size_t kDigits = 16;
 
@@ -34,19 +33,13 @@ std::uint64_t hash_of(const std::string& key) {
 }
 
 fs::path path_of(const fs::path& folder, const std::string& key) {
-  return folder / fmt::format("{:016x}{}", hash_of(key), kSuffix);
-}
-
-void create(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+  return folder / fmt::format("{:016x}{}", hash_of(key), kEntrySuffix);
 }
 
 /// Returns true if path_of() gives such names. No other file in the folder is touched.
 bool is_entry(const fs::path& path) {
   const std::string stem = path.stem().string();
-  return path.extension() == kSuffix && stem.size() == kDigits &&
+  return path.extension() == kEntrySuffix && stem.size() == kDigits &&
          stem.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
@@ -61,7 +54,7 @@ FileLock take(const fs::path& folder) {
 }
 
 /// Removes unfinished files of processes that were killed while they wrote. Call it under the lock.
-void remove_parts(const fs::path& folder) {
+void remove_entry_parts(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().extension() == ".part" && is_entry(entry.path().stem()))
@@ -75,7 +68,7 @@ std::optional<SealedContent> ContentCache::find(const std::string& key, std::str
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   try {
-    SealedContent content = read_sealed(path, kKind, kVersion);
+    SealedContent content = read_sealed(path, kCachedKind, kVersion);
     if (sealed_entry<std::string>(content, kKey) != key) return std::nullopt;  // another key, same hash
     content.erase(kKey);
     fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
@@ -87,17 +80,17 @@ std::optional<SealedContent> ContentCache::find(const std::string& key, std::str
 }
 
 void ContentCache::store(const std::string& key, SealedContent content) const {
-  create(folder_);
+  create_folder(folder_);
   content[kKey] = key;
   const FileLock lock = take(folder_);
-  remove_parts(folder_);
+  remove_entry_parts(folder_);
   replace_file(path_of(folder_, key),
-               [&](const fs::path& part) { write_sealed(part, kKind, kVersion, content); });
+               [&](const fs::path& part) { write_sealed(part, kCachedKind, kVersion, content); });
   trim();
 }
 
 std::optional<FileLock> ContentCache::claim(const std::string& key) const {
-  create(folder_);
+  create_folder(folder_);
   return FileLock::try_number(folder_ / kClaims, hash_of(key));
 }
 
@@ -126,7 +119,7 @@ void ContentCache::trim() const {
 void ContentCache::clear() const {
   if (!fs::exists(folder_)) return;
   const FileLock lock = take(folder_);
-  remove_parts(folder_);
+  remove_entry_parts(folder_);
   for (const Entry& entry : entries()) {
     std::error_code error;
     fs::remove(entry.path, error);

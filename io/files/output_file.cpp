@@ -77,6 +77,12 @@ void replace_file(const std::filesystem::path& path,
   if (const int error = sync(folder.empty() ? "." : folder)) fail(path, error);
 }
 
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+}
+
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
   replace_file(path, [&](const std::filesystem::path& part) { write_text(part, text); });
 }

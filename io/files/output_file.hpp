@@ -14,6 +14,9 @@ namespace tread {
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& part)>& write);
 
+/// Makes the folder and those above it. Throws ResourceError.
+void create_folder(const std::filesystem::path& folder);
+
 /// Replaces the file by `text`. Throws ResourceError.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/millimetre.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 class MiniprofParser {
  public:

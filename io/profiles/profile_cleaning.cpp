@@ -6,11 +6,12 @@
 #include <functional>
 #include <numbers>
 
+#include "core/millimetre.hpp"
+
 namespace tread {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180;
 const double kSteep = std::tan(80 * kDegree);
 

@@ -8,13 +8,12 @@
 
 #include "core/error.hpp"
 #include "core/geometry/smoothing_spline.hpp"
+#include "core/millimetre.hpp"
 #include "io/profiles/profile_cleaning.hpp"
 
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 struct Range {
   double low, high;

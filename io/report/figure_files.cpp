@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
 
 #include "core/error.hpp"
 #include "io/files/output_file.hpp"
@@ -55,9 +54,7 @@ void write_figures(const fs::path& folder, const Report& report) {
     for (const Block& block : chapter.blocks) {
       const auto files = std::visit([](const auto& content) { return named_files(content); }, block);
       if (!files) continue;
-      std::error_code error;
-      fs::create_directories(folder, error);
-      if (error) throw ResourceError(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+      create_folder(folder);
       write_text_file(folder / (files->name + ".svg"), files->svg);
       write_text_file(folder / (files->name + ".csv"), files->csv);
     }

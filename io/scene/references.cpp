@@ -16,8 +16,8 @@ namespace tread {
 
 namespace {
 
-constexpr std::size_t kLargest = 1 << 20;  // [B]
-constexpr double kSame = 1e-6;             // relative difference of values that count as equal
+constexpr std::size_t kLargestFile = 1 << 20;  // [B]
+constexpr double kSame = 1e-6;                 // relative difference of values that count as equal
 
 bool same(const Field& a, const Field& b) {
   if (const auto* text = std::get_if<std::string*>(&a)) return **text == *std::get<std::string*>(b);
@@ -119,7 +119,7 @@ References references_in(const toml::table& file, Scene scene) {
 }  // namespace
 
 References read_references(const std::filesystem::path& path, const Scene& scene) {
-  const toml::table file = parse_toml(read_text_file(path, kLargest), path.string());
+  const toml::table file = parse_toml(read_text_file(path, kLargestFile), path.string());
   try {
     return references_in(file, scene);
   } catch (const InputError& error) {

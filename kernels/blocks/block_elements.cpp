@@ -9,16 +9,13 @@
 #include <type_traits>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "kernels/element/law_body.hpp"
 #include "kernels/material/laws.hpp"
 
 namespace tread {
 
 namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Collects what is wrong with elements and throws it as one error.
 class ElementFaults {

@@ -7,17 +7,12 @@
 #include <set>
 #include <vector>
 
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 
 namespace tread {
 
-namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <class Real>
 ElementStiffness element_stiffness(const BlockElements<Real>& elements, const ElementPlace& at) {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/element/law_body.hpp"
 #include "kernels/material/laws.hpp"
@@ -14,10 +15,6 @@
 namespace tread {
 
 namespace {
-
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 template <class Real>
 void law_strain(bool finite_rotation, const Strain<Real>& strain, Real (&e)[6]) {

@@ -6,17 +6,12 @@
 #include <span>
 
 #include "core/contract.hpp"
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 
 namespace tread {
 
-namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <class Real>
 StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/index.hpp"
 #include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
@@ -10,10 +11,6 @@ namespace tread {
 namespace {
 
 static_assert(kCellNodes == kSupport);
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 const SurfaceSupport& support_of(const ContactPoint& point, int body) {
   return body == 0 ? point.rail : point.wheel;

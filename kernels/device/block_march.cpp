@@ -7,13 +7,11 @@
 #include <numeric>
 #include <span>
 
+#include "core/index.hpp"
+
 namespace tread {
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Halves a list of quads until no part has more than `most`.
 void halve(const std::vector<std::array<double, 2>>& centre, std::span<int> quads, int most,

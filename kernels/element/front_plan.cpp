@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/index.hpp"
+
 namespace tread {
 
 namespace {
@@ -67,8 +69,6 @@ class FrontWalk {
   }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
   int growth(int quad) const {
     int change = 0;
     for (const int node : section_.quads[index(quad)]) {

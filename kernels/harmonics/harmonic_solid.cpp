@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel/each_item.hpp"
 #include "kernels/harmonics/harmonic_system.hpp"
 
@@ -24,10 +25,6 @@ struct Quadratic {
 
 Quadratic quadratic(double t) {
   return {{0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)}, {t - 0.5, -2 * t, t + 0.5}};
-}
-
-std::size_t index(int node) {
-  return static_cast<std::size_t>(node);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/lanes/tile_force.hpp"
 
@@ -137,10 +138,6 @@ void place_on_chords(Mesh& mesh, const TieSpec& spec) {
 }
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A station of the other block that has a share in an own station.
 struct StationShare {

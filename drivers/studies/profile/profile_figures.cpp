@@ -6,13 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "core/millimetre.hpp"
+
 namespace tread {
 
-namespace {
-
-constexpr double mm = 1e-3;
-
-}  // namespace
+namespace {}  // namespace
 
 Figure profile_figure(const ShownProfile& profile) {
   Series surface{"surface", {}, {}, Stroke::solid, 0};

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/section_constants.hpp"
+#include "core/millimetre.hpp"
 #include "drivers/studies/profile/profile_figures.hpp"
 #include "drivers/studies/profile/shown_profile.hpp"
 #include "io/files/output_file.hpp"
@@ -21,8 +22,6 @@
 namespace tread {
 
 namespace {
-
-constexpr double mm = 1e-3;
 
 /// A line of the listing.
 struct Line {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/built_in_profiles.hpp"
+#include "core/millimetre.hpp"
 #include "io/profiles/profile_points.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
@@ -20,7 +21,6 @@ namespace tread {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 template <class Names>
