@@ -6,7 +6,7 @@ namespace tread {
 
 namespace {
 
-using Columns = Eigen::Map<const Eigen::MatrixXd>;
+using ReadColumns = Eigen::Map<const Eigen::MatrixXd>;
 
 }  // namespace
 
@@ -15,13 +15,13 @@ std::vector<double> SymmetricModes::components(const std::vector<double>& all) c
   const auto count = static_cast<Eigen::Index>(all.size()) / n;
   std::vector<double> out(all.size());
   Eigen::Map<Eigen::MatrixXd>(out.data(), n, count).noalias() =
-      Columns(vectors.data(), n, n).transpose() * Columns(all.data(), n, count);
+      ReadColumns(vectors.data(), n, n).transpose() * ReadColumns(all.data(), n, count);
   return out;
 }
 
 SymmetricModes symmetric_modes(const std::vector<double>& matrix, std::size_t n) {
   const auto size = static_cast<Eigen::Index>(n);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Columns(matrix.data(), size, size));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(ReadColumns(matrix.data(), size, size));
   const Eigen::MatrixXd& vectors = solver.eigenvectors();
   return {{solver.eigenvalues().begin(), solver.eigenvalues().end()},
           {vectors.data(), vectors.data() + vectors.size()}};
