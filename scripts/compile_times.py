@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""scripts/compile_times.py [--every N] [BUILD]: prints the processor time that compiling the program takes, by folder, as
+"""scripts/compile_times.py [--every N] [BUILD]: prints the processor time that compiling the program takes, by library, as
 a Markdown table.
 
-BUILD: a configured build folder (default: build/release). Every N-th source of a folder (default: 1) is compiled, without
-a compiler cache and one at a time; the others count as much as the mean of these. Nothing in the build folder changes.
+BUILD: a configured and built folder (default: build/release). Every N-th source or batch of sources of a library
+(default: 1) is compiled, without a compiler cache and one at a time; the others count as much as the mean of these.
+Nothing in the build folder changes.
 """
 
 import argparse
@@ -13,26 +14,26 @@ import resource
 import shlex
 import subprocess
 
-SHOWN = 9  # folders; the rest is summed
+SHOWN = 9  # libraries; the rest is summed
 
 
 def commands_of(build: str) -> dict[str, list[list[str]]]:
-    """Compile commands by folder, without their output files."""
+    """Compile commands by library, without their output files."""
     listed = subprocess.run(["ninja", "-C", build, "-t", "commands", "tread"], check=True, capture_output=True, text=True)
-    folders = collections.defaultdict(list)
+    libraries = collections.defaultdict(list)
     for line in listed.stdout.splitlines():
         words = shlex.split(line.split(" && ")[0] if " -c " in line else "")
         if "-c" not in words:
             continue
         if os.path.basename(words[0]) == "ccache":
             words = words[1:]
+        library = words[words.index("-o") + 1].split("CMakeFiles/")[1].split(".dir")[0]
         for option in ("-MT", "-MF", "-o"):
             at = words.index(option)
             del words[at:at + 2]
         words.remove("-MD")
-        source = os.path.relpath(words[words.index("-c") + 1], os.path.join(build, "../.."))
-        folders["/".join(os.path.dirname(source).split("/")[:2])].append([*words, "-o", "/dev/null"])
-    return folders
+        libraries[library].append([*words, "-o", "/dev/null"])
+    return libraries
 
 
 def seconds_of(command: list[str], build: str) -> float:
@@ -49,15 +50,15 @@ def main() -> None:
     parser.add_argument("build", nargs="?", default="build/release")
     given = parser.parse_args()
     rows = []
-    for folder, commands in commands_of(given.build).items():
+    for library, commands in commands_of(given.build).items():
         times = [(seconds_of(c, given.build), os.path.basename(c[c.index("-c") + 1])) for c in commands[::given.every]]
         total = sum(seconds for seconds, _ in times) * len(commands) / len(times)
-        rows.append((total, folder, len(commands), max(times)))
+        rows.append((total, library, len(commands), max(times)))
     rows.sort(reverse=True)
     everything = sum(row[0] for row in rows)
-    print("| folder | sources | processor time | share | longest of those compiled |\n|---|--:|--:|--:|---|")
-    for total, folder, count, (longest, source) in rows[:SHOWN]:
-        print(f"| `{folder}` | {count} | {total:.0f} s | {100 * total / everything:.0f} % | `{source}`, {longest:.1f} s |")
+    print("| library | sources or batches | processor time | share | longest of those compiled |\n|---|--:|--:|--:|---|")
+    for total, library, count, (longest, source) in rows[:SHOWN]:
+        print(f"| `{library}` | {count} | {total:.0f} s | {100 * total / everything:.0f} % | `{source}`, {longest:.1f} s |")
     rest = rows[SHOWN:]
     print(f"| others | {sum(r[2] for r in rest)} | {sum(r[0] for r in rest):.0f} s | {100 * sum(r[0] for r in rest) / everything:.0f} % | |")
     print(f"| all | {sum(r[2] for r in rows)} | {everything:.0f} s | 100 % | |")
