@@ -60,4 +60,9 @@ Travel travel_of(const Scene& scene) {
   return travel;
 }
 
+double duration_to(const Scene& scene, double x) {
+  constexpr double kSlowest = 1e-3;  // [m/s]
+  return scene.motion->duration + (x - travel_of(scene).last) / std::max(scene.motion->speed, kSlowest);
+}
+
 }  // namespace tread

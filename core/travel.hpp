@@ -33,4 +33,8 @@ struct Travel {
 /// Travel over motion.duration, with the traction's ramp and reversals; of a wheel at x = 0 without [motion].
 Travel travel_of(const Scene& scene);
 
+/// motion.duration with which the wheel of a scene with [motion] rolls to x [m], the lacking way at
+/// motion.speed [s].
+double duration_to(const Scene& scene, double x);
+
 }  // namespace tread

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/travel.hpp"
+#include "drivers/engine/sections.hpp"
 #include "drivers/engine/surfaces.hpp"
 
 namespace tread {
@@ -22,6 +24,31 @@ constexpr double kElementsOfWave = 10;
 constexpr double kSlope = 0.05;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
+
+/// Sentence if a rolling wheel does not come to x = `enough` [m] of `aim`.
+std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
+                        const char* lost) {
+  if (!scene.motion || scene.motion->speed <= 0) return "";
+  const double way = travel_of(scene).last;
+  if (way >= enough) return "";
+  return fmt::format(
+      "the wheel rolls to x = {:.4g} m and does not {} {}, x = {:.4g} to {:.4g} m, so that {}; "
+      "motion.duration = "
+      "\"{:.4g} ms\" passes it",
+      way, way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost,
+      1e3 * duration_to(scene, aim.last));
+}
+
+/// Sentence if a wheel does not roll over what the scene evaluates.
+std::string place_warning(const Scene& scene) {
+  if (scene.corrugation) {
+    const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
+    return way_warning(scene, "the corrugation", {corrugation.first(), corrugation.last()},
+                       corrugation.last(), "values over it are incomplete");
+  }
+  return way_warning(scene, "the solution zone", {scene.zone_start, scene.zone_start + scene.zone_length},
+                     scene.zone_start, "the run leaves no stresses");
+}
 
 /// Length of the shorter axis of the patch [m].
 double shorter_axis(const Model& model) {
@@ -88,6 +115,13 @@ std::string surface_warning(const Model& model, const std::string& name, const S
   const Scene& scene = model.scene;
   const Span zone{scene.zone_start, scene.zone_start + scene.zone_length};
   const bool is_short = spec.kind == "dent" || spec.kind == "flat" || spec.kind == "dip";
+  if (is_short && !spec.on_wheel()) {
+    const DepthBounds bounds = shape_of(scene, spec)->bounds();
+    const Span place{spec.at + bounds.first, spec.at + bounds.last};
+    std::string missed =
+        way_warning(scene, "surface." + name, place, place.last, "its forces are incomplete");
+    if (!missed.empty()) return missed;
+  }
   if (is_short && scene.motion) {
     const std::vector<Span> places = places_of(scene, spec, run_span(scene));
     const auto outside = [&](const Span& place) {
@@ -116,6 +150,7 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   std::vector<std::string> warnings;
   if (!model.contact) return warnings;
   warnings.push_back(patch_warning(model));
+  warnings.push_back(place_warning(model.scene));
   if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
       corrugation && corrugation->kind == "table") {
     warnings.push_back(step_warning(*corrugation));

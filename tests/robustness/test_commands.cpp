@@ -168,6 +168,22 @@ TEST_F(Commands, RunOfABarLeavesEverything) {
   EXPECT_FALSE(has(report, "Creepage"));
 }
 
+TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
+  const auto warnings = [&](const std::string& file, const std::string& set) {
+    return call("check --json -t 1 --set \"scene.element_size=11 mm\" " + set + " " + scene(file)).out;
+  };
+  EXPECT_FALSE(has(warnings("corrugation-d.toml", ""), "the wheel rolls to"));
+  EXPECT_TRUE(has(warnings("corrugation-d.toml", "--set \"motion.speed=200 km/h\""),
+                  "does not reach the corrugation, x = 2.4 to 2.96 m"));
+  const std::string most = warnings("corrugation-d.toml", "--set \"motion.speed=250 km/h\"");
+  EXPECT_TRUE(has(most, "does not pass the corrugation, x = 2.4 to 2.96 m")) << most;
+  // The wheel gains some speed: 2.96 m / 250 km/h = 42.62 ms.
+  EXPECT_TRUE(has(most, "motion.duration = \\\"42.59 ms\\\" passes it")) << most;
+  EXPECT_TRUE(
+      has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
+  EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
+}
+
 TEST_F(Commands, StaticSceneIsComparedWithHertz) {
   const std::string more = "--set \"scene.element_size=6 mm\" --set \"contact.penetration_ratio=0.05\"";
   EXPECT_EQ(

@@ -48,12 +48,11 @@ void require_waves(const Scene& scene, const Corrugation& corrugation) {
           fmt::format("wear.longest = {:.4g} mm is more than the corrugation's length, {:.4g} mm",
                       1e3 * wear.longest, 1e3 * length));
   const double way = travel_of(scene).last;
-  const double lacking = corrugation.last() + kWayBeyond - way;
-  require(lacking <= 0,
+  const double passed = corrugation.last() + kWayBeyond;
+  require(way >= passed,
           fmt::format("the wheel rolls to x = {:.4g} m and so does not pass the corrugation, which ends at "
                       "{:.4g} m; motion.duration must be {:.4g} ms at least",
-                      way, corrugation.last(),
-                      1e3 * (scene.motion->duration + lacking / std::max(scene.motion->speed, 1e-3))));
+                      way, corrugation.last(), 1e3 * duration_to(scene, passed)));
 }
 
 WornProfile sampled(const Corrugation& corrugation) {
