@@ -79,6 +79,16 @@ Corrugation::Corrugation(std::vector<double> x, std::vector<double> depth, doubl
   steepest_ = curve_.steepest();
 }
 
+Corrugation::Corrugation(DepthShapePointer map, double start, double centre, double width)
+    : first_(start + map->bounds().first),
+      last_(start + map->bounds().last),
+      centre_(centre),
+      width_(width),
+      deepest_(map->bounds().deepest + map->bounds().highest),
+      steepest_(map->bounds().steepest),
+      map_(std::move(map)),
+      map_start_(start) {}
+
 Corrugation Corrugation::rough(const Random& random, double start, double length, double centre,
                                double width) {
   return {places(length, random.shortest), random_depths(random, length), start, centre, width};
@@ -94,15 +104,17 @@ double Corrugation::profile(double x) const {
 double Corrugation::depth(double x, double y) const {
   const double across = (y - centre_) / width_;
   if (x <= first_ || x >= last_ || std::abs(across) >= 1) return 0;
-  return profile(x) * (1 - across * across);
+  return map_ ? map_->at(x - map_start_, y).depth : profile(x) * (1 - across * across);
 }
 
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
                                        double tolerance) {
   constexpr double kStep = 5e-5;  // [m]
-  // If both depths agree along the centre lines, different widths or centres still show halfway out.
-  const std::array<double, 4> across = {a.centre(), b.centre(), a.centre() + 0.5 * a.width(),
-                                        b.centre() + 0.5 * b.width()};
+  // If both depths agree along the centre lines, other widths, centres or maps still show further out.
+  constexpr int kPlaces = 16;  // to either side
+  std::vector<double> across;
+  for (const Corrugation* of : {&a, &b})
+    for (int i = -kPlaces; i <= kPlaces; ++i) across.push_back(of->centre() + i * of->width() / kPlaces);
   const auto start = [](const Corrugation& c) {
     return c.smooth() ? std::numeric_limits<double>::infinity() : c.first();
   };

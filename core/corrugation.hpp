@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/math/monotone_cubic.hpp"
+#include "core/running_surface.hpp"
 
 namespace tread {
 
@@ -35,6 +36,10 @@ class Corrugation {
   /// Depths measured along the rail [m], joined by monotone cubics; x counts from `start` [m].
   Corrugation(std::vector<double> x, std::vector<double> depth, double start, double centre, double width);
 
+  /// Depths measured along and across, measured_map() of x from `start` and y from `centre` [m]: `map` from
+  /// `first` to `last` along its x, and `width` to either side.
+  Corrugation(DepthShapePointer map, double start, double centre, double width);
+
   /// Random depths that fade over half the longest wave at either end. [theory.md, eq. (W1)]
   static Corrugation rough(const Random& random, double start, double length, double centre, double width);
 
@@ -55,6 +60,8 @@ class Corrugation {
   Sine sine_{1, 0};
   double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0, steepest_ = 0;
   MonotoneCubic curve_;
+  DepthShapePointer map_;  ///< in place of profile and parabola
+  double map_start_ = 0;   ///< x of the map's zero [m]
 };
 
 /// Factor 1 that falls to 0 as half a cosine over `fade` [m] at either end of [0, length] [m].

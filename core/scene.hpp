@@ -212,7 +212,7 @@ struct MotionSpec {
 
 /// [corrugation]
 struct CorrugationSpec {
-  std::string kind = "sine";        ///< "sine" (eqs. 6 and 7), "table" or "random"
+  std::string kind = "sine";        ///< "sine" (eqs. 6 and 7), "table", "map" or "random"
   double wavelength = 0.08;         ///< L [m]
   double depth = 0.14e-3;           ///< d_m [m]
   double width = 30e-3;             ///< W: depth is zero beyond |y - centre| = W [m]
@@ -224,9 +224,12 @@ struct CorrugationSpec {
   double longest = 0.15;            ///< of their waves [m]
   int seed = 1;                     ///< that draws their phases
   std::string apply = "nodes";      ///< "nodes" (moved nodes) or "gap" (added to the contact gap)
-  std::string file;                 ///< table: two columns, x from `start` and depth, with a unit line
+  std::string file;                 ///< table: x from `start` and depth; map: x, y from `centre` and depth
   std::vector<double> table_x;      ///< [m]
-  std::vector<double> table_depth;  ///< positive downwards [m]
+  std::vector<double> map_y;        ///< of a map [m]
+  std::vector<double> table_depth;  ///< positive downwards; of a map: a row of x for each y [m]
+
+  bool in_file() const { return kind == "table" || kind == "map"; }
 };
 
 /// [surface.NAME]: a shape of depth on the running surface of rail or wheel; all of them are added
@@ -255,6 +258,7 @@ struct WearSpec {
   double change = 0.05;         ///< of the depth by one simulated passage, at the most [-]
   double shortest = 0.03;       ///< wavelength that wears [m]
   double longest = 0.15;        ///< wavelength that wears [m]
+  bool across = false;          ///< each row of the running surface wears by itself
 };
 
 /// [pulse]: an initial velocity along x over one end of a bar (a box rail without a wheel)

@@ -11,13 +11,13 @@ namespace tread {
 
 namespace {
 
-constexpr double kRadius = 0.43;       ///< radius of the wheel's rolling circle [m]
-constexpr double kCrownRadius = 0.3;   ///< radius of the wheel's profile [m]
-constexpr double kHalfWidth = 0.03;    ///< half width of both surfaces [m]
-constexpr double kHalfLength = 0.06;   ///< half length of rail and tread [m]
-constexpr double kApproach = 42e-6;    ///< lowering of the wheel: semi-axes of 6 and 5 mm [m]
-constexpr double kPenetration = 0.03;  ///< share of the overlap that the rail's surface does not follow [-]
-constexpr double kPenalty = 5e14;      ///< [Pa/m]
+constexpr double kRollingRadius = 0.43;  ///< radius of the wheel's rolling circle [m]
+constexpr double kCrownRadius = 0.3;     ///< radius of the wheel's profile [m]
+constexpr double kHalfWidth = 0.03;      ///< half width of both surfaces [m]
+constexpr double kHalfLength = 0.06;     ///< half length of rail and tread [m]
+constexpr double kApproach = 42e-6;      ///< lowering of the wheel: semi-axes of 6 and 5 mm [m]
+constexpr double kPenetration = 0.03;    ///< share of the overlap that the rail's surface does not follow [-]
+constexpr double kPenalty = 5e14;        ///< [Pa/m]
 constexpr double kFriction = 0.5;
 constexpr double kSpeed = 300 / 3.6;      ///< [m/s]
 constexpr double kCreepage = 1e-3;        ///< [-]
@@ -63,9 +63,10 @@ Mesh surfaces(double size) {
                             steel, -kHalfLength, {{along, 2 * kHalfLength / along, 0}}));
   mesh.add(make_swept_block("wheel", Sweep::revolved,
                             strip(
-                                size, [](double y) { return kRadius - y * y / (2 * kCrownRadius); },
+                                size, [](double y) { return kRollingRadius - y * y / (2 * kCrownRadius); },
                                 [](double y) { return -y / kCrownRadius; }),
-                            steel, -kHalfLength / kRadius, {{along, 2 * kHalfLength / kRadius / along, 0}}));
+                            steel, -kHalfLength / kRollingRadius,
+                            {{along, 2 * kHalfLength / kRollingRadius / along, 0}}));
   return mesh;
 }
 
@@ -81,7 +82,7 @@ struct Patch {
         dt(8.9e-8 * size / kFinest) {
     wheel.origin = {0, 0, contact.touching_height() - kApproach};
     wheel.velocity = {kSpeed, 0, 0};
-    wheel.spin = (1 + kCreepage) * kSpeed / kRadius;
+    wheel.spin = (1 + kCreepage) * kSpeed / kRollingRadius;
     press();
     u_before = u;
     contact.find_static({u.data(), nullptr, &wheel});
@@ -95,7 +96,7 @@ struct Patch {
     options.wheel_block = 1;
     options.penalty = kPenalty;
     options.friction = CoulombFriction{kFriction};
-    options.wheel_radius = kRadius;
+    options.wheel_radius = kRollingRadius;
     return options;
   }
 
@@ -104,7 +105,7 @@ struct Patch {
     for (int station = 0; station < rail.station_count(); ++station)
       for (int node = 0; node < rail.section.nodes(); ++node) {
         const Vec3 x = position(rail, node, station);
-        const double overlap = kApproach - x.x * x.x / (2 * kRadius) - x.y * x.y / (2 * kCrownRadius);
+        const double overlap = kApproach - x.x * x.x / (2 * kRollingRadius) - x.y * x.y / (2 * kCrownRadius);
         u[static_cast<std::size_t>(dof(rail.slot(node, station), 2))] =
             -(1 - kPenetration) * std::max(0.0, overlap);
       }

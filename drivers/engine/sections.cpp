@@ -242,6 +242,9 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
 Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {
   if (spec.kind == "table")
     return Corrugation(spec.table_x, spec.table_depth, spec.start, centre, spec.width);
+  if (spec.kind == "map")
+    return {measured_map(spec.table_x, spec.map_y, spec.table_depth, centre), spec.start, centre,
+            std::max(std::abs(spec.map_y.front()), std::abs(spec.map_y.back()))};
   if (spec.kind == "random")
     return Corrugation::rough({spec.rms, spec.shortest, spec.longest, static_cast<std::uint64_t>(spec.seed)},
                               spec.start, spec.length, centre, spec.width);

@@ -94,12 +94,18 @@ std::string slope_warning(const CorrugationSpec& corrugation) {
 std::string step_warning(const CorrugationSpec& corrugation) {
   const std::vector<double>& depth = corrugation.table_depth;
   if (depth.empty()) return "";
-  const double step = std::max(std::abs(depth.front()), std::abs(depth.back()));
-  if (step <= kStep) return "";
+  double first = 0;
+  double last = 0;
+  const std::size_t places = corrugation.table_x.size();
+  for (std::size_t row = 0; row < depth.size(); row += places) {  // a map has several
+    first = std::max(first, std::abs(depth[row]));
+    last = std::max(last, std::abs(depth[row + places - 1]));
+  }
+  if (std::max(first, last) <= kStep) return "";
   return fmt::format(
       "the depths of {} begin with {:.3g} um and end with {:.3g} um: beyond the file the depth is 0, "
       "so that the rail has a step there; let both ends fade to 0",
-      corrugation.file, 1e6 * depth.front(), 1e6 * depth.back());
+      corrugation.file, 1e6 * first, 1e6 * last);
 }
 
 /// Shortest length that a shape changes in [m]; nothing where it is measured.
@@ -152,7 +158,7 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
   if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
-      corrugation && corrugation->kind == "table") {
+      corrugation && corrugation->in_file()) {
     warnings.push_back(step_warning(*corrugation));
   } else if (corrugation) {
     warnings.push_back(length_warning("a wave of the corrugation", shortest_wave(*corrugation),

@@ -19,7 +19,7 @@ namespace tread {
 
 namespace {
 
-constexpr int kSamples = 1000;
+constexpr int kCurveSamples = 1000;
 constexpr double kYoungsModulus = 205.9e9;  // [Pa]
 constexpr double kPoissonsRatio = 0.3;
 
@@ -77,7 +77,7 @@ duration = "{duration} s"
 }
 
 /// The ring's state at a sample.
-struct Moment {
+struct FrameMoment {
   double step = 0;
   double time = 0;            ///< [s]
   Vec3 mass_centre;           ///< [m]
@@ -90,8 +90,8 @@ struct Moment {
   double loss = 0;            ///< loss by the lead of the contact forces [J]
 };
 
-struct Run {
-  std::vector<Moment> moments;
+struct FrameRun {
+  std::vector<FrameMoment> moments;
   double mass = 0;         ///< mass of the ring [kg]
   double inertia = 0;      ///< moment of inertia about its axis [kg m2]
   double kinetic = 0;      ///< kinetic energy at the start [J]
@@ -103,7 +103,7 @@ struct Run {
   double trend(const Value& value) const {
     LineFit line;
     const double length = moments.back().time;
-    for (const Moment& m : moments)
+    for (const FrameMoment& m : moments)
       if (m.time >= 0.1 * length) line.add(m.time / length, value(m) - value(moments.front()));
     return line.slope();
   }
@@ -111,7 +111,7 @@ struct Run {
 
 /// Mean hoop stress over the section, and rho spin^2 times the mean of r^2. The centrifugal force of half a
 /// ring is balanced by its two cuts, for any material law.
-void compare_hoop(const Model& model, ConstNodeField u, double spin, Run& run) {
+void compare_hoop(const Model& model, ConstNodeField u, double spin, FrameRun& run) {
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
   const AreaMoments section = area_moments(block.section);
   double force = 0;
@@ -124,11 +124,11 @@ void compare_hoop(const Model& model, ConstNodeField u, double spin, Run& run) {
   run.wanted_hoop = kSteelDensity * spin * spin * second;
 }
 
-Moment moment_of(const Model& model, const Simulation& simulation) {
+FrameMoment moment_of(const Model& model, const Simulation& simulation) {
   const Sample& sample = simulation.sample();
   const ConstNodeField u = simulation.displacement();
   const MeanMotion mean = model.wheelset->mean_motion(u, simulation.velocity(), simulation.wheel());
-  Moment m;
+  FrameMoment m;
   m.step = static_cast<double>(simulation.steps());
   m.time = simulation.time();
   m.mass_centre = simulation.wheel().origin + mean.displacement;
@@ -155,14 +155,14 @@ double step_on_short_way(Ring ring) {
   return model.scene.motion->step_safety * step_limit(model).stable_step;
 }
 
-Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress) {
+FrameRun run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress) {
   Model model(ring.scene());
   const Preload preload = solve_preload(model, steady_motion(model), progress);
-  WholeRun whole = whole_run(model, preload, kSamples, wanted);
+  WholeRun whole = whole_run(model, preload, kCurveSamples, wanted);
   const Simulation& simulation = whole.simulation;
   progress(fmt::format("{} elements, {} steps of {:.3e} s, {:.3g} m", model.elements(), whole.steps,
                        simulation.dt(), ring.way));
-  Run run;
+  FrameRun run;
   run.mass = model.wheelset->mass();
   run.inertia = model.wheelset->inertia();
   const auto started = std::chrono::steady_clock::now();
@@ -174,7 +174,7 @@ Run run_ring(const Ring& ring, std::int64_t wanted, const ProgressText& progress
     }
     if (run.moments.size() % 100 != 0) return;
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;
-    const Moment& m = run.moments.back();
+    const FrameMoment& m = run.moments.back();
     progress(fmt::format("step {:.0f}, {:.1f} us a step, mean stress {:.6f} MPa, spin {:.9f} rad/s", m.step,
                          1e6 * passed.count() / m.step, 1e-6 * m.mean_stress, m.spin));
   });
@@ -202,14 +202,14 @@ friction = 0
                      fmt::arg("load", load));
 }
 
-Figure drift_figure(const std::string& title, const Run& run) {
+Figure drift_figure(const std::string& title, const FrameRun& run) {
   Series mean{"mean", {}, {}, Stroke::solid};
   Series largest{"largest", {}, {}, Stroke::dashed};
   Series spin{"spin", {}, {}, Stroke::solid};
   Series speed{"speed", {}, {}, Stroke::dashed};
   Series residual{"residual", {}, {}, Stroke::solid};
-  const Moment& first = run.moments.front();
-  for (const Moment& m : run.moments) {
+  const FrameMoment& first = run.moments.front();
+  for (const FrameMoment& m : run.moments) {
     for (Series* s : {&mean, &largest, &spin, &speed, &residual}) s->x.push_back(m.step);
     mean.y.push_back(1e-6 * m.mean_stress);
     largest.y.push_back(1e-6 * m.largest_stress);
@@ -235,23 +235,23 @@ struct DriftBounds {
   std::optional<double> energy;
 };
 
-void add_drifts(const std::string& name, const Run& run, const DriftBounds& bounds, CaseResult& result) {
-  const Moment& first = run.moments.front();
-  const Moment& last = run.moments.back();
-  const auto relative = [&](double Moment::*value) {
-    return run.trend([&](const Moment& m) { return m.*value; }) / (first.*value);
+void add_drifts(const std::string& name, const FrameRun& run, const DriftBounds& bounds, CaseResult& result) {
+  const FrameMoment& first = run.moments.front();
+  const FrameMoment& last = run.moments.back();
+  const auto relative = [&](double FrameMoment::*value) {
+    return run.trend([&](const FrameMoment& m) { return m.*value; }) / (first.*value);
   };
   double worst = 0;
-  for (const Moment& m : run.moments) worst = std::max(worst, std::abs(m.residual));
+  for (const FrameMoment& m : run.moments) worst = std::max(worst, std::abs(m.residual));
   const double way = first.speed * (last.time - first.time);
   const Vec3 off = last.mass_centre - first.mass_centre - Vec3{way, 0, 0};
   const auto add = [&](const char* quantity, double value, std::optional<double> bound) {
     result.findings.push_back({name + ": " + quantity, "-", value, 0, bound, true});
   };
-  add("trend of the mean stress", relative(&Moment::mean_stress), bounds.stress);
-  add("trend of the largest stress", relative(&Moment::largest_stress), bounds.stress);
-  add("trend of the spin", relative(&Moment::spin), bounds.speed);
-  add("trend of the speed", relative(&Moment::speed), bounds.speed);
+  add("trend of the mean stress", relative(&FrameMoment::mean_stress), bounds.stress);
+  add("trend of the largest stress", relative(&FrameMoment::largest_stress), bounds.stress);
+  add("trend of the spin", relative(&FrameMoment::spin), bounds.speed);
+  add("trend of the speed", relative(&FrameMoment::speed), bounds.speed);
   add("mass centre beside its straight way / way", std::hypot(off.x, off.z) / way, bounds.way);
   add("largest energy residual / kinetic energy", worst / run.kinetic, bounds.energy);
 }
@@ -260,7 +260,7 @@ void spin_freely(const VerifyInputs& inputs, const ProgressText& progress, CaseR
   Ring ring{inputs["radius"], inputs["element_size"], inputs["speed"], false, 1, 0, ""};
   const auto steps = std::llround(inputs["steps"]);
   ring.way = ring.speed * step_on_short_way(ring) * static_cast<double>(steps);
-  const Run run = run_ring(ring, steps, progress);
+  const FrameRun run = run_ring(ring, steps, progress);
   result.findings.push_back({"free: mean hoop stress against half a ring's balance", "MPa",
                              1e-6 * run.hoop_stress, 1e-6 * run.wanted_hoop, 0.01});
   // Nothing acts on the ring: only rounding and the preload's residual remain.
@@ -284,21 +284,21 @@ void roll_without_friction(const VerifyInputs& inputs, const ProgressText& progr
   ring.more = ground(ring, load);
   ring.way = ring.speed * step_on_short_way(ring) * static_cast<double>(steps);
   ring.more = ground(ring, load);
-  const Run run = run_ring(ring, steps, progress);
+  const FrameRun run = run_ring(ring, steps, progress);
   // Both meshes pass one another like gears. That shakes undamped bodies more and more and slowly exchanges
   // spin for speed, to and fro. The balance of energy does not book material damping.
   const auto energy = ring.damping > 0 ? std::nullopt : std::optional(1e-6);
   add_drifts("rolling", run, {0.01, {}, 1e-3, energy}, result);
   const double time = run.moments.back().time;
-  const double pull = run.mass * run.trend([](const Moment& m) { return m.speed; }) / time;
-  const double moment = run.inertia * run.trend([](const Moment& m) { return m.spin; }) / time;
+  const double pull = run.mass * run.trend([](const FrameMoment& m) { return m.speed; }) / time;
+  const double moment = run.inertia * run.trend([](const FrameMoment& m) { return m.spin; }) / time;
   result.findings.push_back({"rolling: force that changes the speed / F_N", "-", pull / load, 0, 2e-4, true});
   result.findings.push_back({"rolling: moment that changes the spin / (F_N radius)", "-",
                              moment / (load * ring.radius), 0, 2e-4, true});
   result.findings.push_back({"rolling: resistance by the lead of the contact forces / F_N", "-",
                              run.moments.back().loss / (ring.way * load), 0, 1e-4, true});
-  const auto every = [](const Moment&) { return true; };
-  const Statistics force = statistics(run.moments, every, [](const Moment& m) { return m.force; });
+  const auto every = [](const FrameMoment&) { return true; };
+  const Statistics force = statistics(run.moments, every, [](const FrameMoment& m) { return m.force; });
   result.findings.push_back({"rolling: mean F_N", "kN", 1e-3 * force.mean, 1e-3 * load, 1e-3});
   result.figures.push_back(drift_figure("A wheel that rolls without friction", run));
 }

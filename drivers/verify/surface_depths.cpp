@@ -17,14 +17,14 @@ namespace tread {
 namespace {
 
 /// A depth on one of the surfaces and its place from the patch's middle.
-struct Shape {
+struct SurfaceCase {
   const char* name;
   bool edged;         ///< an edge lies in the patch: the pressure there has no bound in theory
   const char* table;  ///< keys of [surface.NAME]
 };
 
-const std::vector<Shape>& shapes() {
-  static const std::vector<Shape> kShapes = {
+const std::vector<SurfaceCase>& shapes() {
+  static const std::vector<SurfaceCase> kShapes = {
       {"round", false, ""},
       {"wheel over a dip", false, "kind = \"dip\"\ndepth = \"0.08 mm\"\nlength = \"40 mm\"\nat = \"5 mm\""},
       {"wheel's dip", false,
@@ -57,7 +57,7 @@ half_space::NormalContact reference(const TyreOnBlock& bodies, const Scene& scen
 CaseResult surface_depths(const VerifyInputs& inputs, const ProgressText& progress) {
   const TyreOnBlock bodies = tyre_of(inputs, false);
   CaseResult result;
-  for (const Shape& shape : shapes()) {
+  for (const SurfaceCase& shape : shapes()) {
     TyreOnBlock shaped = bodies;
     const double a = bodies.hertz_patch().semi_axis_x;
     shaped.fine = {-5 * a, 5 * a};

@@ -19,7 +19,7 @@ namespace tread {
 namespace {
 
 /// Distance and turn of the wheel.
-struct Place {
+struct WayPoint {
   double way = 0;     ///< distance of the wheel [m]
   double turned = 0;  ///< angle times radius less the distance [m]
   double force = 0;   ///< F_L / F_N [-]
@@ -71,7 +71,7 @@ double interpolate(const Curve& curve, double way) {
 }
 
 struct Transient {
-  std::vector<Place> places;
+  std::vector<WayPoint> places;
   double free_creepage = 0;  ///< [-]
   double residual = 0;       ///< residual of the energy, over the frictional work [-]
 };
@@ -103,9 +103,9 @@ Transient roll(const TyreOnBlock& bodies, const ProgressText& progress) {
 /// Creepage less free rolling: mean slope of the turned over the rolled distance, weighted by a triangle of
 /// half the base `period` [m], which hides the wheel's oscillation of that period.
 Curve creepage_curve(const Transient& transient, double period) {
-  const std::vector<Place>& places = transient.places;
+  const std::vector<WayPoint>& places = transient.places;
   std::vector<double> sum{0};
-  for (const Place& place : places) sum.push_back(sum.back() + place.turned);
+  for (const WayPoint& place : places) sum.push_back(sum.back() + place.turned);
   const double spacing = (places.back().way - places.front().way) / static_cast<double>(places.size() - 1);
   const auto box = static_cast<std::size_t>(std::lround(period / spacing));
   Curve curve;
@@ -162,7 +162,7 @@ Series shown(const char* name, const Curve& curve, double from, Stroke stroke) {
 Figure transient_figure(const Transient& transient, const Curve& ours, const TransientReference& reference,
                         double from) {
   Series force{"F_L / F_N", {}, {}, Stroke::solid};
-  for (const Place& place : transient.places) {
+  for (const WayPoint& place : transient.places) {
     force.x.push_back(1e3 * place.way);
     force.y.push_back(place.force);
   }
@@ -206,8 +206,8 @@ CaseResult transient_rolling(const VerifyInputs& inputs, const ProgressText& pro
   for (double& x : reference.curve.way) x += 0.5 * grown;  // the shift lies in the middle of the growth
   double difference = 0;
   const Statistics full = statistics(
-      transient.places, [&](const Place& place) { return place.way >= grown; },
-      [](const Place& place) { return place.force; });
+      transient.places, [&](const WayPoint& place) { return place.way >= grown; },
+      [](const WayPoint& place) { return place.force; });
   const double from = grown + window;
   const double sign = mu > 0 ? 1 : -1;
   for (std::size_t i = 0; i < ours.way.size(); ++i) {

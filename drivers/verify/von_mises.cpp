@@ -16,11 +16,11 @@ namespace tread {
 namespace {
 
 /// The half-space under the patch; an odd number of cells fits into a surface element.
-struct HalfSpace {
+struct StressedHalfSpace {
   half_space::Influence influence;
   half_space::NormalContact contact;
 
-  HalfSpace(const TyreOnBlock& bodies, double load)
+  StressedHalfSpace(const TyreOnBlock& bodies, double load)
       : influence(grid_of(bodies), bodies.elastic.alike()),
         contact(press(influence, half_space::quadratic_gap(bodies.radius, bodies.crown_radius), load)) {}
 
@@ -59,7 +59,7 @@ Pressed press_wheel(const TyreOnBlock& bodies, const ProgressText& progress) {
       static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
   const std::size_t row = strongest % grid.quad.size();
 
-  const HalfSpace half_space(bodies, bodies.load);
+  const StressedHalfSpace half_space(bodies, bodies.load);
   const std::vector<double> zero(static_cast<std::size_t>(half_space.influence.grid.size()), 0.0);
   const half_space::Tractions none{zero, zero};
   const half_space::SurfaceLoad load{half_space.influence.grid, half_space.contact.pressure, none,
@@ -85,7 +85,7 @@ Pressed press_wheel(const TyreOnBlock& bodies, const ProgressText& progress) {
 
 /// Largest box stress of steady rolling [Pa].
 double rolling_reference(const TyreOnBlock& bodies, const Rolled& rolled) {
-  const HalfSpace half_space(bodies, rolled.normal_force);
+  const StressedHalfSpace half_space(bodies, rolled.normal_force);
   const half_space::Grid& grid = half_space.influence.grid;
   const half_space::FrictionState state =
       half_space::RollingContact(half_space.influence, half_space.contact, bodies.friction)

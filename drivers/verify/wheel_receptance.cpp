@@ -21,9 +21,9 @@ namespace tread {
 namespace {
 
 using Complex = std::complex<double>;
-using Curve = std::vector<Complex>;  ///< receptance by frequency [m/N]
+using ReceptanceCurve = std::vector<Complex>;  ///< receptance by frequency [m/N]
 
-constexpr double kFirstFrequency = 100, kLastFrequency = 3000;  // [Hz]
+constexpr double kLowestFrequency = 100, kHighestFrequency = 3000;  // [Hz]
 constexpr int kFrequencies = 600;
 constexpr double kHalfAcross = 20e-3;  ///< half the width of the loaded region [m]
 constexpr double kHalfAround = 25e-3;  ///< half its length around the tread [m]
@@ -57,8 +57,8 @@ double cosine_coefficient(int n, double half) {
 std::vector<Complex> variables(double decay) {
   std::vector<Complex> s;
   for (int i = 0; i <= kFrequencies; ++i)
-    s.emplace_back(decay, 2 * std::numbers::pi * kFirstFrequency *
-                              std::pow(kLastFrequency / kFirstFrequency, 1.0 * i / kFrequencies));
+    s.emplace_back(decay, 2 * std::numbers::pi * kLowestFrequency *
+                              std::pow(kHighestFrequency / kLowestFrequency, 1.0 * i / kFrequencies));
   return s;
 }
 
@@ -118,8 +118,8 @@ double displacement(const LoadedRegion& region, int component, const Simulation&
 
 /// Receptance from the step: an impulse on the region, and the transform of the region's velocity, which ends
 /// with less of a step than its drifting displacement.
-Curve receptance_of_step(const Model& model, const LoadedRegion& region, int component,
-                         const std::vector<Complex>& s, const ProgressText& progress) {
+ReceptanceCurve receptance_of_step(const Model& model, const LoadedRegion& region, int component,
+                                   const std::vector<Complex>& s, const ProgressText& progress) {
   constexpr double kImpulse = 1;      // [N s]
   constexpr double kInterval = 5e-6;  // most between samples [s]
   Preload rest;
@@ -138,7 +138,7 @@ Curve receptance_of_step(const Model& model, const LoadedRegion& region, int com
   }
   const auto steps = static_cast<std::int64_t>(std::ceil(model.scene.motion->duration / stable));
   progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), steps, stable));
-  Curve out(s.size());
+  ReceptanceCurve out(s.size());
   const double interval = static_cast<double>(every) * stable;
   double before = 0;
   while (simulation.steps() < steps) {
@@ -153,8 +153,8 @@ Curve receptance_of_step(const Model& model, const LoadedRegion& region, int com
 }
 
 /// Receptances in all directions by harmonics.
-std::array<Curve, 3> receptance_of_harmonics(const Model& model, const std::vector<Complex>& s,
-                                             const ProgressText& progress) {
+std::array<ReceptanceCurve, 3> receptance_of_harmonics(const Model& model, const std::vector<Complex>& s,
+                                                       const ProgressText& progress) {
   const auto part = [&](int block) {
     const SweptBlock& b = model.mesh.blocks[static_cast<std::size_t>(block)];
     return SolidPart{b.section, b.materials.front()};
@@ -170,8 +170,8 @@ std::array<Curve, 3> receptance_of_harmonics(const Model& model, const std::vect
   const double half = kHalfAround / model.wheel_radius();
   const int most = static_cast<int>(3 * std::numbers::pi / half);
   progress(fmt::format("{} harmonics of {} unknowns", most + 1, solid.unknowns()));
-  std::array<Curve, 3> out;
-  out.fill(Curve(s.size()));
+  std::array<ReceptanceCurve, 3> out;
+  out.fill(ReceptanceCurve(s.size()));
   for (int waves = 0; waves <= most; ++waves) {
     constexpr int kSlow = 12;  // waves up to which a harmonic resonates in the band
     const double share = std::pow(cosine_coefficient(waves, half), 2);
@@ -183,7 +183,7 @@ std::array<Curve, 3> receptance_of_harmonics(const Model& model, const std::vect
 }
 
 /// Norm of the difference over the reference's.
-double difference(const Curve& ours, const Curve& reference) {
+double difference(const ReceptanceCurve& ours, const ReceptanceCurve& reference) {
   double apart = 0, whole = 0;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     apart += std::norm(ours[i] - reference[i]);
@@ -193,7 +193,7 @@ double difference(const Curve& ours, const Curve& reference) {
 }
 
 /// Frequencies of the maxima that exceed the valleys beside them by `prominence` [Hz].
-std::vector<double> peaks(const Curve& curve, const std::vector<Complex>& s, double prominence) {
+std::vector<double> peaks(const ReceptanceCurve& curve, const std::vector<Complex>& s, double prominence) {
   std::vector<double> out;
   double valley = std::abs(curve.front());
   std::size_t top = 0;  // of the rise since the last valley; 0: none
@@ -214,8 +214,8 @@ std::vector<double> peaks(const Curve& curve, const std::vector<Complex>& s, dou
   return out;
 }
 
-Figure receptance_figure(const std::vector<Complex>& s, const std::array<Curve, 3>& ours,
-                         const std::array<Curve, 3>& reference) {
+Figure receptance_figure(const std::vector<Complex>& s, const std::array<ReceptanceCurve, 3>& ours,
+                         const std::array<ReceptanceCurve, 3>& reference) {
   Figure figure;
   figure.title = "Receptance of the free half wheelset at the contact patch";
   figure.x_label = "Frequency [Hz]";
@@ -238,9 +238,9 @@ CaseResult wheel_receptance(const VerifyInputs& inputs, const ProgressText& prog
   const double decay = inputs["decay"];
   const Model model(free_wheelset(inputs["element_size"], std::log(1 / kLeft) / decay));
   const std::vector<Complex> s = variables(decay);
-  const std::array<Curve, 3> reference = receptance_of_harmonics(model, s, progress);
+  const std::array<ReceptanceCurve, 3> reference = receptance_of_harmonics(model, s, progress);
   const LoadedRegion region = loaded_region(model);
-  std::array<Curve, 3> ours;
+  std::array<ReceptanceCurve, 3> ours;
   CaseResult result;
   for (std::size_t d = 0; d < 3; ++d) {
     const std::string name = kDirections[d].name;

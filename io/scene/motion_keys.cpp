@@ -117,15 +117,18 @@ void add_corrugation(Keys& keys) {
     return quantity(name, effects, at(&Scene::corrugation, member), kLength, unit, range, description);
   };
   const auto random = [](Key key) { return only_with("corrugation.kind", "random", std::move(key)); };
-  keys.push_back(choice("corrugation.kind", {Effect::surface},
-                        at(&Scene::corrugation, &CorrugationSpec::kind), {"sine", "table", "random"},
-                        "Sine waves, measured depths, or random roughness"));
+  keys.push_back(
+      choice("corrugation.kind", {Effect::surface}, at(&Scene::corrugation, &CorrugationSpec::kind),
+             {"sine", "table", "map", "random"},
+             "Sine waves, measured depths along, measured depths along and across, or random roughness"));
   keys.push_back(sine(length("corrugation.wavelength", {Effect::surface}, &CorrugationSpec::wavelength, "mm",
                              above(0, 10), "Wavelength L")));
   keys.push_back(sine(length("corrugation.depth", {Effect::surface}, &CorrugationSpec::depth, "mm",
                              above(0, 0.01), "Depth d_m from crest to trough")));
-  keys.push_back(length("corrugation.width", {Effect::surface}, &CorrugationSpec::width, "mm", above(0, 0.1),
-                        "Half width W across the rail, where the depth has fallen to zero"));
+  keys.push_back(
+      only_with("corrugation.kind", std::vector<std::string>{"sine", "table", "random"},
+                length("corrugation.width", {Effect::surface}, &CorrugationSpec::width, "mm", above(0, 0.1),
+                       "Half width W across the rail, where the depth has fallen to zero")));
   keys.push_back(length("corrugation.start", {Effect::surface}, &CorrugationSpec::start, "m",
                         from(-1000, 1000), "x_s where it starts, a sine at a crest"));
   keys.push_back(
@@ -148,11 +151,13 @@ void add_corrugation(Keys& keys) {
                         at(&Scene::corrugation, &CorrugationSpec::apply), {"nodes", "gap"},
                         "Moved nodes, or depths added to the contact gap"));
   keys.push_back(only_with(
-      "corrugation.kind", "table",
+      "corrugation.kind", std::vector<std::string>{"table", "map"},
       required(
           file("corrugation.file", {Effect::surface}, at(&Scene::corrugation, &CorrugationSpec::file),
                "File of two columns, x from the start and depth positive downwards, after a line such as "
-               "`# x [m]  d [mm]`"))));
+               "`# x [m]  d [mm]`; map: three, `# x [m]  y [mm]  d [um]`, each x with each y once, or HDF5 "
+               "with x, "
+               "y and depth; y counts from corrugation.centre"))));
 }
 
 void add_wear(Keys& keys) {
@@ -169,6 +174,9 @@ void add_wear(Keys& keys) {
                           "Shortest wave that wear changes; shorter waves count as noise of the mesh"));
   keys.push_back(quantity("wear.longest", {Effect::wear}, at(&Scene::wear, &WearSpec::longest), kLength, "mm",
                           above(0, 10), "Longest wave that wear changes"));
+  keys.push_back(flag("wear.across", {Effect::wear}, at(&Scene::wear, &WearSpec::across),
+                      "Each row of nodes across the rail wears by its own work; without it the depth keeps its "
+                      "parabola across"));
 }
 
 void add_impacts(Keys& keys) {

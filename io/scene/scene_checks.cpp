@@ -307,7 +307,7 @@ class Checker {
   }
 
   void check_corrugation(const RailSpec& rail, const CorrugationSpec& corrugation) {
-    const bool table = corrugation.kind == "table";
+    const bool table = corrugation.in_file();
     if (corrugation.kind == "sine")
       require(corrugation.wavelength <= corrugation.length + kLengthTolerance,
               {"corrugation.wavelength", "corrugation.length"},

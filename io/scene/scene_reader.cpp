@@ -254,6 +254,12 @@ class SceneBuilder {
     if (scene_.corrugation && scene_.corrugation->kind == "table")
       read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
                    scene_.corrugation->table_depth);
+    if (scene_.corrugation && scene_.corrugation->kind == "map") {
+      const auto read = [&](const std::string& text, const std::string& name) {
+        set_depths(text, name, *scene_.corrugation, problems_);
+      };
+      read_file_of("corrugation.file", read, read_map_text);
+    }
     const double wheel_radius = scene_.wheel ? 0.5 * scene_.wheel->diameter : 0;
     for (auto& [table, surface] : scene_.surfaces) {
       const auto read = [&, &of = surface](const std::string& text, const std::string& name) {

@@ -64,6 +64,14 @@ std::string read_map_text(const std::filesystem::path& path) {
   return is_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
 }
 
+void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
+                std::vector<Problem>& problems) {
+  GridColumns grid = parse_grid(text, name, problems);
+  corrugation.table_x = std::move(grid.x);
+  corrugation.map_y = std::move(grid.y);
+  corrugation.table_depth = std::move(grid.z);
+}
+
 void set_depths(const std::string& text, const std::string& name, double wheel_radius, SurfaceSpec& surface,
                 std::vector<Problem>& problems) {
   if (surface.kind == "map") {

@@ -452,6 +452,7 @@ const std::vector<Change>& changes() {
       {"wear.change", "0.1"},
       {"wear.shortest", "40 mm"},
       {"wear.longest", "120 mm"},
+      {"wear.across", "true"},
       {"pulse.velocity", "2 m/s", "bar"},
       {"pulse.length", "0.2 m", "bar"},
       {"hammer.position", "0.4 m", "hammer"},

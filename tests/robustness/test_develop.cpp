@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -74,6 +75,24 @@ TEST_F(Develop, LeavesProfilesSpectraAndAReport) {
   EXPECT_TRUE(has(content_of(whole / "passage-0002/report.html"), "fork of"));
   // Passages come one after the other, each on all cores.
   EXPECT_EQ(number_in(read_json(whole / "passage-0002/summary.json"), "threads"), machine_cores());
+}
+
+TEST_F(Develop, RowsAcrossTheRailWearByThemselves) {
+  const std::string fine = "--set \"scene.element_size=4 mm\"";
+  const std::string rows = kCorrugation + kWear + "across = true\n";
+  ASSERT_EQ(call(develop(folder_ / "rows", 1, rows, fine)), 0) << errors();
+  EXPECT_TRUE(has(content_of(folder_ / "rows/profiles/0001.txt"), "# x [m]  y [m]  d [m]"));
+  EXPECT_TRUE(fs::exists(folder_ / "rows/figures/rows.svg"));
+  // The same command adds a passage over the map; the rows of earlier passages are known.
+  ASSERT_EQ(call(develop(folder_ / "rows", 2, rows, fine)), 0) << errors();
+  EXPECT_TRUE(has(content_of(folder_ / "rows/passage-0002/scene.resolved.toml"), "kind = \"map\""));
+  // Few passages keep the parabola nearly; differences within two elements across are left out.
+  ASSERT_EQ(call(develop(folder_ / "parabola", 2, kCorrugation + kWear, fine)), 0) << errors();
+  const auto growth = [&](const char* folder) {
+    const JsonRecord result = read_json(folder_ / folder / "development.json");
+    return number_in(result, "bands.0.growth_of_profile_per_passage").value();
+  };
+  EXPECT_NEAR(growth("rows"), growth("parabola"), 0.2 * std::abs(growth("parabola")));
 }
 
 TEST_F(Develop, GoesOnWhereItWasStopped) {

@@ -115,7 +115,7 @@ TEST(SceneErrors, Types) {
        "cylinder, or a "
        "file"},
       {"[corrugation]\nkind = \"square\"",
-       "x.toml:4:1: corrugation.kind: \"square\" is unknown; choose from: sine, table, random"},
+       "x.toml:4:1: corrugation.kind: \"square\" is unknown; choose from: sine, table, map, random"},
       {"[material.steel]\ndamping = { kind = \"rayleigh_beta\", value = 1e-8 }",
        "x.toml:4:1: material.steel.damping: 1e-08 has no unit; expected a time, such as \"1e-08 s\" (units: "
        "s, ms, us, "
@@ -271,7 +271,9 @@ TEST(SceneErrors, KeysWithoutEffect) {
       {"[corrugation]\nkind = \"table\"\ndepth = \"1 mm\"",
        "2 problems\nx.toml:3:2: corrugation.file: is missing; [corrugation] needs a value: File of two "
        "columns, x from "
-       "the start and depth positive downwards, after a line such as `# x [m]  d [mm]`\n"
+       "the start and depth positive downwards, after a line such as `# x [m]  d [mm]`; map: three, "
+       "`# x [m]  y [mm]  d [um]`, each x with each y once, or HDF5 with x, y and depth; y counts from "
+       "corrugation.centre\n"
        "x.toml:5:1: corrugation.depth: has an effect only with corrugation.kind = \"sine\""},
   });
 }

@@ -143,5 +143,26 @@ TEST(Corrugation, RoughnessHoldsTheWavesOfItsBandAlone) {
   EXPECT_GT(inside / 16, 0.5e-6);
 }
 
+TEST(Corrugation, AMapKeepsItsOwnShapeAcross) {
+  const Corrugation sine({0.08, 0.14e-3}, 2.4, 0.56, 2e-3, 30e-3);
+  std::vector<double> x, y, depth;
+  for (int i = 0; i <= 560; ++i) x.push_back(1e-3 * i);
+  for (int j = -20; j <= 20; ++j) y.push_back(1.5e-3 * j);
+  for (const double across : y)
+    for (const double along : x) depth.push_back(sine.depth(2.4 + along, 2e-3 + across));
+  const Corrugation map(measured_map(x, y, depth, 2e-3), 2.4, 2e-3, 30e-3);
+  EXPECT_EQ(map.first(), 2.4);
+  EXPECT_NEAR(map.last(), 2.96, 1e-12);
+  EXPECT_NEAR(map.deepest(), 0.14e-3, 1e-9);
+  for (const double at : {2.3999, 2.4103, 2.5555, 2.9601})
+    for (const double across : {-0.03, -0.0121, 0.0, 0.002, 0.0177, 0.0321})
+      EXPECT_NEAR(map.depth(at, across), sine.depth(at, across), 0.2e-6) << at << " " << across;
+  // Another row far from the middle is another surface.
+  EXPECT_FALSE(first_difference(map, sine, 3, 0.5e-6));
+  for (std::size_t i = 0; i < x.size(); ++i) depth[5 * x.size() + i] += 1e-6 * std::min(1.0, 1e2 * x[i]);
+  const Corrugation other(measured_map(x, y, depth, 2e-3), 2.4, 2e-3, 30e-3);
+  EXPECT_TRUE(first_difference(map, other, 3, 0.5e-6));
+}
+
 }  // namespace
 }  // namespace tread

@@ -122,6 +122,11 @@ TEST(Growth, TheResponseIsFoundWithItsPhase) {
   }
 }
 
+/// Number of the depth at x [m].
+std::size_t place_of(double x) {
+  return static_cast<std::size_t>(std::lround((x - kStart) / 1e-3));
+}
+
 /// A rail whose work follows its depth by `response` [J/m3], after some passages.
 Development developed(double response, double change, int passages) {
   Development development;
@@ -130,13 +135,12 @@ Development developed(double response, double change, int passages) {
   };
   development.plan = {kPerWork, change, kBand, profile_of(roughness)};
   development.profile = development.plan.start;
-  development.smooth = work_of([](double, int i) { return kMean + 50 * (i % 3); });
+  development.smooth.mean = work_of([](double, int i) { return kMean + 50 * (i % 3); });
   for (int k = 0; k < passages; ++k) {
     const WornProfile& profile = development.profile;
-    PassageWork work = development.smooth;
-    for (std::size_t i = 0; i < work.x.size(); ++i)
-      work.work[i] +=
-          response * profile.depth[static_cast<std::size_t>(std::lround((work.x[i] - kStart) / 1e-3))];
+    SurfaceWork work = development.smooth;
+    for (std::size_t i = 0; i < work.mean.x.size(); ++i)
+      work.mean.work[i] += response * profile.depth[place_of(work.mean.x[i])];
     development.add(work);
   }
   return development;
@@ -164,6 +168,80 @@ TEST(Development, ProfilesGrowAsTheirWorkSays) {
     EXPECT_EQ(deepest(bands)->wavelength, 0.08);
     EXPECT_NE(verdict(development).find(response > 0 ? "feeds" : "alleviates"), std::string::npos);
   }
+}
+
+/// Rows 1 mm apart; the work falls to either side of the middle one.
+SurfaceWork work_of_rows() {
+  SurfaceWork work;
+  work.mean = work_of([](double, int) { return 0.0; });
+  for (const double share : {0.3, 0.7, 1.0, 0.7, 0.3})
+    work.rows.push_back({1e-3 * (static_cast<double>(work.rows.size()) - 2), 1e-3, 0,
+                         work_of([&](double, int i) { return share * (kMean + 50 * (i % 3)); }).work});
+  work.average();
+  return work;
+}
+
+CorrugationSpec wave_spec() {
+  CorrugationSpec spec;
+  spec.start = kStart;
+  spec.length = kLength;
+  spec.centre = 0;
+  return spec;
+}
+
+/// One passage with work by row in proportion to depth, response and the row's part, and `noise` [J/m2] of
+/// rows that alternate.
+Development developed_rows(double response, double noise, double reach) {
+  Development development;
+  const Corrugation waves({0.08, 0.14e-3}, kStart, kLength, 0, 0.03);
+  development.plan = {kPerWork, 0.05, kBand, profile_of([&](double x) { return waves.depth(x, 0); }), reach};
+  development.begin(work_of_rows(), wave_spec());
+  SurfaceWork work = development.smooth;
+  for (std::size_t j = 0; j < work.rows.size(); ++j)
+    for (std::size_t i = 0; i < work.mean.x.size(); ++i) {
+      const double x = work.mean.x[i];
+      work.rows[j].work[i] +=
+          work.rows[j].work[i] / kMean * response * development.rows->depth[j][place_of(x)] +
+          (j % 2 == 0 ? 1 : -1) * noise * wave(x, 0.08);
+    }
+  work.average();
+  development.add(work);
+  return development;
+}
+
+/// Part of the wave of 80 mm in a row's change.
+double change_of(const Development& before, const Development& after, std::size_t row) {
+  double sum = 0;
+  const WornProfile& profile = after.profile;
+  for (std::size_t i = 0; i < profile.depth.size(); ++i)
+    sum -= (after.rows->depth[row][i] - before.rows->depth[row][i]) * wave(profile.x(i), 0.08);
+  return 2 * sum / static_cast<double>(profile.depth.size());
+}
+
+TEST(Development, EachRowWearsByItsOwnWork) {
+  Development before;
+  before.plan = developed_rows(3e7, 0, 1e-4).plan;
+  before.begin(work_of_rows(), wave_spec());
+  EXPECT_EQ(before.rows->y, (std::vector<double>{-2e-3, -1e-3, 0, 1e-3, 2e-3}));
+  EXPECT_NEAR(before.rows->share[2], 1.0 / 3, 1e-12);
+  const Development after = developed_rows(3e7, 0, 1e-4);
+  const double middle = change_of(before, after, 2);
+  EXPECT_GT(middle, 0);
+  EXPECT_NEAR(change_of(before, after, 1), 0.7 * middle, 0.01 * middle);
+  EXPECT_NEAR(change_of(before, after, 4), 0.3 * middle, 0.01 * middle);
+  // The largest change is 5 % of the range of all rows.
+  EXPECT_NEAR(range_of_rows(before.rows->depth), 0.14e-3, 1e-9);
+  double most = 0;
+  for (std::size_t i = 0; i < after.profile.depth.size(); ++i)
+    most = std::max(most, std::abs(after.rows->depth[2][i] - before.rows->depth[2][i]));
+  EXPECT_NEAR(most, 0.5 * 0.05 * 0.14e-3, 0.1 * most);
+}
+
+TEST(Development, RowsThatAlternateAreNoise) {
+  const Development before = developed_rows(3e7, 0, 2e-3);
+  const Development after = developed_rows(3e7, 400, 2e-3);
+  for (const std::size_t row : {1U, 2U, 3U})
+    EXPECT_NEAR(change_of(before, after, row), 0, 1e-3 * 0.07e-3 * 0.05) << row;
 }
 
 TEST(Development, HalfTheChangeGrowsAlike) {

@@ -37,20 +37,18 @@ std::string passage_text(const Development& development) {
 void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
-  development.profile = development.plan.start;
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");
   const DevelopmentFolder folder(options.output, resolved, {options.from, options.threads, options.passages});
   interruption.defer();
-  development.smooth = folder.pass(0, nullptr, progress);
+  development.begin(folder.pass(0, nullptr, progress), *resolved.scene.corrugation);
   for (int number = 1; number <= options.passages; ++number) {
-    const WornProfile before = development.profile;
-    development.add(folder.pass(number, &before, progress));
+    development.add(folder.pass(number, &development, progress));
     progress.say(passage_text(development));
     leave(folder, development, resolved, options.origin);
   }
-  folder.keep_profile(options.passages, development.profile);
+  folder.keep_profile(options.passages, development);
   if (options.json)
     fmt::print("{}", development_json(development));
   else

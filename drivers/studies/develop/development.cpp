@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kSpacing = 1e-3;       ///< largest spacing of the profile's depths [m]
 constexpr double kElementsPerWave = 4;  ///< least number of elements in a wave that wears
+constexpr double kElementsAcross = 2;   ///< elements across within which the work counts as noise
 constexpr double kWayBeyond = 0.02;     ///< least distance that the wheel rolls beyond the corrugation [m]
 constexpr double kTellingDepth = 0.25;  ///< least depth of a telling band, over that of the deepest band
 constexpr double kTellingCoherence = 0.5;
@@ -74,23 +75,54 @@ WearPlan wear_plan(const Scene& scene) {
   return {wear.coefficient / scene.head_material().density,
           wear.change,
           {wear.shortest, wear.longest},
-          sampled(corrugation)};
+          sampled(corrugation),
+          wear.across ? std::optional(kElementsAcross * mesh_sizes(scene).contact) : std::nullopt};
 }
 
-void Development::add(const PassageWork& work) {
+double Development::centre(const CorrugationSpec& corrugation) const {
+  double middle = 0;
+  for (const WorkRow& row : smooth.rows) middle += row.share * row.y;
+  return corrugation.centre.value_or(middle);
+}
+
+void Development::begin(SurfaceWork over_smooth, const CorrugationSpec& corrugation) {
+  smooth = std::move(over_smooth);
+  profile = plan.start;
+  if (!plan.reach_across) return;
+  const Corrugation shape = corrugation_of(corrugation, centre(corrugation));
+  rows.emplace();
+  for (const WorkRow& row : smooth.rows) {
+    rows->y.push_back(row.y);
+    rows->share.push_back(row.share);
+    rows->depth.emplace_back();
+    for (std::size_t i = 0; i < profile.depth.size(); ++i)
+      rows->depth.back().push_back(shape.depth(profile.x(i), row.y));
+  }
+  profile = plan.start = rows->mean(profile);
+}
+
+void Development::add(const SurfaceWork& work) {
   WornPassage passage;
   passage.profile = profile;
-  passage.work = without(work, smooth);
+  passage.work = without(work.mean, smooth.mean);
   passage.uneven = uneven_work(passage.work, profile, plan.band);
   passage.bands = growth_bands(profile, passage.work, plan.band);
-  WearStep step = worn(profile, passage.uneven, plan.per_work, plan.change);
-  passage.passages = step.passages;
-  profile = std::move(step.profile);
+  if (rows) {
+    const auto uneven = uneven_rows(work, smooth, profile, plan.band, *plan.reach_across);
+    passage.passages =
+        passages_for(plan.change, range_of_rows(rows->depth), plan.per_work, range_of_rows(uneven));
+    rows->add(passage.passages * plan.per_work, uneven);
+    profile = rows->mean(profile);
+  } else {
+    WearStep step = worn(profile, passage.uneven, plan.per_work, plan.change);
+    passage.passages = step.passages;
+    profile = std::move(step.profile);
+  }
   passages.push_back(std::move(passage));
 }
 
 double Development::mean_work() const {
-  return tread::mean_work(smooth, plan.start, plan.band);
+  return tread::mean_work(smooth.mean, plan.start, plan.band);
 }
 
 double Development::real_passages() const {
@@ -100,7 +132,7 @@ double Development::real_passages() const {
 }
 
 std::vector<GrowthBand> Development::bands_now() const {
-  PassageWork none = smooth;
+  PassageWork none = smooth.mean;
   std::fill(none.work.begin(), none.work.end(), 0.0);
   return growth_bands(profile, none, plan.band);
 }

@@ -7,6 +7,7 @@
 #include "core/scene.hpp"
 #include "drivers/studies/develop/growth.hpp"
 #include "drivers/studies/develop/wear.hpp"
+#include "drivers/studies/develop/worn_rows.hpp"
 
 namespace tread {
 
@@ -16,6 +17,9 @@ struct WearPlan {
   double change = 0;    ///< largest change of the depth by one simulated passage [-]
   WearBand band;
   WornProfile start;  ///< profile of the scene's corrugation
+  /// Distance across the rail within which differences of the work are noise of the mesh [m]; absent: the
+  /// depth keeps its shape across.
+  std::optional<double> reach_across = {};
 };
 
 /// Wear plan of a scene. Throws InputError, with the way out, if the scene lacks data that a development
@@ -25,7 +29,7 @@ WearPlan wear_plan(const Scene& scene);
 /// A simulated passage.
 struct WornPassage {
   WornProfile profile;         ///< profile under the passage
-  PassageWork work;            ///< work beyond that of the smooth rail [J/m2]
+  PassageWork work;            ///< work beyond that of the smooth rail, averaged across [J/m2]
   std::vector<double> uneven;  ///< part of the work that wears the profile unevenly [J/m2]
   double passages = 0;         ///< number of real passages that it stands for
   std::vector<GrowthBand> bands;
@@ -34,12 +38,17 @@ struct WornPassage {
 /// All passages so far.
 struct Development {
   WearPlan plan;
-  PassageWork smooth;  ///< the passage over the smooth rail
+  SurfaceWork smooth;  ///< the passage over the smooth rail
   std::vector<WornPassage> passages;
-  WornProfile profile;  ///< profile after the passages
+  WornProfile profile;           ///< profile after the passages; by rows: their mean
+  std::optional<WornRows> rows;  ///< depths by row after the passages, with WearPlan::reach_across
 
+  /// Begins with the passage over the smooth rail and the scene's corrugation.
+  void begin(SurfaceWork over_smooth, const CorrugationSpec& corrugation);
+  /// y of the corrugation's middle: as stated, else the middle of the smooth rail's work [m].
+  double centre(const CorrugationSpec& corrugation) const;
   /// Adds the work of a passage over `profile` and lets the profile wear.
-  void add(const PassageWork& work);
+  void add(const SurfaceWork& work);
 
   double mean_work() const;      ///< mean work over the smooth rail [J/m2]
   double real_passages() const;  ///< number of real passages that all simulated ones stand for

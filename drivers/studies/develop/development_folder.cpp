@@ -90,9 +90,55 @@ std::string profile_table(const WornProfile& profile) {
   return {text.data(), text.size()};
 }
 
+/// Depths of all rows, y from `centre` [m].
+std::string map_table(const WornProfile& profile, const WornRows& rows, double centre) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "# x [m]  y [m]  d [m]\n");
+  for (std::size_t j = 0; j < rows.y.size(); ++j)
+    for (std::size_t i = 0; i < profile.depth.size(); ++i)
+      fmt::format_to(out, "{} {} {}\n", static_cast<double>(i) * profile.spacing, rows.y[j] - centre,
+                     rows.depth[j][i]);
+  return {text.data(), text.size()};
+}
+
 PassageWork read_work(const fs::path& csv) {
   auto columns = read_history(csv, {{"x", "m"}, {"length", "m"}, {"frictional_work", "J/m2"}});
   return {std::move(columns[0]), std::move(columns[1]), std::move(columns[2])};
+}
+
+void write_rows(const fs::path& path, const std::vector<WorkRow>& rows) {
+  std::vector<double> y, width, work;
+  for (const WorkRow& row : rows) {
+    y.push_back(row.y);
+    width.push_back(row.width);
+    work.insert(work.end(), row.work.begin(), row.work.end());
+  }
+  replace_file(path, [&](const fs::path& part) {
+    Hdf5File file = Hdf5File::create(part);
+    const auto stations = static_cast<std::uint64_t>(rows.empty() ? 0 : rows.front().work.size());
+    file.write<double>("y", y);
+    file.write<double>("width", width);
+    file.write<double>("frictional_work", work, {rows.size(), stations});
+    for (const auto& [name, unit] : {std::pair{"y", "m"}, std::pair{"width", "m"}})
+      file.write_attribute(name, "unit", std::string(unit));
+    file.write_attribute("frictional_work", "unit", std::string("J/m2"));
+    file.close();
+  });
+}
+
+std::vector<WorkRow> read_rows(const fs::path& path) {
+  const Hdf5File file = Hdf5File::open_to_read(path);
+  const auto y = file.read<double>("y");
+  const auto width = file.read<double>("width");
+  const auto work = file.read<double>("frictional_work");
+  const std::size_t stations = y.empty() ? 0 : work.size() / y.size();
+  std::vector<WorkRow> rows;
+  for (std::size_t j = 0; j < y.size(); ++j) {
+    const auto begin = work.begin() + static_cast<std::ptrdiff_t>(j * stations);
+    rows.push_back({y[j], width[j], 0, {begin, begin + static_cast<std::ptrdiff_t>(stations)}});
+  }
+  return rows;
 }
 
 Error failure(const fs::path& folder, const PointStatus& status) {
@@ -131,11 +177,15 @@ fs::path DevelopmentFolder::work_path(int number) const {
   return folder_.path() / "work" / fmt::format("{:04}.csv", number);
 }
 
+fs::path DevelopmentFolder::rows_path(int number) const {
+  return folder_.path() / "work" / fmt::format("{:04}.h5", number);
+}
+
 fs::path DevelopmentFolder::run_path(int number) const {
   return folder_.path() / fmt::format("passage-{:04}", number);
 }
 
-std::vector<std::string> DevelopmentFolder::overrides(int number) const {
+std::vector<std::string> DevelopmentFolder::overrides(int number, const Development* before) const {
   std::vector<std::string> list = {"output.frames=0"};
   if (number == 0) {
     // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
@@ -147,22 +197,26 @@ std::vector<std::string> DevelopmentFolder::overrides(int number) const {
   }
   const CorrugationSpec& spec = *scene_.corrugation;
   const Corrugation start = corrugation_of(spec, 0);
-  list.insert(list.end(), {"corrugation.kind=table", "corrugation.apply=gap",
-                           "corrugation.file=" + profile_path(number - 1).string(),
-                           fmt::format("corrugation.start={} m", start.first()),
-                           fmt::format("corrugation.width={} m", spec.width)});
+  list.insert(list.end(), {"corrugation.apply=gap", "corrugation.file=" + profile_path(number - 1).string(),
+                           fmt::format("corrugation.start={} m", start.first())});
+  if (before->rows) {
+    list.insert(list.end(),
+                {"corrugation.kind=map", fmt::format("corrugation.centre={} m", before->centre(spec))});
+    return list;
+  }
+  list.insert(list.end(), {"corrugation.kind=table", fmt::format("corrugation.width={} m", spec.width)});
   if (spec.centre) list.push_back(fmt::format("corrugation.centre={} m", *spec.centre));
   return list;
 }
 
-void DevelopmentFolder::roll(int number, Progress& progress) const {
+void DevelopmentFolder::roll(int number, const Development* before, Progress& progress) const {
   StudyPlan plan;
   plan.folder = folder_.path();
   plan.study.scene = folder_ / (number == 0 ? kSmoothScene : kPassageScene);
   plan.threads = options_.threads;
   PlannedPoint point;
   point.name = run_path(number).filename().string();
-  point.overrides = overrides(number);
+  point.overrides = overrides(number, before);
   point.resolved = resolve_scene(plan.study.scene, point.overrides);
   point.content = scene_content(point.resolved);
   point.folder = run_path(number);
@@ -179,27 +233,38 @@ void DevelopmentFolder::roll(int number, Progress& progress) const {
   if (ended.status.state != PointState::done) throw failure(ended.folder, ended.status);
 }
 
-void DevelopmentFolder::keep_profile(int number, const WornProfile& profile) const {
-  write_text_file(profile_path(number), profile_table(profile));
+void DevelopmentFolder::keep_profile(int number, const Development& development) const {
+  const WornProfile& profile = development.profile;
+  write_text_file(profile_path(number), development.rows ? map_table(profile, *development.rows,
+                                                                     development.centre(*scene_.corrugation))
+                                                         : profile_table(profile));
 }
 
-PassageWork DevelopmentFolder::pass(int number, const WornProfile* profile, Progress& progress) const {
-  if (profile) keep_profile(number - 1, *profile);
+SurfaceWork DevelopmentFolder::pass(int number, const Development* before, Progress& progress) const {
+  if (before) keep_profile(number - 1, *before);
+  const bool by_row = scene_.wear->across;
   if (!fs::exists(work_path(number))) {
-    roll(number, progress);
+    roll(number, before, progress);
     const Corrugation stretch = corrugation_of(*scene_.corrugation, 0);
-    write_text_file(work_path(number),
-                    work_csv(work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last())));
+    const SurfaceWork work = work_of_run(run_path(number) / "surface.h5", stretch.first(), stretch.last());
+    if (by_row) write_rows(rows_path(number), work.rows);
+    write_text_file(work_path(number), work_csv(work.mean));
   }
   std::error_code ignored;
   if (number > 1) fs::remove_all(run_path(number - 1), ignored);
-  return read_work(work_path(number));
+  SurfaceWork work{read_work(work_path(number)), {}};
+  if (by_row) {
+    work.rows = read_rows(rows_path(number));
+    work.average();
+  }
+  return work;
 }
 
-PassageWork work_of_run(const fs::path& surface, double first, double last) {
+SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
   const Hdf5File file = Hdf5File::open_to_read(surface);
   const auto x = file.read<double>("/x");
   const auto length = file.read<double>("/length");
+  const auto y = file.read<double>("/y");
   const auto width = file.read<double>("/width");
   const auto work = file.read<double>("/frictional_work");
   if (x.empty() || x.front() > first || x.back() < last)
@@ -208,26 +273,15 @@ PassageWork work_of_run(const fs::path& surface, double first, double last) {
                     "be longer",
                     surface.string(), first, last));
   const std::size_t rows = width.size();
-  std::vector<std::size_t> stations;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (x[i] >= first && x[i] <= last) stations.push_back(i);
-  std::vector<double> share(rows, 0.0);  // share of a row in the stretch's work [J]
-  double whole = 0;
-  for (const std::size_t i : stations)
-    for (std::size_t row = 0; row < rows; ++row) {
-      const double part = length[i] * work[i * rows + row] * width[row];
-      share[row] += part;
-      whole += part;
-    }
-  PassageWork result;
-  for (const std::size_t i : stations) {
-    double across = 0;
-    for (std::size_t row = 0; row < rows && whole > 0; ++row)
-      across += work[i * rows + row] * share[row] / whole;
-    result.x.push_back(x[i]);
-    result.length.push_back(length[i]);
-    result.work.push_back(across);
+  SurfaceWork result;
+  for (std::size_t row = 0; row < rows; ++row) result.rows.push_back({y[row], width[row], 0, {}});
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] < first || x[i] > last) continue;
+    result.mean.x.push_back(x[i]);
+    result.mean.length.push_back(length[i]);
+    for (std::size_t row = 0; row < rows; ++row) result.rows[row].work.push_back(work[i * rows + row]);
   }
+  result.average();
   return result;
 }
 

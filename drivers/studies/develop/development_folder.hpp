@@ -25,13 +25,14 @@ class DevelopmentFolder {
   /// a development of another scene.
   DevelopmentFolder(const std::filesystem::path& path, const ResolvedScene& resolved, Options options);
 
-  /// Work of passage `number` over `profile` (null for passage 0). Runs the passage unless its work is known.
-  /// Throws InputError, NumericalError or ResourceError if the passage fails, and Interrupted.
-  PassageWork pass(int number, const WornProfile* profile, Progress& progress) const;
+  /// Work of passage `number` over the profile of `before`, the passages before it (null for passage 0). Runs
+  /// the passage unless its work is known. Throws InputError, NumericalError or ResourceError if the passage
+  /// fails, and Interrupted.
+  SurfaceWork pass(int number, const Development* before, Progress& progress) const;
 
-  /// Writes the profile after a passage, as a table for corrugation.file. The profile after passage 0 is the
-  /// scene's own.
-  void keep_profile(int number, const WornProfile& profile) const;
+  /// Writes the profile after passage `number`, as a table or map for corrugation.file. The profile after
+  /// passage 0 is the scene's own.
+  void keep_profile(int number, const Development& development) const;
 
   const RunFolder& folder() const { return folder_; }
 
@@ -39,16 +40,17 @@ class DevelopmentFolder {
   std::filesystem::path profile_path(int number) const;
   std::filesystem::path work_path(int number) const;
   std::filesystem::path run_path(int number) const;
-  std::vector<std::string> overrides(int number) const;
-  void roll(int number, Progress& progress) const;
+  std::filesystem::path rows_path(int number) const;
+  std::vector<std::string> overrides(int number, const Development* before) const;
+  void roll(int number, const Development* before, Progress& progress) const;
 
   RunFolder folder_;
   Scene scene_;
   Options options_;
 };
 
-/// Work per area of a finished run over [first, last] [m], averaged across the rail by the stretch's mean
-/// work. Throws InputError if the run has not passed the stretch.
-PassageWork work_of_run(const std::filesystem::path& surface, double first, double last);
+/// Work per area of a finished run over [first, last] [m]. Throws InputError if the run has not passed the
+/// stretch.
+SurfaceWork work_of_run(const std::filesystem::path& surface, double first, double last);
 
 }  // namespace tread

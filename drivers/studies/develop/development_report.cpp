@@ -120,13 +120,34 @@ Figure spectrum_figure(const Development& d) {
   return figure;
 }
 
-std::string left_out() {
+/// Height of the rows that carry work, less their mean along the rail.
+Heatmap rows_map(const Development& d) {
+  constexpr double kLeastShare = 1e-3;
+  Heatmap map;
+  map.name = "rows";
+  map.title = fmt::format("Running surface after {} passages", d.passages.size());
+  map.x_label = "Along the rail [m]";
+  map.y_label = "Across [mm]";
+  map.value_label = "Height [µm]";
+  map.x = places(d.profile);
+  for (std::size_t j = 0; j < d.rows->y.size(); ++j) {
+    if (d.rows->share[j] < kLeastShare) continue;
+    map.y.push_back(1e3 * d.rows->y[j]);
+    for (const double depth : d.rows->depth[j]) map.values.push_back(-1e6 * depth);
+  }
+  map.caption = "Rows of nodes that carry more than a thousandth of the work.";
+  return map;
+}
+
+std::string left_out(const Development& d) {
+  const std::string across = d.rows ? "" : "; changes across the rail, for the profile keeps its parabola";
   return "Left out: plastic flow and hardening; wear of the wheel; lateral motion and shifting contact, so "
          "that all vehicles run in one band; vehicles of other speeds, loads and tractions, and the second "
          "wheelset of a bogie, all of which smear phases that here are always the same; a wear coefficient "
-         "that "
-         "depends on the power; changes across the rail, for the profile keeps its parabola. What wears the "
-         "whole rail evenly is left out, too. Work of a passage over the smooth rail (mesh, fastenings, the "
+         "that depends on the power" +
+         across +
+         ". What wears the whole rail evenly is left out, too. Work of a passage over the smooth rail (mesh, "
+         "fastenings, the "
          "rest of the start) is subtracted.";
 }
 
@@ -276,11 +297,13 @@ Report development_report(const Development& d, const ResolvedScene& resolved, c
              "trough: where the work is largest as the wheel rolls. Profiles also fade at the ends of the "
              "stretch. "
              "* too little of these waves in the profile, or of the work explained by them, to tell."}}});
-  report.chapters.push_back({"Profile", {profile_figure(d), spectrum_figure(d), passage_table(d)}});
+  Chapter profile{"Profile", {profile_figure(d), spectrum_figure(d), passage_table(d)}};
+  if (d.rows) profile.blocks.insert(profile.blocks.begin() + 1, rows_map(d));
+  report.chapters.push_back(std::move(profile));
   Chapter work{"Frictional work", {work_figure(d, 0)}};
   if (d.passages.size() > 1) work.blocks.emplace_back(work_figure(d, d.passages.size() - 1));
   report.chapters.push_back(std::move(work));
-  report.chapters.push_back({"What the model leaves out", {Text{left_out()}}});
+  report.chapters.push_back({"What the model leaves out", {Text{left_out(d)}}});
   state_provenance(report, resolved.name, provenance);
   return report;
 }

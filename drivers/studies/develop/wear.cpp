@@ -78,11 +78,13 @@ PassageWork without(const PassageWork& one, const PassageWork& other) {
   return result;
 }
 
+double passages_for(double change, double depth, double per_work, double uneven) {
+  if (uneven <= 0) throw InputError("no frictional work differs along the rail: there is nothing to develop");
+  return change * depth / (per_work * uneven);
+}
+
 WearStep worn(const WornProfile& profile, const std::vector<double>& uneven, double per_work, double change) {
-  const double change_of_one = per_work * range_of(uneven);
-  if (change_of_one <= 0)
-    throw InputError("no frictional work differs along the rail: there is nothing to develop");
-  WearStep step{change * profile.range() / change_of_one, profile};
+  WearStep step{passages_for(change, profile.range(), per_work, range_of(uneven)), profile};
   for (std::size_t i = 0; i < uneven.size(); ++i)
     step.profile.depth[i] += step.passages * per_work * uneven[i];
   return step;

@@ -59,6 +59,10 @@ struct WearStep {
   WornProfile profile;  ///< profile after them
 };
 
+/// Number of passages that change a depth of range `depth` [m] by the share `change`, where each wears off
+/// `per_work` [m3/J] times work of range `uneven` [J/m2]. Throws InputError if nothing is uneven.
+double passages_for(double change, double depth, double per_work, double uneven);
+
 /// Wear by as many passages as change the depth by at most `change` of its range. Each passage wears off
 /// `per_work` [m3/J] times `uneven` [J/m2]. Throws InputError if nothing is uneven. [theory.md, eq. (W3)]
 WearStep worn(const WornProfile& profile, const std::vector<double>& uneven, double per_work, double change);

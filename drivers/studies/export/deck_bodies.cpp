@@ -52,9 +52,9 @@ int material_index(const SweptBlock& block, const VtkGrid::Cell& cell) {
          block.classes[pitch_class].material_offset;
 }
 
-class Bodies {
+class DeckBodies {
  public:
-  Bodies(DeckModel& deck, KeywordDeck& out) : deck_(deck), out_(out) {
+  DeckBodies(DeckModel& deck, KeywordDeck& out) : deck_(deck), out_(out) {
     for (const VtkGrid::Cell& cell : deck.grid().cells)
       parts_.try_emplace({cell.block, material_index(block(cell.block), cell)}, 0);
     for (auto& [part, number] : parts_) number = ++deck.numbers.part;
@@ -153,7 +153,7 @@ class Bodies {
 }  // namespace
 
 void write_bodies(DeckModel& deck, KeywordDeck& out) {
-  Bodies(deck, out).write();
+  DeckBodies(deck, out).write();
 }
 
 }  // namespace tread

@@ -10,9 +10,9 @@ namespace tread {
 
 namespace {
 
-constexpr int kEachWave = 12;  ///< waves up to which harmonics have modes in the band and are solved each
-constexpr int kOfLow = 60;     ///< Lanczos vectors of these
-constexpr int kOfHigh = 8;     ///< of the others, which answer at once
+constexpr int kEachWave = 12;    ///< waves up to which harmonics have modes in the band and are solved each
+constexpr int kOfLowWheel = 60;  ///< Lanczos vectors of these
+constexpr int kOfHighWheel = 8;  ///< of the others, which answer at once
 
 HarmonicSolid half_wheelset(const Scene& scene, double element) {
   Scene fine = scene;
@@ -43,7 +43,7 @@ ModalWheel modal_wheel(const Scene& scene, const ForceRegion& region, double top
   const std::vector<int> some =
       some_harmonics(kEachWave, static_cast<int>(region.last_wave_number() * radius));
   const std::vector<HarmonicModes> harmonics =
-      solid.modes(some, {load}, {}, [](int n) { return n <= kEachWave ? kOfLow : kOfHigh; });
+      solid.modes(some, {load}, {}, [](int n) { return n <= kEachWave ? kOfLowWheel : kOfHighWheel; });
 
   ModalWheel wheel;
   const double highest = 2 * std::numbers::pi * top;

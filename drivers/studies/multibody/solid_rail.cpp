@@ -12,8 +12,8 @@ namespace tread {
 
 namespace {
 
-constexpr int kOfLow = 32;             ///< Lanczos vectors of a harmonic that has modes in the band
-constexpr int kOfHigh = 8;             ///< of the others, which answer at once
+constexpr int kOfLowRail = 32;         ///< Lanczos vectors of a harmonic that has modes in the band
+constexpr int kOfHighRail = 8;         ///< of the others, which answer at once
 constexpr double kLeastMotion = 1e-3;  ///< of a mode that counts, over that of the rigid motion
 constexpr std::size_t kHead = 0, kFootAlong = 1, kFoot = 2;
 
@@ -54,7 +54,7 @@ RailHarmonics rail_harmonics(const Scene& scene, const ForceRegion& region, int 
   RailHarmonics out{dense, some_harmonics(dense, std::max(dense, static_cast<int>(last))), {}};
   out.solved =
       solid.modes(out.some, {head, solid.path_load(base, 0, "foot")}, {solid.path_load(base, 2, "foot")},
-                  [&](int n) { return n <= dense ? kOfLow : kOfHigh; });
+                  [&](int n) { return n <= dense ? kOfLowRail : kOfHighRail; });
   return out;
 }
 
@@ -91,7 +91,7 @@ ModalBeam solid_rail(const Scene& scene, const ForceRegion& region, double top, 
            std::max(std::abs(mode.amplitude[kHead]), std::abs(mode.amplitude[kFoot])) > kLeastMotion * rigid;
   };
   // By families, along which the harmonics follow one another.
-  for (std::size_t family = 0; family < static_cast<std::size_t>(kOfLow); ++family)
+  for (std::size_t family = 0; family < static_cast<std::size_t>(kOfLowRail); ++family)
     for (int n = 0; n <= rail.dense; ++n) {
       const auto i = static_cast<std::size_t>(n);
       const std::vector<HarmonicMode>& modes = rail.solved[i].modes;
