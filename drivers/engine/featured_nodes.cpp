@@ -1,6 +1,5 @@
 #include "drivers/engine/featured_nodes.hpp"
 
-#include "drivers/engine/restraints.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
 namespace tread {
@@ -26,6 +25,12 @@ void add_nodes_of(const std::vector<std::int64_t>& unknowns, std::vector<std::in
 
 }  // namespace
 
+std::vector<std::int64_t> connected_slots(const Model& model) {
+  std::vector<std::int64_t> slots = model.connected_slots();
+  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
+  return slots;
+}
+
 std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
   std::vector<std::int64_t> slots = model.loaded_slots();
   if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
@@ -34,12 +39,6 @@ std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
     for (const int block : {contact.rail_block, contact.wheel_block})
       add_surface(model.mesh.blocks[index(block)], slots);
   }
-  return slots;
-}
-
-std::vector<std::int64_t> featured_slots(const Model& model) {
-  std::vector<std::int64_t> slots = loaded_and_read_slots(model);
-  add_nodes_of(held_unknowns(model.mesh, model.restrained), slots);
   return slots;
 }
 

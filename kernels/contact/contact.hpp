@@ -2,6 +2,7 @@
 // Penalty contact with friction of a revolved wheel surface on an extruded rail surface.
 // [theory.md, Contact]
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -98,6 +99,12 @@ class Contact {
   /// Dissipated because the forces lead the motion by half a step, so that the penalty's oscillations die out
   /// [J].
   double damping_work() const { return damping_work_; }
+
+  /// Parts of both surfaces that hold all nodes whose motion a search reads or the tractions change, with the
+  /// wheel's frame anywhere between now and a step of dt [s] later.
+  std::array<SurfacePart, 2> near(const BodyFrame& wheel, double dt) const { return search_.near(wheel, dt); }
+  /// Nodes whose motion the last resolve() read and changed.
+  const std::vector<PatchCells::Node>& patch() const { return solver_.nodes(); }
 
   /// Half length of the stretch about the wheel's axis that is searched [m].
   double reach() const { return search_.reach(); }

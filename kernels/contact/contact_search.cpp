@@ -28,6 +28,32 @@ void set_bases(ContactPoint& point) {
   point.across = cross(point.along, point.normal);
 }
 
+/// The part of a surface between two places along it and about these edges, with all nodes that its faces'
+/// cubics take.
+SurfacePart part_of(const SweptBlock& block, const StationFinder& finder, const SurfaceProfile& profile,
+                    std::array<double, 2> ends, std::array<int, 2> edges) {
+  constexpr int kBeside = 2;  // of cubics, and one more
+  const int all = block.station_count();
+  const auto station = [&](double at) {
+    if (!block.closed) at = std::clamp(at, block.stations.front(), block.stations.back());
+    return std::max(finder.find(at).station, 0);
+  };
+  const int first = station(ends[0]);
+  const int last = station(ends[1]);
+  SurfacePart part;
+  if (block.closed) {
+    const int between = ends[1] - ends[0] < M_PI ? (last - first + all) % all : all;
+    part.count = std::min(between + 2 + 2 * kBeside, all);
+    part.first = (first - kBeside + all) % all;
+  } else {
+    part.first = std::max(first - kBeside, 0);
+    part.count = std::min(last + 2 + kBeside, all) - part.first;
+  }
+  part.first_node = std::max(edges[0] - kBeside, 0);
+  part.last_node = std::min(edges[1] + 2 + kBeside, profile.edges() + 1);
+  return part;
+}
+
 }  // namespace
 
 ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
@@ -94,7 +120,16 @@ void ContactSearch::make_room() {
   const SweptBlock& rail = surfaces_.rail();
   wake_time_.assign(static_cast<std::size_t>(face_index(rail.station_count(), 0)), kEver);
   double pitch = 1e30;
-  for (const PitchClass& c : rail.classes) pitch = std::min(pitch, c.pitch);
+  longest_pitch_ = 0;
+  for (const PitchClass& c : rail.classes) {
+    pitch = std::min(pitch, c.pitch);
+    longest_pitch_ = std::max(longest_pitch_, c.pitch);
+  }
+  const SurfaceProfile& wheel = surfaces_.wheel_profile();
+  least_radius_ = std::numeric_limits<double>::infinity();
+  for (int edge = 0; edge < wheel.edges(); ++edge)
+    for (const double end : {0.0, 1.0})
+      least_radius_ = std::min(least_radius_, wheel.evaluate(edge, end, options_.surface).q);
   columns_.assign(static_cast<std::size_t>(2 * reach() / pitch) + 3, {});
   for (std::vector<ContactPoint>& column : columns_)
     column.reserve(static_cast<std::size_t>(last_edge_ - first_edge_) * points_per_face());
@@ -188,6 +223,24 @@ void ContactSearch::find(const ContactState& state, std::span<const PointHistory
     for (std::int64_t i = first; i < last; ++i) visit_column(visit, window_first_ + static_cast<int>(i));
   });
   gather(points);
+}
+
+std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt) const {
+  constexpr double kRoom = 2e-3;  // for displacements, and the way from a rail point to the closest one [m]
+  const SurfaceProfile& rail_profile = surfaces_.rail_profile();
+  const SurfaceProfile& wheel_profile = surfaces_.wheel_profile();
+  const double half = reach() + longest_pitch_ + kRoom;
+  const double angle = half / (0.98 * least_radius_);
+  const double way = wheel.velocity.x * dt;
+  const double turn = wheel.spin * dt;
+  const double least_p = rail_profile.edge_p(first_edge_, 0) - wheel.origin.y - kRoom;
+  const double most_p = rail_profile.edge_p(last_edge_ - 1, 1) - wheel.origin.y + kRoom;
+  return {part_of(surfaces_.rail(), surfaces_.rail_stations(), rail_profile,
+                  {wheel.origin.x + std::min(way, 0.0) - half, wheel.origin.x + std::max(way, 0.0) + half},
+                  {first_edge_, last_edge_ - 1}),
+          part_of(surfaces_.wheel(), surfaces_.wheel_stations(), wheel_profile,
+                  {-wheel.angle - std::max(turn, 0.0) - angle, -wheel.angle - std::min(turn, 0.0) + angle},
+                  {wheel_profile.edge_at(least_p), wheel_profile.edge_at(most_p)})};
 }
 
 void ContactSearch::wake_all() {

@@ -15,6 +15,13 @@
 
 namespace tread {
 
+/// A part of a running surface: stations [first, first + count), which may pass the end of a full turn, and
+/// nodes across it, [first_node, last_node), by their ordinals.
+struct SurfacePart {
+  int first = 0, count = 0;
+  int first_node = 0, last_node = 0;
+};
+
 /// Window of rail faces about the wheel and the integration points on them that may touch.
 class ContactSearch {
  public:
@@ -43,6 +50,10 @@ class ContactSearch {
   /// [s] ends, with the tractions and velocities before the step. A point that carried pressure stays.
   void find(const ContactState& state, std::span<const PointHistory> history, double time, double dt,
             std::vector<ContactPoint>& points);
+
+  /// Parts of the rail's and the wheel's surface that hold all nodes whose motion find() reads, and those
+  /// that carry what it finds, with the wheel's frame anywhere between now and a step of dt [s] later.
+  std::array<SurfacePart, 2> near(const BodyFrame& wheel, double dt) const;
 
   /// Forgets when faces may close.
   void wake_all();
@@ -96,6 +107,8 @@ class ContactSearch {
   int first_edge_ = 0, last_edge_ = 0;
   int window_first_ = 0, window_last_ = 0;
   double touching_height_ = 0;
+  double least_radius_ = 0;                         ///< of the wheel's surface [m]
+  double longest_pitch_ = 0;                        ///< of the rail's faces [m]
   double closing_speed_ = 0;                        ///< bound used for wake_time_ [m/s]
   double margin_ = 0;                               ///< gap up to which points are kept [m]
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]

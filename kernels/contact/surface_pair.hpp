@@ -33,6 +33,7 @@ class SurfacePair {
   double find_gap(const ContactState& state, double far, ContactPoint& point) const;
 
   const SweptBlock& rail() const { return *rail_; }
+  const SweptBlock& wheel() const { return *wheel_; }
   const Corrugation& corrugation() const { return corrugation_; }
   const RunningSurface& rail_depth() const { return rail_depth_; }
   const RunningSurface& wheel_depth() const { return wheel_depth_; }

@@ -69,32 +69,20 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
     return memory;
   }
   void release(void* memory) override { ::operator delete (memory, std::align_val_t{64}); }
-  void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
-  void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
-
   void wait() override {}
-  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
-    for_each(n, [=](std::int64_t i) { a[i] = b[i] + 3 * c[i]; });
-  }
 
  private:
   friend KernelDevice<EmulatedDevice>;
 
+  void copy_to(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+  void copy_from(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+
   template <class Body>
-  void for_each(std::int64_t n, const Body& body) const {
-    parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) body(i);
+  void each(const Body& body) const {
+    const Order order(body.count(), emulation_.order);
+    parallel_ranges(body.count(), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) body(order(i));
     });
-  }
-
-  template <class Real>
-  void advance_any_lag(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) const {
-    for_each(n, [=](std::int64_t i) { q[i] = advance.of(q[i], v[i]); });
-  }
-
-  template <class Real, class U>
-  void place_any(const GroupValues<Real, U>& values, U* u, Real* v) const {
-    for_each(3 * kLanes * values.count, [&](std::int64_t i) { place_value(values, i, u, v); });
   }
 
   template <class Real, class U>

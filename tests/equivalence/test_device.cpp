@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "drivers/results/run_results.hpp"
 #include "kernels/device/device.hpp"
 #include "tests/state_copies.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -88,6 +90,17 @@ Apart apart(std::int64_t values, const Simulation& a, const Simulation& b) {
           difference(values, a.velocity(), b.velocity())};
 }
 
+/// Rolls to `steps`. Returns the vertical contact force at every tenth [N].
+std::vector<double> forces_of(Simulation& simulation, std::int64_t steps) {
+  std::vector<double> forces;
+  simulation.set_sampling_interval(10);
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (simulation.sampled()) forces.push_back(simulation.sample().vertical_force);
+  }
+  return forces;
+}
+
 /// Runs of `scene(precision)` in double, or in double and in a rounded precision.
 template <class SceneOf>
 void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::string& precision = "double") {
@@ -142,6 +155,11 @@ std::vector<std::string> corrugated(std::vector<std::string> overrides) {
   return overrides;
 }
 
+/// Half a wheelset with a vehicle on a short slab, of coarse elements.
+const std::vector<std::string> kHalfWheelset = {
+    "scene.element_size=10 mm", "motion.duration=0.1 ms",    "motion.start=moving",
+    "rail.length=2.6 m",        "rail.origin=1.3 m",         "fastenings.count=4",
+    "fastenings.first=0.325 m", "solution_zone.start=20 mm", "solution_zone.length=50 mm"};
 const std::vector<std::string> kTraction = {"motion.traction.torque=13.8 kN m",
                                             "motion.traction.ramp=0.05 ms"};
 constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
@@ -186,17 +204,50 @@ TEST(Device, GuidedBoreAndFallingFriction) {
       600);
 }
 
+TEST(Device, FrictionAlongTheRail) {
+  const samples::TemporaryFolder folder;
+  const std::string table = (folder.path / "spot.txt").string();
+  std::ofstream(table) << "# x [mm]  f [-]\n0 0.5\n20 0.1\n";
+  std::vector<std::string> overrides = kTraction;
+  overrides.insert(overrides.end(), {"contact.friction_law=table", "contact.friction_file=" + table,
+                                     "contact.friction_start=-5 mm"});
+  expect_same_steps(tyre(overrides), 300);
+}
+
+TEST(Device, ContactIsLostAndFoundAgain) {
+  const auto scene = tyre({"load.wheel_load=20 kN", "corrugation.kind=sine", "corrugation.wavelength=40 mm",
+                           "corrugation.depth=0.6 mm", "corrugation.width=30 mm", "corrugation.start=5 mm",
+                           "corrugation.length=40 mm", "corrugation.apply=gap"});
+  Case of(scene("double"));
+  const std::vector<double> forces = forces_of(*of.start(device(3)), 700);
+  const auto lost = std::find(forces.begin(), forces.end(), 0.0);
+  EXPECT_GT(std::count_if(lost, forces.end(), [](double force) { return force > 0; }), 0);
+  EXPECT_GT(std::count(forces.begin(), forces.end(), 0.0), 0);
+  for (const char* precision : {"double", "mixed"}) expect_same_steps(scene, 700, precision);
+}
+
+/// Between looks at the energies only the nodes of connectors and of the patch's surroundings are copied.
+TEST(Device, AStepCopiesFewValues) {
+  Case of(file("smooth", kHalfWheelset)("double"));
+  const std::shared_ptr<Device> counted = device(0);
+  const auto simulation = of.start(counted);
+  simulation->set_sampling_interval(1000);
+  roll_on(*simulation, 3);
+  const DeviceTraffic before = counted->traffic();
+  roll_on(*simulation, 4);
+  const DeviceTraffic after = counted->traffic();
+  const std::int64_t field = 8 * of.values();
+  EXPECT_LT(after.to_device - before.to_device, field / 10);
+  EXPECT_LT(after.from_device - before.from_device, field / 10);
+  EXPECT_GT(after.to_device, field);  // the start
+}
+
 TEST(Device, HammerOnARailOnFastenings) {
   expect_same_steps(file("hammer", {}), 300);
 }
 
 TEST(Device, WheelsetWithAVehicleOnASlab) {
-  for (const char* precision : kPrecisions)
-    expect_same_steps(file("smooth", {"scene.element_size=10 mm", "motion.duration=0.1 ms",
-                                      "motion.start=moving", "rail.length=2.6 m", "rail.origin=1.3 m",
-                                      "fastenings.count=4", "fastenings.first=0.325 m",
-                                      "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
-                      300, precision);
+  for (const char* precision : kPrecisions) expect_same_steps(file("smooth", kHalfWheelset), 300, precision);
 }
 
 /// From the processor to a device and back; each run has a model of its own, which holds the contact's state.
