@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/contract.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/featured_nodes.hpp"
 #include "drivers/engine/restraints.hpp"
 
@@ -17,53 +18,7 @@ std::size_t index(std::int64_t i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Marks of the groups whose nodes the host moves.
-std::vector<unsigned char> host_marks(const Model& model) {
-  return groups_of(model.mesh, connected_slots(model));
-}
-
-/// Marks of the groups with tied nodes.
-std::vector<unsigned char> tied_marks(const Model& model) {
-  std::vector<std::int64_t> slots = model.ties->secondary_slots();
-  slots.insert(slots.end(), model.ties->primary_slots().begin(), model.ties->primary_slots().end());
-  return groups_of(model.mesh, slots);
-}
-
-/// By group kMoves, kKeeps or, of the host's, its place among them. Ties between nodes on which connectors
-/// act are the host's.
-std::vector<int> mark_groups(const Model& model) {
-  std::vector<unsigned char> host = host_marks(model);
-  std::vector<unsigned char> tied(host.size(), 0);
-  if (model.ties) tied = tied_marks(model);
-  bool apart = true;
-  for (std::size_t group = 0; group < host.size(); ++group)
-    if (host[group] != 0 && tied[group] != 0) apart = false;
-  std::vector<int> marks(host.size(), kMoves);
-  int hosted = 0;
-  for (std::size_t group = 0; group < host.size(); ++group) {
-    if (tied[group] != 0 && apart) marks[group] = kKeeps;
-    if (host[group] != 0 || (tied[group] != 0 && !apart)) marks[group] = hosted++;
-  }
-  return marks;
-}
-
 }  // namespace
-
-DeviceNeed device_need(const Model& model) {
-  const std::vector<int> marks = mark_groups(model);
-  const std::int64_t groups = std::count_if(marks.begin(), marks.end(), [](int mark) { return mark >= 0; });
-  const ValueBytes bytes = value_bytes(model.scene);
-  const std::int64_t moved = 2 * (bytes.displacement + bytes.other);  // before and after the step
-  const int others = bytes.other * (model.has_branches() ? 2 : 1);    // forces, lag
-  DeviceNeed need;
-  need.host_nodes = groups * kLanes;
-  need.bytes = 3 * model.mesh.slots * (moved + others) + model.mesh.slots * bytes.other +
-               groups * kGroupValues * (bytes.displacement + 2 * bytes.other);
-  if (has_laws(model.mesh)) need.bytes += 2 * bytes.other * law_state_values(model.mesh);
-  if (model.ties) need.bytes += model.ties->bytes();
-  need.bytes += model.internal->bytes() * bytes.other / static_cast<std::int64_t>(sizeof(double));
-  return need;
-}
 
 template <class Real, class U>
 DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> device)
@@ -97,12 +52,26 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
   choose_host_groups(model);
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
+  if (device_contact_) contact_->run_on(this);
   make_room();
 }
 
 template <class Real, class U>
+DeviceFields<Real, U>::~DeviceFields() {
+  if (has_contact()) contact_->run_on(nullptr);
+}
+
+/// False where another run of the model has taken its contact.
+template <class Real, class U>
+bool DeviceFields<Real, U>::has_contact() const {
+  return device_contact_ && contact_->steps() == this;
+}
+
+template <class Real, class U>
 void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
-  group_mark_ = mark_groups(model);
+  Movers movers = movers_of(model);
+  group_mark_ = std::move(movers.marks);
+  if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.inverse_mass.data());
   std::vector<std::int64_t> slots;
   for (std::int64_t group = 0; group < std::ssize(group_mark_); ++group) {
     if (group_mark_[index(group)] < 0) continue;
@@ -184,7 +153,7 @@ void DeviceFields<Real, U>::send_groups() {
 /// Adds the groups that the tractions have moved. Those of tied nodes follow on the device.
 template <class Real, class U>
 void DeviceFields<Real, U>::add_patch_groups() {
-  if (contact_ == nullptr) return;
+  if (contact_ == nullptr || device_contact_) return;
   for (std::size_t i = host_groups_.size(); i < sent_groups_.size(); ++i) sent_[index(sent_groups_[i])] = 0;
   sent_groups_.resize(host_groups_.size());
   for (const PatchCells::Node& node : contact_->patch()) {
@@ -216,6 +185,14 @@ void DeviceFields<Real, U>::advance_device_lag() {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::fetch() {
+  fetch_nodes();
+  if (!device_contact_) return;
+  device_contact_->fetch_record();
+  if (has_contact() && step_ > 0) device_contact_->fetch_points();
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::fetch_nodes() {
   if (host_whole_ && !apart_) return;
   send();
   now_.u.download(this->u().data());
@@ -279,7 +256,7 @@ void DeviceFields<Real, U>::tie(const StepLoads& loads) {
 /// The laws' state of the host advances; that of the device does so with the motion.
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force() {
-  fetch();
+  fetch_nodes();
   send();
   march({}, false);
   force_.download(this->f().data());
@@ -299,7 +276,7 @@ void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
   move_on_device(loads);
   fetch_host_forces();
-  fetch_surfaces(loads);
+  if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
   if (device_->spoils_copies()) spoil();
 }
@@ -314,9 +291,9 @@ void DeviceFields<Real, U>::fetch_host_forces() {
 
 /// What the contact may read until the next step has moved. The host's groups are its own.
 template <class Real, class U>
-void DeviceFields<Real, U>::fetch_surfaces(const StepLoads& loads) {
+void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
   if (!surfaces_) return;
-  surfaces_->fetch(contact_->near(loads.frame, loads.dt), now_.u.data(), now_.v.data());
+  surfaces_->fetch(contact_->near(wheel, dt), now_.u.data(), now_.v.data());
   parallel_ranges(surfaces_->groups(), [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       const std::int64_t group = surfaces_->group(i);
@@ -326,6 +303,21 @@ void DeviceFields<Real, U>::fetch_surfaces(const StepLoads& loads) {
       std::copy_n(surfaces_->v(i), kGroupValues, this->v().data() + group * kGroupValues);
     }
   });
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double dt) {
+  send();
+  device_contact_->search(now_.u.data(), now_.v.data(), wheel, time, dt);
+}
+
+/// In steps that look at the energies the host's copies move by the tractions, too.
+template <class Real, class U>
+void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
+  device_contact_->resolve(now_.u.data(), now_.v.data());
+  if (!host_whole_) return;
+  device_contact_->fetch_points();
+  fetch_surfaces(wheel, dt);
 }
 
 /// Whoever reads what is not fetched is found out.
@@ -367,6 +359,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::list_state(StateList& list) {
   fetch();
   changed();
+  if (has_contact()) device_contact_->release();
   Base::list_state(list);
 }
 

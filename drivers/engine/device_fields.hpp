@@ -3,8 +3,8 @@
 //
 // The device moves every node but those on which connectors and loads act, and restrains and ties them. The
 // others are the host's: the device hands it their forces, the host moves them and hands their motion back.
-// Contact runs on the host, with copies of both surfaces about the patch. The views of NodeFields show the
-// host's copies.
+// Contact with surfaces that the device does not know runs on the host, with copies of both about the patch.
+// The views of NodeFields show the host's copies.
 
 #include <memory>
 #include <optional>
@@ -13,22 +13,17 @@
 #include "drivers/engine/precise_fields.hpp"
 #include "kernels/device/block_march.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/device/device_contact.hpp"
 #include "kernels/device/device_ties.hpp"
 #include "kernels/device/surface_copies.hpp"
 
 namespace tread {
 
-/// What a model takes on a device.
-struct DeviceNeed {
-  std::int64_t bytes = 0;       ///< memory, within the rounding of its pieces
-  std::int64_t host_nodes = 0;  ///< places of nodes that the host moves, whole groups of kLanes
-};
-DeviceNeed device_need(const Model& model);
-
 template <class Real, class U>
-class DeviceFields final : public PreciseFields<Real, U> {
+class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
  public:
   DeviceFields(const Model& model, std::shared_ptr<Device> device);
+  ~DeviceFields() override;
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
@@ -59,7 +54,11 @@ class DeviceFields final : public PreciseFields<Real, U> {
   void tie(const StepLoads& loads);
   void move_on_device(const StepLoads& loads);
   void fetch_host_forces();
-  void fetch_surfaces(const StepLoads& loads);
+  void fetch_surfaces(const BodyFrame& wheel, double dt);
+  void fetch_nodes();
+  bool has_contact() const;
+  void search(const BodyFrame& wheel, double time, double dt) override;
+  void resolve(const BodyFrame& wheel, double dt) override;
   void send();
   void send_groups();
   void add_patch_groups();
@@ -84,8 +83,9 @@ class DeviceFields final : public PreciseFields<Real, U> {
   std::optional<DeviceTies> ties_;  ///< none: there are no ties, or connectors act on tied nodes
   DeviceArray<std::int64_t> held_;  ///< unknowns that stay zero
 
-  const Contact* contact_;                          ///< null: absent
+  Contact* contact_;                                ///< null: absent
   std::optional<SurfaceCopies<Real, U>> surfaces_;  ///< with contact
+  std::optional<DeviceContact> device_contact_;     ///< none: the host searches and solves
   std::vector<std::int64_t> copied_;                ///< by group: step of its last copy to the host
   std::int64_t step_ = 0;                           ///< number of the step, from 1 on
 

@@ -31,14 +31,20 @@ std::vector<std::int64_t> connected_slots(const Model& model) {
   return slots;
 }
 
+std::vector<std::int64_t> surface_slots(const Model& model) {
+  std::vector<std::int64_t> slots;
+  if (!model.contact) return slots;
+  const ContactOptions& contact = model.contact->options();
+  for (const int block : {contact.rail_block, contact.wheel_block})
+    add_surface(model.mesh.blocks[index(block)], slots);
+  return slots;
+}
+
 std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
   std::vector<std::int64_t> slots = model.loaded_slots();
   if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
-  if (model.contact) {
-    const ContactOptions& contact = model.contact->options();
-    for (const int block : {contact.rail_block, contact.wheel_block})
-      add_surface(model.mesh.blocks[index(block)], slots);
-  }
+  const std::vector<std::int64_t> surfaces = surface_slots(model);
+  slots.insert(slots.end(), surfaces.begin(), surfaces.end());
   return slots;
 }
 

@@ -15,6 +15,8 @@ inline constexpr int kGroupValues = 3 * kLanes;  ///< values of a group in a vec
 /// Slots of nodes on which connectors and loads act, or that the guided bore moves; in any order, some of
 /// them more than once.
 std::vector<std::int64_t> connected_slots(const Model& model);
+/// Nodes of both contact surfaces; none without contact.
+std::vector<std::int64_t> surface_slots(const Model& model);
 /// Those, tied nodes and contact surfaces. A restraint sets values to zero wherever they are.
 std::vector<std::int64_t> loaded_and_read_slots(const Model& model);
 

@@ -11,6 +11,7 @@
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/face_quadrature.hpp"
+#include "kernels/contact/search_body.hpp"
 #include "kernels/contact/surface_pair.hpp"
 
 namespace tread {
@@ -46,10 +47,15 @@ class ContactSearch {
   /// Sets `points` to those in contact, with the pressures of statics.
   void find_static(const ContactState& state, std::vector<ContactPoint>& points);
 
-  /// Sets `points` to those that touch or may touch before the step of length dt [s] that starts at `time`
-  /// [s] ends, with the tractions and velocities before the step. A point that carried pressure stays.
-  void find(const ContactState& state, std::span<const PointHistory> history, double time, double dt,
+  /// Sets window and bounds of a search in a step of length dt [s]. NumericalError where the wheel leaves the
+  /// meshed surfaces.
+  void aim(const BodyFrame& wheel, double dt);
+  /// Sets `points` to those that touch or may touch before the step ends that starts at `time` [s], after
+  /// aim(), with the tractions and velocities before the step. A point that carried pressure stays.
+  void find(const ContactState& state, std::span<const PointHistory> history, double time,
             std::vector<ContactPoint>& points);
+  SearchBounds bounds(double time) const;
+  SearchEnd end() const;
 
   /// Parts of the rail's and the wheel's surface that hold all nodes whose motion find() reads, and those
   /// that carry what it finds, with the wheel's frame anywhere between now and a step of dt [s] later.
@@ -86,7 +92,7 @@ class ContactSearch {
   struct Visit {
     const ContactState* state;
     std::span<const PointHistory> history;
-    double time;
+    SearchBounds bounds;
   };
   void choose_edges();
   void make_room();

@@ -10,7 +10,8 @@ namespace tread {
 
 namespace {
 
-constexpr int kThreads = 128;  ///< of a team
+constexpr int kThreads = 128;       ///< of a team
+constexpr int kPatchThreads = 512;  ///< of the one team of a patch
 
 /// ResourceError where a call failed.
 void check(cudaError_t status, const char* what) {
@@ -34,6 +35,8 @@ class CudaTeam {
     used_ += n * sizeof(T);
     return first;
   }
+  __device__ void least(int* at, int value) const { atomicMin(at, value); }
+  __device__ int add(int* at, int value) const { return atomicAdd(at, value); }
   template <class Body>
   __device__ void for_each(int n, const Body& body) const {
     for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
@@ -55,6 +58,13 @@ template <class Body>
 __global__ void each_kernel(std::int64_t n, Body body) {
   const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i < n) body(i);
+}
+
+template <class Law>
+__global__ void __launch_bounds__(kPatchThreads)
+    patch_kernel(ContactTask task, Law law, typename Law::State* state) {
+  CudaTeam team;
+  PatchTeam<Law, CudaTeam>(team, task, law, state).run();
 }
 
 unsigned blocks_for(std::int64_t n) {
@@ -105,6 +115,12 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
   void each(const Body& body) {
     each_kernel<<<blocks_for(body.count()), kThreads>>>(body.count(), body);
     check(cudaGetLastError(), "values of nodes");
+  }
+
+  template <class Law>
+  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
+    patch_kernel<<<1, kPatchThreads, PatchTeam<Law, CudaTeam>::shared_bytes()>>>(task, law, state);
+    check(cudaGetLastError(), "patch");
   }
 
   template <class Real, class U>

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/contact/friction/friction_law.hpp"
+#include "kernels/device/contact_layout.hpp"
 #include "kernels/device/field_kernels.hpp"
 
 namespace tread {
@@ -61,6 +63,12 @@ class Device {
   FieldKernels<Real, U>& kernels() {
     return kernels_of(Precision<Real, U>{});
   }
+
+  /// Finds the candidates of a step. [SearchPoints]
+  virtual void search(const ContactTask& task) = 0;
+  /// Makes the patch of them and solves its tractions; `state`: of the law, by integration point. The law's
+  /// arrays lie on the device. [PatchTeam]
+  virtual void resolve(const ContactTask& task, const FrictionLaw& law, void* state) = 0;
 
   /// Ends when all kernels have ended.
   virtual void wait() = 0;

@@ -43,6 +43,9 @@ class EmulatedTeam {
   T* share(std::size_t n) const {
     return reinterpret_cast<T*>(std::exchange(memory_, memory_ + n * sizeof(T)));
   }
+  /// One thread at a time changes what all share.
+  void least(int* at, int value) const { *at = std::min(*at, value); }
+  int add(int* at, int value) const { return std::exchange(*at, *at + value); }
   template <class Body>
   void for_each(int n, const Body& body) const {
     const Order order(n, seed_);
@@ -83,6 +86,15 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
     parallel_ranges(body.count(), [&](std::int64_t first, std::int64_t last) {
       for (std::int64_t i = first; i < last; ++i) body(order(i));
     });
+  }
+
+  template <class Law>
+  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) const {
+    using Patch = PatchTeam<Law, EmulatedTeam>;
+    thread_local AlignedVector<std::byte> memory;
+    memory.resize(std::max(memory.size(), Patch::shared_bytes()));
+    const EmulatedTeam team(0, emulation_.order, memory.data());
+    Patch(team, task, law, state).run();
   }
 
   template <class Real, class U>

@@ -1,9 +1,13 @@
 #pragma once
 // Kernels of a device and their choice, for every kind of team. [kernels/device/march_body.hpp]
 
+#include <type_traits>
+#include <variant>
+
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_body.hpp"
 #include "kernels/device/node_kernels.hpp"
+#include "kernels/device/patch_team.hpp"
 
 namespace tread {
 
@@ -33,10 +37,20 @@ void with_march(TileVariant v, const Launch& launch) {
   });
 }
 
-/// A device of which `Own` has march_any, and each(body), which calls body(0) ... body(body.count() - 1).
+/// A device of which `Own` has march_any and patch_any, and each(body), which calls body(0) ...
+/// body(body.count() - 1).
 template <class Own>
 class KernelDevice : public Device {
  public:
+  void search(const ContactTask& task) override { each(SearchPoints{task}); }
+  void resolve(const ContactTask& task, const FrictionLaw& law, void* state) override {
+    this->count_launch();
+    std::visit(
+        [&](const auto& of) {
+          own().patch_any(task, of, static_cast<typename std::decay_t<decltype(of)>::State*>(state));
+        },
+        law);
+  }
   void triad(std::int64_t n, double* a, const double* b, const double* c) override {
     each(Triad{n, a, b, c});
   }
