@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/inline.hpp"
+#include "core/math/body.hpp"
 
 namespace tread {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/inline.hpp"
+#include "core/math/body.hpp"
 
 namespace tread {
 

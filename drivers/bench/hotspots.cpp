@@ -38,7 +38,7 @@ struct Hotspot {
   CounterValues counters;  ///< of all steps
 };
 
-/// What the steps ask of a device.
+/// Copies and launches of the steps on a device.
 class DeviceSteps {
  public:
   DeviceSteps() : device_(chosen_device()) {

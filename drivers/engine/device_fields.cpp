@@ -121,7 +121,7 @@ void DeviceFields<Real, U>::changed() {
 template <class Real, class U>
 void DeviceFields<Real, U>::send() {
   if (device_whole_) {
-    send_groups();
+    if (std::exchange(host_moves_, false)) send_groups();
     advance_device_lag();
     return;
   }
@@ -269,6 +269,7 @@ void DeviceFields<Real, U>::move_on_device(const StepLoads& loads) {
   tie(loads);
   std::swap(now_, next_);
   ++step_;
+  host_moves_ = true;
 }
 
 template <class Real, class U>
@@ -289,7 +290,7 @@ void DeviceFields<Real, U>::fetch_host_forces() {
   });
 }
 
-/// What the contact may read until the next step has moved. The host's groups are its own.
+/// Copies all that the contact may read until the next step has moved. The host's groups are its own.
 template <class Real, class U>
 void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
   if (!surfaces_) return;

@@ -99,6 +99,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present
   bool apart_ = false;         ///< but by motion of its own, whose bits are not the device's
+  bool host_moves_ = false;    ///< its groups since they were sent
   bool device_whole_ = false;  ///< the device holds those of all nodes that are not the host's
   double lag_step_ = 0;        ///< by which the device's lag has still to advance [s]
 };

@@ -1,5 +1,6 @@
 #pragma once
-// Who moves the nodes of a run on a device, and what that takes. [docs/records/device.md]
+// Division of a run's nodes between device and host, and the memory that the device needs.
+// [docs/records/device.md]
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace tread {
 
-/// Who moves the groups of kLanes slots.
+/// Movers of the groups of kLanes slots.
 struct Movers {
   std::vector<int> marks;   ///< by group: kMoves, kKeeps or, of the host's, its place among them
   std::int64_t hosted = 0;  ///< groups of the host
@@ -19,7 +20,7 @@ struct Movers {
 /// the host moves a node, or that the device does not know.
 Movers movers_of(const Model& model);
 
-/// What a model takes on a device.
+/// Needs of a model on a device.
 struct DeviceNeed {
   std::int64_t bytes = 0;       ///< memory, within the rounding of its pieces
   std::int64_t host_nodes = 0;  ///< places of nodes that the host moves, whole groups of kLanes

@@ -56,7 +56,7 @@ class ContactSteps {
   ~ContactSteps() = default;
 };
 
-/// What a step elsewhere leaves.
+/// Outcome of a step elsewhere.
 struct ContactOutcome {
   Vec3 force_on_rail;          ///< [N]
   double frictional_work = 0;  ///< of the step [J]
@@ -91,14 +91,15 @@ class Contact {
   /// From now on `steps` carries out search() and resolve(), or, null, this object. It must outlive them.
   void run_on(ContactSteps* steps) { steps_ = steps; }
   const ContactSteps* steps() const { return steps_; }
-  /// Takes over what a step elsewhere leaves; no points until take_points().
+  /// Takes over the outcome of a step elsewhere; no points until take_points().
   void take(const ContactOutcome& outcome);
   /// Takes over the points that were solved elsewhere in the last step.
   void take_points(std::span<const ContactPoint> points);
   /// The record that the tractions of each step go to; whoever solves elsewhere keeps it.
   void record_in(SurfaceFields* record) { record_ = record; }
   SurfaceFields* record() const { return record_; }
-  /// Histories by integration point of the whole rail, and the friction law with its states.
+  /// State and parts, for whoever solves elsewhere. Histories and states: by integration point of the whole
+  /// rail.
   std::vector<PointHistory>& history() { return history_; }
   Friction& friction() { return friction_; }
   ContactSearch& searching() { return search_; }

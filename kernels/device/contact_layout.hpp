@@ -1,5 +1,5 @@
 #pragma once
-// What the contact of a step reads and writes, as plain data in the memory of a device.
+// Arrays and bounds of the contact of a step, as plain data in the memory of a device.
 // [docs/records/device.md]
 
 #include <cstdint>
@@ -87,7 +87,7 @@ struct RecordView {
   int* first_point = nullptr;  ///< by face of the window and one more
 };
 
-/// What a step leaves for the host.
+/// Outcome of a step for the host.
 struct PatchResult {
   Vec3 force_on_rail;      ///< [N]
   double frictional_work;  ///< of the step [J]

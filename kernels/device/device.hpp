@@ -23,7 +23,7 @@ struct MarchCut {
   int run_length = 32;   ///< stations of a run
 };
 
-/// What a device was asked for since it was opened.
+/// Copies and launches since a device was opened.
 struct DeviceTraffic {
   std::int64_t to_device = 0;    ///< copied [B]
   std::int64_t from_device = 0;  ///< copied [B]

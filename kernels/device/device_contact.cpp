@@ -16,7 +16,7 @@ std::size_t index(std::int64_t i) {
 
 }  // namespace
 
-/// Most of what a step may find.
+/// Largest numbers of a step.
 struct DeviceContact::Sizes {
   std::size_t candidates, faces, cells, places, nodes;
 

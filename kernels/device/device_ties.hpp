@@ -13,9 +13,9 @@ class DeviceTies {
   /// Copies everything.
   DeviceTies(Device& device, const Mesh& mesh, const Ties& ties);
 
-  /// Of all blocks.
+  /// Secondary nodes of all blocks.
   TiedNodes secondary() const { return secondary_.view(); }
-  /// Of a block, none or more.
+  /// Primary nodes of a block, none or more.
   TiedNodes primary(int block) const { return primary_[static_cast<std::size_t>(block)].view(); }
 
  private:
