@@ -23,25 +23,25 @@ struct BodyFrame {
 };
 
 /// Vector a turned by `angle` about +y, in components (t, y, r).
-inline Vec3 turn(const Vec3& a, double angle) {
+TREAD_BODY Vec3 turn(const Vec3& a, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * a.x + s * a.z, a.y, -s * a.x + c * a.z};
 }
 
 /// Returns spin * y-axis x a, in components (t, y, r).
-inline Vec3 spin_cross(double spin, const Vec3& a) {
+TREAD_BODY Vec3 spin_cross(double spin, const Vec3& a) {
   return {spin * a.z, 0, -spin * a.x};
 }
 
 /// Turns components (t, y, r) at space angle `phi` [rad] to Cartesian axes. `cartesian_to_cylindrical` turns
 /// them back.
-inline Vec3 cylindrical_to_cartesian(double phi, const Vec3& a) {
+TREAD_BODY Vec3 cylindrical_to_cartesian(double phi, const Vec3& a) {
   const double c = std::cos(phi);
   const double s = std::sin(phi);
   return {-c * a.x - s * a.z, a.y, s * a.x - c * a.z};
 }
-inline Vec3 cartesian_to_cylindrical(double phi, const Vec3& a) {
+TREAD_BODY Vec3 cartesian_to_cylindrical(double phi, const Vec3& a) {
   const double c = std::cos(phi);
   const double s = std::sin(phi);
   return {-c * a.x + s * a.z, a.y, -s * a.x - c * a.z};

@@ -94,17 +94,10 @@ Corrugation Corrugation::rough(const Random& random, double start, double length
   return {places(length, random.shortest), random_depths(random, length), start, centre, width};
 }
 
-double Corrugation::profile(double x) const {
-  if (x <= first_ || x >= last_) return 0;
-  if (curve_.empty())
-    return 0.5 * sine_.depth * (1 - std::cos(2 * std::numbers::pi * (x - first_) / sine_.wavelength));
-  return curve_.value(x);
-}
-
 double Corrugation::depth(double x, double y) const {
-  const double across = (y - centre_) / width_;
-  if (x <= first_ || x >= last_ || std::abs(across) >= 1) return 0;
-  return map_ ? map_->at(x - map_start_, y).depth : profile(x) * (1 - across * across);
+  if (!map_) return view().depth(x, y);
+  if (x <= first_ || x >= last_ || std::abs(y - centre_) >= width_) return 0;
+  return map_->at(x - map_start_, y).depth;
 }
 
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,

@@ -1,14 +1,38 @@
 #pragma once
 // Depth of the corrugated running surface. [paper, eqs. (6) and (7)]
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "core/inline.hpp"
 #include "core/math/monotone_cubic.hpp"
 #include "core/running_surface.hpp"
 
 namespace tread {
+
+/// A corrugation as plain data, on a device too.
+struct CorrugationView {
+  double wavelength, wave_depth;  ///< of a sine, where there is no curve [m]
+  double first, last, centre, width;
+  MonotoneCubicView curve;
+
+  TREAD_BODY double profile(double x) const {
+    if (x <= first || x >= last) return 0;
+    if (curve.places == 0)
+      return 0.5 * wave_depth * (1 - std::cos(2 * std::numbers::pi * (x - first) / wavelength));
+    return curve.value(x);
+  }
+
+  /// Depth at a place, positive downwards [m].
+  TREAD_BODY double depth(double x, double y) const {
+    const double across = (y - centre) / width;
+    if (x <= first || x >= last || std::abs(across) >= 1) return 0;
+    return profile(x) * (1 - across * across);
+  }
+};
 
 /// Depth d(x, y) below the smooth surface [m], negative above it. The depth is zero outside [start, start +
 /// length] and outside |y - centre| < width.
@@ -45,7 +69,12 @@ class Corrugation {
 
   /// Depth at a place, positive downwards [m].
   double depth(double x, double y) const;
+  /// The corrugation as plain data, unless it is mapped().
+  CorrugationView view() const {
+    return {sine_.wavelength, sine_.depth, first_, last_, centre_, width_, curve_.view()};
+  }
 
+  bool mapped() const { return map_ != nullptr; }
   bool smooth() const { return !(last_ > first_); }
   double first() const { return first_; }        ///< [m]
   double last() const { return last_; }          ///< [m]
@@ -55,8 +84,6 @@ class Corrugation {
   double width() const { return width_; }  ///< [m]
 
  private:
-  double profile(double x) const;
-
   Sine sine_{1, 0};
   double first_ = 0, last_ = 0, centre_ = 0, width_ = 1, deepest_ = 0, steepest_ = 0;
   MonotoneCubic curve_;

@@ -50,8 +50,6 @@ endif()
 
 if(CUDAToolkit_NVCC_EXECUTABLE)
   add_custom_target(nvcc_check VERBATIM)
-  foreach(source nvcc_check cuda)
-    add_custom_command(TARGET nvcc_check VERBATIM COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags} -arch=sm_90 -cubin
-      -o ${CMAKE_CURRENT_BINARY_DIR}/${source}.cubin ${CMAKE_CURRENT_SOURCE_DIR}/device/${source}.cu)
-  endforeach()
+  add_custom_command(TARGET nvcc_check VERBATIM COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags} -arch=sm_90 -cubin
+    -o ${CMAKE_CURRENT_BINARY_DIR}/cuda.cubin ${cuda_source})
 endif()

@@ -22,22 +22,8 @@ MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y)
     steepest_ = std::max(steepest_, 2 * std::abs(y_[i] - y_[i - 1]) / (x_[i] - x_[i - 1]));
 }
 
-std::size_t MonotoneCubic::piece(double x) const {
-  const auto above = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
-  return std::clamp<std::size_t>(above, 1, x_.size() - 1) - 1;
-}
-
-double MonotoneCubic::value(double x) const {
-  const std::size_t i = piece(x);
-  const double h = x_[i + 1] - x_[i];
-  const double s = (x - x_[i]) / h;
-  const double r = 1 - s;
-  return y_[i] * r * r * (1 + 2 * s) + y_[i + 1] * s * s * (1 + 2 * r) +
-         h * s * r * (slope_[i] * r - slope_[i + 1] * s);
-}
-
 double MonotoneCubic::slope(double x) const {
-  const std::size_t i = piece(x);
+  const auto i = static_cast<std::size_t>(view().piece(x));
   const double h = x_[i + 1] - x_[i];
   const double s = (x - x_[i]) / h;
   const double r = 1 - s;

@@ -3,7 +3,38 @@
 
 #include <vector>
 
+#include "core/math/body.hpp"
+
 namespace tread {
+
+/// The curve as plain data, on a device too.
+struct MonotoneCubicView {
+  const double* x = nullptr;
+  const double* y = nullptr;
+  const double* slope = nullptr;
+  int places = 0;
+
+  /// Number of the piece that holds a place within the ends.
+  TREAD_BODY int piece(double at) const {
+    int first = 0;
+    int last = places - 1;
+    while (last - first > 1) {
+      const int middle = (first + last) / 2;
+      (at < x[middle] ? last : first) = middle;
+    }
+    return first;
+  }
+
+  /// Value at a place within the ends.
+  TREAD_BODY double value(double at) const {
+    const int i = piece(at);
+    const double h = x[i + 1] - x[i];
+    const double s = (at - x[i]) / h;
+    const double r = 1 - s;
+    return y[i] * r * r * (1 + 2 * s) + y[i + 1] * s * s * (1 + 2 * r) +
+           h * s * r * (slope[i] * r - slope[i + 1] * s);
+  }
+};
 
 /// Piecewise cubic through `y` over the increasing `x`, with a continuous first derivative; flat at both
 /// ends.
@@ -13,10 +44,13 @@ class MonotoneCubic {
   MonotoneCubic(std::vector<double> x, std::vector<double> y);
 
   /// Value at a place within the ends.
-  double value(double x) const;
+  double value(double x) const { return view().value(x); }
   /// Derivative at a place within the ends.
   double slope(double x) const;
 
+  MonotoneCubicView view() const {
+    return {x_.data(), y_.data(), slope_.data(), static_cast<int>(x_.size())};
+  }
   bool empty() const { return x_.empty(); }
   double first() const { return x_.front(); }
   double last() const { return x_.back(); }
@@ -24,8 +58,6 @@ class MonotoneCubic {
   double steepest() const { return steepest_; }
 
  private:
-  std::size_t piece(double x) const;
-
   std::vector<double> x_, y_, slope_;
   double steepest_ = 0;
 };

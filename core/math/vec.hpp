@@ -4,21 +4,23 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/body.hpp"
+
 namespace tread {
 
 /// Three components in a body's local basis (sweep, p, q) or in Cartesian axes (x, y, z), as the owner says.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
-  double& operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
-  double operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
-  Vec3& operator+=(const Vec3& b) {
+  TREAD_BODY double& operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
+  TREAD_BODY double operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
+  TREAD_BODY Vec3& operator+=(const Vec3& b) {
     x += b.x;
     y += b.y;
     z += b.z;
     return *this;
   }
-  Vec3& operator-=(const Vec3& b) {
+  TREAD_BODY Vec3& operator-=(const Vec3& b) {
     x -= b.x;
     y -= b.y;
     z -= b.z;
@@ -26,28 +28,28 @@ struct Vec3 {
   }
 };
 
-inline Vec3 operator+(Vec3 a, const Vec3& b) {
+TREAD_BODY Vec3 operator+(Vec3 a, const Vec3& b) {
   return a += b;
 }
-inline Vec3 operator-(Vec3 a, const Vec3& b) {
+TREAD_BODY Vec3 operator-(Vec3 a, const Vec3& b) {
   return a -= b;
 }
-inline Vec3 operator-(const Vec3& a) {
+TREAD_BODY Vec3 operator-(const Vec3& a) {
   return {-a.x, -a.y, -a.z};
 }
-inline Vec3 operator*(double s, const Vec3& a) {
+TREAD_BODY Vec3 operator*(double s, const Vec3& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-inline Vec3 operator*(const Vec3& a, double s) {
+TREAD_BODY Vec3 operator*(const Vec3& a, double s) {
   return s * a;
 }
-inline double dot(const Vec3& a, const Vec3& b) {
+TREAD_BODY double dot(const Vec3& a, const Vec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
+TREAD_BODY Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double norm(const Vec3& a) {
+TREAD_BODY double norm(const Vec3& a) {
   return std::sqrt(dot(a, a));
 }
 

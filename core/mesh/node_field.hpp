@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/inline.hpp"
 #include "core/math/vec.hpp"
 #include "core/mesh/swept_block.hpp"
 
@@ -17,16 +18,16 @@ using NodeLanes = std::array<std::array<double, kLanes>, 3>;
 /// Read-only view; values in the order of dof(). False if there is no field.
 class ConstNodeField {
  public:
-  ConstNodeField(std::nullptr_t = nullptr) {}
-  ConstNodeField(const double* values) : double_(values) {}
-  ConstNodeField(const float* values) : single_(values) {}
+  TREAD_BODY ConstNodeField(std::nullptr_t = nullptr) {}
+  TREAD_BODY ConstNodeField(const double* values) : double_(values) {}
+  TREAD_BODY ConstNodeField(const float* values) : single_(values) {}
 
-  explicit operator bool() const { return double_ != nullptr || single_ != nullptr; }
+  TREAD_BODY explicit operator bool() const { return double_ != nullptr || single_ != nullptr; }
 
-  double operator[](std::int64_t i) const { return single_ != nullptr ? single_[i] : double_[i]; }
+  TREAD_BODY double operator[](std::int64_t i) const { return single_ != nullptr ? single_[i] : double_[i]; }
 
   /// The three components at a node, in its local basis.
-  Vec3 at(std::int64_t slot) const {
+  TREAD_BODY Vec3 at(std::int64_t slot) const {
     const std::int64_t first = dof(slot, 0);
     if (single_ != nullptr) return {single_[first], single_[first + kLanes], single_[first + 2 * kLanes]};
     return {double_[first], double_[first + kLanes], double_[first + 2 * kLanes]};
@@ -57,21 +58,22 @@ class NodeField {
   /// Proxy of one value of the field.
   class Value {
    public:
-    Value(const NodeField& field, std::int64_t i) : double_(field.double_), single_(field.single_), i_(i) {}
+    TREAD_BODY Value(const NodeField& field, std::int64_t i)
+        : double_(field.double_), single_(field.single_), i_(i) {}
     Value(const Value&) = default;
     /// Writes the other's value to the place of this one.
     /// NOLINTNEXTLINE(bugprone-unhandled-self-assignment)
     Value& operator=(const Value& other) { return *this = static_cast<double>(other); }
-    operator double() const { return single_ != nullptr ? single_[i_] : double_[i_]; }
-    Value& operator=(double value) {
+    TREAD_BODY operator double() const { return single_ != nullptr ? single_[i_] : double_[i_]; }
+    TREAD_BODY Value& operator=(double value) {
       if (single_ != nullptr)
         single_[i_] = static_cast<float>(value);
       else
         double_[i_] = value;
       return *this;
     }
-    Value& operator+=(double value) { return *this = *this + value; }
-    Value& operator-=(double value) { return *this = *this - value; }
+    TREAD_BODY Value& operator+=(double value) { return *this = *this + value; }
+    TREAD_BODY Value& operator-=(double value) { return *this = *this - value; }
 
    private:
     double* double_;
@@ -80,9 +82,9 @@ class NodeField {
   };
 
   NodeField() = default;
-  NodeField(double* values) : double_(values) {}
-  NodeField(float* values) : single_(values) {}
-  operator ConstNodeField() const {
+  TREAD_BODY NodeField(double* values) : double_(values) {}
+  TREAD_BODY NodeField(float* values) : single_(values) {}
+  TREAD_BODY operator ConstNodeField() const {
     return single_ != nullptr ? ConstNodeField(single_) : ConstNodeField(double_);
   }
 
@@ -95,12 +97,12 @@ class NodeField {
       act(double_);
   }
 
-  Value operator[](std::int64_t i) const { return {*this, i}; }
-  Vec3 at(std::int64_t slot) const { return ConstNodeField(*this).at(slot); }
-  void set(std::int64_t slot, const Vec3& value) const {
+  TREAD_BODY Value operator[](std::int64_t i) const { return {*this, i}; }
+  TREAD_BODY Vec3 at(std::int64_t slot) const { return ConstNodeField(*this).at(slot); }
+  TREAD_BODY void set(std::int64_t slot, const Vec3& value) const {
     for (int c = 0; c < 3; ++c) (*this)[dof(slot, c)] = value[c];
   }
-  void add(std::int64_t slot, const Vec3& value) const {
+  TREAD_BODY void add(std::int64_t slot, const Vec3& value) const {
     for (int c = 0; c < 3; ++c) (*this)[dof(slot, c)] += value[c];
   }
 

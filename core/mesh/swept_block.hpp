@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/inline.hpp"
 #include "core/material.hpp"
 #include "core/math/vec.hpp"
 #include "core/mesh/section.hpp"
@@ -120,7 +121,7 @@ struct Mesh {
 
 /// Index of a component of a node in a vector field of 3 * mesh.slots values. Within a group of kLanes slots
 /// the components follow one another, lanes contiguous.
-inline std::int64_t dof(std::int64_t slot, int component) {
+TREAD_BODY std::int64_t dof(std::int64_t slot, int component) {
   return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
 }
 

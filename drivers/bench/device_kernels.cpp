@@ -30,14 +30,14 @@ class MarchedBlock {
         moved_u_(device, u_.size()),
         moved_v_(device, v_.size()),
         inverse_mass_(copy(AlignedVector<Real>(static_cast<std::size_t>(mesh_.slots), Real(1e5)))),
-        host_group_(copy(AlignedVector<int>(static_cast<std::size_t>(mesh_.slots / kLanes), -1))) {
+        group_mark_(copy(AlignedVector<int>(static_cast<std::size_t>(mesh_.slots / kLanes), kMoves))) {
     fields_.u = u_.data();
     fields_.v = v_.data();
     if (variant.damped) fields_.added = v_.data();
     fields_.inverse_mass = inverse_mass_.data();
     fields_.moved_u = moved_u_.data();
     fields_.moved_v = moved_v_.data();
-    fields_.host_group = host_group_.data();
+    fields_.group_mark = group_mark_.data();
     variant_ = {variant.sweep, variant.damped, variant.finite_rotation, variant.vertical_only, 0};
     loads_.dt = 1e-10;
     loads_.gravity = 9.81;
@@ -46,7 +46,7 @@ class MarchedBlock {
 
   const SweptBlock& block() const { return mesh_.blocks.front(); }
   void step() {
-    device_->march(variant_, march_.at(loads_), fields_);
+    device_->kernels<Real, U>().march(variant_, march_.at(loads_), fields_);
     device_->wait();
   }
 
@@ -69,7 +69,7 @@ class MarchedBlock {
   DeviceArray<Real> v_;
   DeviceArray<U> moved_u_;
   DeviceArray<Real> moved_v_, inverse_mass_;
-  DeviceArray<int> host_group_;
+  DeviceArray<int> group_mark_;
   MarchFields<Real, U> fields_;
   TileVariant variant_;
   StepLoads loads_;

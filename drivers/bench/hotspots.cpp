@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <deque>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
@@ -32,6 +36,57 @@ struct Hotspot {
   Load load;
   Limit limit;
   CounterValues counters;  ///< of all steps
+};
+
+/// Copies and launches of the steps on a device.
+class DeviceSteps {
+ public:
+  DeviceSteps() : device_(chosen_device()) {
+    if (device_) before_ = device_->traffic();
+  }
+
+  bool any() const { return !to_device_.empty(); }
+  /// A step has ended.
+  void note() {
+    if (!device_) return;
+    const DeviceTraffic now = device_->traffic();
+    to_device_.push_back(static_cast<double>(now.to_device - before_.to_device));
+    from_device_.push_back(static_cast<double>(now.from_device - before_.from_device));
+    launches_.push_back(static_cast<double>(now.launches - before_.launches));
+    before_ = now;
+  }
+
+  Json json() const {
+    Json json;
+    for (const auto& [name, values] :
+         {std::pair{"bytes_to_device", &to_device_}, std::pair{"bytes_from_device", &from_device_},
+          std::pair{"launches", &launches_}}) {
+      json[name] = median(*values);
+      json[std::string("mean_") + name] = mean(*values);
+    }
+    return json;
+  }
+  std::string text() const {
+    return fmt::format(
+        "Device: a step copies {:.0f} B to it and {:.0f} B from it, and starts {:.0f} kernels; with the "
+        "steps "
+        "that look at energies or anchor the wheel, {:.0f} B and {:.0f} B in the mean.\n",
+        median(to_device_), median(from_device_), median(launches_), mean(to_device_), mean(from_device_));
+  }
+
+ private:
+  static double median(std::vector<double> values) {
+    const auto middle = values.begin() + std::ssize(values) / 2;
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  }
+  static double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+
+  std::shared_ptr<Device> device_;
+  DeviceTraffic before_;
+  std::vector<double> to_device_, from_device_, launches_;  ///< by step
 };
 
 double imbalance(const ParallelTimes& times) {
@@ -178,12 +233,16 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   const std::int64_t steps = std::clamp((all - before) / repetitions, std::int64_t{1}, options.steps);
   while (simulation.steps() < before) simulation.step();
   std::deque<PhaseClock> clocks;
+  DeviceSteps on_device;
   while (clocks.size() < static_cast<std::size_t>(repetitions) && simulation.steps() + steps <= all) {
     PhaseClock& clock = clocks.emplace_back(
         counters.available() ? std::function<CounterValues()>([&] { return counters.read(); })
                              : std::function<CounterValues()>());
     simulation.observe(&clock);
-    for (std::int64_t i = 0; i < steps; ++i) simulation.step();
+    for (std::int64_t i = 0; i < steps; ++i) {
+      simulation.step();
+      on_device.note();
+    }
     simulation.observe(nullptr);
     clock.stop();
   }
@@ -196,6 +255,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   const std::int64_t elements = scene.model().elements();
   if (options.json) {
     fmt::print("{}", json_lines(spots, measured, elements, counters.available()));
+    if (on_device.any()) fmt::print("{}", json_line(on_device.json()));
     return;
   }
   fmt::print(
@@ -207,6 +267,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
       100 * measured.spread);
   fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
   fmt::print("Phases run one after the other: nothing overlaps.\n");
+  if (on_device.any()) fmt::print("{}", on_device.text());
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());
 }
 

@@ -2,34 +2,24 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "core/contract.hpp"
 #include "core/index.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/featured_nodes.hpp"
+#include "drivers/engine/restraints.hpp"
 
 namespace tread {
 
-namespace {}  // namespace
-
-DeviceNeed device_need(const Model& model) {
-  const std::vector<unsigned char> marks = groups_of(model.mesh, featured_slots(model));
-  const std::int64_t groups = std::count(marks.begin(), marks.end(), 1);
-  const ValueBytes bytes = value_bytes(model.scene);
-  const std::int64_t moved = 2 * (bytes.displacement + bytes.other);  // before and after the step
-  const int others = bytes.other * (model.has_branches() ? 2 : 1);    // forces, lag
-  DeviceNeed need;
-  need.host_nodes = groups * kLanes;
-  need.bytes = 3 * model.mesh.slots * (moved + others) + model.mesh.slots * bytes.other +
-               groups * kGroupValues * (bytes.displacement + 2 * bytes.other);
-  if (has_laws(model.mesh)) need.bytes += 2 * bytes.other * law_state_values(model.mesh);
-  need.bytes += model.internal->bytes() * bytes.other / static_cast<std::int64_t>(sizeof(double));
-  return need;
-}
-
 template <class Real, class U>
 DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> device)
-    : Base(model), device_(std::move(device)) {
+    : Base(model),
+      device_(std::move(device)),
+      kernels_(device_->template kernels<Real, U>()),
+      host_update_(model.mesh, this->inverse_mass()),
+      contact_(model.contact.get()) {
   const Mesh& mesh = model.mesh;
   const std::size_t components = index(3 * mesh.slots);
   std::size_t tiles = 0;
@@ -51,26 +41,58 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
   no_whole_tiles_.assign(tiles, 0);
+  const std::vector<std::int64_t> held = held_unknowns(mesh, model.restrained);
+  held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
   choose_host_groups(model);
+  if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
+  if (device_contact_) contact_->run_on(this);
+  make_room();
+}
+
+template <class Real, class U>
+DeviceFields<Real, U>::~DeviceFields() {
+  if (has_contact()) contact_->run_on(nullptr);
+}
+
+/// False where another run of the model has taken its contact.
+template <class Real, class U>
+bool DeviceFields<Real, U>::has_contact() const {
+  return device_contact_ && contact_->steps() == this;
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
-  const std::vector<std::int64_t> slots = featured_slots(model);
-  this->update().defer(slots);
-  for (const unsigned char mark : groups_of(model.mesh, slots)) {
-    if (mark != 0) groups_.push_back(std::ssize(host_group_));
-    host_group_.push_back(mark != 0 ? static_cast<int>(groups_.size()) - 1 : -1);
+  Movers movers = movers_of(model);
+  group_mark_ = std::move(movers.marks);
+  if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.inverse_mass.data());
+  std::vector<std::int64_t> slots;
+  for (std::int64_t group = 0; group < std::ssize(group_mark_); ++group) {
+    if (group_mark_[index(group)] < 0) continue;
+    host_groups_.push_back(group);
+    slots.push_back(group * kLanes);
   }
-  const std::size_t values = groups_.size() * kGroupValues;
-  packed_u_.resize(values);
-  packed_v_.resize(values);
-  packed_f_.resize(values);
-  device_groups_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(groups_));
-  device_host_group_ = DeviceArray<int>(*device_, std::span<const int>(host_group_));
-  device_u_ = DeviceArray<U>(*device_, values);
-  device_v_ = DeviceArray<Real>(*device_, values);
-  device_f_ = DeviceArray<Real>(*device_, values);
+  host_update_.defer(slots);
+  device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
+  if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
+    ties_.emplace(*device_, model.mesh, *model.ties);
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::make_room() {
+  packed_f_.resize(host_groups_.size() * kGroupValues);
+  device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
+  const std::size_t most = host_groups_.size() + (surfaces_ ? surfaces_->capacity() : 0);
+  sent_groups_.reserve(most);
+  sent_groups_ = host_groups_;
+  sent_.assign(group_mark_.size(), 0);
+  copied_.assign(group_mark_.size(), 0);
+  for (const std::int64_t group : host_groups_) sent_[index(group)] = 1;
+  packed_u_.resize(most * kGroupValues);
+  packed_v_.resize(most * kGroupValues);
+  device_sent_groups_ = DeviceArray<std::int64_t>(*device_, most);
+  device_sent_groups_.upload(host_groups_.data(), host_groups_.size());
+  device_u_ = DeviceArray<U>(*device_, packed_u_.size());
+  device_v_ = DeviceArray<Real>(*device_, packed_v_.size());
 }
 
 template <class Real, class U>
@@ -84,6 +106,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::changed() {
   host_whole_ = true;
   device_whole_ = false;
+  apart_ = false;
   lag_step_ = 0;
 }
 
@@ -91,7 +114,7 @@ void DeviceFields<Real, U>::changed() {
 template <class Real, class U>
 void DeviceFields<Real, U>::send() {
   if (device_whole_) {
-    send_host_groups();
+    if (std::exchange(host_moves_, false)) send_groups();
     advance_device_lag();
     return;
   }
@@ -104,17 +127,40 @@ void DeviceFields<Real, U>::send() {
   device_whole_ = true;
 }
 
+/// Sends what the host has moved.
 template <class Real, class U>
-void DeviceFields<Real, U>::send_host_groups() {
-  for_groups(groups_, 0, std::ssize(groups_), [&](std::int64_t packed, std::int64_t place) {
+void DeviceFields<Real, U>::send_groups() {
+  add_patch_groups();
+  const std::size_t values = sent_groups_.size() * kGroupValues;
+  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t packed, std::int64_t place) {
     std::copy_n(this->u().data() + place, kGroupValues, packed_u_.data() + packed);
     std::copy_n(this->v().data() + place, kGroupValues, packed_v_.data() + packed);
   });
-  device_u_.upload(packed_u_.data());
-  device_v_.upload(packed_v_.data());
-  const GroupValues<Real, U> values{device_groups_.data(), std::ssize(groups_), device_u_.data(),
-                                    device_v_.data()};
-  device_->place(values, now_.u.data(), now_.v.data());
+  device_u_.upload(packed_u_.data(), values);
+  device_v_.upload(packed_v_.data(), values);
+  const GroupValues<Real, U> sent{device_sent_groups_.data(), std::ssize(sent_groups_), device_u_.data(),
+                                  device_v_.data()};
+  kernels_.place(sent, now_.u.data(), now_.v.data());
+}
+
+/// Adds the groups that the tractions have moved. Those of tied nodes follow on the device.
+template <class Real, class U>
+void DeviceFields<Real, U>::add_patch_groups() {
+  if (contact_ == nullptr || device_contact_) return;
+  for (std::size_t i = host_groups_.size(); i < sent_groups_.size(); ++i) sent_[index(sent_groups_[i])] = 0;
+  sent_groups_.resize(host_groups_.size());
+  for (const PatchCells::Node& node : contact_->patch()) {
+    const std::int64_t group = node.slot / kLanes;
+    if (sent_[index(group)] != 0 || group_mark_[index(group)] == kKeeps) continue;
+    if (!host_whole_ && copied_[index(group)] != step_)
+      throw std::logic_error("the tractions moved nodes that the host had no copy of");
+    sent_[index(group)] = 1;
+    sent_groups_.push_back(group);
+  }
+  const std::size_t added = sent_groups_.size() - host_groups_.size();
+  if (added > 0)
+    device_->upload(device_sent_groups_.data() + host_groups_.size(),
+                    sent_groups_.data() + host_groups_.size(), added * sizeof(std::int64_t));
 }
 
 template <class Real, class U>
@@ -125,109 +171,181 @@ void DeviceFields<Real, U>::advance_device_lag() {
     const auto [kept, gained] = this->q()->advance_of(b, lag_step_);
     const SweptBlock& block = this->mesh().blocks[index(b)];
     const std::int64_t first = dof(block.base, 0);
-    device_->advance_lag(3 * block.slots(), kept, gained, now_.v.data() + first, lag_.data() + first);
+    kernels_.advance_lag(3 * block.slots(), kept, gained, now_.v.data() + first, lag_.data() + first);
   }
   lag_step_ = 0;
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::fetch() {
-  if (host_whole_) return;
+  fetch_nodes();
+  if (!device_contact_) return;
+  device_contact_->fetch_record();
+  if (has_contact() && step_ > 0) device_contact_->fetch_points();
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::fetch_nodes() {
+  if (host_whole_ && !apart_) return;
   send();
   now_.u.download(this->u().data());
   now_.v.download(this->v().data());
   if (this->q()) lag_.download(this->q()->values().data());
-  fetch_law_state();
+  fetch_law_state(now_);
   host_whole_ = true;
+  apart_ = false;
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::fetch_law_state() {
-  for (std::size_t b = 0; b < now_.state.size(); ++b)
-    if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
+void DeviceFields<Real, U>::fetch_law_state(const Arrays& from) {
+  for (std::size_t b = 0; b < from.state.size(); ++b)
+    if (from.state[b].size() > 0) from.state[b].download(this->law_state()->values(static_cast<int>(b)));
+}
+
+template <class Real, class U>
+MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) {
+  MarchFields<Real, U> fields;
+  fields.u = now_.u.data();
+  fields.v = now_.v.data();
+  if (this->internal().damping(block) != 0)
+    fields.added = this->internal().branch(block) != 0 ? lag_.data() : now_.v.data();
+  fields.inverse_mass = inverse_mass_.data();
+  if (moves) {
+    fields.moved_u = next_.u.data();
+    fields.moved_v = next_.v.data();
+  }
+  fields.force = force_.data();
+  fields.group_mark = device_group_mark_.data();
+  fields.host_force = device_f_.data();
+  fields.state = now_.state[index(block)].data();
+  fields.moved_state = next_.state[index(block)].data();
+  return fields;
+}
+
+template <class Real, class U>
+TileVariant DeviceFields<Real, U>::variant(int block) const {
+  const SweptBlock& swept = this->mesh().blocks[index(block)];
+  const auto& internal = this->internal();
+  return {swept.sweep, internal.damping(block) != 0, internal.finite_rotation(block), swept.vertical_only,
+          internal.law(block)};
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
-  const auto& internal = this->internal();
-  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
-    const SweptBlock& block = this->mesh().blocks[index(b)];
-    const bool branch = internal.branch(b) != 0;
-    MarchFields<Real, U> fields;
-    fields.u = now_.u.data();
-    fields.v = now_.v.data();
-    if (internal.damping(b) != 0) fields.added = branch ? lag_.data() : now_.v.data();
-    fields.inverse_mass = inverse_mass_.data();
-    if (moves) {
-      fields.moved_u = next_.u.data();
-      fields.moved_v = next_.v.data();
-    }
-    fields.force = force_.data();
-    fields.host_group = device_host_group_.data();
-    fields.host_force = device_f_.data();
-    fields.state = now_.state[index(b)].data();
-    fields.moved_state = next_.state[index(b)].data();
-    const int law = this->law_state() ? internal.law(b) : 0;
-    device_->march(
-        {block.sweep, fields.added != nullptr, internal.finite_rotation(b), block.vertical_only, law},
-        blocks_[index(b)]->at(loads), fields);
-  }
-  std::swap(now_.state, next_.state);
+  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b)
+    kernels_.march(variant(b), blocks_[index(b)]->at(loads), march_fields(b, moves));
 }
 
+/// Moves the primary nodes, restrains all, and lets the secondary nodes follow.
+template <class Real, class U>
+void DeviceFields<Real, U>::tie(const StepLoads& loads) {
+  for (int b = 0; ties_ && b < static_cast<int>(blocks_.size()); ++b)
+    if (const TiedNodes primary = ties_->primary(b); primary.count > 0)
+      kernels_.move_primary(variant(b), primary, blocks_[index(b)]->at(loads), march_fields(b, true));
+  kernels_.hold(static_cast<std::int64_t>(held_.size()), held_.data(), next_.u.data(), next_.v.data());
+  if (ties_) kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
+}
+
+/// The laws' state of the host advances; that of the device does so with the motion.
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force() {
-  fetch();
+  fetch_nodes();
   send();
   march({}, false);
   force_.download(this->f().data());
-  fetch_law_state();
+  fetch_law_state(next_);
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::move_on_device(const StepLoads& loads) {
+  march(loads, true);
+  tie(loads);
+  std::swap(now_, next_);
+  ++step_;
+  host_moves_ = true;
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
-  march(loads, true);
-  std::swap(now_.u, next_.u);
-  std::swap(now_.v, next_.v);
-  device_f_.download(packed_f_.data());
-  for_groups(groups_, 0, std::ssize(groups_), [&](std::int64_t packed, std::int64_t place) {
-    std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
-  });
+  move_on_device(loads);
+  fetch_host_forces();
+  if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
   if (device_->spoils_copies()) spoil();
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::fetch_host_forces() {
+  device_f_.download(packed_f_.data());
+  for_groups(host_groups_, 0, std::ssize(host_groups_), [&](std::int64_t packed, std::int64_t place) {
+    std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
+  });
+}
+
+/// Copies all that the contact may read until the next step has moved. The host's groups are its own.
+template <class Real, class U>
+void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
+  if (!surfaces_) return;
+  surfaces_->fetch(contact_->near(wheel, dt), now_.u.data(), now_.v.data());
+  parallel_ranges(surfaces_->groups(), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const std::int64_t group = surfaces_->group(i);
+      if (group_mark_[index(group)] >= 0) continue;
+      copied_[index(group)] = step_;
+      std::copy_n(surfaces_->u(i), kGroupValues, this->u().data() + group * kGroupValues);
+      std::copy_n(surfaces_->v(i), kGroupValues, this->v().data() + group * kGroupValues);
+    }
+  });
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double dt) {
+  send();
+  device_contact_->search(now_.u.data(), now_.v.data(), wheel, time, dt);
+}
+
+/// In steps that look at the energies the host's copies move by the tractions, too.
+template <class Real, class U>
+void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
+  device_contact_->resolve(now_.u.data(), now_.v.data());
+  if (!host_whole_) return;
+  device_contact_->fetch_points();
+  fetch_surfaces(wheel, dt);
 }
 
 /// Whoever reads what is not fetched is found out.
 template <class Real, class U>
 void DeviceFields<Real, U>::spoil() {
-  for (std::size_t group = 0; group < host_group_.size(); ++group) {
-    if (host_group_[group] >= 0) continue;
+  for (std::size_t group = 0; group < group_mark_.size(); ++group) {
+    if (group_mark_[group] >= 0) continue;
     const std::size_t place = group * kGroupValues;
+    std::fill_n(this->f().data() + place, kGroupValues, std::numeric_limits<Real>::quiet_NaN());
+    if (copied_[group] == step_) continue;
     std::fill_n(this->u().data() + place, kGroupValues, std::numeric_limits<U>::quiet_NaN());
     std::fill_n(this->v().data() + place, kGroupValues, std::numeric_limits<Real>::quiet_NaN());
-    std::fill_n(this->f().data() + place, kGroupValues, std::numeric_limits<Real>::quiet_NaN());
   }
 }
 
+/// All nodes on both sides, so that none of their values have to be copied. The bits may differ, and those of
+/// the device count.
 template <class Real, class U>
 void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
+  move_on_device(loads);
   Base::move_all(loads);
-  changed();
+  apart_ = true;
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_rest(const StepLoads& loads) {
-  this->update().move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, no_whole_tiles_);
+  host_update_.move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, no_whole_tiles_);
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::advance_lag(double dt) {
   if (!this->q()) return;
-  if (host_whole_)
-    Base::advance_lag(dt);
-  else
-    lag_step_ = dt;
+  if (host_whole_) Base::advance_lag(dt);
+  if (device_whole_) lag_step_ = dt;
 }
 
 /// Whoever lists the state may read or restore it.
@@ -235,6 +353,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::list_state(StateList& list) {
   fetch();
   changed();
+  if (has_contact()) device_contact_->release();
   Base::list_state(list);
 }
 

@@ -1,34 +1,34 @@
 #pragma once
 // The fields of a run on a device. [docs/records/device.md]
 //
-// The device moves every node on which elements alone act. Nodes that features touch (contact surfaces, tied,
-// fastened, driven and restrained ones) are the host's: the device hands it their forces, the host moves them
-// and hands their motion back. The views of NodeFields show the host's copies.
+// The device moves every node but those on which connectors and loads act, and restrains and ties them. The
+// others are the host's: the device hands it their forces, the host moves them and hands their motion back.
+// Contact with surfaces that the device does not know runs on the host, with copies of both about the patch.
+// The views of NodeFields show the host's copies.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "drivers/engine/precise_fields.hpp"
 #include "kernels/device/block_march.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/device/device_contact.hpp"
+#include "kernels/device/device_ties.hpp"
+#include "kernels/device/surface_copies.hpp"
 
 namespace tread {
 
-/// What a model takes on a device.
-struct DeviceNeed {
-  std::int64_t bytes = 0;       ///< memory, within the rounding of its pieces
-  std::int64_t host_nodes = 0;  ///< places of nodes that the host moves, whole groups of kLanes
-};
-DeviceNeed device_need(const Model& model);
-
 template <class Real, class U>
-class DeviceFields final : public PreciseFields<Real, U> {
+class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
  public:
   DeviceFields(const Model& model, std::shared_ptr<Device> device);
+  ~DeviceFields() override;
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
   void changed() override;
+  bool ties_follow() const override { return ties_ && !host_whole_; }
 
   void internal_force() override;
   void internal_force_and_move(const StepLoads& loads) override;
@@ -47,29 +47,59 @@ class DeviceFields final : public PreciseFields<Real, U> {
   };
 
   void choose_host_groups(const Model& model);
+  void make_room();
+  MarchFields<Real, U> march_fields(int block, bool moves);
+  TileVariant variant(int block) const;
   void march(const StepLoads& loads, bool moves);
+  void tie(const StepLoads& loads);
+  void move_on_device(const StepLoads& loads);
+  void fetch_host_forces();
+  void fetch_surfaces(const BodyFrame& wheel, double dt);
+  void fetch_nodes();
+  bool has_contact() const;
+  void search(const BodyFrame& wheel, double time, double dt) override;
+  void resolve(const BodyFrame& wheel, double dt) override;
   void send();
-  void send_host_groups();
-  void fetch_law_state();
+  void send_groups();
+  void add_patch_groups();
+  void fetch_law_state(const Arrays& from);
   void advance_device_lag();
   void spoil();
 
   std::shared_ptr<Device> device_;
+  FieldKernels<Real, U>& kernels_;
   std::vector<std::unique_ptr<BlockMarch<Real>>> blocks_;
   Arrays now_, next_;
   DeviceArray<Real> lag_, force_, inverse_mass_;
 
-  std::vector<std::int64_t> groups_;  ///< the host's groups of kLanes slots, ascending
-  std::vector<int> host_group_;       ///< by group: its place in groups_, or -1
-  DeviceArray<std::int64_t> device_groups_;
-  DeviceArray<int> device_host_group_;
-  AlignedVector<U> packed_u_;  ///< [group][component][lane]
-  AlignedVector<Real> packed_v_, packed_f_;
-  DeviceArray<U> device_u_;
-  DeviceArray<Real> device_v_, device_f_;
+  std::vector<std::int64_t> host_groups_;  ///< the host's groups of kLanes slots, ascending
+  std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves or kKeeps
+  DeviceArray<int> device_group_mark_;
+  BasicTimeUpdate<Real, U> host_update_;  ///< of the host's groups alone
   std::vector<unsigned char> no_whole_tiles_;
+  AlignedVector<Real> packed_f_;  ///< of the host's groups: [group][component][lane]
+  DeviceArray<Real> device_f_;
+
+  std::optional<DeviceTies> ties_;  ///< none: there are no ties, or connectors act on tied nodes
+  DeviceArray<std::int64_t> held_;  ///< unknowns that stay zero
+
+  Contact* contact_;                                ///< null: absent
+  std::optional<SurfaceCopies<Real, U>> surfaces_;  ///< with contact
+  std::optional<DeviceContact> device_contact_;     ///< none: the host searches and solves
+  std::vector<std::int64_t> copied_;                ///< by group: step of its last copy to the host
+  std::int64_t step_ = 0;                           ///< number of the step, from 1 on
+
+  std::vector<std::int64_t> sent_groups_;  ///< the host's, then those of the patch
+  std::vector<unsigned char> sent_;        ///< by group: in sent_groups_
+  DeviceArray<std::int64_t> device_sent_groups_;
+  AlignedVector<U> packed_u_;  ///< of sent_groups_: [group][component][lane]
+  AlignedVector<Real> packed_v_;
+  DeviceArray<U> device_u_;
+  DeviceArray<Real> device_v_;
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present
+  bool apart_ = false;         ///< but by motion of its own, whose bits are not the device's
+  bool host_moves_ = false;    ///< its groups since they were sent
   bool device_whole_ = false;  ///< the device holds those of all nodes that are not the host's
   double lag_step_ = 0;        ///< by which the device's lag has still to advance [s]
 };

@@ -1,7 +1,6 @@
 #include "drivers/engine/featured_nodes.hpp"
 
 #include "core/index.hpp"
-#include "drivers/engine/restraints.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
 namespace tread {
@@ -23,20 +22,26 @@ void add_nodes_of(const std::vector<std::int64_t>& unknowns, std::vector<std::in
 
 }  // namespace
 
-std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
-  std::vector<std::int64_t> slots = model.loaded_slots();
+std::vector<std::int64_t> connected_slots(const Model& model) {
+  std::vector<std::int64_t> slots = model.connected_slots();
   if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
-  if (model.contact) {
-    const ContactOptions& contact = model.contact->options();
-    for (const int block : {contact.rail_block, contact.wheel_block})
-      add_surface(model.mesh.blocks[index(block)], slots);
-  }
   return slots;
 }
 
-std::vector<std::int64_t> featured_slots(const Model& model) {
-  std::vector<std::int64_t> slots = loaded_and_read_slots(model);
-  add_nodes_of(held_unknowns(model.mesh, model.restrained), slots);
+std::vector<std::int64_t> surface_slots(const Model& model) {
+  std::vector<std::int64_t> slots;
+  if (!model.contact) return slots;
+  const ContactOptions& contact = model.contact->options();
+  for (const int block : {contact.rail_block, contact.wheel_block})
+    add_surface(model.mesh.blocks[index(block)], slots);
+  return slots;
+}
+
+std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
+  std::vector<std::int64_t> slots = model.loaded_slots();
+  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
+  const std::vector<std::int64_t> surfaces = surface_slots(model);
+  slots.insert(slots.end(), surfaces.begin(), surfaces.end());
   return slots;
 }
 

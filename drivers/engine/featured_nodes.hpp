@@ -12,9 +12,12 @@ namespace tread {
 
 inline constexpr int kGroupValues = 3 * kLanes;  ///< values of a group in a vector field
 
-/// Slots of the featured nodes, in any order, some of them more than once.
-std::vector<std::int64_t> featured_slots(const Model& model);
-/// Those that are more than restrained. A restraint sets values to zero wherever they are.
+/// Slots of nodes on which connectors and loads act, or that the guided bore moves; in any order, some of
+/// them more than once.
+std::vector<std::int64_t> connected_slots(const Model& model);
+/// Nodes of both contact surfaces; none without contact.
+std::vector<std::int64_t> surface_slots(const Model& model);
+/// Those, tied nodes and contact surfaces. A restraint sets values to zero wherever they are.
 std::vector<std::int64_t> loaded_and_read_slots(const Model& model);
 
 /// Marks of the groups of a mesh that hold one of these slots.

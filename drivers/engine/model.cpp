@@ -326,16 +326,20 @@ void Model::apply_corrugation(double centre) {
 }
 
 std::vector<std::int64_t> Model::loaded_slots() const {
+  std::vector<std::int64_t> slots = connected_slots();
+  if (!ties) return slots;
+  for (const std::vector<std::int64_t>* tied : {&ties->secondary_slots(), &ties->primary_slots()})
+    slots.insert(slots.end(), tied->begin(), tied->end());
+  return slots;
+}
+
+std::vector<std::int64_t> Model::connected_slots() const {
   std::vector<std::int64_t> slots;
   const auto add = [&](const auto& more) { slots.insert(slots.end(), more.begin(), more.end()); };
   const auto add_attached = [&](const Attachment& at) {
     std::copy_if(at.slot.begin(), at.slot.end(), std::back_inserter(slots),
                  [](std::int64_t slot) { return slot >= 0; });
   };
-  if (ties) {
-    add(ties->secondary_slots());
-    add(ties->primary_slots());
-  }
   if (fastenings)
     for (const SpringDampers::Element& element : fastenings->elements()) {
       add_attached(element.upper);

@@ -74,8 +74,9 @@ struct Model {
   std::int64_t elements() const;
   std::int64_t nodes() const;
 
-  /// Nodes to or from whose force a step adds more than their elements do.
+  /// Nodes to or from whose force a step adds more than their elements do: those of ties, and the others.
   std::vector<std::int64_t> loaded_slots() const;
+  std::vector<std::int64_t> connected_slots() const;
 
   /// Moves the surface nodes to the corrugated shape, or adds its depth to the contact gap. Coefficients,
   /// mass and damping are built again where nodes moved. `centre`: y of the deepest line [m].

@@ -9,8 +9,6 @@
 
 namespace tread {
 
-namespace {}  // namespace
-
 template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
     : Base(model), ranks_(std::move(ranks)), own_(index(ranks_->rank())) {

@@ -139,6 +139,7 @@ MeanMotion Simulation::wheel_motion() const {
 }
 
 const SurfaceFields* Simulation::surface() const {
+  fields_->fetch();
   return features_.record() ? &features_.record()->surface() : nullptr;
 }
 

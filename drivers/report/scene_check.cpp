@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/device_fields.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/surfaces.hpp"
 #include "drivers/process/progress.hpp"
 #include "drivers/report/mesh_measures.hpp"

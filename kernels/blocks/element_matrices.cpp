@@ -12,8 +12,6 @@
 
 namespace tread {
 
-namespace {}  // namespace
-
 template <class Real>
 ElementStiffness element_stiffness(const BlockElements<Real>& elements, const ElementPlace& at) {
   const auto& of_class = elements.elements(at);

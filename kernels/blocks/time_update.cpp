@@ -11,8 +11,6 @@
 
 namespace tread {
 
-namespace {}  // namespace
-
 template <class Real>
 StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads) {
   StepConstants<Real> step;
@@ -29,8 +27,7 @@ StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loa
 }
 
 GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads& loads) {
-  const double phi = block.stations[index(station)] + loads.frame.angle;
-  return {-loads.gravity * std::sin(phi), loads.gravity * std::cos(phi)};
+  return gravity_in_sweep(loads.gravity, block.stations[index(station)] + loads.frame.angle);
 }
 
 template StepConstants<double> step_constants(const SweptBlock&, const StepLoads&);

@@ -31,11 +31,7 @@ struct StepLoads {
 template <class Real>
 StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads);
 
-/// Gravity at a station of a revolved block [m/s2].
-struct GravityInSweep {
-  double along;     ///< the tangent t
-  double outwards;  ///< along r
-};
+/// Gravity at a station of a revolved block.
 GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads& loads);
 
 /// Moves the nodes of all blocks: v -= dt (f / m + g e_z), u += dt v in extruded blocks, the same in the

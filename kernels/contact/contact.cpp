@@ -12,6 +12,7 @@
 
 #include "core/contract.hpp"
 #include "core/error.hpp"
+#include "kernels/contact/patch_point_body.hpp"
 
 namespace tread {
 
@@ -105,7 +106,11 @@ void Contact::begin() {
 
 void Contact::search(const ContactState& state, double time, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(time));
-  search_.find(state, history_, time, dt, points_);
+  search_.aim(*state.wheel, dt);
+  if (steps_ != nullptr)
+    steps_->search(*state.wheel, time, dt);
+  else
+    search_.find(state, history_, time, points_);
 }
 
 void Contact::require_room(const BodyFrame& wheel) const {
@@ -123,20 +128,35 @@ void Contact::require_room(const BodyFrame& wheel) const {
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(dt));
+  if (steps_ != nullptr) {
+    steps_->resolve(wheel, dt);
+    return;
+  }
   solver_.solve(points_, springs_, friction_, wheel, motion, dt);
   for (ContactPoint& point : points_) {
     PointHistory& history = history_[static_cast<std::size_t>(point.history)];
-    const Traction slip{dt * point.slip_speed.along, dt * point.slip_speed.across};
-    point.frictional_work = springs_.stick.dissipation(history.shear, point.shear, slip);
-    // Work that the forces took from the bodies since the step before, less the stored and rubbed parts.
-    const double work = dt * point.pressure * point.closing_speed + point.shear.along * slip.along +
-                        point.shear.across * slip.across;
-    const double stored =
-        springs_.stored(point.pressure, point.shear) - springs_.stored(history.pressure, history.shear);
-    frictional_work_ += point.area * point.frictional_work;
-    damping_work_ += point.area * (work - stored - point.frictional_work);
-    history = {point.shear, point.pressure};
+    const PointWork work = settle_history(point, history, springs_, dt);
+    frictional_work_ += work.frictional;
+    damping_work_ += work.damping;
   }
+  close_step();
+}
+
+void Contact::take(const ContactOutcome& outcome) {
+  frictional_work_ += outcome.frictional_work;
+  damping_work_ += outcome.damping_work;
+  points_.clear();
+  totals_ = {};
+  totals_.force_on_rail = outcome.force_on_rail;
+}
+
+void Contact::take_points(std::span<const ContactPoint> points) {
+  points_.assign(points.begin(), points.end());
+  close_step();
+}
+
+/// Averages and sums of the points that a step has solved; those that it opened leave.
+void Contact::close_step() {
   const auto [first, last] = search_.window();
   nodes_.average(first, last, points_);
   std::erase_if(points_, [](const ContactPoint& point) { return point.pressure <= 0; });

@@ -2,6 +2,7 @@
 // Penalty contact with friction of a revolved wheel surface on an extruded rail surface.
 // [theory.md, Contact]
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -39,6 +40,29 @@ struct ContactOptions {
   RunningSurface wheel_depth;  ///< of the wheel's surface
 };
 
+class SurfaceFields;
+
+/// Search and tractions of a contact elsewhere, on a device.
+class ContactSteps {
+ public:
+  /// Contact::search() and resolve(), of the fields that live there. The contact's search is aimed.
+  virtual void search(const BodyFrame& wheel, double time, double dt) = 0;
+  virtual void resolve(const BodyFrame& wheel, double dt) = 0;
+
+ protected:
+  ContactSteps() = default;
+  ContactSteps(const ContactSteps&) = default;
+  ContactSteps& operator=(const ContactSteps&) = default;
+  ~ContactSteps() = default;
+};
+
+/// Outcome of a step elsewhere.
+struct ContactOutcome {
+  Vec3 force_on_rail;          ///< [N]
+  double frictional_work = 0;  ///< of the step [J]
+  double damping_work = 0;     ///< of the step [J]
+};
+
 /// Owner of search, histories, solver and sums of the patch.
 class Contact {
  public:
@@ -63,6 +87,24 @@ class Contact {
   /// Sets pressure and friction of the points found last, in the middle of the step, and adds their impulses
   /// to the motion that the step has without contact.
   void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);
+
+  /// From now on `steps` carries out search() and resolve(), or, null, this object. It must outlive them.
+  void run_on(ContactSteps* steps) { steps_ = steps; }
+  const ContactSteps* steps() const { return steps_; }
+  /// Takes over the outcome of a step elsewhere; no points until take_points().
+  void take(const ContactOutcome& outcome);
+  /// Takes over the points that were solved elsewhere in the last step.
+  void take_points(std::span<const ContactPoint> points);
+  /// The record that the tractions of each step go to; whoever solves elsewhere keeps it.
+  void record_in(SurfaceFields* record) { record_ = record; }
+  SurfaceFields* record() const { return record_; }
+  /// State and parts, for whoever solves elsewhere. Histories and states: by integration point of the whole
+  /// rail.
+  std::vector<PointHistory>& history() { return history_; }
+  Friction& friction() { return friction_; }
+  ContactSearch& searching() { return search_; }
+  const ContactSearch& searching() const { return search_; }
+  const PointSprings& springs_of_points() const { return springs_; }
 
   /// Returns a point of the patch found last that lies at the end of the searched surface, beyond which
   /// points would be missed; or null.
@@ -99,6 +141,12 @@ class Contact {
   /// [J].
   double damping_work() const { return damping_work_; }
 
+  /// Parts of both surfaces that hold all nodes whose motion a search reads or the tractions change, with the
+  /// wheel's frame anywhere between now and a step of dt [s] later.
+  std::array<SurfacePart, 2> near(const BodyFrame& wheel, double dt) const { return search_.near(wheel, dt); }
+  /// Nodes whose motion the last resolve() read and changed.
+  const std::vector<PatchCells::Node>& patch() const { return solver_.nodes(); }
+
   /// Half length of the stretch about the wheel's axis that is searched [m].
   double reach() const { return search_.reach(); }
 
@@ -114,6 +162,7 @@ class Contact {
 
  private:
   void make_room();
+  void close_step();
 
   ContactOptions options_;
   std::int64_t slots_;  ///< of the mesh
@@ -126,6 +175,8 @@ class Contact {
   PatchSolver solver_;
   PatchNodes nodes_;
   ContactTotals totals_;
+  ContactSteps* steps_ = nullptr;
+  SurfaceFields* record_ = nullptr;
   double frictional_work_ = 0;
   double damping_work_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/inline.hpp"
 #include "core/math/vec.hpp"
 #include "kernels/contact/friction/elastic_stick.hpp"
 
@@ -25,7 +26,7 @@ struct SurfaceSupport {
   std::array<double, 4> along;              ///< weights of the stations
   std::array<double, 4> across;             ///< weights of a station's nodes
 
-  double weight(std::size_t k) const { return along[k / 4] * across[k % 4]; }
+  TREAD_BODY double weight(std::size_t k) const { return along[k / 4] * across[k % 4]; }
 };
 
 /// Place, bases, history and tractions of a point in a step.
@@ -53,21 +54,21 @@ struct ContactPoint {
   double frictional_work;  ///< of the step per area [J/m2]
 
   /// Traction on the rail [Pa].
-  Vec3 traction() const { return pressure * normal + shear.along * along + shear.across * across; }
+  TREAD_BODY Vec3 traction() const { return pressure * normal + shear.along * along + shear.across * across; }
 
   /// Power of the shear stress at the start of the step on the slip speed at that time, elastic slip included
   /// [W/m2].
-  double frictional_power() const {
+  TREAD_BODY double frictional_power() const {
     return 0.5 * ((shear_before.along + shear.along) * slip_speed.along +
                   (shear_before.across + shear.across) * slip_speed.across);
   }
 };
 
 /// Local (t, y, r) components at the space angle with this cosine and sine, and back.
-inline Vec3 localise(double c, double s, const Vec3& v) {
+TREAD_BODY Vec3 localise(double c, double s, const Vec3& v) {
   return {-c * v.x + s * v.z, v.y, -s * v.x - c * v.z};
 }
-inline Vec3 globalise(double c, double s, const Vec3& v) {
+TREAD_BODY Vec3 globalise(double c, double s, const Vec3& v) {
   return {-c * v.x - s * v.z, v.y, s * v.x - c * v.z};
 }
 

@@ -16,16 +16,30 @@ namespace {
 
 constexpr double kEver = -std::numeric_limits<double>::infinity();
 
-/// Sets the point's tangents and the bases of the wheel's nodes about it.
-void set_bases(ContactPoint& point) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    point.wheel_cosine[i] = std::cos(point.wheel_angle[i]);
-    point.wheel_sine[i] = std::sin(point.wheel_angle[i]);
+/// The part of a surface between two places along it and about these edges, with all nodes that its faces'
+/// cubics take.
+SurfacePart part_of(const SweptBlock& block, const StationFinder& finder, const SurfaceProfile& profile,
+                    std::array<double, 2> ends, std::array<int, 2> edges) {
+  constexpr int kBeside = 2;  // of cubics, and one more
+  const int all = block.station_count();
+  const auto station = [&](double at) {
+    if (!block.closed) at = std::clamp(at, block.stations.front(), block.stations.back());
+    return std::max(finder.find(at).station, 0);
+  };
+  const int first = station(ends[0]);
+  const int last = station(ends[1]);
+  SurfacePart part;
+  if (block.closed) {
+    const int between = ends[1] - ends[0] < M_PI ? (last - first + all) % all : all;
+    part.count = std::min(between + 2 + 2 * kBeside, all);
+    part.first = (first - kBeside + all) % all;
+  } else {
+    part.first = std::max(first - kBeside, 0);
+    part.count = std::min(last + 2 + kBeside, all) - part.first;
   }
-  const Vec3 ahead{1, 0, 0};
-  const Vec3 along = ahead - dot(ahead, point.normal) * point.normal;
-  point.along = (1 / norm(along)) * along;
-  point.across = cross(point.along, point.normal);
+  part.first_node = std::max(edges[0] - kBeside, 0);
+  part.last_node = std::min(edges[1] + 2 + kBeside, profile.edges() + 1);
+  return part;
 }
 
 }  // namespace
@@ -94,7 +108,16 @@ void ContactSearch::make_room() {
   const SweptBlock& rail = surfaces_.rail();
   wake_time_.assign(static_cast<std::size_t>(face_index(rail.station_count(), 0)), kEver);
   double pitch = 1e30;
-  for (const PitchClass& c : rail.classes) pitch = std::min(pitch, c.pitch);
+  longest_pitch_ = 0;
+  for (const PitchClass& c : rail.classes) {
+    pitch = std::min(pitch, c.pitch);
+    longest_pitch_ = std::max(longest_pitch_, c.pitch);
+  }
+  const SurfaceProfile& wheel = surfaces_.wheel_profile();
+  least_radius_ = std::numeric_limits<double>::infinity();
+  for (int edge = 0; edge < wheel.edges(); ++edge)
+    for (const double end : {0.0, 1.0})
+      least_radius_ = std::min(least_radius_, wheel.evaluate(edge, end, options_.surface).q);
   columns_.assign(static_cast<std::size_t>(2 * reach() / pitch) + 3, {});
   for (std::vector<ContactPoint>& column : columns_)
     column.reserve(static_cast<std::size_t>(last_edge_ - first_edge_) * points_per_face());
@@ -126,37 +149,35 @@ void ContactSearch::update_window(const BodyFrame& wheel) {
   window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
 }
 
+SearchBounds ContactSearch::bounds(double time) const {
+  return {0.5 * options_.reach_gap, margin_, closing_speed_, time};
+}
+
 void ContactSearch::visit_column(const Visit& visit, int station) {
   const ContactState& state = *visit.state;
   std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
   column.clear();
+  const SurfacePairBody<SurfaceDepths> surfaces = surfaces_.body();
   const bool dynamic = static_cast<bool>(state.velocity);
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
     const std::int64_t face = face_index(station, edge);
     double& wake = wake_time_[static_cast<std::size_t>(face)];
-    if (dynamic && visit.time < wake) continue;
+    if (dynamic && visit.bounds.time < wake) continue;
     double smallest = std::numeric_limits<double>::max();
     for (int k = 0; k < quadrature_.size(); ++k) {
       ContactPoint point{};
-      surfaces_.place(state, {station, edge}, quadrature_.point(k), point);
-      const double gap = surfaces_.find_gap(state, 0.5 * options_.reach_gap, point);
-      smallest = std::min(smallest, gap);
       point.history = face * quadrature_.size() + k;
       const PointHistory before =
           dynamic ? visit.history[static_cast<std::size_t>(point.history)] : PointHistory{};
-      // A point that carried pressure stays until a step in which it carries none has released its energy.
-      if (gap >= margin_ && !(before.pressure > 0)) continue;
-      set_bases(point);
-      if (dynamic) {
-        point.shear_before = before.shear;
-        point.pressure_before = before.pressure;
-        point.velocity_before = wheel_velocity(state, point) - rail_velocity(state, point);
-      } else {
-        point.pressure = -options_.penalty * gap;
-      }
+      double gap = 0;
+      const bool found = find_point(surfaces, state, visit.bounds, {station, edge}, quadrature_.point(k),
+                                    before, point, gap);
+      smallest = std::min(smallest, gap);
+      if (!found) continue;
+      if (!dynamic) point.pressure = -options_.penalty * gap;
       column.push_back(point);
     }
-    if (dynamic) wake = smallest > margin_ ? visit.time + (smallest - margin_) / closing_speed_ : visit.time;
+    if (dynamic) wake = visit.bounds.wake_time(smallest);
   }
 }
 
@@ -171,40 +192,61 @@ void ContactSearch::gather(std::vector<ContactPoint>& points) const {
 void ContactSearch::find_static(const ContactState& state, std::vector<ContactPoint>& points) {
   margin_ = 0;
   update_window(*state.wheel);
-  for (int station = window_first_; station < window_last_; ++station) visit_column({&state, {}, 0}, station);
+  for (int station = window_first_; station < window_last_; ++station)
+    visit_column({&state, {}, bounds(0)}, station);
   gather(points);
 }
 
-void ContactSearch::find(const ContactState& state, std::span<const PointHistory> history, double time,
-                         double dt, std::vector<ContactPoint>& points) {
-  update_window(*state.wheel);
+void ContactSearch::aim(const BodyFrame& wheel, double dt) {
+  update_window(wheel);
   const double half = reach();
   const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest() +
                        surfaces_.rail_depth().steepest() + surfaces_.wheel_depth().steepest();
-  closing_speed_ = norm(state.wheel->velocity) * slope + 5;
+  closing_speed_ = norm(wheel.velocity) * slope + 5;
   margin_ = closing_speed_ * dt;
-  const Visit visit{&state, history, time};
+}
+
+void ContactSearch::find(const ContactState& state, std::span<const PointHistory> history, double time,
+                         std::vector<ContactPoint>& points) {
+  const Visit visit{&state, history, bounds(time)};
   parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) visit_column(visit, window_first_ + static_cast<int>(i));
   });
   gather(points);
 }
 
+std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt) const {
+  constexpr double kRoom = 2e-3;  // for displacements, and the way from a rail point to the closest one [m]
+  const SurfaceProfile& rail_profile = surfaces_.rail_profile();
+  const SurfaceProfile& wheel_profile = surfaces_.wheel_profile();
+  const double half = reach() + longest_pitch_ + kRoom;
+  const double angle = half / (0.98 * least_radius_);
+  const double way = wheel.velocity.x * dt;
+  const double turn = wheel.spin * dt;
+  const double least_p = rail_profile.edge_p(first_edge_, 0) - wheel.origin.y - kRoom;
+  const double most_p = rail_profile.edge_p(last_edge_ - 1, 1) - wheel.origin.y + kRoom;
+  return {part_of(surfaces_.rail(), surfaces_.rail_stations(), rail_profile,
+                  {wheel.origin.x + std::min(way, 0.0) - half, wheel.origin.x + std::max(way, 0.0) + half},
+                  {first_edge_, last_edge_ - 1}),
+          part_of(surfaces_.wheel(), surfaces_.wheel_stations(), wheel_profile,
+                  {-wheel.angle - std::max(turn, 0.0) - angle, -wheel.angle - std::min(turn, 0.0) + angle},
+                  {wheel_profile.edge_at(least_p), wheel_profile.edge_at(most_p)})};
+}
+
 void ContactSearch::wake_all() {
   std::fill(wake_time_.begin(), wake_time_.end(), kEver);
 }
 
+SearchEnd ContactSearch::end() const {
+  return {0.95 * reach(), quadrature_.place(0), first_edge_, last_edge_, surfaces_.rail_profile().edges()};
+}
+
 const ContactPoint* ContactSearch::point_at_the_end(const BodyFrame& wheel,
                                                     const std::vector<ContactPoint>& points) const {
-  const double room = 0.95 * reach();
-  const double outermost = quadrature_.place(0);  // of a face, from its side
-  const int edges = surfaces_.rail_profile().edges();
+  const SearchEnd bounds = end();
   for (const ContactPoint& point : points) {
-    const int edge = point.face[1];
     const double across = quadrature_.point(static_cast<int>(point.history % quadrature_.size())).across;
-    const bool beside = (first_edge_ > 0 && edge == first_edge_ && across <= outermost) ||
-                        (last_edge_ < edges && edge == last_edge_ - 1 && across >= 1 - outermost);
-    if (beside || std::abs(point.position.x - wheel.origin.x) >= room) return &point;
+    if (bounds.has(point.face[1], across, point.position.x - wheel.origin.x)) return &point;
   }
   return nullptr;
 }

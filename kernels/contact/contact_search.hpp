@@ -11,9 +11,17 @@
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/face_quadrature.hpp"
+#include "kernels/contact/search_body.hpp"
 #include "kernels/contact/surface_pair.hpp"
 
 namespace tread {
+
+/// A part of a running surface: stations [first, first + count), which may pass the end of a full turn, and
+/// nodes across it, [first_node, last_node), by their ordinals.
+struct SurfacePart {
+  int first = 0, count = 0;
+  int first_node = 0, last_node = 0;
+};
 
 /// Window of rail faces about the wheel and the integration points on them that may touch.
 class ContactSearch {
@@ -39,10 +47,19 @@ class ContactSearch {
   /// Sets `points` to those in contact, with the pressures of statics.
   void find_static(const ContactState& state, std::vector<ContactPoint>& points);
 
-  /// Sets `points` to those that touch or may touch before the step of length dt [s] that starts at `time`
-  /// [s] ends, with the tractions and velocities before the step. A point that carried pressure stays.
-  void find(const ContactState& state, std::span<const PointHistory> history, double time, double dt,
+  /// Sets window and bounds of a search in a step of length dt [s]. NumericalError where the wheel leaves the
+  /// meshed surfaces.
+  void aim(const BodyFrame& wheel, double dt);
+  /// Sets `points` to those that touch or may touch before the step ends that starts at `time` [s], after
+  /// aim(), with the tractions and velocities before the step. A point that carried pressure stays.
+  void find(const ContactState& state, std::span<const PointHistory> history, double time,
             std::vector<ContactPoint>& points);
+  SearchBounds bounds(double time) const;
+  SearchEnd end() const;
+
+  /// Parts of the rail's and the wheel's surface that hold all nodes whose motion find() reads, and those
+  /// that carry what it finds, with the wheel's frame anywhere between now and a step of dt [s] later.
+  std::array<SurfacePart, 2> near(const BodyFrame& wheel, double dt) const;
 
   /// Forgets when faces may close.
   void wake_all();
@@ -75,7 +92,7 @@ class ContactSearch {
   struct Visit {
     const ContactState* state;
     std::span<const PointHistory> history;
-    double time;
+    SearchBounds bounds;
   };
   void choose_edges();
   void make_room();
@@ -96,6 +113,8 @@ class ContactSearch {
   int first_edge_ = 0, last_edge_ = 0;
   int window_first_ = 0, window_last_ = 0;
   double touching_height_ = 0;
+  double least_radius_ = 0;                         ///< of the wheel's surface [m]
+  double longest_pitch_ = 0;                        ///< of the rail's faces [m]
   double closing_speed_ = 0;                        ///< bound used for wake_time_ [m/s]
   double margin_ = 0;                               ///< gap up to which points are kept [m]
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]

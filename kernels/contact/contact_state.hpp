@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/body_frame.hpp"
+#include "core/inline.hpp"
 #include "core/mesh/node_field.hpp"
 #include "kernels/contact/contact_point.hpp"
 
@@ -17,7 +18,7 @@ struct ContactState {
 };
 
 /// Velocity of the rail's surface at the point [m/s].
-inline Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) {
+TREAD_BODY Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
     v += point.rail.weight(k) * state.velocity.at(point.rail.slot[k]);
@@ -25,7 +26,7 @@ inline Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) 
 }
 
 /// Velocity of the wheel's surface at the point [m/s].
-inline Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) {
+TREAD_BODY Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
     v += point.wheel.weight(k) * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],

@@ -7,56 +7,33 @@
 #include <vector>
 
 #include "core/mesh/swept_block.hpp"
+#include "kernels/contact/surface_body.hpp"
 
 namespace tread {
-
-/// "exact": cubic Hermite profile curves, true circles and the corrugation's formula carry the geometry,
-/// cubics through the nodal values the displacement. "facets": the nodes' bilinear faces carry both.
-enum class SurfaceKind { exact, facets };
-
-/// Interpolation in one cell of a line of nodes: weights of the four nodes about it (ordinals along the line;
-/// those without weight repeat a neighbour).
-struct LineWeights {
-  std::array<int, 4> ordinal;
-  std::array<double, 4> value;
-  std::array<double, 4> slope;  ///< derivative by the cell's fraction
-};
-
-/// A cell of a line of nodes: its nodes' ordinals, its length and those of its neighbours (0: there is none).
-struct LineCell {
-  int before, first, second, after;
-  double length_before, length, length_after;
-};
-
-/// exact: the C1 cubic whose slopes at nodes are those of the parabola through three nodes: reproduces
-/// quadratics, so a flattened circle stays flat between nodes. facets: linear.
-LineWeights line_weights(const LineCell& cell, double fraction, SurfaceKind kind);
 
 /// Section curve of a running surface.
 class SurfaceProfile {
  public:
   explicit SurfaceProfile(const Section& section);
 
-  struct Point {
-    double p, q;    ///< [m]
-    double dp, dq;  ///< derivative by the edge parameter [m]
-  };
+  using Point = ProfileView::Point;
+  ProfileView view() const {
+    return {edges_.data(), edges(), bucket_.data(), static_cast<int>(bucket_.size()), bucket_width_};
+  }
 
   int edges() const { return static_cast<int>(edges_.size()); }
   /// Section node by its ordinal along the surface, 0 ... edges().
-  int node(int ordinal) const {
-    return ordinal < edges() ? edges_[static_cast<std::size_t>(ordinal)].node[0] : edges_.back().node[1];
-  }
-  LineCell cell(int edge) const;
+  int node(int ordinal) const { return view().node(ordinal); }
+  LineCell cell(int edge) const { return view().cell(edge); }
 
   /// Point at parameter eta in [0, 1] of an edge; straight between the nodes for facets.
-  Point evaluate(int edge, double eta, SurfaceKind kind) const;
+  Point evaluate(int edge, double eta, SurfaceKind kind) const { return view().evaluate(edge, eta, kind); }
 
   /// q of the exact surface at p [m]; the last edge is prolonged beyond the surface.
   double q_at(double p) const;
 
   /// Edge whose span contains p (the first or last one beyond the ends); constant time.
-  int edge_at(double p) const;
+  int edge_at(double p) const { return view().edge_at(p); }
   double first_p() const { return edges_.front().p[0]; }
   double last_p() const { return edges_.back().p[1]; }
   double edge_p(int edge, int end) const {
@@ -64,12 +41,7 @@ class SurfaceProfile {
   }
 
  private:
-  struct Edge {
-    std::array<int, 2> node;
-    std::array<double, 2> p, q, tp, tq;  ///< ends and Hermite tangents, times the chord length
-    double chord;
-  };
-  std::vector<Edge> edges_;
+  std::vector<ProfileEdge> edges_;
   std::vector<int> bucket_;
   double bucket_width_ = 1;
 };
@@ -83,17 +55,15 @@ class StationFinder {
  public:
   explicit StationFinder(const SweptBlock& block);
 
-  struct Cell {
-    int station;      ///< first station
-    int next;         ///< second station
-    double pitch;     ///< [m or rad]
-    double distance;  ///< from the first station [m or rad]
-  };
+  using Cell = StationLine::Cell;
   /// Closed blocks take any angle; open ones return station -1 outside.
-  Cell find(double coordinate) const;
+  Cell find(double coordinate) const { return line().find(coordinate); }
+  StationLine line() const;
 
  private:
   const SweptBlock* block_;
+  std::vector<double> pitch_;
+  std::vector<std::int64_t> slot_;  ///< of section node 0 in node fields
   std::vector<int> bucket_;
   double width_ = 1;
   double first_ = 0;

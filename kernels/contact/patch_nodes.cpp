@@ -52,19 +52,9 @@ void PatchNodes::add(const ContactPoint& point) {
     const int station = point.face[0] + corner / 2;
     const int row = point.face[1] - grid_.first_edge + corner % 2;
     TREAD_EXPECT(station >= first_ && station <= last_ && row >= 0 && row < grid_.rows());
-    NodalContact& node = nodes_[grid_.node(station - first_, row)];
     const double share =
         point.area * point.face_share[static_cast<std::size_t>(corner)] / grid_.area(station, row);
-    node.frictional_work += share * point.frictional_work;
-    if (point.pressure <= 0) continue;
-    node.pressure += share * point.pressure;
-    node.shear.along += share * point.shear.along;
-    node.shear.across += share * point.shear.across;
-    node.slip_speed.along += share * point.slip_speed.along;
-    node.slip_speed.across += share * point.slip_speed.across;
-    node.frictional_power += share * point.frictional_power();
-    node.touching += share;
-    if (point.slips) node.slipping += share;
+    nodes_[grid_.node(station - first_, row)].add(point, share);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/inline.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
@@ -54,7 +55,21 @@ struct NodalContact {
   double touching = 0;          ///< share of the node's area [-]
   double slipping = 0;          ///< share of the node's area [-]
 
-  double shear_size() const {
+  /// Adds a point's share, of the node's area.
+  TREAD_BODY void add(const ContactPoint& point, double share) {
+    frictional_work += share * point.frictional_work;
+    if (point.pressure <= 0) return;
+    pressure += share * point.pressure;
+    shear.along += share * point.shear.along;
+    shear.across += share * point.shear.across;
+    slip_speed.along += share * point.slip_speed.along;
+    slip_speed.across += share * point.slip_speed.across;
+    frictional_power += share * point.frictional_power();
+    touching += share;
+    if (point.slips) slipping += share;
+  }
+
+  TREAD_BODY double shear_size() const {
     return std::sqrt(shear.along * shear.along + shear.across * shear.across);
   }  ///< [Pa]
 };

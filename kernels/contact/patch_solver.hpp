@@ -37,6 +37,8 @@ class PatchSolver {
   void solve(std::vector<ContactPoint>& points, const PointSprings& springs, Friction& friction,
              const BodyFrame& wheel, const NodeMotion& motion, double dt);
 
+  /// Nodes that carry the points of the last solution.
+  const std::vector<PatchCells::Node>& nodes() const { return cells_.nodes(); }
   /// Iterations of the last solution.
   int iterations() const { return iterations_; }
 

@@ -19,6 +19,14 @@ class SurfaceFields {
   /// A step: its tractions and frictional work.
   void add_step(const PatchNodes& patch);
 
+  /// The fields that add_step() changes, by node.
+  struct StepFields {
+    std::vector<double>& max_pressure;
+    std::vector<double>& max_shear;
+    std::vector<double>& frictional_work;
+  };
+  StepFields step_fields() { return {max_pressure_, max_shear_, frictional_work_}; }
+
   /// A sample that stands for `interval` [s]: frictional work as the paper sums it. [paper, eq. (5)]
   void add_sample(const PatchNodes& patch, double interval);
 

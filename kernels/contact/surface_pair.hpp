@@ -8,11 +8,25 @@
 #include "core/mesh/swept_block.hpp"
 #include "core/running_surface.hpp"
 #include "kernels/contact/contact_point.hpp"
-#include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/contact_surface.hpp"
-#include "kernels/contact/face_quadrature.hpp"
+#include "kernels/contact/surface_pair_body.hpp"
 
 namespace tread {
+
+class SurfacePair;
+
+/// Depths of both surfaces, of every kind; on the processor alone.
+class SurfaceDepths {
+ public:
+  explicit SurfaceDepths(const SurfacePair& surfaces) : surfaces_(&surfaces) {}
+  double rail(double x, double y) const;
+  bool wheel_smooth() const;
+  SurfaceDepth wheel(double angle, double y) const;
+  double wheel_radius() const;
+
+ private:
+  const SurfacePair* surfaces_;
+};
 
 /// An extruded rail's surface under a revolved wheel's.
 class SurfacePair {
@@ -23,16 +37,11 @@ class SurfacePair {
   /// Lowers the rail's surface, beside its other depths.
   void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
 
-  /// Sets nodes, weights, place, face and area of a point of the quadrature on a rail face.
-  void place(const ContactState& state, std::array<int, 2> face, const FaceQuadrature::Point& at,
-             ContactPoint& point) const;
-
-  /// Sets the wheel's nodes, weights, angles, normal and gap at the wheel's point that is closest to the
-  /// placed rail point. Returns the gap [m], or the largest number beyond the wheel's surface. A gap above
-  /// `far` [m] is rough.
-  double find_gap(const ContactState& state, double far, ContactPoint& point) const;
+  /// The same as plain data, as long as this object stays where it is.
+  SurfacePairBody<SurfaceDepths> body() const;
 
   const SweptBlock& rail() const { return *rail_; }
+  const SweptBlock& wheel() const { return *wheel_; }
   const Corrugation& corrugation() const { return corrugation_; }
   const RunningSurface& rail_depth() const { return rail_depth_; }
   const RunningSurface& wheel_depth() const { return wheel_depth_; }
@@ -48,10 +57,6 @@ class SurfacePair {
   SurfaceKind kind() const { return kind_; }
 
  private:
-  struct WheelPlace;
-  struct WheelSurface;
-  WheelSurface wheel_surface(const ContactState& state, const WheelPlace& at, ContactPoint& point) const;
-
   const SweptBlock* rail_;
   const SweptBlock* wheel_;
   SurfaceKind kind_;
@@ -62,5 +67,18 @@ class SurfacePair {
   StationFinder rail_stations_;
   StationFinder wheel_stations_;
 };
+
+inline double SurfaceDepths::rail(double x, double y) const {
+  return surfaces_->depth_at(x, y);
+}
+inline bool SurfaceDepths::wheel_smooth() const {
+  return surfaces_->wheel_depth().smooth();
+}
+inline SurfaceDepth SurfaceDepths::wheel(double angle, double y) const {
+  return surfaces_->wheel_depth().around(angle, y);
+}
+inline double SurfaceDepths::wheel_radius() const {
+  return surfaces_->wheel_depth().radius();
+}
 
 }  // namespace tread

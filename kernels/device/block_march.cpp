@@ -162,9 +162,7 @@ void BlockMarch<Real>::build_stations(Device& device) {
   if (swept_->sweep == Sweep::extruded) return;
   std::vector<Real> radius(swept_->section.q.begin(), swept_->section.q.end());
   block_.radius = keep(device, radius);
-  weight_.resize(2 * index(block_.stations));
-  device_weight_ = DeviceArray<Real>(device, weight_.size());
-  block_.weight = device_weight_.data();
+  block_.angle = keep(device, swept_->stations);
 }
 
 template <class Real>
@@ -194,14 +192,8 @@ void BlockMarch<Real>::build_coefficients(Device& device, const BlockElements<Re
 template <class Real>
 const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads) {
   block_.step = step_constants<Real>(*swept_, loads);
-  if (!weight_.empty()) {
-    for (int station = 0; station < block_.stations; ++station) {
-      const GravityInSweep gravity = gravity_at(*swept_, station, loads);
-      weight_[index(station)] = static_cast<Real>(gravity.along);
-      weight_[index(block_.stations + station)] = static_cast<Real>(gravity.outwards);
-    }
-    device_weight_.upload(weight_.data());
-  }
+  block_.gravity = loads.gravity;
+  block_.frame_angle = loads.frame.angle;
   return block_;
 }
 

@@ -42,8 +42,6 @@ class BlockMarch {
   const SweptBlock* swept_;
   MarchBlock<Real> block_;
   std::vector<std::shared_ptr<void>> kept_;  ///< arrays that block_ points to
-  std::vector<Real> weight_;
-  DeviceArray<Real> device_weight_;
 };
 
 extern template class BlockMarch<double>;

@@ -10,7 +10,8 @@ namespace tread {
 
 namespace {
 
-constexpr int kThreads = 128;  ///< of a team
+constexpr int kThreads = 128;       ///< of a team
+constexpr int kPatchThreads = 512;  ///< of the one team of a patch
 
 /// ResourceError where a call failed.
 void check(cudaError_t status, const char* what) {
@@ -34,6 +35,8 @@ class CudaTeam {
     used_ += n * sizeof(T);
     return first;
   }
+  __device__ void least(int* at, int value) const { atomicMin(at, value); }
+  __device__ int add(int* at, int value) const { return atomicAdd(at, value); }
   template <class Body>
   __device__ void for_each(int n, const Body& body) const {
     for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
@@ -51,21 +54,17 @@ __global__ void __launch_bounds__(kThreads)
   March(team, block, fields).run();
 }
 
-template <class Real, class U>
-__global__ void place_kernel(GroupValues<Real, U> values, U* u, Real* v) {
+template <class Body>
+__global__ void each_kernel(std::int64_t n, Body body) {
   const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (i < 3 * kLanes * values.count) place_value(values, i, u, v);
+  if (i < n) body(i);
 }
 
-template <class Real>
-__global__ void lag_kernel(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) {
-  const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (i < n) q[i] = advance.of(q[i], v[i]);
-}
-
-__global__ void triad_kernel(std::int64_t n, double* a, const double* b, const double* c) {
-  const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (i < n) a[i] = b[i] + 3 * c[i];
+template <class Law>
+__global__ void __launch_bounds__(kPatchThreads)
+    patch_kernel(ContactTask task, Law law, typename Law::State* state) {
+  CudaTeam team;
+  PatchTeam<Law, CudaTeam>(team, task, law, state).run();
 }
 
 unsigned blocks_for(std::int64_t n) {
@@ -99,33 +98,29 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     return memory;
   }
   void release(void* memory) override { cudaFree(memory); }
-  void upload(void* to, const void* from, std::size_t bytes) override {
-    check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to it");
-  }
-  void download(void* to, const void* from, std::size_t bytes) override {
-    check(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from it");
-  }
 
   void wait() override { check(cudaDeviceSynchronize(), "waiting for it"); }
-  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
-    triad_kernel<<<blocks_for(n), kThreads>>>(n, a, b, c);
-    check(cudaGetLastError(), "triad");
-  }
 
  private:
   friend KernelDevice<CudaDevice>;
 
-  template <class Real>
-  void advance_any_lag(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) {
-    lag_kernel<<<blocks_for(n), kThreads>>>(n, advance, v, q);
-    check(cudaGetLastError(), "lag");
+  void copy_to(void* to, const void* from, std::size_t bytes) override {
+    check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to it");
+  }
+  void copy_from(void* to, const void* from, std::size_t bytes) override {
+    check(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from it");
   }
 
-  template <class Real, class U>
-  void place_any(const GroupValues<Real, U>& values, U* u, Real* v) {
-    const std::int64_t n = 3 * kLanes * values.count;
-    if (n > 0) place_kernel<<<blocks_for(n), kThreads>>>(values, u, v);
-    check(cudaGetLastError(), "values of the host");
+  template <class Body>
+  void each(const Body& body) {
+    each_kernel<<<blocks_for(body.count()), kThreads>>>(body.count(), body);
+    check(cudaGetLastError(), "values of nodes");
+  }
+
+  template <class Law>
+  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
+    patch_kernel<<<1, kPatchThreads, PatchTeam<Law, CudaTeam>::shared_bytes()>>>(task, law, state);
+    check(cudaGetLastError(), "patch");
   }
 
   template <class Real, class U>

@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/device/march_layout.hpp"
-#include "kernels/lanes/tile_force.hpp"
+#include "kernels/contact/friction/friction_law.hpp"
+#include "kernels/device/contact_layout.hpp"
+#include "kernels/device/field_kernels.hpp"
 
 namespace tread {
 
@@ -22,13 +23,11 @@ struct MarchCut {
   int run_length = 32;   ///< stations of a run
 };
 
-/// Groups of kLanes slots whose values come from the host, packed: [group][component][lane].
-template <class Real, class U>
-struct GroupValues {
-  const std::int64_t* groups = nullptr;
-  std::int64_t count = 0;
-  const U* u = nullptr;     ///< [m]
-  const Real* v = nullptr;  ///< [m/s]
+/// Copies and launches since a device was opened.
+struct DeviceTraffic {
+  std::int64_t to_device = 0;    ///< copied [B]
+  std::int64_t from_device = 0;  ///< copied [B]
+  std::int64_t launches = 0;     ///< of kernels
 };
 
 class Device {
@@ -49,30 +48,46 @@ class Device {
   virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory) = 0;
   /// Copies end before these return. ResourceError where the device is lost.
-  virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
-  virtual void download(void* to, const void* from, std::size_t bytes) = 0;
+  void upload(void* to, const void* from, std::size_t bytes) {
+    traffic_.to_device += static_cast<std::int64_t>(bytes);
+    copy_to(to, from, bytes);
+  }
+  void download(void* to, const void* from, std::size_t bytes) {
+    traffic_.from_device += static_cast<std::int64_t>(bytes);
+    copy_from(to, from, bytes);
+  }
+  const DeviceTraffic& traffic() const { return traffic_; }
 
-  /// Forces of a block, and motion of its nodes. `variant.damped` does not matter: fields.added says it.
-  virtual void march(TileVariant variant, const MarchBlock<double>& block,
-                     const MarchFields<double, double>& fields) = 0;
-  virtual void march(TileVariant variant, const MarchBlock<float>& block,
-                     const MarchFields<float, double>& fields) = 0;
-  virtual void march(TileVariant variant, const MarchBlock<float>& block,
-                     const MarchFields<float, float>& fields) = 0;
+  /// Kernels over fields of these precisions.
+  template <class Real, class U>
+  FieldKernels<Real, U>& kernels() {
+    return kernels_of(Precision<Real, U>{});
+  }
 
-  /// Writes the host's groups to the fields u and v.
-  virtual void place(const GroupValues<double, double>& values, double* u, double* v) = 0;
-  virtual void place(const GroupValues<float, double>& values, double* u, float* v) = 0;
-  virtual void place(const GroupValues<float, float>& values, float* u, float* v) = 0;
-
-  /// q = kept q + gained v of n values. [BranchLag::advance]
-  virtual void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) = 0;
-  virtual void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) = 0;
+  /// Finds the candidates of a step. [SearchPoints]
+  virtual void search(const ContactTask& task) = 0;
+  /// Makes the patch of them and solves its tractions; `state`: of the law, by integration point. The law's
+  /// arrays lie on the device. [PatchTeam]
+  virtual void resolve(const ContactTask& task, const FrictionLaw& law, void* state) = 0;
 
   /// Ends when all kernels have ended.
   virtual void wait() = 0;
   /// a = b + 3 c of n values: the bandwidth of the device's memory. [STREAM]
   virtual void triad(std::int64_t n, double* a, const double* b, const double* c) = 0;
+
+ protected:
+  template <class Real, class U>
+  struct Precision {};
+
+  virtual void copy_to(void* to, const void* from, std::size_t bytes) = 0;
+  virtual void copy_from(void* to, const void* from, std::size_t bytes) = 0;
+  virtual FieldKernels<double, double>& kernels_of(Precision<double, double> of) = 0;
+  virtual FieldKernels<float, double>& kernels_of(Precision<float, double> of) = 0;
+  virtual FieldKernels<float, float>& kernels_of(Precision<float, float> of) = 0;
+  void count_launch() { ++traffic_.launches; }
+
+ private:
+  DeviceTraffic traffic_;
 };
 
 /// An array on a device.
@@ -99,11 +114,14 @@ class DeviceArray {
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }
   /// From and to arrays of as many values.
-  void upload(const T* from) {
-    if (size_ > 0) device_->upload(data_, from, size_ * sizeof(T));
+  void upload(const T* from) { upload(from, size_); }
+  void download(T* to) const { download(to, size_); }
+  /// The first `count` values.
+  void upload(const T* from, std::size_t count) {
+    if (count > 0) device_->upload(data_, from, count * sizeof(T));
   }
-  void download(T* to) const {
-    if (size_ > 0) device_->download(to, data_, size_ * sizeof(T));
+  void download(T* to, std::size_t count) const {
+    if (count > 0) device_->download(to, data_, count * sizeof(T));
   }
   void swap(DeviceArray& other) {
     std::swap(device_, other.device_);

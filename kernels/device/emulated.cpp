@@ -43,6 +43,9 @@ class EmulatedTeam {
   T* share(std::size_t n) const {
     return reinterpret_cast<T*>(std::exchange(memory_, memory_ + n * sizeof(T)));
   }
+  /// One thread at a time changes what all share.
+  void least(int* at, int value) const { *at = std::min(*at, value); }
+  int add(int* at, int value) const { return std::exchange(*at, *at + value); }
   template <class Body>
   void for_each(int n, const Body& body) const {
     const Order order(n, seed_);
@@ -69,32 +72,29 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
     return memory;
   }
   void release(void* memory) override { ::operator delete (memory, std::align_val_t{64}); }
-  void upload(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
-  void download(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
-
   void wait() override {}
-  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
-    for_each(n, [=](std::int64_t i) { a[i] = b[i] + 3 * c[i]; });
-  }
 
  private:
   friend KernelDevice<EmulatedDevice>;
 
+  void copy_to(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+  void copy_from(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+
   template <class Body>
-  void for_each(std::int64_t n, const Body& body) const {
-    parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) body(i);
+  void each(const Body& body) const {
+    const Order order(body.count(), emulation_.order);
+    parallel_ranges(body.count(), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) body(order(i));
     });
   }
 
-  template <class Real>
-  void advance_any_lag(std::int64_t n, LagAdvance<Real> advance, const Real* v, Real* q) const {
-    for_each(n, [=](std::int64_t i) { q[i] = advance.of(q[i], v[i]); });
-  }
-
-  template <class Real, class U>
-  void place_any(const GroupValues<Real, U>& values, U* u, Real* v) const {
-    for_each(3 * kLanes * values.count, [&](std::int64_t i) { place_value(values, i, u, v); });
+  template <class Law>
+  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) const {
+    using Patch = PatchTeam<Law, EmulatedTeam>;
+    thread_local AlignedVector<std::byte> memory;
+    memory.resize(std::max(memory.size(), Patch::shared_bytes()));
+    const EmulatedTeam team(0, emulation_.order, memory.data());
+    Patch(team, task, law, state).run();
   }
 
   template <class Real, class U>

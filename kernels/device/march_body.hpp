@@ -18,6 +18,40 @@
 
 namespace tread {
 
+/// dof(), on a device too.
+TREAD_INLINE std::int64_t place_in_field(std::int64_t slot, int component) {
+  return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
+}
+
+/// Moves the node of a slot under its force. `weight`: gravity at its station (revolved), rounded [m/s2].
+template <Sweep sweep, int first, class Real, class U>
+TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields,
+                                 int section_node, std::int64_t slot, const Real (&weight)[2],
+                                 const Real (&force)[3]) {
+  U u[3] = {};
+  Real v[3] = {};
+  for (int i = first; i < 3; ++i) {
+    u[i] = fields.u[place_in_field(slot, i)];
+    v[i] = fields.v[place_in_field(slot, i)];
+  }
+  if constexpr (sweep == Sweep::revolved)
+    move_spinning(block.step, weight, block.radius[section_node], fields.inverse_mass[slot], force, u, v);
+  else
+    move_fixed<first>(block.step, fields.inverse_mass[slot], force, u, v);
+  for (int i = first; i < 3; ++i) {
+    fields.moved_u[place_in_field(slot, i)] = u[i];
+    fields.moved_v[place_in_field(slot, i)] = v[i];
+  }
+}
+
+/// Gravity at a station of a revolved block, rounded [m/s2].
+template <class Real>
+TREAD_INLINE void weigh(const MarchBlock<Real>& block, int station, Real* weight) {
+  const GravityInSweep gravity = gravity_in_sweep(block.gravity, block.angle[station] + block.frame_angle);
+  weight[0] = static_cast<Real>(gravity.along);
+  weight[1] = static_cast<Real>(gravity.outwards);
+}
+
 template <class Real, class U, Sweep sweep, bool finite_rotation, int first, template <class> class Law,
           class Team>
 class March {
@@ -30,18 +64,24 @@ class March {
     if (block.row != nullptr) shifts_ = team.template share<Real>(6 * nodes);
     forces_ = team.template share<Real>(24 * static_cast<std::size_t>(part_.quads));
     carry_ = team.template share<Real>(3 * static_cast<std::size_t>(part_.own_nodes));
+    if constexpr (sweep == Sweep::revolved)
+      weights_ = team.template share<Real>(2 * static_cast<std::size_t>(block.run_length));
   }
 
   /// Bytes that the threads of a team share at most.
   static std::size_t shared_bytes(const MarchBlock<Real>& block) {
     const std::size_t rows = 9 + (kLinear ? 0 : 6) + (block.row != nullptr ? 6 : 0);
+    const std::size_t weights = sweep == Sweep::revolved ? 2 * static_cast<std::size_t>(block.run_length) : 0;
     return sizeof(Real) * (rows * static_cast<std::size_t>(block.most_nodes) +
-                           24 * static_cast<std::size_t>(block.most_quads));
+                           24 * static_cast<std::size_t>(block.most_quads) + weights);
   }
 
   TREAD_INLINE void run() {
-    const int begin = team_.block() / block_.parts * block_.run_length;
+    begin_ = team_.block() / block_.parts * block_.run_length;
+    const int begin = begin_;
     const int end = begin + block_.run_length < block_.stations ? begin + block_.run_length : block_.stations;
+    if constexpr (sweep == Sweep::revolved)
+      team_.for_each(end - begin, [&](int i) { weigh(block_, begin + i, weights_ + 2 * i); });
     team_.for_each(3 * part_.own_nodes, [&](int i) { carry_[i] = 0; });
     // The elements before the run are computed for their forces on its first station.
     for (int element = begin > 0 || block_.closed ? begin - 1 : begin; element < end; ++element) {
@@ -62,9 +102,6 @@ class March {
   TREAD_INLINE int section_node(int node) const { return block_.part_nodes[part_.first_node + node]; }
   TREAD_INLINE std::int64_t slot(int section_node, int station) const {
     return block_.slot[station] + std::int64_t{section_node} * kLanes;
-  }
-  TREAD_INLINE static std::int64_t place(std::int64_t slot, int component) {
-    return (slot / kLanes * 3 + component) * kLanes + slot % kLanes;
   }
 
   /// Elements between the stations at_ and next_.
@@ -103,8 +140,8 @@ class March {
       Real near_rate[3];
       Real far_rate[3];
       for (int i = first; i < 3; ++i) {
-        near_rate[i] = block_.damping * fields_.added[place(near_slot, i)];
-        far_rate[i] = block_.damping * fields_.added[place(far_slot, i)];
+        near_rate[i] = block_.damping * fields_.added[place_in_field(near_slot, i)];
+        far_rate[i] = block_.damping * fields_.added[place_in_field(far_slot, i)];
       }
       if constexpr (kLinear) {
         for (int i = first; i < 3; ++i) {
@@ -127,7 +164,7 @@ class March {
     U far_origin[3] = {};
     if constexpr (kRelative) {
       const std::int64_t of = slot(section_node(0), at_);
-      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = fields_.u[place(of, i)];
+      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = fields_.u[place_in_field(of, i)];
       if constexpr (sweep == Sweep::revolved) {
         const U c = block_.cosine[block_.pitch_class[at_]];
         const U w = block_.sine[block_.pitch_class[at_]];
@@ -139,8 +176,8 @@ class March {
       }
     }
     for (int i = first; i < 3; ++i) {
-      near[i] = static_cast<Real>(fields_.u[place(near_slot, i)] - origin[i]);
-      far[i] = static_cast<Real>(fields_.u[place(far_slot, i)] - far_origin[i]);
+      near[i] = static_cast<Real>(fields_.u[place_in_field(near_slot, i)] - origin[i]);
+      far[i] = static_cast<Real>(fields_.u[place_in_field(far_slot, i)] - far_origin[i]);
     }
   }
 
@@ -280,47 +317,37 @@ class March {
   TREAD_INLINE void finish_node(int section, const Real (&force)[3]) const {
     const std::int64_t at = slot(section, at_);
     const std::int64_t group = at / kLanes;
-    const int host = fields_.host_group[group];
-    if (fields_.moved_u == nullptr) {
-      for (int i = 0; i < 3; ++i) fields_.force[place(at, i)] = force[i];
-    } else if (host >= 0) {
+    const int host = fields_.group_mark[group];
+    if (host >= 0 && fields_.moved_u != nullptr) {
       for (int i = 0; i < 3; ++i)
         fields_.host_force[(std::int64_t{host} * 3 + i) * kLanes + at % kLanes] = force[i];
+    } else if (host == kKeeps || fields_.moved_u == nullptr) {
+      for (int i = 0; i < 3; ++i) fields_.force[place_in_field(at, i)] = force[i];
     } else {
       move_node(section, at, force);
     }
   }
 
   TREAD_INLINE void move_node(int section, std::int64_t at, const Real (&force)[3]) const {
-    U u[3] = {};
-    Real v[3] = {};
-    for (int i = first; i < 3; ++i) {
-      u[i] = fields_.u[place(at, i)];
-      v[i] = fields_.v[place(at, i)];
-    }
-    if constexpr (sweep == Sweep::revolved) {
-      const Real weight[2] = {block_.weight[at_], block_.weight[block_.stations + at_]};
-      move_spinning(block_.step, weight, block_.radius[section], fields_.inverse_mass[at], force, u, v);
-    } else {
-      move_fixed<first>(block_.step, fields_.inverse_mass[at], force, u, v);
-    }
-    for (int i = first; i < 3; ++i) {
-      fields_.moved_u[place(at, i)] = u[i];
-      fields_.moved_v[place(at, i)] = v[i];
-    }
+    const int of_run = at_ - begin_;
+    const Real weight[2] = {sweep == Sweep::revolved ? weights_[2 * of_run] : Real{0},
+                            sweep == Sweep::revolved ? weights_[2 * of_run + 1] : Real{0}};
+    move_on_device<sweep, first>(block_, fields_, section, at, weight, force);
   }
 
   const Team& team_;
   const MarchBlock<Real>& block_;
   const MarchFields<Real, U>& fields_;
   const MarchPart& part_;
-  Real* values_ = nullptr;  ///< [sum, difference][component][node]
-  Real* rates_ = nullptr;   ///< the same of what damping adds, where the law is not linear
-  Real* shifts_ = nullptr;  ///< the same of the shifts of moved nodes, where there are any
-  Real* forces_ = nullptr;  ///< [sum, difference][component][corner][quad]
-  Real* carry_ = nullptr;   ///< [component][node]: of the elements before
-  int at_ = 0;              ///< station at which the elements begin
-  int next_ = 0;            ///< station at which they end
+  Real* values_ = nullptr;   ///< [sum, difference][component][node]
+  Real* rates_ = nullptr;    ///< the same of what damping adds, where the law is not linear
+  Real* shifts_ = nullptr;   ///< the same of the shifts of moved nodes, where there are any
+  Real* forces_ = nullptr;   ///< [sum, difference][component][corner][quad]
+  Real* carry_ = nullptr;    ///< [component][node]: of the elements before
+  Real* weights_ = nullptr;  ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
+  int begin_ = 0;            ///< first station of the run
+  int at_ = 0;               ///< station at which the elements begin
+  int next_ = 0;             ///< station at which they end
 };
 
 }  // namespace tread

@@ -1,9 +1,13 @@
 #pragma once
 // Kernels of a device and their choice, for every kind of team. [kernels/device/march_body.hpp]
 
+#include <type_traits>
+#include <variant>
+
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_body.hpp"
-#include "kernels/material/branch_lag.hpp"
+#include "kernels/device/node_kernels.hpp"
+#include "kernels/device/patch_team.hpp"
 
 namespace tread {
 
@@ -33,53 +37,84 @@ void with_march(TileVariant v, const Launch& launch) {
   });
 }
 
-/// Place `i` of a group's packed values in a vector field.
-TREAD_INLINE std::int64_t group_place(const std::int64_t* groups, std::int64_t i) {
-  constexpr int kValues = 3 * kLanes;
-  return groups[i / kValues] * kValues + i % kValues;
-}
-
-template <class Real, class U>
-TREAD_INLINE void place_value(const GroupValues<Real, U>& values, std::int64_t i, U* u, Real* v) {
-  const std::int64_t at = group_place(values.groups, i);
-  u[at] = values.u[i];
-  v[at] = values.v[i];
-}
-
-/// Hands the precisions of a device's kernels to templates of `Own`: march_any, place_any, advance_any_lag.
+/// A device of which `Own` has march_any and patch_any, and each(body), which calls body(0) ...
+/// body(body.count() - 1).
 template <class Own>
 class KernelDevice : public Device {
  public:
-  void march(TileVariant variant, const MarchBlock<double>& block,
-             const MarchFields<double, double>& fields) override {
-    own().march_any(variant, block, fields);
+  void search(const ContactTask& task) override { each(SearchPoints{task}); }
+  void resolve(const ContactTask& task, const FrictionLaw& law, void* state) override {
+    this->count_launch();
+    std::visit(
+        [&](const auto& of) {
+          own().patch_any(task, of, static_cast<typename std::decay_t<decltype(of)>::State*>(state));
+        },
+        law);
   }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, double>& fields) override {
-    own().march_any(variant, block, fields);
-  }
-  void march(TileVariant variant, const MarchBlock<float>& block,
-             const MarchFields<float, float>& fields) override {
-    own().march_any(variant, block, fields);
-  }
-  void place(const GroupValues<double, double>& values, double* u, double* v) override {
-    own().place_any(values, u, v);
-  }
-  void place(const GroupValues<float, double>& values, double* u, float* v) override {
-    own().place_any(values, u, v);
-  }
-  void place(const GroupValues<float, float>& values, float* u, float* v) override {
-    own().place_any(values, u, v);
-  }
-  void advance_lag(std::int64_t n, double kept, double gained, const double* v, double* q) override {
-    own().advance_any_lag(n, LagAdvance<double>{kept, gained}, v, q);
-  }
-  void advance_lag(std::int64_t n, float kept, float gained, const float* v, float* q) override {
-    own().advance_any_lag(n, LagAdvance<float>{kept, gained}, v, q);
+  void triad(std::int64_t n, double* a, const double* b, const double* c) override {
+    each(Triad{n, a, b, c});
   }
 
+ protected:
+  KernelDevice() : doubles_(*this), mixed_(*this), singles_(*this) {}
+
  private:
+  template <class Real, class U>
+  class Kernels final : public FieldKernels<Real, U> {
+   public:
+    explicit Kernels(KernelDevice& device) : device_(&device) {}
+
+    void march(TileVariant variant, const MarchBlock<Real>& block,
+               const MarchFields<Real, U>& fields) override {
+      device_->count_launch();
+      device_->own().march_any(variant, block, fields);
+    }
+    void move_primary(TileVariant variant, const TiedNodes& primary, const MarchBlock<Real>& block,
+                      const MarchFields<Real, U>& fields) override {
+      if (variant.sweep == Sweep::revolved)
+        device_->each(MovePrimary<Real, U, Sweep::revolved, 0>{primary, block, fields});
+      else if (variant.vertical_only)
+        device_->each(MovePrimary<Real, U, Sweep::extruded, 2>{primary, block, fields});
+      else
+        device_->each(MovePrimary<Real, U, Sweep::extruded, 0>{primary, block, fields});
+    }
+    void hold(std::int64_t count, const std::int64_t* unknowns, U* u, Real* v) override {
+      device_->each(HoldUnknowns<Real, U>{count, unknowns, u, v});
+    }
+    void follow(const TiedNodes& secondary, U* u, Real* v) override {
+      device_->each(FollowTies<Real, U>{secondary, u, v});
+    }
+    void collect(const SurfaceWindows& windows, const U* u, const Real* v, U* to_u, Real* to_v) override {
+      device_->each(CollectWindows<Real, U>{windows, u, v, to_u, to_v});
+    }
+    void place(const GroupValues<Real, U>& values, U* u, Real* v) override {
+      device_->each(PlaceGroups<Real, U>{values, u, v});
+    }
+    void advance_lag(std::int64_t n, Real kept, Real gained, const Real* v, Real* q) override {
+      device_->each(LagValues<Real>{n, {kept, gained}, v, q});
+    }
+
+   private:
+    KernelDevice* device_;
+  };
+
+  template <class Body>
+  void each(const Body& body) {
+    if (body.count() == 0) return;
+    this->count_launch();
+    own().each(body);
+  }
   Own& own() { return static_cast<Own&>(*this); }
+
+  FieldKernels<double, double>& kernels_of(Device::Precision<double, double> /*of*/) override {
+    return doubles_;
+  }
+  FieldKernels<float, double>& kernels_of(Device::Precision<float, double> /*of*/) override { return mixed_; }
+  FieldKernels<float, float>& kernels_of(Device::Precision<float, float> /*of*/) override { return singles_; }
+
+  Kernels<double, double> doubles_;
+  Kernels<float, double> mixed_;
+  Kernels<float, float> singles_;
 };
 
 }  // namespace tread

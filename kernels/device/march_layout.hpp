@@ -58,8 +58,8 @@ struct MarchBlock {
   const int* pitch_class = nullptr;    ///< by station, of the elements that start there
   const Real* cosine = nullptr;        ///< by class: of half the pitch (revolved)
   const Real* sine = nullptr;
-  const Real* radius = nullptr;  ///< by section node (revolved) [m]
-  const Real* weight = nullptr;  ///< by station: gravity along t; then along r (revolved) [m/s2]
+  const Real* radius = nullptr;   ///< by section node (revolved) [m]
+  const double* angle = nullptr;  ///< by station (revolved) [rad]
 
   const SweptConstants<Real>* constants = nullptr;  ///< [class][place]
   const void* laws = nullptr;                       ///< ElementLaw likewise, of a law that is not linear
@@ -70,10 +70,16 @@ struct MarchBlock {
 
   Real damping = 0;  ///< factor of what is added to the displacements for damping
   StepConstants<Real> step;
+  double gravity = 0;      ///< downwards, where the block spins [m/s2]
+  double frame_angle = 0;  ///< of the frame of a spinning block [rad]
 
   int runs() const { return (stations + run_length - 1) / run_length; }
   int teams() const { return parts * runs(); }
 };
+
+/// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force.
+inline constexpr int kMoves = -1;
+inline constexpr int kKeeps = -2;
 
 /// Node fields on the device, of 3 * slots values in the order of dof(), and states of laws.
 template <class Real, class U>
@@ -85,8 +91,8 @@ struct MarchFields {
   U* moved_u = nullptr;                ///< after the step; null: nothing moves, all forces go to `force`
   Real* moved_v = nullptr;
   Real* force = nullptr;  ///< [N]
-  /// By group of kLanes slots: where the host's groups have their forces in `host_force`; -1: they move here.
-  const int* host_group = nullptr;
+  /// By group of kLanes slots: where the host's groups have their forces in `host_force`; or kMoves, kKeeps.
+  const int* group_mark = nullptr;
   Real* host_force = nullptr;   ///< [group][component][lane] [N]
   const Real* state = nullptr;  ///< of the block: [tile][place][value][lane]
   Real* moved_state = nullptr;

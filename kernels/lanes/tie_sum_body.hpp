@@ -2,8 +2,8 @@
 // Included by one source per instruction set; internal linkage keeps the versions apart.
 
 #include "kernels/lanes/registers.hpp"
+#include "kernels/lanes/tie_station_body.hpp"
 #include "kernels/lanes/tie_sum.hpp"
-#include "kernels/update/node_motion_body.hpp"
 
 namespace tread {
 namespace {
@@ -27,9 +27,7 @@ TREAD_INLINE void add_station(const StationLink& station, int lane, const Real* 
   const TieRegister t = pick(values, station.at + lane);
   const TieRegister y = pick(values + kLanes, station.at + lane);
   const TieRegister r = pick(values + 2 * kLanes, station.at + lane);
-  sum[0] += product(c, t) - product(s, r);
-  sum[1] += product(share, y);
-  sum[2] += product(s, t) + product(c, r);
+  add_station_values(share, c, s, t, y, r, sum);
 }
 
 /// Values that the tile's lanes take from the other block's section nodes.

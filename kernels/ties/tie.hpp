@@ -57,6 +57,9 @@ class Ties {
   const std::vector<std::int64_t>& secondary_slots() const { return secondary_; }
   const std::vector<std::int64_t>& primary_slots() const { return primary_; }
 
+  const TieSums& to_secondary() const { return to_secondary_; }
+  const TieSums& to_primary() const { return to_primary_; }
+
   /// Bytes of the links.
   std::int64_t bytes() const;
 

@@ -4,6 +4,7 @@
 // values, at least as precise. Nothing here is contracted to fused multiply-adds, so that all instruction
 // sets move a node by the same bits. [theory.md, Time step]
 
+#include <cmath>
 #include <type_traits>
 
 #include "core/inline.hpp"
@@ -55,6 +56,18 @@ TREAD_INLINE void move_fixed(const StepConstants<Real>& step, const V& inverse_m
     v[c] -= product(step.dt, product(inverse_mass, f[c]) + (inverse_mass > 0 ? weight : V{}));
     u[c] += converted<U>(product(step.dt, v[c]));
   }
+}
+
+/// Gravity at a station of a revolved block [m/s2].
+struct GravityInSweep {
+  double along;     ///< the tangent t
+  double outwards;  ///< along r
+};
+
+/// `angle`: of the station in space [rad].
+template <class Real>
+TREAD_INLINE GravityInSweep gravity_in_sweep(Real gravity, Real angle) {
+  return {-gravity * std::sin(angle), gravity * std::cos(angle)};
 }
 
 /// Computes the motion in a spinning frame: forces, gravity and centrifugal term act half before and half

@@ -5,18 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/results/run_results.hpp"
 #include "kernels/device/device.hpp"
 #include "tests/state_copies.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -88,6 +91,46 @@ Apart apart(std::int64_t values, const Simulation& a, const Simulation& b) {
           difference(values, a.velocity(), b.velocity())};
 }
 
+/// Largest difference of two lists, by the largest value of the former.
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  double apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i]));
+    apart = std::max(apart, std::abs(a[i] - b[i]));
+  }
+  return largest > 0 ? apart / largest : apart;
+}
+
+/// Forces, patch, works and record of a passage on the rail.
+void expect_same_contact(const Simulation& a, const Simulation& b) {
+  const auto values = [](const Sample& s) {
+    return std::vector<std::vector<double>>{{s.vertical_force, s.longitudinal_force, s.lateral_force},
+                                            {s.max_pressure, s.max_shear},
+                                            {s.patch_area, s.slip_area},
+                                            {s.energy.penalty},
+                                            {s.energy.frictional_work, s.energy.damping_loss}};
+  };
+  const auto of_a = values(a.sample());
+  const auto of_b = values(b.sample());
+  for (std::size_t i = 0; i < of_a.size(); ++i) EXPECT_LT(difference(of_a[i], of_b[i]), 1e-8) << i;
+  if (a.surface() == nullptr) return;
+  EXPECT_LT(difference(a.surface()->max_pressure(), b.surface()->max_pressure()), 1e-8);
+  EXPECT_LT(difference(a.surface()->max_shear(), b.surface()->max_shear()), 1e-8);
+  EXPECT_LT(difference(a.surface()->frictional_work(), b.surface()->frictional_work()), 1e-8);
+}
+
+/// Rolls to `steps`. Returns the vertical contact force at every tenth [N].
+std::vector<double> forces_of(Simulation& simulation, std::int64_t steps) {
+  std::vector<double> forces;
+  simulation.set_sampling_interval(10);
+  while (simulation.steps() < steps) {
+    simulation.step();
+    if (simulation.sampled()) forces.push_back(simulation.sample().vertical_force);
+  }
+  return forces;
+}
+
 /// Runs of `scene(precision)` in double, or in double and in a rounded precision.
 template <class SceneOf>
 void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::string& precision = "double") {
@@ -99,6 +142,7 @@ void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::stri
   if (precision == "double") {
     EXPECT_LT(device_error.displacement, 1e-9);
     EXPECT_LT(device_error.velocity, 1e-9);
+    expect_same_contact(*in_double, *on_device);
   } else {
     // Velocities hold the noise of rounding: the device's must not exceed the processor's.
     const auto on_processor = roll(at.start(nullptr), steps);
@@ -142,6 +186,11 @@ std::vector<std::string> corrugated(std::vector<std::string> overrides) {
   return overrides;
 }
 
+/// Half a wheelset with a vehicle on a short slab, of coarse elements.
+const std::vector<std::string> kHalfWheelset = {
+    "scene.element_size=10 mm", "motion.duration=0.1 ms",    "motion.start=moving",
+    "rail.length=2.6 m",        "rail.origin=1.3 m",         "fastenings.count=4",
+    "fastenings.first=0.325 m", "solution_zone.start=20 mm", "solution_zone.length=50 mm"};
 const std::vector<std::string> kTraction = {"motion.traction.torque=13.8 kN m",
                                             "motion.traction.ramp=0.05 ms"};
 constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
@@ -186,17 +235,53 @@ TEST(Device, GuidedBoreAndFallingFriction) {
       600);
 }
 
+TEST(Device, FrictionAlongTheRail) {
+  const samples::TemporaryFolder folder;
+  const std::string table = (folder.path / "spot.txt").string();
+  std::ofstream(table) << "# x [mm]  f [-]\n0 0.5\n20 0.1\n";
+  std::vector<std::string> overrides = kTraction;
+  overrides.insert(overrides.end(), {"contact.friction_law=table", "contact.friction_file=" + table,
+                                     "contact.friction_start=-5 mm"});
+  expect_same_steps(tyre(overrides), 300);
+}
+
+TEST(Device, ContactIsLostAndFoundAgain) {
+  const auto scene = tyre({"load.wheel_load=20 kN", "corrugation.kind=sine", "corrugation.wavelength=40 mm",
+                           "corrugation.depth=0.6 mm", "corrugation.width=30 mm", "corrugation.start=5 mm",
+                           "corrugation.length=40 mm", "corrugation.apply=gap"});
+  Case of(scene("double"));
+  const std::vector<double> forces = forces_of(*of.start(device(3)), 700);
+  const auto lost = std::find(forces.begin(), forces.end(), 0.0);
+  EXPECT_GT(std::count_if(lost, forces.end(), [](double force) { return force > 0; }), 0);
+  EXPECT_GT(std::count(forces.begin(), forces.end(), 0.0), 0);
+  for (const char* precision : {"double", "mixed"}) expect_same_steps(scene, 700, precision);
+}
+
+/// Between looks at the energies only motion and forces of the host's nodes are copied, and the contact's
+/// force.
+TEST(Device, AStepCopiesFewValues) {
+  Case of(file("smooth", kHalfWheelset)("double"));
+  const std::shared_ptr<Device> counted = device(0);
+  const auto simulation = of.start(counted);
+  simulation->set_sampling_interval(1000);
+  roll_on(*simulation, 3);
+  const DeviceTraffic before = counted->traffic();
+  roll_on(*simulation, 4);
+  const DeviceTraffic after = counted->traffic();
+  const std::int64_t hosts = device_need(of.model()).host_nodes;
+  EXPECT_LT(20 * hosts, of.model().nodes());
+  EXPECT_EQ(after.to_device - before.to_device, 48 * hosts);
+  EXPECT_EQ(after.from_device - before.from_device, 24 * hosts + 48);
+  // A kernel for each of 6 blocks and of 3 with primary nodes; restraints, ties, host, search, tractions.
+  EXPECT_EQ(after.launches - before.launches, 14);
+}
+
 TEST(Device, HammerOnARailOnFastenings) {
   expect_same_steps(file("hammer", {}), 300);
 }
 
 TEST(Device, WheelsetWithAVehicleOnASlab) {
-  for (const char* precision : kPrecisions)
-    expect_same_steps(file("smooth", {"scene.element_size=10 mm", "motion.duration=0.1 ms",
-                                      "motion.start=moving", "rail.length=2.6 m", "rail.origin=1.3 m",
-                                      "fastenings.count=4", "fastenings.first=0.325 m",
-                                      "solution_zone.start=20 mm", "solution_zone.length=50 mm"}),
-                      300, precision);
+  for (const char* precision : kPrecisions) expect_same_steps(file("smooth", kHalfWheelset), 300, precision);
 }
 
 /// From the processor to a device and back; each run has a model of its own, which holds the contact's state.

@@ -2,13 +2,15 @@
 
 namespace tread {
 
-SurfaceRecord::SurfaceRecord(const Contact& contact, const InternalForce& internal, const SweptBlock& rail,
+SurfaceRecord::SurfaceRecord(Contact& contact, const InternalForce& internal, const SweptBlock& rail,
                              const Place& place)
     : contact_(&contact),
       internal_(&internal),
       surface_(contact.nodes().grid()),
       line_(rail, place.patch_y),
-      last_x_(place.last_x) {}
+      last_x_(place.last_x) {
+  contact.record_in(&surface_);
+}
 
 std::vector<PhaseInfo> SurfaceRecord::phases() const {
   return {{StepPhase::surface_fields,
@@ -23,7 +25,7 @@ std::vector<FieldBytes> SurfaceRecord::fields() const {
 
 void SurfaceRecord::apply(StepPhase /*phase*/, StepState& step) {
   const PatchNodes& patch = contact_->nodes();
-  surface_.add_step(patch);
+  if (contact_->steps() == nullptr) surface_.add_step(patch);
   if (!step.sampled) return;
   surface_.add_sample(patch, static_cast<double>(step.sampling) * step.dt);
   surface_.add_stress(patch, *internal_, contact_->options().rail_block,

@@ -18,7 +18,7 @@ class SurfaceRecord final : public Feature {
     double last_x;   ///< wheel's last place at which it is noted [m]
   };
   /// Keeps references.
-  SurfaceRecord(const Contact& contact, const InternalForce& internal, const SweptBlock& rail,
+  SurfaceRecord(Contact& contact, const InternalForce& internal, const SweptBlock& rail,
                 const Place& place);
 
   const SurfaceFields& surface() const { return surface_; }

@@ -11,6 +11,7 @@ std::vector<PhaseInfo> TiedBlocks::phases() const {
 }
 
 void TiedBlocks::apply(StepPhase phase, StepState& step) {
+  if (step.whole.ties_follow()) return;
   if (phase == StepPhase::tied_forces)
     ties_->hand_over(step.force);
   else

@@ -11,6 +11,8 @@ class WholeFields {
   virtual void fetch() {}
   /// Takes over all values from the views, after fetch(): what they were elsewhere is no more.
   virtual void changed() {}
+  /// True in steps in which tied nodes get their forces and motion where the values live.
+  virtual bool ties_follow() const { return false; }
 
  protected:
   WholeFields() = default;

@@ -10,8 +10,6 @@
 
 namespace tread {
 
-namespace {}  // namespace
-
 Figure profile_figure(const ShownProfile& profile) {
   Series surface{"surface", {}, {}, Stroke::solid, 0};
   Series curvature{"curvature", {}, {}, Stroke::solid, 1};

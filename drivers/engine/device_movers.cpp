@@ -1,0 +1,61 @@
+#include "drivers/engine/device_movers.hpp"
+
+#include <utility>
+
+#include "drivers/engine/featured_nodes.hpp"
+#include "drivers/engine/node_fields.hpp"
+#include "kernels/device/device_contact.hpp"
+#include "kernels/device/field_kernels.hpp"
+
+namespace tread {
+
+namespace {
+
+bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+  for (std::size_t group = 0; group < a.size(); ++group)
+    if (a[group] != 0 && b[group] != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+Movers movers_of(const Model& model) {
+  std::vector<unsigned char> host = groups_of(model.mesh, connected_slots(model));
+  const std::vector<unsigned char> surfaces = groups_of(model.mesh, surface_slots(model));
+  std::vector<unsigned char> tied(host.size(), 0);
+  if (model.ties) {
+    tied = groups_of(model.mesh, model.ties->secondary_slots());
+    const std::vector<unsigned char> primary = groups_of(model.mesh, model.ties->primary_slots());
+    const bool apart = !meet(host, tied) && !meet(host, primary) && !meet(surfaces, primary);
+    for (std::size_t group = 0; group < host.size(); ++group)
+      if (primary[group] != 0) tied[group] = 1;
+    for (std::size_t group = 0; group < host.size() && !apart; ++group)
+      if (std::exchange(tied[group], 0) != 0) host[group] = 1;
+  }
+  Movers movers;
+  for (std::size_t group = 0; group < host.size(); ++group) {
+    const int moves = tied[group] != 0 ? kKeeps : kMoves;
+    movers.marks.push_back(host[group] != 0 ? static_cast<int>(movers.hosted++) : moves);
+  }
+  movers.contact = model.contact && DeviceContact::knows(*model.contact) && !meet(host, surfaces);
+  return movers;
+}
+
+DeviceNeed device_need(const Model& model) {
+  const Movers movers = movers_of(model);
+  const std::int64_t groups = movers.hosted;
+  const ValueBytes bytes = value_bytes(model.scene);
+  const std::int64_t moved = 2 * (bytes.displacement + bytes.other);  // before and after the step
+  const int others = bytes.other * (model.has_branches() ? 2 : 1);    // forces, lag
+  DeviceNeed need;
+  need.host_nodes = groups * kLanes;
+  need.bytes = 3 * model.mesh.slots * (moved + others) + model.mesh.slots * bytes.other +
+               groups * kGroupValues * (bytes.displacement + 2 * bytes.other);
+  if (has_laws(model.mesh)) need.bytes += 2 * bytes.other * law_state_values(model.mesh);
+  if (model.ties) need.bytes += model.ties->bytes();
+  if (movers.contact) need.bytes += DeviceContact::bytes(*model.contact);
+  need.bytes += model.internal->bytes() * bytes.other / static_cast<std::int64_t>(sizeof(double));
+  return need;
+}
+
+}  // namespace tread

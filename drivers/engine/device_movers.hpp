@@ -1,0 +1,30 @@
+#pragma once
+// Division of a run's nodes between device and host, and the memory that the device needs.
+// [docs/records/device.md]
+
+#include <cstdint>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+
+namespace tread {
+
+/// Movers of the groups of kLanes slots.
+struct Movers {
+  std::vector<int> marks;   ///< by group: kMoves, kKeeps or, of the host's, its place among them
+  std::int64_t hosted = 0;  ///< groups of the host
+  bool contact = false;     ///< contact runs on the device
+};
+
+/// Ties between nodes on which connectors act, or contact, are the host's, and contact with surfaces on which
+/// the host moves a node, or that the device does not know.
+Movers movers_of(const Model& model);
+
+/// Needs of a model on a device.
+struct DeviceNeed {
+  std::int64_t bytes = 0;       ///< memory, within the rounding of its pieces
+  std::int64_t host_nodes = 0;  ///< places of nodes that the host moves, whole groups of kLanes
+};
+DeviceNeed device_need(const Model& model);
+
+}  // namespace tread

@@ -1,0 +1,227 @@
+#include "kernels/device/device_contact.hpp"
+
+#include <algorithm>
+#include <climits>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/index.hpp"
+
+namespace tread {
+
+/// Largest numbers of a step.
+struct DeviceContact::Sizes {
+  std::size_t candidates, faces, cells, places, nodes;
+
+  explicit Sizes(const Contact& contact) {
+    const ContactSearch& search = contact.searching();
+    const auto [first, last] = search.edges();
+    faces = search.window_capacity() * index(last - first);
+    candidates = faces * index(search.quadrature().size());
+    cells = faces + candidates;  // a point has a wheel's cell of its own at most
+    places = kCellNodes * cells;
+    const SurfacePair& surfaces = search.surfaces();
+    nodes = index(surfaces.rail().station_count()) * index(surfaces.rail_profile().edges() + 1) +
+            index(surfaces.wheel().station_count()) * index(surfaces.wheel_profile().edges() + 1);
+    nodes = std::min(nodes, places);
+  }
+};
+
+bool DeviceContact::knows(const Contact& contact) {
+  return contact.surfaces().rail_depth().smooth() && contact.surfaces().wheel_depth().smooth() &&
+         !contact.corrugation().mapped();
+}
+
+template <class T>
+T* DeviceContact::room(std::size_t count) {
+  const auto array = std::make_shared<DeviceArray<T>>(*device_, count);
+  kept_.push_back(array);
+  return array->data();
+}
+
+template <class T>
+const T* DeviceContact::keep(std::span<const T> values) {
+  T* const to = room<T>(values.size());
+  if (!values.empty()) device_->upload(to, values.data(), values.size_bytes());
+  return to;
+}
+
+DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass)
+    : device_(&device), contact_(&contact), law_(contact.options().friction) {
+  const ContactSearch& search = contact.searching();
+  const SurfacePair& surfaces = search.surfaces();
+  task_.surfaces.rail_side = side(surfaces.rail(), surfaces.rail_profile(), surfaces.rail_stations());
+  task_.surfaces.wheel_side = side(surfaces.wheel(), surfaces.wheel_profile(), surfaces.wheel_stations());
+  task_.surfaces.kind = surfaces.kind();
+  task_.surfaces.depths = {corrugation()};
+  std::vector<FaceQuadrature::Point> quadrature;
+  for (int k = 0; k < search.quadrature().size(); ++k) quadrature.push_back(search.quadrature().point(k));
+  task_.quadrature = keep(quadrature);
+  task_.springs = contact.springs_of_points();
+  task_.end = search.end();
+  task_.inverse_mass = keep(std::span<const double>(inverse_mass, index(mesh.slots)));
+  task_.window.rail_edges = surfaces.rail_profile().edges();
+  task_.window.points = search.quadrature().size();
+  keep_law();
+  make_room(mesh.slots);
+}
+
+SurfaceSide DeviceContact::side(const SweptBlock& block, const SurfaceProfile& profile,
+                                const StationFinder& stations) {
+  SurfaceSide side{stations.line(), profile.view(), keep(block.section.p), keep(block.section.q)};
+  StationLine& line = side.stations;
+  line.stations = keep(block.stations);
+  line.pitches = keep(std::span(line.pitches, index(line.count)));
+  line.bucket = keep(std::span(line.bucket, index(line.buckets)));
+  line.slot = keep(std::span(line.slot, index(line.count)));
+  side.profile.edge = keep(std::span(side.profile.edge, index(side.profile.edges)));
+  side.profile.bucket = keep(std::span(side.profile.bucket, index(side.profile.buckets)));
+  return side;
+}
+
+CorrugationView DeviceContact::corrugation() {
+  CorrugationView view = contact_->corrugation().view();
+  const auto places = index(view.curve.places);
+  view.curve.x = keep(std::span(view.curve.x, places));
+  view.curve.y = keep(std::span(view.curve.y, places));
+  view.curve.slope = keep(std::span(view.curve.slope, places));
+  return view;
+}
+
+/// Room for the law's states, and copies of its table.
+void DeviceContact::keep_law() {
+  if (auto* table = std::get_if<TableFriction>(&law_)) {
+    table->x = keep(std::span(table->x, index(table->places)));
+    table->coefficient = keep(std::span(table->coefficient, index(table->places)));
+  }
+  std::visit(
+      [&](const auto& of) {
+        using State = typename std::decay_t<decltype(of.law)>::State;
+        law_state_bytes_ = of.state.size() * sizeof(State);
+        if (law_state_bytes_ > 0) law_state_ = room<State>(of.state.size());
+      },
+      contact_->friction());
+}
+
+void DeviceContact::make_room(std::int64_t slots) {
+  const Sizes most(*contact_);
+  const std::size_t points = most.candidates;
+  points_.resize(points);
+  task_.history = room<PointHistory>(contact_->history().size());
+  task_.wake_time = room<double>(contact_->searching().wake_time().size());
+  task_.candidates = {room<ContactPoint>(points), room<int>(points), room<int>(points), room<double>(points)};
+  task_.point = room<ContactPoint>(points);
+  PatchLinks& links = task_.links;
+  links.cell = room<int>(2 * points);
+  links.weights = room<PatchWeights>(2 * points);
+  links.first_entry = room<int>(most.cells);
+  links.first_listed = room<int>(most.cells + 1);
+  links.listed = room<int>(2 * points);
+  links.cell_node = room<int>(most.places);
+  links.slot = room<std::int64_t>(most.nodes);
+  links.basis = room<double>(2 * most.nodes);
+  links.of_wheel = room<int>(most.nodes);
+  links.first_term = room<int>(most.nodes + 1);
+  links.term = room<int>(most.places);
+  links.flag = room<int>(std::max(2 * points, most.places));
+  links.number = room<int>(std::max(2 * points, most.places));
+  links.at_slot = room<int>(index(slots));
+  const std::vector<int> none(index(slots), INT_MAX);
+  device_->upload(links.at_slot, none.data(), none.size() * sizeof(int));
+  task_.vectors = {
+      room<PointTile>(points / kLanes + 1), room<PatchVector>(points),     room<PatchVector>(points),
+      room<PatchVector>(2 * points),        room<PatchVector>(most.nodes), room<PatchVector>(most.places)};
+  const SurfaceGrid& grid = contact_->nodes().grid();
+  task_.record = {room<double>(grid.nodes()), room<double>(grid.nodes()), room<double>(grid.nodes()),
+                  keep(grid.length),          keep(grid.width),           grid.rows(),
+                  room<int>(most.faces + 1)};
+  task_.result = room<PatchResult>(1);
+}
+
+/// Histories and record to the device.
+void DeviceContact::send() {
+  if (sent_) return;
+  const auto copy = [&](auto* to, const auto& from) {
+    if (!from.empty()) device_->upload(to, from.data(), from.size() * sizeof(from[0]));
+  };
+  copy(task_.history, contact_->history());
+  copy(task_.wake_time, contact_->searching().wake_time());
+  std::visit([&](const auto& of) { copy(static_cast<char*>(law_state_), of.state); }, contact_->friction());
+  record_ = contact_->record();
+  if (record_ != nullptr) {
+    const SurfaceFields::StepFields fields = record_->step_fields();
+    copy(task_.record.max_pressure, fields.max_pressure);
+    copy(task_.record.max_shear, fields.max_shear);
+    copy(task_.record.frictional_work, fields.frictional_work);
+  }
+  sent_ = true;
+}
+
+void DeviceContact::search(NodeField displacement, NodeField velocity, const BodyFrame& wheel, double time,
+                           double dt) {
+  send();
+  const ContactSearch& search = contact_->searching();
+  const auto [first_station, last_station] = search.window();
+  const auto [first_edge, last_edge] = search.edges();
+  task_.window.first_station = first_station;
+  task_.window.stations = last_station - first_station;
+  task_.window.first_edge = first_edge;
+  task_.window.edges = last_edge - first_edge;
+  task_.bounds = search.bounds(time);
+  task_.dt = dt;
+  task_.wheel = wheel;
+  task_.u = displacement;
+  task_.v = velocity;
+  device_->search(task_);
+}
+
+void DeviceContact::resolve(NodeField displacement, NodeField velocity) {
+  task_.u = displacement;
+  task_.v = velocity;
+  device_->resolve(task_, law_, law_state_);
+  device_->download(&result_, task_.result, sizeof result_);
+  contact_->take({result_.force_on_rail, result_.frictional_work, result_.damping_work});
+  if (result_.at_the_end != 0) fetch_points();
+}
+
+void DeviceContact::fetch_points() {
+  const auto count = index(result_.points);
+  if (count > 0) device_->download(points_.data(), task_.point, count * sizeof(ContactPoint));
+  contact_->take_points({points_.data(), count});
+}
+
+void DeviceContact::fetch_record() {
+  if (!sent_ || record_ == nullptr) return;
+  const auto copy = [&](std::vector<double>& to, const double* from) {
+    device_->download(to.data(), from, to.size() * sizeof(double));
+  };
+  const SurfaceFields::StepFields fields = record_->step_fields();
+  copy(fields.max_pressure, task_.record.max_pressure);
+  copy(fields.max_shear, task_.record.max_shear);
+  copy(fields.frictional_work, task_.record.frictional_work);
+}
+
+void DeviceContact::release() {
+  if (!sent_) return;
+  fetch_record();
+  const auto copy = [&](auto& to, const auto* from) {
+    if (!to.empty()) device_->download(to.data(), from, to.size() * sizeof(to[0]));
+  };
+  copy(contact_->history(), task_.history);
+  copy(contact_->searching().wake_time(), task_.wake_time);
+  std::visit([&](auto& of) { copy(of.state, static_cast<const char*>(law_state_)); }, contact_->friction());
+  sent_ = false;
+}
+
+std::int64_t DeviceContact::bytes(const Contact& contact) {
+  const Sizes most(contact);
+  const std::size_t of_point = 2 * sizeof(ContactPoint) + 2 * sizeof(PatchWeights) + 4 * sizeof(PatchVector) +
+                               sizeof(PointTile) / kLanes + 6 * sizeof(int) + sizeof(double);
+  const std::size_t of_place = sizeof(PatchVector) + 4 * sizeof(int);
+  return static_cast<std::int64_t>(most.candidates * of_point + most.places * of_place +
+                                   most.nodes * (sizeof(PatchVector) + 4 * sizeof(double))) +
+         contact.bytes();
+}
+
+}  // namespace tread

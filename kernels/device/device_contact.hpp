@@ -1,0 +1,68 @@
+#pragma once
+// The contact of a run on a device: search, tractions, histories and record of the passage.
+// [docs/records/device.md]
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kernels/contact/contact.hpp"
+#include "kernels/contact/surface_fields.hpp"
+#include "kernels/device/device.hpp"
+
+namespace tread {
+
+class DeviceContact {
+ public:
+  /// False where the surfaces have depths that a device does not know: a mapped corrugation, or others.
+  static bool knows(const Contact& contact);
+
+  /// Copies what does not change. Keeps references. `inverse_mass`: by slot of the mesh [1/kg].
+  DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass);
+
+  /// Finds the candidates of a step of dt [s]; fields of the device. The contact's search is aimed.
+  void search(NodeField displacement, NodeField velocity, const BodyFrame& wheel, double time, double dt);
+  /// Solves the tractions, and hands the step's outcome to the contact.
+  void resolve(NodeField displacement, NodeField velocity);
+
+  /// Hands the points of the last step to the contact.
+  void fetch_points();
+  /// Brings the record of the passage to the host.
+  void fetch_record();
+  /// Brings the histories, the law's states and the record to the host, which may change them: they go back
+  /// before the next step.
+  void release();
+
+  /// Memory on the device [B].
+  static std::int64_t bytes(const Contact& contact);
+
+ private:
+  struct Sizes;
+  template <class T>
+  T* room(std::size_t count);
+  template <class T>
+  const T* keep(std::span<const T> values);
+  template <class T, class Allocator>
+  const T* keep(const std::vector<T, Allocator>& values) {
+    return keep(std::span<const T>(values.data(), values.size()));
+  }
+  SurfaceSide side(const SweptBlock& block, const SurfaceProfile& profile, const StationFinder& stations);
+  CorrugationView corrugation();
+  void keep_law();
+  void make_room(std::int64_t slots);
+  void send();
+
+  Device* device_;
+  Contact* contact_;
+  SurfaceFields* record_ = nullptr;          ///< the run's
+  std::vector<std::shared_ptr<void>> kept_;  ///< arrays that task_ and law_ point to
+  ContactTask task_;
+  FrictionLaw law_;
+  void* law_state_ = nullptr;
+  std::size_t law_state_bytes_ = 0;
+  PatchResult result_{};
+  std::vector<ContactPoint> points_;
+  bool sent_ = false;  ///< the device holds histories and record
+};
+
+}  // namespace tread

@@ -1,0 +1,142 @@
+// Cells and nodes of a patch by a team of threads: those of PatchCells, in any order of the threads.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <climits>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "kernels/contact/patch_cells.hpp"
+#include "kernels/device/patch_links.hpp"
+
+namespace tread {
+namespace {
+
+constexpr int kStations = 9;
+constexpr int kNodes = 8;                                // across
+constexpr std::int64_t kSlots = 2 * kStations * kNodes;  // the wheel's after the rail's
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Threads one after the other, forwards or backwards.
+class Team {
+ public:
+  explicit Team(bool backwards) : backwards_(backwards), memory_(1024) {}
+
+  template <class T>
+  T* share(std::size_t n) const {
+    const std::size_t first =
+        std::exchange(used_, used_ + (n * sizeof(T) + sizeof(double) - 1) / sizeof(double));
+    return reinterpret_cast<T*>(memory_.data() + first);
+  }
+  template <class Body>
+  void for_each(int n, const Body& body) const {
+    for (int i = 0; i < n; ++i) body(backwards_ ? n - 1 - i : i);
+  }
+  void least(int* at, int value) const { *at = std::min(*at, value); }
+  int add(int* at, int value) const { return std::exchange(*at, *at + value); }
+
+ private:
+  bool backwards_;
+  mutable std::vector<double> memory_;
+  mutable std::size_t used_ = 0;
+};
+
+/// Nodes about a face; at the ends of a surface the outer ones repeat their neighbours.
+void place(SurfaceSupport& support, std::int64_t first_slot, int station, int edge) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const int s = std::clamp(station - 1 + i, 0, kStations - 1);
+      const int n = std::clamp(edge - 1 + j, 0, kNodes - 1);
+      support.slot[index(4 * i + j)] = first_slot + s * kNodes + n;
+    }
+  support.along.fill(0.25);
+  support.across.fill(0.25);
+}
+
+/// Points on faces of the rail, in their order, opposite to any faces of the wheel.
+std::vector<ContactPoint> made_up_points() {
+  std::mt19937 random(1);
+  const auto draw = [&](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };
+  std::vector<ContactPoint> points;
+  for (int station = 0; station + 1 < kStations; ++station)
+    for (int edge = 0; edge + 1 < kNodes; ++edge)
+      for (int k = draw(4); k > 0; --k) {
+        ContactPoint& point = points.emplace_back();
+        place(point.rail, 0, station, edge);
+        place(point.wheel, kSlots / 2, draw(kStations - 1), draw(kNodes - 1));
+        for (std::size_t i = 0; i < 4; ++i) {
+          point.wheel_cosine[i] = static_cast<double>(point.wheel.slot[4 * i]);
+          point.wheel_sine[i] = -point.wheel_cosine[i];
+        }
+      }
+  return points;
+}
+
+/// Room for the links of some points.
+struct Room {
+  explicit Room(std::size_t points)
+      : ints(11, std::vector<int>(2 * kCellNodes * 2 * points + 1)),
+        weights(2 * points),
+        slot(index(kSlots)),
+        basis(2 * index(kSlots)),
+        at_slot(index(kSlots), INT_MAX) {}
+
+  PatchLinks links() {
+    return {ints[0].data(), weights.data(), ints[1].data(), ints[2].data(), ints[3].data(),
+            ints[4].data(), slot.data(),    basis.data(),   ints[5].data(), ints[6].data(),
+            ints[7].data(), at_slot.data(), ints[8].data(), ints[9].data()};
+  }
+
+  std::vector<std::vector<int>> ints;
+  std::vector<PatchWeights> weights;
+  std::vector<std::int64_t> slot;
+  std::vector<double> basis;
+  std::vector<int> at_slot;
+};
+
+TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
+  const std::vector<ContactPoint> points = made_up_points();
+  const int count = static_cast<int>(points.size());
+  ASSERT_GT(count, 50);
+  PatchCells cells;
+  cells.reserve(kSlots, points.size(), index(kSlots));
+  const std::vector<double> inverse_mass(index(kSlots), 1.0);
+  cells.link(points, inverse_mass.data());
+  std::vector<PatchVector> numbers(points.size());
+  for (int i = 0; i < count; ++i) numbers[index(i)].value[0] = i + 1;
+  std::vector<PatchVector> sums(cells.nodes().size());
+  cells.to_nodes(numbers, sums);
+
+  for (const bool backwards : {false, true}) {
+    Room room(points.size());
+    const PatchLinks links = room.links();
+    const Team team(backwards);
+    LinkedPatch<Team> patch(team, links);
+    for (int again = 0; again < 2; ++again) patch.link(points.data(), count);  // it leaves no traces
+    ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
+    for (int n = 0; n < patch.nodes(); ++n) {
+      const PatchCells::Node& node = cells.nodes()[index(n)];
+      EXPECT_EQ(links.slot[n], node.slot);
+      EXPECT_EQ(links.of_wheel[n] != 0, node.of_wheel);
+      EXPECT_EQ(links.basis[2 * n], node.cosine);
+      EXPECT_EQ(links.basis[2 * n + 1], node.sine);
+      double sum = 0;
+      for (int t = links.first_term[n]; t < links.first_term[n + 1]; ++t) {
+        EXPECT_TRUE(t == links.first_term[n] || links.term[t - 1] < links.term[t]);
+        const int cell = links.term[t] / kCellNodes;
+        for (int e = links.first_listed[cell]; e < links.first_listed[cell + 1]; ++e)
+          sum += 0.0625 * (links.listed[e] % count + 1);
+      }
+      EXPECT_DOUBLE_EQ(sum, sums[index(n)].value[0]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tread
