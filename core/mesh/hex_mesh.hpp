@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/vec.hpp"
+#include "core/mesh/swept_block.hpp"
 
 namespace tread {
 
@@ -32,6 +33,10 @@ struct HexMesh {
     return at;
   }
 };
+
+/// The elements of a swept block one by one: node `station * section nodes + section node`, parts by the
+/// block's materials.
+HexMesh hexahedra_of(const SweptBlock& block);
 
 /// Corners of the six faces. Normals point outwards.
 inline constexpr std::array<std::array<std::size_t, 4>, 6> kHexFaces = {

@@ -246,6 +246,10 @@ class GmshMesh {
   }
 
   bool add_hexahedron(std::int64_t number, std::int64_t volume, const MeshFields& fields) {
+    if (number <= 0) {
+      stop(fmt::format("element {}: expected a number above 0", number));
+      return false;
+    }
     if (fields.size() != 9) {
       fault("elements that are no hexahedra",
             fmt::format("element {} has {} nodes in place of 8", number, fields.size() - 1));

@@ -291,10 +291,14 @@ class MeshNumbering {
     for (const std::int32_t place : places)
       if (known[index(place)] >= 0) members.push_back(known[index(place)]);
     make_unique(members);
-    if (members.size() < places.size() || members.empty())
+    if (members.empty()) {
+      result_.notes.push_back(
+          fmt::format("set \"{}\" has no {} of the mesh and is left out", shown(set.name), what));
+      return;
+    }
+    if (members.size() < places.size())
       result_.notes.push_back(fmt::format("set \"{}\": {} of {} {} belong to the mesh", shown(set.name),
                                           members.size(), places.size(), what));
-    if (members.empty()) return;
     std::string name = set.name;
     for (int copy = 2; sets.contains(name); ++copy) name = fmt::format("{} ({})", set.name, copy);
     sets.emplace(std::move(name), std::move(members));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/parallel/parallel.hpp"
-#include "kernels/element/hexahedron.hpp"
+#include "core/aligned.hpp"
+#include "kernels/hexahedra/hex_force.hpp"
 #include "kernels/solver/stable_step.hpp"
 
 namespace tread {
@@ -19,6 +19,14 @@ void take_larger(ElementExtreme& extreme, double value, std::int64_t element) {
   if (extreme.element == 0 || value > extreme.value) extreme = {value, element};
 }
 
+double assembled_step(const HexForce& force) {
+  AlignedVector<double> inverse_mass;
+  for (const double mass : force.lumped_mass())
+    for (int i = 0; i < kHexNodeValues; ++i) inverse_mass.push_back(i < 3 ? 1 / mass : 0.0);
+  const Operator elastic = [&](const double* x, double* y) { force.apply(x, y); };
+  return stable_step(highest_frequency(elastic, inverse_mass).omega, 0);
+}
+
 }  // namespace
 
 MeshExtremes mesh_extremes(const HexMesh& mesh, const Material& material) {
@@ -29,14 +37,11 @@ MeshExtremes mesh_extremes(const HexMesh& mesh, const Material& material) {
       all.low[i] = std::min(all.low[i], at[i]);
       all.high[i] = std::max(all.high[i], at[i]);
     }
-  std::vector<double> omega(mesh.elements.size());
-  parallel_ranges(static_cast<std::int64_t>(omega.size()), [&](std::int64_t first, std::int64_t last) {
-    for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e) {
-      const auto corners = mesh.corners(e);
-      omega[e] = hexahedron_frequency({corners, corners, material});
-    }
-  });
-  for (std::size_t e = 0; e < omega.size(); ++e) {
+  const HexForce force(mesh, std::vector<Material>(mesh.parts.size(), material));
+  const HexFrequency highest = force.max_frequency();
+  all.stable_step = {stable_step(highest.omega, 0), mesh.element_number[highest.element]};
+  all.assembled_step = assembled_step(force);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const HexShape shape = hex_shape(mesh.corners(e));
     const std::int64_t number = mesh.element_number[e];
     all.volume += shape.volume;
@@ -44,7 +49,6 @@ MeshExtremes mesh_extremes(const HexMesh& mesh, const Material& material) {
     take_larger(all.longest_edge, shape.longest_edge, number);
     take_larger(all.edge_ratio, shape.longest_edge / shape.shortest_edge, number);
     take_smaller(all.jacobian, shape.smallest_jacobian, number);
-    take_smaller(all.stable_step, stable_step(omega[e], 0), number);
   }
   return all;
 }

@@ -21,6 +21,7 @@ struct MeshExtremes {
   ElementExtreme edge_ratio;   ///< largest ratio of longest to shortest edge in an element [-]
   ElementExtreme jacobian;     ///< smallest at a corner, by its mean [-]
   ElementExtreme stable_step;  ///< smallest of an element alone, without damping [s]
+  double assembled_step = 0;   ///< of the free mesh, without damping [s]
 };
 
 /// The same bits for any number of threads.
