@@ -171,24 +171,26 @@ void add_ties(std::vector<KernelCase>& cases) {
 }
 
 /// The elements of a straight block one by one, as if another program had meshed it.
-PreparedKernel prepare_hexahedra(bool finite_rotation, std::int64_t elements) {
+PreparedKernel prepare_hexahedra(bool finite_rotation, bool damped, std::int64_t elements) {
   struct Data {
     Data(const SweptBlock& block) : mesh(hexahedra_of(block)), force(mesh, block.materials) {}
     HexMesh mesh;
     HexForce force;
-    std::vector<double> u, f;
+    std::vector<double> u, v, f;
   };
   const Mesh swept = made_up_mesh(Sweep::extruded, false, elements);
   const auto data = std::make_shared<Data>(swept.blocks.front());
   data->force.set_finite_rotation(finite_rotation);
+  if (damped) data->force.set_beta(kBeta);
   data->f.resize(kHexNodeValues * data->mesh.nodes.size());
   for (std::size_t i = 0; i < data->f.size(); ++i)
     data->u.push_back(i % kHexNodeValues == 3 ? 0.0
                                               : kDisplacement * std::sin(0.37 * static_cast<double>(i)));
   PreparedKernel kernel;
-  kernel.timed.call = [data] { data->force.internal_force(data->u.data(), nullptr, data->f.data()); };
-  // Coefficients are read; rows of displacements and forces too, and forces are written.
-  const std::int64_t rows = 3 * static_cast<std::int64_t>(data->f.size() * sizeof(double));
+  data->v.assign(data->f.size(), 0.0);
+  kernel.timed.call = [data] { data->force.internal_force(data->u.data(), data->v.data(), data->f.data()); };
+  // Coefficients are read; rows of displacements, forces and velocities too, and forces are written.
+  const std::int64_t rows = (damped ? 4 : 3) * static_cast<std::int64_t>(data->f.size() * sizeof(double));
   const auto units = static_cast<std::int64_t>(data->mesh.elements.size());
   set_work(kernel, units, {0, static_cast<double>(data->force.bytes() + rows) / static_cast<double>(units)});
   kernel.lanes = HexForce::instruction_sets();
@@ -198,9 +200,13 @@ PreparedKernel prepare_hexahedra(bool finite_rotation, std::int64_t elements) {
 
 void add_hexahedra(std::vector<KernelCase>& cases) {
   for (const bool finite_rotation : {false, true})
-    cases.push_back(
-        {"hexahedra", finite_rotation ? "general, finite rotation" : "general, linear", "double", "element",
-         [finite_rotation](std::int64_t elements) { return prepare_hexahedra(finite_rotation, elements); }});
+    for (const bool damped : {false, true}) {
+      const char* const law = finite_rotation ? "general, finite rotation" : "general, linear";
+      cases.push_back({"hexahedra", std::string(law) + (damped ? ", damped" : ""), "double", "element",
+                       [finite_rotation, damped](std::int64_t elements) {
+                         return prepare_hexahedra(finite_rotation, damped, elements);
+                       }});
+    }
 }
 
 void add_elements(std::vector<KernelCase>& cases, ElementVariant variant) {

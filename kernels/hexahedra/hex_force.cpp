@@ -17,11 +17,10 @@ namespace tread {
 
 namespace {
 
-/// Elements of a chunk: displacements and forces of their nodes fit a second-level cache.
-constexpr std::size_t kChunkElements = 1024;
-
-/// Nodes whose values are fetched into the cache ahead of their use.
-constexpr std::int64_t kNodesAhead = 24;
+/// Elements and nodes of a chunk at the most. Large chunks share few nodes; places of nodes have 16 bits.
+constexpr std::size_t kChunkElements = 4096;
+constexpr std::size_t kChunkNodes = 8000;
+static_assert(kHexPlace * (kChunkNodes + 8) < (1U << 16U));
 
 /// Nodes behind those of a chunk, for lanes without an element: a cube at rest.
 constexpr std::size_t kIdleNodes = 8;
@@ -57,7 +56,7 @@ HexMaterial constants_of(const Material& material) {
 }
 
 /// Writes the shape of an element to a lane: polar decomposition of the centre Jacobian. [theory.md, Element]
-void set_shape(const std::array<Vec3, 8>& corners, std::size_t lane, HexPack& pack) {
+void set_shape(const std::array<Vec3, 8>& corners, std::size_t lane, HexShapes& shapes) {
   const ElementGeometry geometry = element_geometry(corners);
   Eigen::Matrix3d map;
   for (int i = 0; i < 3; ++i)
@@ -66,10 +65,10 @@ void set_shape(const std::array<Vec3, 8>& corners, std::size_t lane, HexPack& pa
   const Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
   const Eigen::Vector3d half = (rotation.transpose() * map).diagonal();
   const Eigen::Quaterniond turn(rotation);
-  pack.turn[0][lane] = turn.w();
+  shapes.turn[0][lane] = turn.w();
   for (int i = 0; i < 3; ++i) {
-    pack.turn[1 + i][lane] = turn.vec()(i);
-    pack.scale[i][lane] = std::sqrt(geometry.volume / 192) / half(i);
+    shapes.turn[1 + i][lane] = turn.vec()(i);
+    shapes.scale[i][lane] = std::sqrt(geometry.volume / 192) / half(i);
   }
 }
 
@@ -93,7 +92,7 @@ HexForce::HexForce(const HexMesh& mesh, std::vector<Material> materials)
 void HexForce::cut_into_chunks() {
   std::vector<std::int32_t> elements(mesh_->elements.size());
   std::iota(elements.begin(), elements.end(), 0);
-  cut(elements, 0, elements.size());
+  if (!elements.empty()) cut(elements, 0, elements.size());
   largest_chunk_ = kIdleNodes;
   for (const Chunk& chunk : chunks_) largest_chunk_ = std::max(largest_chunk_, chunk.nodes + kIdleNodes);
 }
@@ -101,12 +100,9 @@ void HexForce::cut_into_chunks() {
 /// Halves elements across their longest side until they are few.
 void HexForce::cut(std::vector<std::int32_t>& elements, std::size_t first, std::size_t last) {
   if (last - first <= kChunkElements) {
-    std::stable_sort(
-        elements.begin() + static_cast<std::ptrdiff_t>(first),
-        elements.begin() + static_cast<std::ptrdiff_t>(last),
-        [&](std::int32_t a, std::int32_t b) { return mesh_->part[index(a)] < mesh_->part[index(b)]; });
-    add_chunk(elements.data() + first, last - first);
-    return;
+    const std::span<const std::int32_t> chunk(elements.data() + first, last - first);
+    const std::vector<std::int32_t> nodes = nodes_of(chunk);
+    if (nodes.size() <= kChunkNodes) return add_chunk(chunk, nodes);
   }
   const auto middle = [&](std::int32_t e) {
     const HexCorners& corners = mesh_->elements[index(e)];
@@ -130,15 +126,20 @@ void HexForce::cut(std::vector<std::int32_t>& elements, std::size_t first, std::
   cut(elements, half, last);
 }
 
-void HexForce::add_chunk(const std::int32_t* elements, std::size_t count) {
+/// Nodes of elements, ascending.
+std::vector<std::int32_t> HexForce::nodes_of(std::span<const std::int32_t> elements) const {
+  std::vector<std::int32_t> nodes;
+  for (const std::int32_t e : elements)
+    nodes.insert(nodes.end(), mesh_->elements[index(e)].begin(), mesh_->elements[index(e)].end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+void HexForce::add_chunk(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes) {
   Chunk chunk;
   chunk.first_pack = packs_.size();
   chunk.first_node = places_.size();
-  std::vector<std::int32_t> nodes;
-  for (std::size_t i = 0; i < count; ++i)
-    for (const std::int32_t node : mesh_->elements[index(elements[i])]) nodes.push_back(node);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   const Vec3& origin = mesh_->nodes[index(nodes.front())];  // a near one, for the sake of digits
   chunk.first_position = positions_.size() / kHexNodeValues;
   for (const std::int32_t node : nodes) {
@@ -148,33 +149,59 @@ void HexForce::add_chunk(const std::int32_t* elements, std::size_t count) {
   }
   for (const auto& corner : kIdleCorners) positions_.insert(positions_.end(), corner.begin(), corner.end());
   chunk.nodes = nodes.size();
-  for (std::size_t i = 0; i < count;) {
+  chunk.first_row = rows_.size();
+  std::vector<std::int32_t> rest;
+  for (const ElementRow& row : find_rows(*mesh_, elements, rest)) add_row(row, nodes);
+  chunk.rows = rows_.size() - chunk.first_row;
+  std::stable_sort(rest.begin(), rest.end(), [&](std::int32_t a, std::int32_t b) {
+    return mesh_->part[index(a)] < mesh_->part[index(b)];
+  });
+  for (std::size_t i = 0; i < rest.size();) {
     std::size_t end = i + 1;
-    while (end < count && end < i + kLanes &&
-           mesh_->part[index(elements[end])] == mesh_->part[index(elements[i])])
+    while (end < rest.size() && end < i + kLanes &&
+           mesh_->part[index(rest[end])] == mesh_->part[index(rest[i])])
       ++end;
-    add_pack(elements + i, end - i, nodes);
+    add_pack({rest.data() + i, end - i}, nodes);
     i = end;
   }
   chunk.packs = packs_.size() - chunk.first_pack;
   chunks_.push_back(chunk);
 }
 
-/// `place_of`: the chunk's nodes, ascending.
-void HexForce::add_pack(const std::int32_t* elements, std::size_t count,
-                        const std::vector<std::int32_t>& place_of) {
-  HexPack& pack = packs_.emplace_back();
-  pack.material = mesh_->part[index(elements[0])];
-  pack.elements = static_cast<std::int32_t>(count);
+namespace {
+
+/// Place of the n-th of a chunk's nodes, or of those behind them.
+std::uint16_t place(std::size_t n) {
+  return static_cast<std::uint16_t>(kHexPlace * n);
+}
+/// `nodes`: the chunk's, ascending.
+std::uint16_t place_of(std::int32_t node, const std::vector<std::int32_t>& nodes) {
+  return place(index(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()));
+}
+
+}  // namespace
+
+void HexForce::add_row(const ElementRow& row, const std::vector<std::int32_t>& nodes) {
+  HexRow& made = rows_.emplace_back();
+  made.shapes.material = mesh_->part[index(row.element[0])];
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const std::size_t e = index(elements[lane < count ? lane : 0]);
-    set_shape(mesh_->corners(e), lane, pack);
-    for (std::size_t k = 0; k < 8; ++k) {
-      const auto place =
-          std::lower_bound(place_of.begin(), place_of.end(), mesh_->elements[e][k]) - place_of.begin();
-      pack.corner[k][lane] =
-          static_cast<std::uint16_t>(kHexPlace * (lane < count ? index(place) : place_of.size() + k));
-    }
+    std::array<Vec3, 8> corners;
+    for (std::size_t k = 0; k < 8; ++k) corners[k] = mesh_->nodes[index(row.line[k % 4][lane + k / 4])];
+    set_shape(corners, lane, made.shapes);
+  }
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t i = 0; i <= kLanes; ++i) made.corner[k][i] = place_of(row.line[k][i], nodes);
+}
+
+void HexForce::add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes) {
+  HexPack& pack = packs_.emplace_back();
+  pack.shapes.material = mesh_->part[index(elements[0])];
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const bool idle = lane >= elements.size();
+    const std::size_t e = index(elements[idle ? 0 : lane]);
+    set_shape(mesh_->corners(e), lane, pack.shapes);
+    for (std::size_t k = 0; k < 8; ++k)
+      pack.corner[k][lane] = idle ? place(nodes.size() + k) : place_of(mesh_->elements[e][k], nodes);
   }
 }
 
@@ -195,8 +222,13 @@ void HexForce::share_nodes() {
 }
 
 HexView HexForce::view(const Chunk& chunk) const {
-  return {packs_.data() + chunk.first_pack, static_cast<std::ptrdiff_t>(chunk.packs), constants_.data(),
-          nullptr, nullptr};
+  HexView view;
+  view.rows = rows_.data() + chunk.first_row;
+  view.row_count = static_cast<std::ptrdiff_t>(chunk.rows);
+  view.packs = packs_.data() + chunk.first_pack;
+  view.pack_count = static_cast<std::ptrdiff_t>(chunk.packs);
+  view.materials = constants_.data();
+  return view;
 }
 
 void HexForce::load(const Chunk& chunk, const double* u, const double* v, double* values) const {
@@ -204,9 +236,6 @@ void HexForce::load(const Chunk& chunk, const double* u, const double* v, double
   const double* const positions = positions_.data() + index(kRow) * chunk.first_position;
   const auto nodes = static_cast<std::int64_t>(chunk.nodes);
   for (std::int64_t n = 0; n < nodes; ++n) {
-    const std::int64_t ahead = kRow * places[std::min(n + kNodesAhead, nodes - 1)].node;
-    __builtin_prefetch(u + ahead);
-    if (v != nullptr) __builtin_prefetch(v + ahead);
     Row row = row_at(u, places[n].node);
     if (v != nullptr) row += beta_ * row_at(v, places[n].node);
     set_row(values, 2 * n, row_at(positions, n));
@@ -313,8 +342,8 @@ HexFrequency HexForce::max_frequency() const {
 
 std::int64_t HexForce::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
-  return static_cast<std::int64_t>(of(packs_) + of(positions_) + of(chunks_) + of(places_) + of(shared_) +
-                                   of(partial_));
+  return static_cast<std::int64_t>(of(rows_) + of(packs_) + of(positions_) + of(chunks_) + of(places_) +
+                                   of(shared_) + of(partial_));
 }
 
 std::vector<const char*> HexForce::instruction_sets() {

@@ -3,11 +3,13 @@
 // the linear law, at small strain or with finite rotation. [theory.md, Element]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
 #include "core/material.hpp"
 #include "core/mesh/hex_mesh.hpp"
+#include "kernels/hexahedra/hex_rows.hpp"
 #include "kernels/lanes/hex_force.hpp"
 
 namespace tread {
@@ -61,6 +63,7 @@ class HexForce {
  private:
   /// Elements that are worked on together, and their nodes.
   struct Chunk {
+    std::size_t first_row = 0, rows = 0;
     std::size_t first_pack = 0, packs = 0;
     std::size_t first_node = 0;  ///< index in `places_`
     std::size_t nodes = 0;
@@ -79,8 +82,10 @@ class HexForce {
 
   void cut_into_chunks();
   void cut(std::vector<std::int32_t>& elements, std::size_t first, std::size_t last);
-  void add_chunk(const std::int32_t* elements, std::size_t count);
-  void add_pack(const std::int32_t* elements, std::size_t count, const std::vector<std::int32_t>& place_of);
+  std::vector<std::int32_t> nodes_of(std::span<const std::int32_t> elements) const;
+  void add_chunk(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
+  void add_row(const ElementRow& row, const std::vector<std::int32_t>& nodes);
+  void add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
   void share_nodes();
   void evaluate(const double* u, const double* v, double* f, bool finite_rotation) const;
   void load(const Chunk& chunk, const double* u, const double* v, double* values) const;
@@ -92,6 +97,7 @@ class HexForce {
   double beta_ = 0;
   bool finite_rotation_ = false;
   const HexForces* forces_;
+  AlignedVector<HexRow> rows_;
   AlignedVector<HexPack> packs_;
   AlignedVector<double> positions_;  ///< rows of the chunks' nodes and of those of idle lanes [m]
   std::vector<Chunk> chunks_;

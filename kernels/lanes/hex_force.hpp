@@ -26,19 +26,31 @@ inline constexpr int kHexNodeValues = 4;
 /// Factor of a node's number in HexPack::corner: the values that a node has in HexView::nodes.
 inline constexpr int kHexPlace = 2 * kHexNodeValues;
 
-/// Eight elements of one material. A lane without an element has the corners of a cube that stays at rest.
-struct HexPack {
-  double turn[4][kLanes];           ///< rotation of the element as a unit quaternion, real part first
-  double scale[3][kLanes];          ///< square root of volume / 192, by the half length along an axis [m^0.5]
-  std::uint16_t corner[8][kLanes];  ///< the chunk's node, times kHexPlace
+/// Shapes of eight elements of one material.
+struct HexShapes {
+  double turn[4][kLanes];   ///< rotation of the element as a unit quaternion, real part first
+  double scale[3][kLanes];  ///< square root of volume / 192, by the half length along an axis [m^0.5]
   std::int32_t material;
-  std::int32_t elements;  ///< lanes with an element, the first ones
+};
+
+/// Any elements. A lane without an element has the corners of a cube that stays at rest.
+struct HexPack {
+  HexShapes shapes;
+  std::uint16_t corner[8][kLanes];  ///< the chunk's node, times kHexPlace
+};
+
+/// Elements one behind the other, with their corners on four lines: lane l joins the nodes l and l + 1.
+struct HexRow {
+  HexShapes shapes;
+  std::uint16_t corner[4][kLanes + 1];  ///< likewise
 };
 
 /// Elements of a chunk; adds to `f`.
 struct HexView {
+  const HexRow* rows = nullptr;
+  std::ptrdiff_t row_count = 0;
   const HexPack* packs = nullptr;
-  std::ptrdiff_t count = 0;
+  std::ptrdiff_t pack_count = 0;
   const HexMaterial* materials = nullptr;
   const double* nodes = nullptr;  ///< by node: position, from any origin, and displacement [m]
   double* f = nullptr;            ///< by node [N]

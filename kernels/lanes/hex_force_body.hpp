@@ -15,14 +15,14 @@ constexpr SweptConstants<double> kNoShape = [] {
   return constants;
 }();
 
-/// Elements of a pack that fit a register, from `lane` on.
-template <bool finite_rotation>
+/// Elements of a HexPack or HexRow that fit a register, from `lane` on.
+template <bool finite_rotation, class Pack>
 class HexElements {
  public:
   using V = Lanes<double>::Register;
   static constexpr int kWidth = Lanes<double>::kWidth;
 
-  TREAD_INLINE HexElements(const HexView& view, const HexPack& pack, int lane)
+  TREAD_INLINE HexElements(const HexView& view, const Pack& pack, int lane)
       : HexElements(view, pack, lane, Corners(view.nodes, pack, lane)) {}
 
   TREAD_INLINE Strain<V> strain() const {
@@ -48,7 +48,7 @@ class HexElements {
         value[j + 4][i] = s[j] + d[j];
       }
     }
-    for (int k = 0; k < 8; ++k) add_to_nodes(view_.f, &pack_.corner[k][lane_], value[k]);
+    add_to_corners(view_.f, pack_, lane_, value);
   }
 
   /// Energies by lane.
@@ -68,8 +68,8 @@ class HexElements {
   struct Corners {
     V position[8][3];
     V displacement[8][3];
-    TREAD_INLINE Corners(const double* nodes, const HexPack& pack, int lane) {
-      for (int k = 0; k < 8; ++k) gather_nodes(nodes, &pack.corner[k][lane], position[k], displacement[k]);
+    TREAD_INLINE Corners(const double* nodes, const Pack& pack, int lane) {
+      gather_corners(nodes, pack, lane, position, displacement);
     }
   };
 
@@ -89,10 +89,10 @@ class HexElements {
     }
   };
 
-  TREAD_INLINE HexElements(const HexView& view, const HexPack& pack, int lane, const Corners& corners)
+  TREAD_INLINE HexElements(const HexView& view, const Pack& pack, int lane, const Corners& corners)
       : view_(view),
         pack_(pack),
-        material_(view.materials[pack.material]),
+        material_(view.materials[pack.shapes.material]),
         lane_(lane),
         displacement_(corners.displacement),
         element_(kNoShape, Amplitudes(corners.position).value) {}
@@ -100,7 +100,7 @@ class HexElements {
   /// Matrix of the element's rotation: [component][local axis].
   TREAD_INLINE void rotation(V (&axes)[3][3]) const {
     V turn[4];
-    for (int i = 0; i < 4; ++i) turn[i] = load<V>(&pack_.turn[i][lane_]);
+    for (int i = 0; i < 4; ++i) turn[i] = load<V>(&pack_.shapes.turn[i][lane_]);
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       const int k = (i + 2) % 3;
@@ -115,7 +115,7 @@ class HexElements {
     V axes[3][3];
     V scale[3];
     rotation(axes);
-    for (int i = 0; i < 3; ++i) scale[i] = load<V>(&pack_.scale[i][lane_]);
+    for (int i = 0; i < 3; ++i) scale[i] = load<V>(&pack_.shapes.scale[i][lane_]);
     V q[3][kHourglassModes];
     for (int i = 0; i < 3; ++i)
       for (int m = 0; m < kHourglassModes; ++m)
@@ -138,35 +138,39 @@ class HexElements {
   }
 
   const HexView& view_;
-  const HexPack& pack_;
+  const Pack& pack_;
   const HexMaterial& material_;
   int lane_;
   Amplitudes displacement_;
   PerturbedElement<V, double> element_;
 };
 
+/// Calls visit(elements) for all elements of the chunk.
+template <bool finite_rotation, class Visit>
+TREAD_INLINE void for_each_elements(const HexView& view, const Visit& visit) {
+  const auto of = [&]<class Pack>(const Pack* packs, std::ptrdiff_t count) {
+    for (std::ptrdiff_t p = 0; p < count; ++p)
+      for (int lane = 0; lane < kLanes; lane += Lanes<double>::kWidth)
+        visit(HexElements<finite_rotation, Pack>(view, packs[p], lane));
+  };
+  of(view.rows, view.row_count);
+  of(view.packs, view.pack_count);
+}
+
 template <bool finite_rotation>
 void hex_force(const HexView& view) {
-  using Elements = HexElements<finite_rotation>;
-  for (std::ptrdiff_t p = 0; p < view.count; ++p)
-    for (int lane = 0; lane < kLanes; lane += Elements::kWidth) {
-      const Elements elements(view, view.packs[p], lane);
-      elements.add_forces(elements.strain());
-    }
+  for_each_elements<finite_rotation>(view,
+                                     [](const auto& elements) { elements.add_forces(elements.strain()); });
 }
 
 template <bool finite_rotation>
 DeformationEnergy hex_energy(const HexView& view) {
-  using Elements = HexElements<finite_rotation>;
-  typename Elements::V strain{};
-  typename Elements::V hourglass{};
-  for (std::ptrdiff_t p = 0; p < view.count; ++p)
-    for (int lane = 0; lane < kLanes; lane += Elements::kWidth) {
-      const Elements elements(view, view.packs[p], lane);
-      elements.add_energy(elements.strain(), strain, hourglass);
-    }
+  Lanes<double>::Register strain{};
+  Lanes<double>::Register hourglass{};
+  for_each_elements<finite_rotation>(
+      view, [&](const auto& elements) { elements.add_energy(elements.strain(), strain, hourglass); });
   DeformationEnergy sum;
-  for (int lane = 0; lane < Elements::kWidth; ++lane) {
+  for (int lane = 0; lane < Lanes<double>::kWidth; ++lane) {
     sum.strain += strain[lane];
     sum.hourglass += hourglass[lane];
   }

@@ -87,6 +87,26 @@ TREAD_INLINE void gather_nodes(const double* nodes, const std::uint16_t* place, 
   transpose_rows([&](int l) { return at[l] + kHexNodeValues; }, displacement);
 }
 
+/// The same of the elements' corners: eight anywhere, or on four lines.
+template <class V>
+TREAD_INLINE void gather_corners(const double* nodes, const HexPack& pack, int lane, V (&position)[8][3],
+                                 V (&displacement)[8][3]) {
+  for (int k = 0; k < 8; ++k) gather_nodes(nodes, &pack.corner[k][lane], position[k], displacement[k]);
+}
+template <class V>
+TREAD_INLINE void gather_corners(const double* nodes, const HexRow& row, int lane, V (&position)[8][3],
+                                 V (&displacement)[8][3]) {
+  constexpr int kWidth = sizeof(V) / sizeof(double);
+  for (int k = 0; k < 4; ++k) {
+    gather_nodes(nodes, &row.corner[k][lane], position[k], displacement[k]);
+    const double* const last = nodes + row.corner[k][lane + kWidth];
+    for (int i = 0; i < 3; ++i) {
+      position[k + 4][i] = shift_down(position[k][i], V{} + last[i]);
+      displacement[k + 4][i] = shift_down(displacement[k][i], V{} + last[kHexNodeValues + i]);
+    }
+  }
+}
+
 template <class Row, class V>
 TREAD_INLINE void add_rows(double* first, double* second, const V& rows) {
   if constexpr (sizeof(V) == 64) {
@@ -97,13 +117,16 @@ TREAD_INLINE void add_rows(double* first, double* second, const V& rows) {
   }
 }
 
-/// Adds the components to the rows at the places, lane after lane in an order of its own.
-template <class V>
-TREAD_INLINE void add_to_nodes(double* rows, const std::uint16_t* place, const V (&value)[3]) {
+/// The forces of a node, at its place.
+[[gnu::always_inline]] inline double* force_at(double* forces, std::uint16_t place) {
   constexpr std::size_t kBytes = kHexNodeValues * sizeof(double) / kHexPlace;
-  const auto at = [&](int l) {
-    return reinterpret_cast<double*>(reinterpret_cast<char*>(rows) + kBytes * place[l]);
-  };
+  return reinterpret_cast<double*>(reinterpret_cast<char*>(forces) + kBytes * place);
+}
+
+/// Adds the components to the forces at the places, lane after lane in an order of its own.
+template <class V>
+TREAD_INLINE void add_to_nodes(double* forces, const std::uint16_t* place, const V (&value)[3]) {
+  const auto at = [&](int l) { return force_at(forces, place[l]); };
   const V none{};
   const V even = even_lanes(value[0], value[1]), odd = odd_lanes(value[0], value[1]);
   const V even_z = even_lanes(value[2], none), odd_z = odd_lanes(value[2], none);
@@ -119,6 +142,23 @@ TREAD_INLINE void add_to_nodes(double* rows, const std::uint16_t* place, const V
     add_rows<Row>(at(1), at(1 + far), first_pairs(odd, odd_z));
     add_rows<Row>(at(2), at(2 + far), second_pairs(even, even_z));
     add_rows<Row>(at(3), at(3 + far), second_pairs(odd, odd_z));
+  }
+}
+
+/// The same for the elements' corners.
+template <class V>
+TREAD_INLINE void add_to_corners(double* forces, const HexPack& pack, int lane, const V (&value)[8][3]) {
+  for (int k = 0; k < 8; ++k) add_to_nodes(forces, &pack.corner[k][lane], value[k]);
+}
+template <class V>
+TREAD_INLINE void add_to_corners(double* forces, const HexRow& row, int lane, const V (&value)[8][3]) {
+  constexpr int kWidth = sizeof(V) / sizeof(double);
+  for (int k = 0; k < 4; ++k) {
+    V sum[3];
+    for (int i = 0; i < 3; ++i) sum[i] = value[k][i] + shift_up(V{}, value[k + 4][i]);
+    add_to_nodes(forces, &row.corner[k][lane], sum);
+    double* const last = force_at(forces, row.corner[k][lane + kWidth]);
+    for (int i = 0; i < 3; ++i) last[i] += value[k + 4][i][kWidth - 1];
   }
 }
 

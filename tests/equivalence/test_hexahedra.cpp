@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -141,9 +142,22 @@ TEST(Hexahedra, EnergyMassDiagonalAndFrequencyAreThoseOfTheSweptPath) {
   }
 }
 
+/// Lists the corners of some elements from another face on, as meshers do.
+void turn_numbering(HexMesh& mesh) {
+  constexpr std::array<std::array<std::size_t, 8>, 3> kTurns = {
+      {{1, 2, 3, 0, 5, 6, 7, 4}, {0, 4, 5, 1, 3, 7, 6, 2}, {3, 7, 4, 0, 2, 6, 5, 1}}};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (e % 4 == 3) continue;
+    const HexCorners before = mesh.elements[e];
+    for (std::size_t k = 0; k < 8; ++k) mesh.elements[e][k] = before[kTurns[e % 4][k]];
+    ASSERT_GT(hex_shape(mesh.corners(e)).smallest_jacobian, 0) << e;
+  }
+}
+
 /// Elements that no sweep makes: every node is moved.
 TEST(Hexahedra, ForceOfDistortedElementsIsThatOfTheOracle) {
   HexMesh mesh = hexahedra_of(samples::extruded());
+  turn_numbering(mesh);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> shift(-5e-4, 5e-4), motion(-1e-5, 1e-5);
   for (Vec3& node : mesh.nodes)
@@ -173,6 +187,32 @@ TEST(Hexahedra, ForceOfDistortedElementsIsThatOfTheOracle) {
       EXPECT_LT(difference(f, expected), 1e-12) << set;
     }
   }
+}
+
+TEST(Hexahedra, RowsHoldElementsThatShareFaces) {
+  HexMesh mesh = hexahedra_of(samples::extruded());
+  turn_numbering(mesh);
+  std::vector<std::int32_t> all(mesh.elements.size()), rest;
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<ElementRow> rows = find_rows(mesh, all, rest);
+  ASSERT_GT(rows.size(), 4U);
+  std::vector<std::int32_t> found = rest;
+  for (const ElementRow& row : rows)
+    for (std::size_t i = 0; i < 8; ++i) {
+      found.push_back(row.element[i]);
+      EXPECT_EQ(mesh.part[index(row.element[i])], mesh.part[index(row.element[0])]);
+      HexCorners corners;
+      for (std::size_t k = 0; k < 8; ++k) corners[k] = row.line[k % 4][i + k / 4];
+      HexCorners stated = mesh.elements[index(row.element[i])];
+      std::array<Vec3, 8> at;
+      for (std::size_t k = 0; k < 8; ++k) at[k] = mesh.nodes[index(corners[k])];
+      EXPECT_GT(hex_shape(at).smallest_jacobian, 0);
+      std::sort(corners.begin(), corners.end());
+      std::sort(stated.begin(), stated.end());
+      EXPECT_EQ(corners, stated);
+    }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, all);
 }
 
 TEST(Hexahedra, SameBitsForAnyNumberOfThreads) {
