@@ -133,4 +133,21 @@ inline std::string gmsh_file(const std::string& version) {
   return text + "$EndElements\n$NodeData\n1\nanything\n$EndNodeData\n";
 }
 
+struct MeshFile {
+  const char* name;
+  std::string text;
+};
+
+/// The bar in every format.
+inline std::vector<MeshFile> files() {
+  return {{"a.k", keyword_file(SolidCards::one)},
+          {"b.k", keyword_file(SolidCards::two)},
+          {"c.msh", gmsh_file("4.0")},
+          {"d.msh", gmsh_file("4.1")},
+          {"e.inp", abaqus_file()},
+          {"no suffix", keyword_file(SolidCards::one)},
+          {"no suffix", gmsh_file("4.1")},
+          {"no suffix", abaqus_file()}};
+}
+
 }  // namespace tread::samples

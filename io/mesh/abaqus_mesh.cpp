@@ -60,7 +60,11 @@ class AbaqusMesh {
       if (line.starts_with('*')) {
         begin(joined(line));
       } else if (card_ != nullptr) {
-        (this->*card_)(MeshFields::between_commas(line), line.ends_with(','));
+        const MeshFields fields = MeshFields::between_commas(line);
+        if (fields.overfull())
+          fault("lines with too many values",
+                fmt::format("more than {} values in a line; break it", MeshFields::kMost));
+        (this->*card_)(fields, line.ends_with(','));
       }
     }
     leave();

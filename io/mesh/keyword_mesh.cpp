@@ -173,6 +173,9 @@ class KeywordMesh {
   /// Whole numbers of a card, blanks as 0; false after a fault.
   bool numbers_of(const MeshFields& fields, const char* of, std::array<std::int64_t, 10>& numbers) {
     numbers.fill(0);
+    if (fields.size() > numbers.size())
+      fault("cards with too many fields",
+            fmt::format("{}: a card has {} fields at the most; break the line", of, numbers.size()));
     for (std::size_t i = 0; i < std::min(fields.size(), numbers.size()); ++i) {
       if (fields[i].empty()) continue;
       const auto value = integer_of(fields[i]);
