@@ -1,13 +1,16 @@
 #include "drivers/bench/kernel_cases.hpp"
 
+#include <cmath>
 #include <memory>
 #include <type_traits>
 
 #include "core/body_frame.hpp"
+#include "core/mesh/hex_mesh.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/made_up_blocks.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/blocks/time_update.hpp"
+#include "kernels/hexahedra/hex_force.hpp"
 
 namespace tread {
 
@@ -166,6 +169,45 @@ void add_ties(std::vector<KernelCase>& cases) {
          [hand_over](std::int64_t elements) { return prepare_tie<Real, U>(hand_over, elements); }});
 }
 
+/// The elements of a straight block one by one, as if another program had meshed it.
+PreparedKernel prepare_hexahedra(bool finite_rotation, bool damped, std::int64_t elements) {
+  struct Data {
+    Data(const SweptBlock& block) : mesh(hexahedra_of(block)), force(mesh, block.materials) {}
+    HexMesh mesh;
+    HexForce force;
+    std::vector<double> u, v, f;
+  };
+  const Mesh swept = made_up_mesh(Sweep::extruded, false, elements);
+  const auto data = std::make_shared<Data>(swept.blocks.front());
+  data->force.set_finite_rotation(finite_rotation);
+  if (damped) data->force.set_beta(kBeta);
+  data->f.resize(kHexNodeValues * data->mesh.nodes.size());
+  for (std::size_t i = 0; i < data->f.size(); ++i)
+    data->u.push_back(i % kHexNodeValues == 3 ? 0.0
+                                              : kDisplacement * std::sin(0.37 * static_cast<double>(i)));
+  PreparedKernel kernel;
+  data->v.assign(data->f.size(), 0.0);
+  kernel.timed.call = [data] { data->force.internal_force(data->u.data(), data->v.data(), data->f.data()); };
+  // Coefficients are read; rows of displacements, forces and velocities too, and forces are written.
+  const std::int64_t rows = (damped ? 4 : 3) * static_cast<std::int64_t>(data->f.size() * sizeof(double));
+  const auto units = static_cast<std::int64_t>(data->mesh.elements.size());
+  set_work(kernel, units, {0, static_cast<double>(data->force.bytes() + rows) / static_cast<double>(units)});
+  kernel.lanes = HexForce::instruction_sets();
+  kernel.use_lanes = [data](const char* name) { data->force.use_instruction_set(name); };
+  return kernel;
+}
+
+void add_hexahedra(std::vector<KernelCase>& cases) {
+  for (const bool finite_rotation : {false, true})
+    for (const bool damped : {false, true}) {
+      const char* const law = finite_rotation ? "general, finite rotation" : "general, linear";
+      cases.push_back({"hexahedra", std::string(law) + (damped ? ", damped" : ""), "double", "element",
+                       [finite_rotation, damped](std::int64_t elements) {
+                         return prepare_hexahedra(finite_rotation, damped, elements);
+                       }});
+    }
+}
+
 void add_elements(std::vector<KernelCase>& cases, ElementVariant variant) {
   for (const bool moves : {false, true}) {
     variant.moves = moves;
@@ -188,6 +230,7 @@ std::vector<KernelCase> kernel_cases() {
           add_elements(cases, {sweep, damped, finite_rotation, perturbed});
         }
   for (const bool damped : {false, true}) add_elements(cases, {.damped = damped, .vertical_only = true});
+  add_hexahedra(cases);
   add_updates<double, double>(cases);
   add_updates<float, double>(cases);
   add_updates<float, float>(cases);

@@ -21,6 +21,7 @@ AddCommand add_cache;
 AddCommand add_check;
 AddCommand add_mesh;
 AddCommand add_export;
+AddCommand add_import;
 AddCommand add_compare;
 AddCommand add_multibody;
 AddCommand add_roughness;
@@ -37,8 +38,9 @@ AddCommand add_scene_reference;
 
 /// In the order of `tread --help`.
 inline constexpr std::array kCommands = {
-    add_run,     add_resume,  add_ctl,       add_results,   add_cache,   add_check,   add_mesh,
-    add_export,  add_compare, add_multibody, add_roughness, add_profile, add_sweep,   add_paper,
-    add_develop, add_dial,    add_verify,    add_bench,     add_manual,  add_version, add_scene_reference};
+    add_run,     add_resume, add_ctl,     add_results,        add_cache,     add_check,
+    add_mesh,    add_export, add_import,  add_compare,        add_multibody, add_roughness,
+    add_profile, add_sweep,  add_paper,   add_develop,        add_dial,      add_verify,
+    add_bench,   add_manual, add_version, add_scene_reference};
 
 }  // namespace tread

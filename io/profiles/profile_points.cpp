@@ -1,6 +1,5 @@
 #include "io/profiles/profile_points.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -32,13 +31,6 @@ std::vector<double> leading_numbers(std::string_view line, std::size_t most) {
     at = next;
   }
   return numbers;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
 }
 
 }  // namespace tread

@@ -6,13 +6,10 @@
 #include <string_view>
 #include <vector>
 
-namespace tread {
+#include "io/text/line_fault.hpp"
+#include "io/text/text.hpp"
 
-/// A line of a file that cannot be read.
-struct LineFault {
-  int line = 0;  ///< from 1; 0: the file as a whole
-  std::string message;
-};
+namespace tread {
 
 /// Points with the changes that the file's own header asks for.
 struct FilePoints {
@@ -30,8 +27,5 @@ std::vector<std::string> lines_of(const std::string& text);
 
 /// Numbers at the beginning of a line, separated by blanks, tabs, commas or semicolons, up to `most`.
 std::vector<double> leading_numbers(std::string_view line, std::size_t most);
-
-/// Lower-case copy of ASCII text.
-std::string lower_case(std::string_view text);
 
 }  // namespace tread

@@ -13,6 +13,13 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return result;
+}
+
 std::string csv_cell(const std::string& text) {
   std::string quoted = text;
   std::replace(quoted.begin(), quoted.end(), '"', '\'');

@@ -9,6 +9,9 @@ namespace tread {
 /// Without the white space at either end.
 std::string_view trimmed(std::string_view text);
 
+/// Lower-case copy of ASCII text.
+std::string lower_case(std::string_view text);
+
 /// A cell of a CSV file, quoted if necessary.
 std::string csv_cell(const std::string& text);
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "kernels/element/element.hpp"
+
 namespace tread {
 
 namespace {
@@ -148,6 +150,26 @@ std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
   const Matrix83 b = mean_gradients(to_matrix(shape.nodes)).first;
   const Eigen::Matrix3d s = stress_of(shape, to_matrix(displacement).transpose() * b);
   return {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(2, 0), s(0, 1)};
+}
+
+double hexahedron_frequency(const HexahedronShape& shape) {
+  HexahedronShape linear = shape;
+  linear.finite_rotation = false;
+  const HexahedronCoefficients c = hexahedron_coefficients(linear);
+  const std::array<double, 8> volume = element_geometry(shape.nodes).nodal_volume;
+  Matrix24 pencil;
+  for (int column = 0; column < 24; ++column) {
+    std::array<Vec3, 8> u;
+    u[static_cast<std::size_t>(column / 3)][column % 3] = 1;
+    const std::array<Vec3, 8> force = element_force(linear, c, u);
+    for (int row = 0; row < 24; ++row)
+      pencil(row, column) =
+          force[static_cast<std::size_t>(row / 3)][row % 3] /
+          (shape.material.density * std::sqrt(volume[static_cast<std::size_t>(row / 3)] *
+                                              volume[static_cast<std::size_t>(column / 3)]));
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix24> solver(pencil, Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues()(23));
 }
 
 GeneralForce::GeneralForce(std::vector<Element> elements) : elements_(std::move(elements)) {

@@ -31,6 +31,9 @@ HexahedronCoefficients hexahedron_coefficients(const HexahedronShape& shape);
 std::array<double, 6> hexahedron_stress(const HexahedronShape& shape,
                                         const std::array<Vec3, 8>& displacement);
 
+/// Largest natural frequency of the element alone with its own lumped mass, by the linear law. [rad/s]
+double hexahedron_frequency(const HexahedronShape& shape);
+
 /// Elements given by node lists.
 class GeneralForce {
  public:

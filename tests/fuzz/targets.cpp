@@ -20,11 +20,13 @@
 #include "io/files/output_file.hpp"
 #include "io/files/sealed_file.hpp"
 #include "io/files/step_files.hpp"
+#include "io/mesh/imported_mesh.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
+#include "tests/mesh_files.hpp"
 
 namespace tread::fuzz {
 
@@ -185,6 +187,35 @@ void read_run_folder(const std::string& bytes) {
   taken.take_request();
 }
 
+/// A mesh that is accepted has proper elements; one that is not has a fault.
+void read_mesh(const std::string& bytes, const char* name) {
+  for (const int pieces : {1, 3}) {
+    MeshFaults faults;
+    const ImportedMesh imported = mesh_of(bytes, name, {1e-3, {}, pieces}, faults);
+    if (!faults.empty()) {
+      require(!faults.list().front().message.empty(), "a fault without words");
+      continue;
+    }
+    const HexMesh& mesh = imported.mesh;
+    require(!mesh.elements.empty() && mesh.part.size() == mesh.elements.size(), "a mesh without elements");
+    require(mesh.nodes.size() <= bytes.size() && mesh.elements.size() <= bytes.size(), "a mesh that grows");
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      require(hex_shape(mesh.corners(e)).smallest_jacobian > 0, "an accepted element without volume");
+    for (const auto& [set, nodes] : mesh.node_sets)
+      require(!nodes.empty() && nodes.back() < static_cast<std::int32_t>(mesh.nodes.size()),
+              "a set of nodes");
+  }
+}
+void read_mesh_deck(const std::string& bytes) {
+  read_mesh(bytes, "a.k");
+}
+void read_mesh_gmsh(const std::string& bytes) {
+  read_mesh(bytes, "a.msh");
+}
+void read_mesh_abaqus(const std::string& bytes) {
+  read_mesh(bytes, "a.inp");
+}
+
 std::vector<std::string> scene_seeds() {
   std::vector<std::string> seeds;
   for (const char* name : {"tyre", "bar-wave", "hammer", "corrugation-d", "sphere-on-block"})
@@ -248,13 +279,28 @@ std::vector<std::string> run_folder_seeds() {
   return seeds;
 }
 
+std::vector<std::string> mesh_deck_seeds() {
+  return {samples::keyword_file(samples::SolidCards::one), samples::keyword_file(samples::SolidCards::two)};
+}
+std::vector<std::string> mesh_gmsh_seeds() {
+  return {samples::gmsh_file("4.0"), samples::gmsh_file("4.1")};
+}
+std::vector<std::string> mesh_abaqus_seeds() {
+  return {samples::abaqus_file()};
+}
+
 }  // namespace
 
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {
-      {"scene", read_scene_text, scene_seeds},           {"table", read_table, table_seeds},
-      {"profile", read_profile, profile_seeds},          {"roughness", read_roughness, roughness_seeds},
-      {"checkpoint", read_checkpoint, checkpoint_seeds}, {"run_folder", read_run_folder, run_folder_seeds}};
+  static const std::vector<Target> all = {{"scene", read_scene_text, scene_seeds},
+                                          {"table", read_table, table_seeds},
+                                          {"profile", read_profile, profile_seeds},
+                                          {"roughness", read_roughness, roughness_seeds},
+                                          {"checkpoint", read_checkpoint, checkpoint_seeds},
+                                          {"run_folder", read_run_folder, run_folder_seeds},
+                                          {"mesh_deck", read_mesh_deck, mesh_deck_seeds},
+                                          {"mesh_gmsh", read_mesh_gmsh, mesh_gmsh_seeds},
+                                          {"mesh_abaqus", read_mesh_abaqus, mesh_abaqus_seeds}};
   return all;
 }
 

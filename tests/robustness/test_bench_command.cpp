@@ -45,7 +45,7 @@ std::string text(const JsonRecord& record, const char* name) {
 constexpr const char* kSmoke = "--repetitions 2 --run-seconds 0 --json";
 
 constexpr const char* kAllButStream =
-    "--kernel empty multiply_add internal_force force_and_motion update tie_hand_over tie_follow "
+    "--kernel empty multiply_add internal_force force_and_motion hexahedra update tie_hand_over tie_follow "
     "contact_search contact_resolve "
     "surface_fields";
 
@@ -68,7 +68,7 @@ TEST_F(Bench, KernelsStateEveryKey) {
     EXPECT_GT(number(row, "fraction_of_limit"), 0) << name;
     EXPECT_LT(number(row, "fraction_of_limit"), 3) << name;
   }
-  EXPECT_EQ(kernels.size(), 10U);
+  EXPECT_EQ(kernels.size(), 11U);
 }
 
 TEST_F(Bench, SeveralThreadsAreMeasuredByEveryBackend) {

@@ -133,8 +133,8 @@ TEST(Unpacking, WhatIsMissingOrOfAnotherKindIsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzTargets,
-                         testing::Values("scene", "table", "profile", "roughness", "checkpoint",
-                                         "run_folder"),
+                         testing::Values("scene", "table", "profile", "roughness", "checkpoint", "run_folder",
+                                         "mesh_deck", "mesh_gmsh", "mesh_abaqus"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace

@@ -1,0 +1,75 @@
+#include "core/mesh/hex_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tread {
+
+namespace {
+
+/// Corners at the other ends of a corner's three edges, in the order of a positive triple product.
+constexpr std::size_t kNeighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                           {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+
+double triple(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return dot(a, cross(b, c));
+}
+
+/// Volume of the trilinear hexahedron: a third of the flux of the position through its bilinear faces.
+double volume_of(const std::array<Vec3, 8>& x) {
+  double sum = 0;
+  for (const auto& face : kHexFaces) {
+    const Vec3 a = x[face[0]] - x[0], b = x[face[1]] - x[0], c = x[face[2]] - x[0], d = x[face[3]] - x[0];
+    sum += dot(0.25 * (a + b + c + d), 0.5 * cross(c - a, d - b));  // of the other terms none is even
+  }
+  return sum / 3;
+}
+
+}  // namespace
+
+HexMesh hexahedra_of(const SweptBlock& block) {
+  HexMesh mesh;
+  const int stations = block.station_count();
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+  for (int station = 0; station < stations; ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      mesh.nodes.push_back(position(block, node, station));
+      mesh.node_number.push_back(static_cast<std::int64_t>(mesh.nodes.size()));
+    }
+  for (const Material& material : block.materials) mesh.parts.push_back(material.name);
+  for (const Tile& tile : block.tiles)
+    for (int station = tile.first_station; station < tile.first_station + tile.elements; ++station)
+      for (std::size_t quad = 0; quad < block.section.quads.size(); ++quad) {
+        HexCorners corners;
+        for (std::size_t k = 0; k < 8; ++k)
+          corners[k] = (station + (k < 4 ? 0 : 1)) % stations * block.section.nodes() +
+                       block.section.quads[quad][k % 4];
+        mesh.elements.push_back(corners);
+        mesh.element_number.push_back(static_cast<std::int64_t>(mesh.elements.size()));
+        mesh.part.push_back(block.section.quad_material[quad] +
+                            block.classes[index(tile.pitch_class)].material_offset);
+      }
+  return mesh;
+}
+
+HexShape hex_shape(const std::array<Vec3, 8>& corners) {
+  HexShape shape;
+  shape.volume = volume_of(corners);
+  shape.shortest_edge = std::numeric_limits<double>::max();
+  double smallest = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < 8; ++i) {
+    std::array<Vec3, 3> edge;
+    for (std::size_t k = 0; k < 3; ++k) {
+      edge[k] = corners[kNeighbours[i][k]] - corners[i];
+      shape.shortest_edge = std::min(shape.shortest_edge, norm(edge[k]));
+      shape.longest_edge = std::max(shape.longest_edge, norm(edge[k]));
+    }
+    smallest = std::min(smallest, triple(edge[0], edge[1], edge[2]));
+  }
+  // The map's Jacobian is an eighth of the triple product of edges.
+  shape.smallest_jacobian = smallest / std::abs(shape.volume);
+  return shape;
+}
+
+}  // namespace tread

@@ -1,0 +1,54 @@
+#pragma once
+// A mesh of hexahedra with a connectivity of its own, as other programs make it.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/math/vec.hpp"
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// Indices of an element's nodes: 0 ... 3 run about one face, counter-clockwise seen from the face opposite;
+/// 4 ... 7 are the nodes opposite to them.
+using HexCorners = std::array<std::int32_t, 8>;
+
+/// Every node belongs to an element, and every element has a positive Jacobian at its corners.
+struct HexMesh {
+  std::vector<Vec3> nodes;  ///< Cartesian positions [m]
+  std::vector<HexCorners> elements;
+  std::vector<std::int32_t> part;  ///< by element: index into `parts`
+  std::vector<std::string> parts;
+  std::vector<std::int64_t> node_number, element_number;          ///< in the file
+  std::map<std::string, std::vector<std::int32_t>> node_sets;     ///< indices, ascending
+  std::map<std::string, std::vector<std::int32_t>> element_sets;  ///< indices, ascending
+
+  /// Positions of an element's nodes [m].
+  std::array<Vec3, 8> corners(std::size_t element) const {
+    std::array<Vec3, 8> at;
+    for (std::size_t i = 0; i < 8; ++i) at[i] = nodes[static_cast<std::size_t>(elements[element][i])];
+    return at;
+  }
+};
+
+/// The elements of a swept block one by one: node `station * section nodes + section node`, parts by the
+/// block's materials.
+HexMesh hexahedra_of(const SweptBlock& block);
+
+/// Corners of the six faces. Normals point outwards.
+inline constexpr std::array<std::array<std::size_t, 4>, 6> kHexFaces = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+/// Shape of an element by its corners.
+struct HexShape {
+  double volume = 0;             ///< of the trilinear map [m3]
+  double shortest_edge = 0;      ///< [m]
+  double longest_edge = 0;       ///< [m]
+  double smallest_jacobian = 0;  ///< over the corners, by volume / 8: 1 for a brick [-]
+};
+HexShape hex_shape(const std::array<Vec3, 8>& corners);
+
+}  // namespace tread

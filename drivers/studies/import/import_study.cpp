@@ -1,0 +1,155 @@
+#include "drivers/studies/import/import_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "drivers/studies/import/mesh_extremes.hpp"
+#include "io/scene/problems.hpp"
+#include "io/text/json.hpp"
+#include "io/text/text_file.hpp"
+#include "io/text/units.hpp"
+
+namespace tread {
+
+namespace {
+
+constexpr double mm = 1e-3;
+
+template <class Read>
+double stated(const char* option, const std::string& text, const Read& read) {
+  try {
+    return read(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
+  }
+}
+
+MeshWish wish_of(const ImportOptions& options) {
+  const double unit = stated("--unit", options.unit,
+                             [](const std::string& text) { return parse_quantity("1 " + text, kLength); });
+  return {unit, options.parts, options.pieces};
+}
+
+Material material_of(const ImportOptions& options) {
+  const auto positive = [](const Quantity& quantity) {
+    return [&quantity](const std::string& text) {
+      const double value = parse_quantity(text, quantity);
+      if (!(value > 0)) throw InputError("must be above 0");
+      return value;
+    };
+  };
+  Material material;
+  material.youngs_modulus = stated("--youngs-modulus", options.youngs_modulus, positive(kStress));
+  material.density = stated("--density", options.density, positive(kDensity));
+  material.poissons_ratio = options.poissons_ratio;
+  if (!(material.poissons_ratio >= 0 && material.poissons_ratio <= 0.49))
+    throw InputError(fmt::format("--poissons-ratio {}: must lie between 0 and 0.49", options.poissons_ratio));
+  return material;
+}
+
+std::map<std::string, std::size_t> part_sizes(const HexMesh& mesh) {
+  std::map<std::string, std::size_t> sizes;
+  for (const std::int32_t part : mesh.part) ++sizes[mesh.parts[static_cast<std::size_t>(part)]];
+  return sizes;
+}
+
+std::string text_of(const ImportedMesh& imported, const MeshExtremes& m, const Material& material,
+                    const ImportOptions& options) {
+  const HexMesh& mesh = imported.mesh;
+  std::string text;
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("{:<14}{}\n", name, value);
+  };
+  line("Read as", fmt::format("{}, lengths in {}", imported.format, options.unit));
+  line("Mesh", fmt::format("{} hexahedra, {} nodes", mesh.elements.size(), mesh.nodes.size()));
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i)
+    line(kAxes[i], fmt::format("{:.3f} ... {:.3f} mm", m.low[i] / mm, m.high[i] / mm));
+  line("Volume", fmt::format("{:.6g} m3, {:.6g} kg of {:g} kg/m3", m.volume, m.volume * material.density,
+                             material.density));
+  line("Edges",
+       fmt::format("{:.4g} mm (element {}) to {:.4g} mm (element {}); largest ratio in an element {:.3g} "
+                   "(element {})",
+                   m.shortest_edge.value / mm, m.shortest_edge.element, m.longest_edge.value / mm,
+                   m.longest_edge.element, m.edge_ratio.value, m.edge_ratio.element));
+  line("Jacobian", fmt::format("at a corner at least {:.3g} of the element's mean (element {})",
+                               m.jacobian.value, m.jacobian.element));
+  line("Stable step",
+       fmt::format("{:.4e} s of the free mesh, {:.4e} s of element {} alone; E {:g} GPa, nu {:g}",
+                   m.assembled_step, m.stable_step.value, m.stable_step.element,
+                   1e-9 * material.youngs_modulus, material.poissons_ratio));
+  const char* name = "Parts";
+  const auto entry = [&](const std::string& of, std::size_t size, const char* unit) {
+    line(name, fmt::format("\"{}\": {} {}", of, size, unit));
+    name = "";
+  };
+  for (const auto& [part, size] : part_sizes(mesh)) entry(part, size, "elements");
+  name = "Element sets";
+  for (const auto& [set, members] : mesh.element_sets) entry(set, members.size(), "elements");
+  name = "Node sets";
+  for (const auto& [set, members] : mesh.node_sets) entry(set, members.size(), "nodes");
+  name = "Notes";
+  for (const std::string& note : imported.notes) {
+    line(name, note);
+    name = "";
+  }
+  return text;
+}
+
+Json json_of(const ImportedMesh& imported, const MeshExtremes& m, const ImportOptions& options) {
+  const HexMesh& mesh = imported.mesh;
+  const auto extreme = [](const ElementExtreme& of) {
+    return Json{{"value", of.value}, {"element", of.element}};
+  };
+  Json json = {{"ok", true},
+               {"format", imported.format},
+               {"unit", options.unit},
+               {"elements", mesh.elements.size()},
+               {"nodes", mesh.nodes.size()},
+               {"low_m", {m.low.x, m.low.y, m.low.z}},
+               {"high_m", {m.high.x, m.high.y, m.high.z}},
+               {"volume_m3", m.volume},
+               {"shortest_edge_m", extreme(m.shortest_edge)},
+               {"longest_edge_m", extreme(m.longest_edge)},
+               {"largest_edge_ratio", extreme(m.edge_ratio)},
+               {"smallest_jacobian", extreme(m.jacobian)},
+               {"element_step_s", extreme(m.stable_step)},
+               {"stable_step_s", m.assembled_step},
+               {"notes", imported.notes}};
+  json["parts"] = part_sizes(mesh);
+  json["element_sets"] = Json::object();
+  for (const auto& [set, members] : mesh.element_sets) json["element_sets"][set] = members.size();
+  json["node_sets"] = Json::object();
+  for (const auto& [set, members] : mesh.node_sets) json["node_sets"][set] = members.size();
+  return json;
+}
+
+}  // namespace
+
+ImportedMesh read_mesh_file(const std::filesystem::path& file, const MeshWish& wish) {
+  const std::string text = read_bytes(file, kLargestMeshFile);
+  MeshFaults faults;
+  ImportedMesh imported = mesh_of(text, file, wish, faults);
+  std::vector<Problem> problems;
+  for (const LineFault& fault : faults.list())
+    problems.push_back({file.string(), fault.line, 0, "", fault.message});
+  if (!problems.empty()) throw ProblemsError(std::move(problems));
+  return imported;
+}
+
+void import_mesh(const ImportOptions& options) {
+  use_threads(options.threads);
+  const MeshWish wish = wish_of(options);
+  const Material material = material_of(options);
+  const ImportedMesh imported = read_mesh_file(options.file, wish);
+  const MeshExtremes extremes = mesh_extremes(imported.mesh, material);
+  if (options.json)
+    fmt::print("{}", json_text(json_of(imported, extremes, options)));
+  else
+    fmt::print("{}", text_of(imported, extremes, material, options));
+}
+
+}  // namespace tread

@@ -1,0 +1,110 @@
+#pragma once
+// Internal force of a mesh of hexahedra with a connectivity of its own: the element of the swept blocks with
+// the linear law, at small strain or with finite rotation. [theory.md, Element]
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/material.hpp"
+#include "core/mesh/hex_mesh.hpp"
+#include "kernels/hexahedra/hex_rows.hpp"
+#include "kernels/lanes/hex_force.hpp"
+
+namespace tread {
+
+/// The element with the largest natural frequency.
+struct HexFrequency {
+  double omega = 0;         ///< [rad/s]
+  std::size_t element = 0;  ///< index in the mesh
+};
+
+/// Vector fields hold 3 * nodes values, [node][component] in Cartesian axes. Results are the same bits for
+/// any number of threads. One object serves one caller at a time: applying it uses buffers of its own.
+class HexForce {
+ public:
+  /// Keeps a reference to the mesh. `materials`: by part of the mesh, of a linear law.
+  HexForce(const HexMesh& mesh, std::vector<Material> materials);
+
+  std::int64_t nodes() const { return static_cast<std::int64_t>(mesh_->nodes.size()); }
+
+  /// Stiffness-proportional damping: forces are those of u + beta v. [s]
+  void set_beta(double beta) { beta_ = beta; }
+  double beta() const { return beta_; }
+  /// Green-Lagrange strain in the one-point stress, as in BasicInternalForce.
+  void set_finite_rotation(bool on) { finite_rotation_ = on; }
+
+  /// f = F(u + beta v), overwritten; v may be null. [N]
+  void internal_force(const double* u, const double* v, double* f) const {
+    evaluate(u, v, f, finite_rotation_);
+  }
+  /// f = K u, overwritten: the linear operator, without damping. [N]
+  void apply(const double* u, double* f) const { evaluate(u, nullptr, f, false); }
+
+  /// Energy of u, whose gradient is F. [J]
+  DeformationEnergy energy(const double* u) const;
+
+  /// Row sums of the mass matrix by node [kg].
+  std::vector<double> lumped_mass() const;
+  /// Diagonal of K, a vector field [N/m].
+  std::vector<double> diagonal() const;
+  /// Largest natural frequency of an element alone with its own lumped mass: a bound from above on those of
+  /// the assembled mesh.
+  HexFrequency max_frequency() const;
+
+  /// Bytes of coefficients and buffers.
+  std::int64_t bytes() const;
+
+  /// Instruction sets to choose from, and a choice among them (for tests and benchmarks).
+  static std::vector<const char*> instruction_sets();
+  void use_instruction_set(const char* name);
+
+ private:
+  /// Elements that are worked on together, and their nodes.
+  struct Chunk {
+    std::size_t first_row = 0, rows = 0;
+    std::size_t first_pack = 0, packs = 0;
+    std::size_t first_node = 0;  ///< index in `places_`
+    std::size_t nodes = 0;
+    std::size_t first_position = 0;  ///< of its nodes, index in `positions_` in nodes
+  };
+  /// A node of several chunks: its forces by chunk, in their order.
+  struct SharedNode {
+    std::int32_t node = 0;
+    std::int32_t first = 0, last = 0;  ///< rows of `partial_`
+  };
+  /// A chunk's node: where its displacement comes from and its force goes to.
+  struct NodePlace {
+    std::int32_t node = 0;
+    std::int32_t partial = -1;  ///< place among the partial forces; -1: the chunk has the whole force
+  };
+
+  void cut_into_chunks();
+  void cut(std::vector<std::int32_t>& elements, std::size_t first, std::size_t last);
+  std::vector<std::int32_t> nodes_of(std::span<const std::int32_t> elements) const;
+  void add_chunk(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
+  void add_row(const ElementRow& row, const std::vector<std::int32_t>& nodes);
+  void add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
+  void share_nodes();
+  void evaluate(const double* u, const double* v, double* f, bool finite_rotation) const;
+  void load(const Chunk& chunk, const double* u, const double* v, double* values) const;
+  HexView view(const Chunk& chunk) const;
+
+  const HexMesh* mesh_;
+  std::vector<Material> materials_;
+  std::vector<HexMaterial> constants_;
+  double beta_ = 0;
+  bool finite_rotation_ = false;
+  const HexForces* forces_;
+  AlignedVector<HexRow> rows_;
+  AlignedVector<HexPack> packs_;
+  AlignedVector<double> positions_;  ///< rows of the chunks' nodes and of those of idle lanes [m]
+  std::vector<Chunk> chunks_;
+  std::vector<NodePlace> places_;
+  std::vector<SharedNode> shared_;
+  std::size_t largest_chunk_ = 0;  ///< nodes, and those of idle lanes
+  mutable AlignedVector<double> partial_;
+};
+
+}  // namespace tread

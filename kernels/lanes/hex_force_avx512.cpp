@@ -1,0 +1,9 @@
+#include "kernels/lanes/hex_force_body.hpp"
+
+namespace tread {
+
+extern const HexForces hex_forces_avx512;
+const HexForces hex_forces_avx512 = {
+    "avx512", {hex_force<false>, hex_force<true>}, {hex_energy<false>, hex_energy<true>}};
+
+}  // namespace tread

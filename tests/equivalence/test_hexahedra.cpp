@@ -1,0 +1,291 @@
+// The path of general hexahedra beside the swept one, and an exported scene that comes back through a file.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/parallel/parallel.hpp"
+#include "drivers/results/frame_files.hpp"
+#include "io/mesh/imported_mesh.hpp"
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/element/hexahedron.hpp"
+#include "kernels/hexahedra/hex_force.hpp"
+#include "tests/exported_deck.hpp"
+#include "tests/swept_samples.hpp"
+
+namespace tread {
+namespace {
+
+std::size_t index(std::int64_t i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Blocks whose elements have the swept shape, small and with more elements than a chunk holds.
+std::vector<SweptBlock> blocks() {
+  std::vector<SweptBlock> list = {samples::extruded(), samples::revolved_open(), samples::revolved_closed(),
+                                  samples::revolved_closed(7)};
+  list.push_back(make_swept_block("long", Sweep::extruded,
+                                  samples::grid_section({9, 7, 0, 0, 0.09, 0.07, 0.2}), samples::materials(),
+                                  0, {{80, 0.01, 0}}));
+  return list;
+}
+
+/// Rows of Cartesian values of a block's nodes, in the order of hexahedra_of.
+std::vector<double> cartesian_values(const SweptBlock& block, const AlignedVector<double>& field) {
+  std::vector<double> values;
+  for (int station = 0; station < block.station_count(); ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      const Vec3 at = samples::cartesian(block, station, block.base + block.slot(node, station), field);
+      values.insert(values.end(), {at.x, at.y, at.z, 0.0});
+    }
+  return values;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Largest difference by the largest value.
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most / largest(b);
+}
+
+/// A swept block, and the same elements one by one.
+struct BothPaths {
+  explicit BothPaths(const SweptBlock& block) {
+    mesh.add(block);
+    hexahedra = hexahedra_of(mesh.blocks[0]);
+    swept.emplace(mesh);
+    general.emplace(hexahedra, block.materials);
+  }
+  const SweptBlock& block() const { return mesh.blocks[0]; }
+
+  Mesh mesh;
+  HexMesh hexahedra;
+  std::optional<InternalForce> swept;
+  std::optional<HexForce> general;
+};
+
+TEST(Hexahedra, ForceIsThatOfTheSweptPath) {
+  for (const SweptBlock& block : blocks()) {
+    BothPaths paths(block);
+    for (const auto& [size, angle] : {std::pair(1e-5, 0.0), {1e-5, 0.1}, {1e-4, 1.0}}) {
+      auto u = samples::random_field(paths.mesh);
+      for (double& value : u) value *= size / samples::kRandomSize;
+      const auto turned =
+          samples::sample(paths.mesh, [&](const Vec3& x) { return samples::rotation(x, angle); });
+      for (std::size_t i = 0; i < u.size(); ++i) u[i] += turned[i];
+      const auto v = samples::random_field(paths.mesh, 4);
+      for (const bool finite_rotation : {false, true})
+        for (const double beta : {0.0, 0.25}) {
+          paths.swept->set_finite_rotation(0, finite_rotation);
+          paths.general->set_finite_rotation(finite_rotation);
+          paths.swept->set_beta(0, beta);
+          paths.general->set_beta(beta);
+          AlignedVector<double> expected(u.size());
+          paths.swept->internal_force(u.data(), v.data(), expected.data());
+          const std::vector<double> at = cartesian_values(paths.block(), u);
+          const std::vector<double> speed = cartesian_values(paths.block(), v);
+          for (const char* set : HexForce::instruction_sets()) {
+            paths.general->use_instruction_set(set);
+            std::vector<double> f(at.size(), 1e300);
+            paths.general->internal_force(at.data(), speed.data(), f.data());
+            EXPECT_LT(difference(f, cartesian_values(paths.block(), expected)), 1e-12)
+                << block.name << " " << angle << " " << finite_rotation << " " << set;
+          }
+        }
+    }
+  }
+}
+
+TEST(Hexahedra, EnergyMassDiagonalAndFrequencyAreThoseOfTheSweptPath) {
+  for (const SweptBlock& block : blocks()) {
+    const BothPaths paths(block);
+    const auto u = samples::random_field(paths.mesh);
+    const std::vector<double> at = cartesian_values(paths.block(), u);
+    const DeformationEnergy expected = paths.swept->energy(0, u.data());
+    const DeformationEnergy energy = paths.general->energy(at.data());
+    EXPECT_NEAR(energy.strain / expected.strain, 1, 1e-12) << block.name;
+    EXPECT_NEAR(energy.hourglass / expected.hourglass, 1, 1e-12) << block.name;
+
+    std::vector<double> mass(index(paths.mesh.slots), 0.0);
+    paths.swept->lumped_mass(mass.data());
+    const std::vector<double> general_mass = paths.general->lumped_mass();
+    for (int station = 0; station < block.station_count(); ++station)
+      for (int node = 0; node < block.section.nodes(); ++node) {
+        const double swept_mass = mass[index(paths.block().slot(node, station))];
+        ASSERT_NEAR(general_mass[index(station * block.section.nodes() + node)] / swept_mass, 1, 1e-13);
+      }
+    EXPECT_NEAR(paths.general->max_frequency().omega / paths.swept->max_frequency(0).omega, 1, 1e-10)
+        << block.name;
+
+    const std::vector<double> diagonal = paths.general->diagonal();
+    std::vector<double> unit(at.size(), 0.0), f(at.size());
+    for (std::size_t i = 0; i < unit.size(); i += 97) {
+      if (i % kHexNodeValues == 3) continue;
+      unit[i] = 1;
+      paths.general->apply(unit.data(), f.data());
+      unit[i] = 0;
+      ASSERT_NEAR(f[i] / diagonal[i], 1, 1e-12) << block.name;
+    }
+  }
+}
+
+/// Lists the corners of some elements from another face on, as meshers do.
+void turn_numbering(HexMesh& mesh) {
+  constexpr std::array<std::array<std::size_t, 8>, 3> kTurns = {
+      {{1, 2, 3, 0, 5, 6, 7, 4}, {0, 4, 5, 1, 3, 7, 6, 2}, {3, 7, 4, 0, 2, 6, 5, 1}}};
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    if (e % 4 == 3) continue;
+    const HexCorners before = mesh.elements[e];
+    for (std::size_t k = 0; k < 8; ++k) mesh.elements[e][k] = before[kTurns[e % 4][k]];
+    ASSERT_GT(hex_shape(mesh.corners(e)).smallest_jacobian, 0) << e;
+  }
+}
+
+/// Elements that no sweep makes: every node is moved.
+TEST(Hexahedra, ForceOfDistortedElementsIsThatOfTheOracle) {
+  HexMesh mesh = hexahedra_of(samples::extruded());
+  turn_numbering(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-5e-4, 5e-4), motion(-1e-5, 1e-5);
+  for (Vec3& node : mesh.nodes)
+    for (int i = 0; i < 3; ++i) node[i] += shift(random);
+  HexForce general(mesh, samples::materials());
+  std::vector<double> u(kHexNodeValues * mesh.nodes.size());
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = i % kHexNodeValues == 3 ? 0.0 : motion(random);
+  for (const bool finite_rotation : {false, true}) {
+    std::vector<GeneralForce::Element> elements;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const auto corners = mesh.corners(e);
+      GeneralForce::Element element{
+          {}, {corners, corners, samples::materials()[index(mesh.part[e])], finite_rotation}};
+      std::copy_n(mesh.elements[e].begin(), 8, element.node.begin());
+      elements.push_back(element);
+    }
+    std::vector<Vec3> at(mesh.nodes.size());
+    for (std::size_t n = 0; n < at.size(); ++n) at[n] = {u[4 * n], u[4 * n + 1], u[4 * n + 2]};
+    std::vector<double> expected;
+    for (const Vec3& force : GeneralForce(elements).apply(at))
+      expected.insert(expected.end(), {force.x, force.y, force.z, 0.0});
+    general.set_finite_rotation(finite_rotation);
+    for (const char* set : HexForce::instruction_sets()) {
+      general.use_instruction_set(set);
+      std::vector<double> f(u.size());
+      general.internal_force(u.data(), nullptr, f.data());
+      EXPECT_LT(difference(f, expected), 1e-12) << set;
+    }
+  }
+}
+
+TEST(Hexahedra, RowsHoldElementsThatShareFaces) {
+  HexMesh mesh = hexahedra_of(samples::extruded());
+  turn_numbering(mesh);
+  std::vector<std::int32_t> all(mesh.elements.size()), rest;
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<ElementRow> rows = find_rows(mesh, all, rest);
+  ASSERT_GT(rows.size(), 4U);
+  std::vector<std::int32_t> found = rest;
+  for (const ElementRow& row : rows)
+    for (std::size_t i = 0; i < 8; ++i) {
+      found.push_back(row.element[i]);
+      EXPECT_EQ(mesh.part[index(row.element[i])], mesh.part[index(row.element[0])]);
+      HexCorners corners;
+      for (std::size_t k = 0; k < 8; ++k) corners[k] = row.line[k % 4][i + k / 4];
+      HexCorners stated = mesh.elements[index(row.element[i])];
+      std::array<Vec3, 8> at;
+      for (std::size_t k = 0; k < 8; ++k) at[k] = mesh.nodes[index(corners[k])];
+      EXPECT_GT(hex_shape(at).smallest_jacobian, 0);
+      std::sort(corners.begin(), corners.end());
+      std::sort(stated.begin(), stated.end());
+      EXPECT_EQ(corners, stated);
+    }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, all);
+}
+
+TEST(Hexahedra, SameBitsForAnyNumberOfThreads) {
+  const SweptBlock block = blocks().back();
+  BothPaths paths(block);
+  paths.general->set_finite_rotation(true);
+  const std::vector<double> u = cartesian_values(paths.block(), samples::random_field(paths.mesh));
+  set_threads(1);
+  std::vector<double> one(u.size());
+  paths.general->internal_force(u.data(), nullptr, one.data());
+  const double energy = paths.general->energy(u.data()).strain;
+  for (const int count : {2, 3, 5, 16}) {
+    set_threads(count);
+    std::vector<double> many(u.size(), 1e300);
+    paths.general->internal_force(u.data(), nullptr, many.data());
+    EXPECT_EQ(std::memcmp(one.data(), many.data(), one.size() * sizeof(double)), 0) << count;
+    EXPECT_EQ(paths.general->energy(u.data()).strain, energy) << count;
+  }
+  set_threads(1);
+}
+
+/// A scene through `tread export` and the reader: places and elements are those of the model within the
+/// deck's digits, and so are the forces on its nodes.
+void expect_same_scene(const Scene& scene, int pieces) {
+  const Model model(scene);
+  std::string text;
+  KeywordDeck deck([&](std::string_view piece) { text += piece; });
+  write_keyword_deck(model, {}, "test", deck);
+  MeshFaults faults;
+  const ImportedMesh imported = mesh_of(text, "scene.k", {1e-3, {}, pieces}, faults);
+  for (const LineFault& fault : faults.list()) ADD_FAILURE() << fault.line << ": " << fault.message;
+  const HexMesh& mesh = imported.mesh;
+
+  const DeckModel numbered(model, {});
+  const VtkGrid& grid = numbered.grid();
+  ASSERT_EQ(mesh.nodes.size(), grid.points.size());
+  ASSERT_EQ(8 * mesh.elements.size(), grid.connectivity.size());
+  double farthest = 0;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    farthest = std::max(farthest, norm(mesh.nodes[n] - numbered.place(grid.points[n])));
+  EXPECT_LT(farthest,
+            8.7e-14);  // 15 characters of some hundred millimetres: half of 1e-10 mm along each axis
+  for (std::size_t i = 0; i < grid.connectivity.size(); ++i)
+    ASSERT_EQ(mesh.elements[i / 8][i % 8], grid.connectivity[i]);
+
+  std::vector<Material> materials;
+  for (const std::string& part : mesh.parts)
+    materials.push_back(scene.material(part.substr(part.find(", ") + 2)));
+  const HexForce general(mesh, materials);
+  const auto u = samples::random_field(model.mesh);
+  AlignedVector<double> expected(u.size());
+  model.internal->apply(u.data(), expected.data());
+  std::vector<double> at, swept;
+  for (const VtkGrid::Point& point : grid.points) {
+    const SweptBlock& block = model.mesh.blocks[index(point.block)];
+    const Vec3 here = samples::cartesian(block, point.station, numbered.slot(point), u);
+    const Vec3 force = samples::cartesian(block, point.station, numbered.slot(point), expected);
+    at.insert(at.end(), {here.x, here.y, here.z, 0.0});
+    swept.insert(swept.end(), {force.x, force.y, force.z, 0.0});
+  }
+  std::vector<double> f(at.size());
+  general.apply(at.data(), f.data());
+  // Half a unit of the deck's fifteenth digit in places of 0.5 m, over edges of 9 mm.
+  EXPECT_LT(difference(f, swept), 1e-11);
+}
+
+TEST(ImportedScene, HasTheForcesOfTheExportedTyre) {
+  expect_same_scene(samples::tyre(), 2);
+}
+
+TEST(ImportedScene, HasTheForcesOfTheExportedBar) {
+  expect_same_scene(samples::bar(), 1);
+}
+
+}  // namespace
+}  // namespace tread

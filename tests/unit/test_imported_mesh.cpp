@@ -1,0 +1,151 @@
+// Meshes of other programs: one bar in every format.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "io/mesh/imported_mesh.hpp"
+#include "kernels/element/element.hpp"
+#include "tests/mesh_files.hpp"
+
+namespace tread {
+namespace {
+
+using namespace samples;
+
+ImportedMesh sound(const MeshFile& file, const MeshWish& wish = {1e-3, {}, 1}) {
+  MeshFaults faults;
+  ImportedMesh mesh = mesh_of(file.text, file.name, wish, faults);
+  for (const LineFault& fault : faults.list())
+    ADD_FAILURE() << file.name << ":" << fault.line << ": " << fault.message;
+  return mesh;
+}
+
+std::vector<std::int64_t> numbers(const std::vector<std::int64_t>& all,
+                                  const std::vector<std::int32_t>& indices) {
+  std::vector<std::int64_t> list;
+  for (const std::int32_t i : indices) list.push_back(all[static_cast<std::size_t>(i)]);
+  return list;
+}
+
+TEST(ImportedMesh, IsTheSameInEveryFormat) {
+  for (const MeshFile& file : files()) {
+    const ImportedMesh imported = sound(file);
+    const HexMesh& mesh = imported.mesh;
+    ASSERT_EQ(mesh.nodes.size(), 36U) << file.name;
+    ASSERT_EQ(mesh.elements.size(), 12U) << file.name;
+    std::size_t n = 0;
+    BarMesh::for_each_node([&](int number, double x, double y, double z) {
+      EXPECT_EQ(mesh.node_number[n], number);
+      EXPECT_LT(norm(mesh.nodes[n++] - 1e-3 * Vec3{x, y, z}), 1e-17);
+    });
+    BarMesh::for_each_element([&](int number, int part, const std::array<int, 8>& nodes) {
+      const auto at = std::find(mesh.element_number.begin(), mesh.element_number.end(), number);
+      ASSERT_NE(at, mesh.element_number.end()) << file.name;
+      const auto e = static_cast<std::size_t>(at - mesh.element_number.begin());
+      for (std::size_t i = 0; i < 8; ++i)
+        EXPECT_EQ(mesh.node_number[static_cast<std::size_t>(mesh.elements[e][i])], nodes[i]);
+      const std::string& name = mesh.parts[static_cast<std::size_t>(mesh.part[e])];
+      const std::string expected = part == 3 ? "left end" : "right end";
+      if (imported.format.starts_with("Gmsh")) {
+        EXPECT_EQ(name, part == 3 ? "volume 5" : "volume 6");
+        EXPECT_EQ(mesh.element_sets.at(expected).size(), part == 3 ? 4U : 8U);
+      } else {
+        EXPECT_EQ(name, expected);
+      }
+    });
+    const std::vector<int> bottom = BarMesh::bottom();
+    const std::vector<std::int64_t> expected(bottom.begin(), bottom.end());
+    EXPECT_EQ(numbers(mesh.node_number, mesh.node_sets.at("bottom")), expected) << file.name;
+  }
+}
+
+TEST(ImportedMesh, KeepsSetsOfElementsAndFaces) {
+  const HexMesh deck = sound(files()[0]).mesh;
+  EXPECT_EQ(numbers(deck.element_number, deck.element_sets.at("5")), (std::vector<std::int64_t>{11, 12, 13}));
+  EXPECT_EQ(deck.node_sets.at("segments 1"), deck.node_sets.at("bottom"));
+  const HexMesh abaqus = sound(files()[4]).mesh;
+  EXPECT_EQ(abaqus.element_sets.at("whole").size(), 12U);
+  EXPECT_EQ(abaqus.element_sets.at("row").size(), 3U);
+  EXPECT_EQ(abaqus.node_sets.at("face"), abaqus.node_sets.at("bottom"));
+  EXPECT_EQ(abaqus.node_sets.at("ALL").size(), 36U);
+}
+
+TEST(ImportedMesh, NamesWhatItLeavesOut) {
+  const auto noted = [](const MeshFile& file, const char* part) {
+    std::string all;
+    for (const std::string& note : sound(file, {1e-3, {"left end"}, 1}).notes) all += note + "\n";
+    EXPECT_NE(all.find(part), std::string::npos) << all;
+  };
+  noted(files()[0], "not read: *DATABASE_GLSTAT, *TITLE");
+  noted(files()[0], "18 nodes belong to no chosen hexahedron and are left out, the first is node 103");
+  noted(files()[0], "set \"5\": 1 of 3 elements belong to the mesh");
+  noted(files()[3], "not read: $NodeData");
+  noted(files()[4], "not read: *SOLID SECTION");
+}
+
+TEST(ImportedMesh, TakesPartsByNameNumberOrSet) {
+  for (const MeshFile& file : files()) {
+    EXPECT_EQ(sound(file, {1e-3, {"Left End"}, 1}).mesh.elements.size(), 4U) << file.name;
+    EXPECT_EQ(sound(file, {1e-3, {"left end", "right end"}, 1}).mesh.elements.size(), 12U) << file.name;
+  }
+  EXPECT_EQ(sound(files()[0], {1e-3, {"7"}, 1}).mesh.elements.size(), 8U);
+  EXPECT_EQ(sound(files()[4], {1e-3, {"row"}, 1}).mesh.elements.size(), 3U);
+}
+
+TEST(ImportedMesh, ReadsNumbersInTenCharacters) {
+  std::string text = "*KEYWORD I10=Y\n*NODE\n";
+  BarMesh::for_each_node([&](int number, double x, double y, double z) {
+    text += fmt::format("{:>10}{:>16}{:>16}{:>16}\n", 1'000'000'000 + number, x, y, z);
+  });
+  text += "*ELEMENT_SOLID\n";
+  BarMesh::for_each_element([&](int number, int part, const std::array<int, 8>& nodes) {
+    text += fmt::format("{:>10}{:>10}\n", 1'000'000'000 + number, part);
+    for (const int node : nodes) text += fmt::format("{:>10}", 1'000'000'000 + node);
+    text += '\n';
+  });
+  const HexMesh mesh = sound({"a.k", text + "*END\n"}).mesh;
+  EXPECT_EQ(mesh.elements.size(), 12U);
+  EXPECT_EQ(mesh.element_number.front(), 1'000'000'011);
+}
+
+TEST(HexShape, IsThatOfTheElement) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> shift(-0.25, 0.25);
+  for (int round = 0; round < 20; ++round) {
+    std::array<Vec3, 8> at = {
+        {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 1}, {1, 0, 1}, {1, 2, 1}, {0, 2, 1}}};
+    for (Vec3& node : at)
+      for (int i = 0; i < 3; ++i) node[i] += shift(random);
+    const HexShape shape = hex_shape(at);
+    const ElementGeometry geometry = element_geometry(at);
+    EXPECT_NEAR(shape.volume / geometry.volume, 1, 1e-14);
+    EXPECT_NEAR(shape.smallest_jacobian, geometry.smallest_jacobian, 1e-13);
+    EXPECT_LE(shape.shortest_edge, shape.longest_edge);
+  }
+}
+
+TEST(ImportedMesh, ConsistsOfAsManyPiecesAsStated) {
+  // The middle column of elements is left out.
+  const MeshFile file = files()[4];
+  std::string text = file.text;
+  for (const char* element : {"12", "15", "18", "21"}) {
+    const std::size_t at = text.find(fmt::format("\n{}, 1", element), text.find("right end")) + 1;
+    text.erase(at, text.find('\n', text.find('\n', at) + 1) + 1 - at);
+  }
+  EXPECT_EQ(sound({"a.inp", text}, {1e-3, {}, 2}).mesh.elements.size(), 8U);
+  MeshFaults faults;
+  mesh_of(text, "a.inp", {1e-3, {}, 1}, faults);
+  ASSERT_EQ(faults.list().size(), 1U);
+  EXPECT_NE(faults.list().front().message.find("2 pieces without a common face (4 from element 11, 4 from "
+                                               "element 13 on), and 1 is stated"),
+            std::string::npos)
+      << faults.list().front().message;
+}
+
+}  // namespace
+}  // namespace tread
