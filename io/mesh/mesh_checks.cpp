@@ -11,15 +11,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/index.hpp"
 #include "io/mesh/imported_mesh.hpp"
 
 namespace tread {
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// The element with its ends exchanged, or its faces run about the other way.
 bool proper_if_turned(std::array<Vec3, 8> x) {

@@ -8,16 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "core/index.hpp"
 #include "io/mesh/imported_mesh.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Objects of a file by their numbers.
 class Numbers {

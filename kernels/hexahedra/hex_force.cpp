@@ -10,6 +10,7 @@
 
 #include "core/contract.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/element/hexahedron.hpp"
 
@@ -38,10 +39,6 @@ Row row_at(const double* field, std::int64_t node) {
 }
 void set_row(double* field, std::int64_t node, const Row& row) {
   std::memcpy(field + kRow * node, &row, sizeof row);
-}
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
 }
 
 HexMaterial constants_of(const Material& material) {

@@ -4,13 +4,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/index.hpp"
+
 namespace tread {
 
 namespace {
-
-std::size_t index(std::int64_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 constexpr std::size_t kRowLength = 8;
 
