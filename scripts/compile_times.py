@@ -2,7 +2,7 @@
 """scripts/compile_times.py [--every N] [BUILD]: prints the processor time that compiling the program takes, by library, as
 a Markdown table.
 
-BUILD: a configured and built folder (default: build/release). Every N-th source or batch of sources of a library
+BUILD: a configured and built folder (default: build/release). Every N-th source or folder of a library
 (default: 1) is compiled, without a compiler cache and one at a time; the others count as much as the mean of these.
 Nothing in the build folder changes.
 """
@@ -58,11 +58,12 @@ def main() -> None:
         rows.append((total, library, len(commands), max(times)))
     rows.sort(reverse=True)
     everything = sum(row[0] for row in rows)
-    print("| library | sources or batches | processor time | share | longest of those compiled |\n|---|--:|--:|--:|---|")
+    print("| library | sources or folders | processor time | share | longest of those compiled |\n|---|--:|--:|--:|---|")
     for total, library, count, (longest, source) in rows[:SHOWN]:
         print(f"| `{library}` | {count} | {total:.0f} s | {100 * total / everything:.0f} % | `{source}`, {longest:.1f} s |")
     rest = rows[SHOWN:]
-    print(f"| others | {sum(r[2] for r in rest)} | {sum(r[0] for r in rest):.0f} s | {100 * sum(r[0] for r in rest) / everything:.0f} % | |")
+    if rest:
+        print(f"| others | {sum(r[2] for r in rest)} | {sum(r[0] for r in rest):.0f} s | {100 * sum(r[0] for r in rest) / everything:.0f} % | |")
     print(f"| all | {sum(r[2] for r in rows)} | {everything:.0f} s | 100 % | |")
 
 
