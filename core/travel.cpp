@@ -60,9 +60,22 @@ Travel travel_of(const Scene& scene) {
   return travel;
 }
 
-double duration_to(const Scene& scene, double x) {
+std::optional<double> duration_to(const Scene& scene, double x) {
   constexpr double kSlowest = 1e-3;  // [m/s]
-  return scene.motion->duration + (x - travel_of(scene).last) / std::max(scene.motion->speed, kSlowest);
+  constexpr double kNear = 1e-6;     // [m]
+  constexpr int kTries = 100;        // each takes the lacking way at motion.speed
+  Scene longer = scene;
+  double& duration = longer.motion->duration;
+  for (int i = 0; i < kTries; ++i) {
+    const double lacking = x - travel_of(longer).last;
+    if (lacking <= kNear) {
+      const double digit = std::pow(10.0, std::floor(std::log10(duration)) - 3);
+      duration = std::round(duration / digit) * digit;
+      return travel_of(longer).last >= x ? duration : duration + digit;
+    }
+    duration += lacking / std::max(longer.motion->speed, kSlowest);
+  }
+  return std::nullopt;
 }
 
 }  // namespace tread

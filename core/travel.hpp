@@ -1,6 +1,8 @@
 #pragma once
 // Reach of a wheel under traction, known before the model is built: the mesh must cover it.
 
+#include <optional>
+
 #include "core/scene.hpp"
 
 namespace tread {
@@ -33,8 +35,8 @@ struct Travel {
 /// Travel over motion.duration, with the traction's ramp and reversals; of a wheel at x = 0 without [motion].
 Travel travel_of(const Scene& scene);
 
-/// motion.duration with which the wheel of a scene with [motion] rolls to x [m], the lacking way at
-/// motion.speed [s].
-double duration_to(const Scene& scene, double x);
+/// motion.duration with which the wheel of a scene with [motion] rolls to x [m], to four digits [s]; nullopt
+/// if brakes stop it before.
+std::optional<double> duration_to(const Scene& scene, double x);
 
 }  // namespace tread

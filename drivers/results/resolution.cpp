@@ -31,12 +31,12 @@ std::string way_warning(const Scene& scene, const std::string& what, const Span&
   if (!scene.motion || scene.motion->speed <= 0) return "";
   const double way = travel_of(scene).last;
   if (way >= enough) return "";
+  const std::optional<double> enough_time = duration_to(scene, aim.last);
   return fmt::format(
-      "the wheel rolls to x = {:.4g} m and does not {} {}, x = {:.4g} to {:.4g} m, so that {}; "
-      "motion.duration = "
-      "\"{:.4g} ms\" passes it",
-      way, way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost,
-      1e3 * duration_to(scene, aim.last));
+      "the wheel rolls to x = {:.4g} m and does not {} {}, x = {:.4g} to {:.4g} m, so that {}; {}", way,
+      way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost,
+      enough_time ? fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *enough_time)
+                  : "the brakes stop it before");
 }
 
 /// Sentence if a wheel does not roll over what the scene evaluates.

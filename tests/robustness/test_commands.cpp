@@ -182,6 +182,16 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
+  // A wheel that brakes takes longer than the way at its first speed.
+  const std::string brakes = "--set \"motion.speed=100 km/h\" --set \"motion.traction.mu=-0.3\" ";
+  const std::string braked = warnings("corrugation-d.toml", brakes);
+  const std::string words = "motion.duration = \\\"";
+  const std::size_t begin = braked.find(words) + words.size();
+  const std::string duration = braked.substr(begin, braked.find('\\', begin) - begin);
+  EXPECT_TRUE(has(duration, " ms")) << braked;
+  EXPECT_FALSE(has(warnings("corrugation-d.toml", brakes + "--set \"motion.duration=" + duration + "\""),
+                   "the wheel rolls to"))
+      << duration;
 }
 
 TEST_F(Commands, StaticSceneIsComparedWithHertz) {
