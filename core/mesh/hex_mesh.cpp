@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/index.hpp"
+
 namespace tread {
 
 namespace {
@@ -31,7 +33,6 @@ double volume_of(const std::array<Vec3, 8>& x) {
 HexMesh hexahedra_of(const SweptBlock& block) {
   HexMesh mesh;
   const int stations = block.station_count();
-  const auto index = [](int i) { return static_cast<std::size_t>(i); };
   for (int station = 0; station < stations; ++station)
     for (int node = 0; node < block.section.nodes(); ++node) {
       mesh.nodes.push_back(position(block, node, station));

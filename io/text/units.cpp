@@ -214,6 +214,14 @@ double parse_quantity(std::string_view text, const Quantity& expected) {
   return in_si(number, unit);
 }
 
+double parse_option(std::string_view option, std::string_view text, const Quantity& expected) {
+  try {
+    return parse_quantity(text, expected);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
+  }
+}
+
 std::string expectation(const Quantity& expected, const std::string& number) {
   return fmt::format("expected {}, such as \"{} {}\" (units: {})", dimension_name(expected.dimension), number,
                      expected.si, expected.accepted);

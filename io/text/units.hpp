@@ -65,6 +65,9 @@ double parse_ratio(std::string_view text);
 /// something else.
 double parse_quantity(std::string_view text, const Quantity& expected);
 
+/// The same for the value of a command line's option, which the message names.
+double parse_option(std::string_view option, std::string_view text, const Quantity& expected);
+
 /// `expected a length, such as "15.2 m" (units: m, cm, ...)`, for messages; `number` is the user's.
 std::string expectation(const Quantity& expected, const std::string& number);
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/millimetre.hpp"
 #include "drivers/studies/import/mesh_extremes.hpp"
 #include "io/scene/problems.hpp"
 #include "io/text/json.hpp"
@@ -16,34 +17,25 @@ namespace tread {
 
 namespace {
 
-constexpr double mm = 1e-3;
-
-template <class Read>
-double stated(const char* option, const std::string& text, const Read& read) {
+/// Length of a unit [m].
+double unit_of(const std::string& unit) {
   try {
-    return read(text);
+    return parse_quantity("1 " + unit, kLength);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
+    throw InputError(fmt::format("--unit {}: {}", unit, error.what()));
   }
 }
 
-MeshWish wish_of(const ImportOptions& options) {
-  const double unit = stated("--unit", options.unit,
-                             [](const std::string& text) { return parse_quantity("1 " + text, kLength); });
-  return {unit, options.parts, options.pieces};
+double positive_option(const char* option, const std::string& text, const Quantity& quantity) {
+  const double value = parse_option(option, text, quantity);
+  if (!(value > 0)) throw InputError(fmt::format("{} {}: must be above 0", option, text));
+  return value;
 }
 
 Material material_of(const ImportOptions& options) {
-  const auto positive = [](const Quantity& quantity) {
-    return [&quantity](const std::string& text) {
-      const double value = parse_quantity(text, quantity);
-      if (!(value > 0)) throw InputError("must be above 0");
-      return value;
-    };
-  };
   Material material;
-  material.youngs_modulus = stated("--youngs-modulus", options.youngs_modulus, positive(kStress));
-  material.density = stated("--density", options.density, positive(kDensity));
+  material.youngs_modulus = positive_option("--youngs-modulus", options.youngs_modulus, kStress);
+  material.density = positive_option("--density", options.density, kDensity);
   material.poissons_ratio = options.poissons_ratio;
   if (!(material.poissons_ratio >= 0 && material.poissons_ratio <= 0.49))
     throw InputError(fmt::format("--poissons-ratio {}: must lie between 0 and 0.49", options.poissons_ratio));
@@ -142,7 +134,7 @@ ImportedMesh read_mesh_file(const std::filesystem::path& file, const MeshWish& w
 
 void import_mesh(const ImportOptions& options) {
   use_threads(options.threads);
-  const MeshWish wish = wish_of(options);
+  const MeshWish wish = {unit_of(options.unit), options.parts, options.pieces};
   const Material material = material_of(options);
   const ImportedMesh imported = read_mesh_file(options.file, wish);
   const MeshExtremes extremes = mesh_extremes(imported.mesh, material);

@@ -24,11 +24,7 @@ MultibodyStep step_of(const MultibodyOptions& options) {
   MultibodyStep step;
   step.modes = options.modes;
   if (options.step.empty()) return step;
-  try {
-    step.step = parse_quantity(options.step, kTime);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--step {}: {}", options.step, error.what()));
-  }
+  step.step = parse_option("--step", options.step, kTime);
   if (*step.step < kShortestStep)
     throw InputError(fmt::format("--step {}: it must be 1 ns at least", options.step));
   return step;

@@ -28,14 +28,6 @@ bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-double length(const char* option, const std::string& text) {
-  try {
-    return parse_quantity(text, kLength);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{} {}: {}", option, text, error.what()));
-  }
-}
-
 /// Kind of a file: by the options, its suffix or its own words.
 bool is_wheel(const std::string& name, std::optional<bool> wanted) {
   if (wanted) return *wanted;
@@ -72,8 +64,9 @@ ShownProfile shown_profile(const std::string& name, std::optional<bool> wheel,
   ShownProfile shown;
   shown.name = name;
   shown.wheel = is_wheel(name, wheel);
-  const ProfileWish wish{shown.wheel, options.mirrored && !shown.wheel, length("--shift", options.shift),
-                         length("--smoothing", options.smoothing)};
+  const ProfileWish wish{shown.wheel, options.mirrored && !shown.wheel,
+                         parse_option("--shift", options.shift, kLength),
+                         parse_option("--smoothing", options.smoothing, kLength)};
   std::vector<Problem> problems;
   shown.file = profile_of(read_table_text(name), name, wish, ColumnAxes::any, problems);
   if (!problems.empty()) throw ProblemsError(std::move(problems));

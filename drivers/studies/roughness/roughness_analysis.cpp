@@ -144,12 +144,7 @@ Outcome processed(const RoughnessOptions& options) {
     o.spikes = remove_spikes(o.profile);
     o.pits = close_pits(o.profile);
   }
-  double segment = 0;
-  try {
-    segment = parse_quantity(options.segment, kLength);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--segment {}: {}", options.segment, error.what()));
-  }
+  const double segment = parse_option("--segment", options.segment, kLength);
   if (segment <= 0) throw InputError(fmt::format("--segment {}: it must be above 0", options.segment));
   o.levels = roughness_levels(o.profile, segment);
   return o;
