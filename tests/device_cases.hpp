@@ -1,0 +1,146 @@
+#pragma once
+// Scenes for steps on a device, and comparisons of runs.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/engine/preload.hpp"
+#include "drivers/engine/simulation.hpp"
+#include "drivers/engine/static_system.hpp"
+#include "drivers/results/run_results.hpp"
+#include "kernels/device/device.hpp"
+#include "tests/state_copies.hpp"
+#include "tests/tyre_scene.hpp"
+
+namespace tread::samples {
+
+/// A scene from its preload on, on the processor or on devices.
+class DeviceCase {
+ public:
+  explicit DeviceCase(const Scene& scene)
+      : model_(scene),
+        preload_(solve_preload(model_, steady_motion(model_), [](const std::string& /*text*/) {})) {
+    if (scene.corrugation) model_.apply_corrugation(preload_.contact.pressure_peak.y);
+    dt_ = scene.motion->step_safety * step_limit(model_).stable_step;
+  }
+
+  const Model& model() const { return model_; }
+  std::int64_t values() const { return 3 * model_.mesh.slots; }
+
+  /// null: the processor.
+  std::unique_ptr<Simulation> start(std::shared_ptr<Device> device) {
+    choose_device(std::move(device));
+    auto simulation = std::make_unique<Simulation>(model_, preload_, dt_);
+    choose_device(std::shared_ptr<Device>());
+    simulation->set_sampling_interval(70);
+    return simulation;
+  }
+
+ private:
+  Model model_;
+  Preload preload_;
+  double dt_;
+};
+
+inline void roll_on(Simulation& simulation, std::int64_t steps) {
+  while (simulation.steps() < steps) simulation.step();
+}
+
+inline std::unique_ptr<Simulation> roll(std::unique_ptr<Simulation> simulation, std::int64_t steps) {
+  roll_on(*simulation, steps);
+  return simulation;
+}
+
+/// Largest difference of two fields, by the range of the first.
+inline double difference(std::int64_t values, ConstNodeField a, ConstNodeField b) {
+  double low = 0;
+  double high = 0;
+  double largest = 0;
+  for (std::int64_t i = 0; i < values; ++i) {
+    low = std::min(low, a[i]);
+    high = std::max(high, a[i]);
+    const double apart = std::abs(a[i] - b[i]);
+    if (!(apart <= largest)) largest = apart;  // NaN, too
+  }
+  return largest / (high - low);
+}
+
+/// Displacements and velocities apart, each by the range of the former run's.
+struct Apart {
+  double displacement;
+  double velocity;
+};
+inline Apart apart(std::int64_t values, const Simulation& a, const Simulation& b) {
+  return {difference(values, a.displacement(), b.displacement()),
+          difference(values, a.velocity(), b.velocity())};
+}
+
+/// Largest difference of two lists, by the largest value of the former.
+inline double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  double apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i]));
+    apart = std::max(apart, std::abs(a[i] - b[i]));
+  }
+  return largest > 0 ? apart / largest : apart;
+}
+
+/// Forces, patch, works and record of a passage on the rail.
+inline void expect_same_contact(const Simulation& a, const Simulation& b) {
+  const auto values = [](const Sample& s) {
+    return std::vector<std::vector<double>>{{s.vertical_force, s.longitudinal_force, s.lateral_force},
+                                            {s.max_pressure, s.max_shear},
+                                            {s.patch_area, s.slip_area},
+                                            {s.energy.penalty},
+                                            {s.energy.frictional_work, s.energy.damping_loss}};
+  };
+  const auto of_a = values(a.sample());
+  const auto of_b = values(b.sample());
+  for (std::size_t i = 0; i < of_a.size(); ++i) EXPECT_LT(difference(of_a[i], of_b[i]), 1e-8) << i;
+  if (a.surface() == nullptr) return;
+  EXPECT_LT(difference(a.surface()->max_pressure(), b.surface()->max_pressure()), 1e-8);
+  EXPECT_LT(difference(a.surface()->max_shear(), b.surface()->max_shear()), 1e-8);
+  EXPECT_LT(difference(a.surface()->frictional_work(), b.surface()->frictional_work()), 1e-8);
+}
+
+/// Scenes by precision: of the tyre, and of a file.
+inline auto tyre(std::vector<std::string> overrides) {
+  return [overrides](const std::string& precision) {
+    std::vector<std::string> all = {"scene.element_size=10 mm", "motion.duration=1 ms",
+                                    "solution_zone.start=5 mm", "scene.precision=" + precision};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return tyre_scene(all);
+  };
+}
+inline auto file(const std::string& name, std::vector<std::string> overrides) {
+  return [name, overrides](const std::string& precision) {
+    std::vector<std::string> all = overrides;
+    all.push_back("scene.precision=" + precision);
+    return read_scene(std::string(TREAD_SOURCE_DIR) + "/scenes/" + name + ".toml", all);
+  };
+}
+
+inline std::vector<std::string> corrugated(std::vector<std::string> overrides) {
+  overrides.insert(overrides.end(),
+                   {"corrugation.kind=sine", "corrugation.wavelength=20 mm", "corrugation.depth=0.04 mm",
+                    "corrugation.width=30 mm", "corrugation.start=5 mm", "corrugation.length=40 mm"});
+  return overrides;
+}
+
+/// Half a wheelset with a vehicle on a short slab, of coarse elements.
+inline const std::vector<std::string> kHalfWheelset = {
+    "scene.element_size=10 mm", "motion.duration=0.1 ms",    "motion.start=moving",
+    "rail.length=2.6 m",        "rail.origin=1.3 m",         "fastenings.count=4",
+    "fastenings.first=0.325 m", "solution_zone.start=20 mm", "solution_zone.length=50 mm"};
+inline const std::vector<std::string> kTraction = {"motion.traction.torque=13.8 kN m",
+                                                   "motion.traction.ramp=0.05 ms"};
+inline constexpr const char* kPrecisions[] = {"double", "mixed", "single"};
+
+}  // namespace tread::samples

@@ -1,0 +1,106 @@
+// Steps on the card of this machine are those of the processor, with the same bits from run to run. Without a
+// card each test is skipped and says why.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "tests/device_cases.hpp"
+
+namespace tread {
+namespace {
+
+using namespace samples;
+
+class Gpu : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (gpus().empty()) GTEST_SKIP() << "not tested on a card: " << why_no_gpu();
+  }
+
+  /// In double: fields and contact of the processor's steps. In less: displacements within 1e-5 of their
+  /// range, and no more noise of velocities than the processor's steps have.
+  template <class SceneOf>
+  static void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::string& precision) {
+    SCOPED_TRACE(precision);
+    DeviceCase exact(scene("double"));
+    const auto in_double = roll(exact.start(nullptr), steps);
+    DeviceCase at(scene(precision));
+    const auto on_card = roll(at.start(open_gpu(0)), steps);
+    const Apart error = apart(exact.values(), *in_double, *on_card);
+    if (precision == "double") {
+      EXPECT_LT(error.displacement, 1e-9);
+      EXPECT_LT(error.velocity, 1e-9);
+      expect_same_contact(*in_double, *on_card);
+    } else {
+      const auto on_processor = roll(at.start(nullptr), steps);
+      EXPECT_LT(error.displacement, 1e-5);
+      EXPECT_LT(error.velocity, 2 * apart(exact.values(), *in_double, *on_processor).velocity);
+    }
+    std::printf("%s: displacements differ by %.2g, velocities by %.2g of their range\n", precision.c_str(),
+                error.displacement, error.velocity);
+    const auto again = roll(at.start(open_gpu(0)), steps);
+    EXPECT_EQ(differences(on_card->state(), again->state()), "");
+  }
+
+  template <class SceneOf>
+  static void expect_same_steps(const SceneOf& scene, std::int64_t steps) {
+    for (const char* precision : kPrecisions) expect_same_steps(scene, steps, precision);
+  }
+};
+
+TEST_F(Gpu, TractionOverCorrugation) {
+  std::vector<std::string> overrides = corrugated(kTraction);
+  overrides.insert(overrides.end(), {"corrugation.apply=gap", "scene.element_size=8 mm"});
+  expect_same_steps(tyre(overrides), 1000);
+}
+
+TEST_F(Gpu, MovedNodesAndFacets) {
+  expect_same_steps(tyre(corrugated({"contact.surface=facets", "corrugation.apply=nodes"})), 300);
+}
+
+TEST_F(Gpu, MaxwellBranches) {
+  const auto scene = [](const std::string& precision) {
+    return tyre_with_maxwell_branches(
+        {"scene.element_size=10 mm", "motion.duration=0.5 ms", "scene.precision=" + precision});
+  };
+  expect_same_steps(scene, 300);
+}
+
+TEST_F(Gpu, PlasticMaterial) {
+  expect_same_steps(tyre({"material.steel.law=j2", "material.steel.yield_stress=300 MPa",
+                          "material.steel.isotropic_hardening=20 GPa",
+                          "material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-8 s\" }"}),
+                    300);
+}
+
+TEST_F(Gpu, GuidedBoreAndFallingFriction) {
+  expect_same_steps(
+      tyre({"wheel.bore=guided", "motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms",
+            "contact.friction_law=falling", "contact.friction_memory=0.2 mm"}),
+      600, "double");
+}
+
+TEST_F(Gpu, FlatOnTheWheel) {
+  expect_same_steps(tyre({"surface.flat.kind=flat", "surface.flat.at=10 mm", "surface.flat.length=30 mm"}),
+                    300, "double");
+}
+
+TEST_F(Gpu, HammerOnARailOnFastenings) {
+  expect_same_steps(file("hammer", {}), 300, "double");
+}
+
+TEST_F(Gpu, WheelsetWithAVehicleOnASlab) {
+  expect_same_steps(file("smooth", kHalfWheelset), 300);
+}
+
+TEST_F(Gpu, ACardThatIsNotThereIsRefused) {
+  EXPECT_THROW(open_gpu(static_cast<int>(gpus().size())), ResourceError);
+}
+
+}  // namespace
+}  // namespace tread
