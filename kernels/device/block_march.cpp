@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "core/index.hpp"
 
@@ -36,6 +39,21 @@ void halve(const std::vector<std::array<double, 2>>& centre, std::span<int> quad
   const std::size_t half = quads.size() / 2;
   halve(centre, quads.first(half), most, parts);
   halve(centre, quads.subspan(half), most, parts);
+}
+
+/// Colours of the quads by their place: each the first that no quad before it has which shares a node. They
+/// do not depend on the cut, so that sums at a node by colour do not either.
+std::vector<int> colours_of(const Section& section, const FrontPlan& plan) {
+  std::vector<int> colours;
+  std::vector<std::uint64_t> taken(index(section.nodes()), 0);
+  for (const FrontPlan::Quad& entry : plan.quads) {
+    std::uint64_t seen = 0;
+    for (const int node : section.quads[index(entry.quad)]) seen |= taken[index(node)];
+    const int colour = std::countr_one(seen);
+    for (const int node : section.quads[index(entry.quad)]) taken[index(node)] |= std::uint64_t{1} << colour;
+    colours.push_back(colour);
+  }
+  return colours;
 }
 
 }  // namespace
@@ -69,7 +87,9 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
   for (int place = 0; place < static_cast<int>(plan.quads.size()); ++place)
     for (const int node : corners_of(place)) places_at[index(node)].push_back(place);
 
+  const std::vector<int> colour = colours_of(section, plan);
   SectionCut cut;
+  cut.colours = 1 + *std::max_element(colour.begin(), colour.end());
   for (int part = 0; part < static_cast<int>(spans.size()); ++part) {
     MarchPart& at = cut.parts.emplace_back();
     at.first_node = static_cast<int>(cut.nodes.size());
@@ -87,9 +107,9 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
         quads.insert(quads.end(), places_at[index(node)].begin(), places_at[index(node)].end());
       }
     at.own_nodes = static_cast<int>(cut.nodes.size()) - at.first_node;
-    std::sort(quads.begin(), quads.end());
+    std::sort(quads.begin(), quads.end(),
+              [&](int a, int b) { return std::pair(colour[index(a)], a) < std::pair(colour[index(b)], b); });
     quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
-    std::vector<std::vector<MarchCorner>> corners(index(at.own_nodes));
     for (const int place : quads) {
       MarchQuad& quad = cut.quads.emplace_back();
       quad.place = place;
@@ -98,18 +118,14 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
         const int node = corners_of(place)[index(corner)];
         add_node(node);
         quad.node[corner] = local[index(node)];
-        if (quad.node[corner] < at.own_nodes) corners[index(quad.node[corner])].push_back({at.quads, corner});
       }
-      ++at.quads;
+    }
+    for (int c = 0; c <= cut.colours; ++c) {
+      const auto before = [&](int place) { return colour[index(place)] < c; };
+      cut.first_of_colour.push_back(static_cast<int>(std::count_if(quads.begin(), quads.end(), before)));
     }
     at.nodes = static_cast<int>(cut.nodes.size()) - at.first_node;
-    corners.resize(index(at.nodes));
-    for (const std::vector<MarchCorner>& list : corners) {
-      cut.first_corner.push_back(static_cast<int>(cut.corners.size()));
-      cut.corners.insert(cut.corners.end(), list.begin(), list.end());
-    }
   }
-  cut.first_corner.push_back(static_cast<int>(cut.corners.size()));
   return cut;
 }
 
@@ -128,37 +144,30 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
     : swept_(&elements.block()) {
   const MarchCut sizes = device.cut();
   const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes.part_quads);
-  block_.stations = swept_->station_count();
   block_.closed = swept_->closed;
+  block_.colours = cut.colours;
   block_.quads = static_cast<int>(swept_->section.quads.size());
   block_.section_nodes = swept_->section.nodes();
   block_.parts = static_cast<int>(cut.parts.size());
-  block_.run_length = std::max(1, sizes.run_length);
+  block_.run_tiles = std::max(1, sizes.run_tiles);
   block_.part = keep(device, cut.parts);
   block_.part_nodes = keep(device, cut.nodes);
   block_.part_quads = keep(device, cut.quads);
-  block_.first_corner = keep(device, cut.first_corner);
-  block_.corners = keep(device, cut.corners);
+  block_.first_of_colour = keep(device, cut.first_of_colour);
   for (const MarchPart& part : cut.parts) {
     block_.most_nodes = std::max(block_.most_nodes, part.nodes);
-    block_.most_quads = std::max(block_.most_quads, part.quads);
+    block_.most_own_nodes = std::max(block_.most_own_nodes, part.own_nodes);
   }
   block_.damping = static_cast<Real>(damping);
-  build_stations(device);
+  build_tiles(device);
   build_coefficients(device, elements);
 }
 
 template <class Real>
-void BlockMarch<Real>::build_stations(Device& device) {
-  std::vector<std::int64_t> slot;
-  std::vector<int> pitch_class;
-  for (int station = 0; station < block_.stations; ++station) {
-    slot.push_back(swept_->base + swept_->slot(0, station));
-    pitch_class.push_back(swept_->tiles[index(swept_->tile_of_station[index(station)])].pitch_class);
-  }
-  block_.slot = keep(device, slot);
-  block_.tile = keep(device, swept_->tile_of_station);
-  block_.pitch_class = keep(device, pitch_class);
+void BlockMarch<Real>::build_tiles(Device& device) {
+  block_.base = swept_->base;
+  block_.tiles = static_cast<int>(swept_->tiles.size());
+  block_.tile = keep(device, swept_->tiles);
   if (swept_->sweep == Sweep::extruded) return;
   std::vector<Real> radius(swept_->section.q.begin(), swept_->section.q.end());
   block_.radius = keep(device, radius);

@@ -10,13 +10,13 @@
 
 namespace tread {
 
-/// Parts of a section, each of compact shape, and the tables of their nodes, quads and corners.
+/// Parts of a section, each of compact shape, and the tables of their nodes and quads.
 struct SectionCut {
   std::vector<MarchPart> parts;
   std::vector<int> nodes;
   std::vector<MarchQuad> quads;
-  std::vector<int> first_corner;
-  std::vector<MarchCorner> corners;
+  int colours = 0;
+  std::vector<int> first_of_colour;  ///< [part][colour] and one more colour
 };
 
 /// Cuts a section into parts of at most `part_quads` quads, by halving it across its longer side. Quads are
@@ -36,7 +36,7 @@ class BlockMarch {
   /// Copies values to the device.
   template <class T, class Allocator>
   const T* keep(Device& device, const std::vector<T, Allocator>& values);
-  void build_stations(Device& device);
+  void build_tiles(Device& device);
   void build_coefficients(Device& device, const BlockElements<Real>& elements);
 
   const SweptBlock* swept_;

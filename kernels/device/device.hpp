@@ -17,10 +17,10 @@
 
 namespace tread {
 
-/// How sections and stations are cut for the teams.
+/// How sections and tiles are cut for the teams.
 struct MarchCut {
-  int part_quads = 128;  ///< quads that a part owns at most
-  int run_length = 32;   ///< stations of a run
+  int part_quads = 64;  ///< quads that a part owns at most
+  int run_tiles = 4;    ///< tiles of a run
 };
 
 /// Copies and launches since a device was opened.

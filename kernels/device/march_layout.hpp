@@ -1,8 +1,8 @@
 #pragma once
 // What a march over a block reads, as plain data in the memory of a device. [docs/records/device.md]
 //
-// A block of the mesh is cut twice: its section into parts, its stations into runs. A team of threads takes
-// one part over one run and marches along the sweep, station by station.
+// A block of the mesh is cut twice: its section into parts, its tiles into runs. A team of threads takes one
+// part over one run and marches along the sweep, tile by tile.
 
 #include <cstdint>
 
@@ -13,13 +13,12 @@
 namespace tread {
 
 /// A part of a section. Nodes: those that it owns, then the others of its quads. Quads: all that touch a node
-/// that it owns, those of neighbouring parts too, in the order of the front plan.
+/// that it owns, those of neighbouring parts too, by colour, then in the order of the front plan.
 struct MarchPart {
   int first_node = 0;  ///< into MarchBlock::part_nodes
   int nodes = 0;
   int own_nodes = 0;
   int first_quad = 0;  ///< into MarchBlock::part_quads
-  int quads = 0;
 };
 
 /// A quad of a part.
@@ -29,34 +28,27 @@ struct MarchQuad {
   int own;      ///< nonzero in the one part that writes the state of its elements
 };
 
-/// A corner of a part's quad.
-struct MarchCorner {
-  int quad;  ///< among the part's quads
-  int corner;
-};
-
-/// A block; arrays by station have one entry for each, those by class one for each pitch class.
+/// A block; arrays by tile and by station have one entry for each, those by class one for each pitch class.
 template <class Real>
 struct MarchBlock {
-  int stations = 0;
+  int tiles = 0;
   int closed = 0;         ///< nonzero for a full turn
   int quads = 0;          ///< of the section
   int section_nodes = 0;  ///< of the section
+  int colours = 0;        ///< quads of one colour share no node
   int parts = 0;
-  int run_length = 0;  ///< stations of a run; the last one has the rest
-  int most_nodes = 0;  ///< of a part
-  int most_quads = 0;
+  int run_tiles = 0;       ///< tiles of a run; the last one has the rest
+  int most_nodes = 0;      ///< of a part
+  int most_own_nodes = 0;  ///< of a part
 
   const MarchPart* part = nullptr;
   const int* part_nodes = nullptr;  ///< section nodes
   const MarchQuad* part_quads = nullptr;
-  const int* first_corner = nullptr;     ///< by entry of part_nodes and one more, into `corners`
-  const MarchCorner* corners = nullptr;  ///< of the quads at a node that the part owns, in their order
+  const int* first_of_colour = nullptr;  ///< [part][colour] and one more colour: among the part's quads
 
-  const std::int64_t* slot = nullptr;  ///< by station: of section node 0 in the mesh's node fields
-  const int* tile = nullptr;           ///< by station
-  const int* pitch_class = nullptr;    ///< by station, of the elements that start there
-  const Real* cosine = nullptr;        ///< by class: of half the pitch (revolved)
+  std::int64_t base = 0;         ///< SweptBlock::base
+  const Tile* tile = nullptr;    ///< SweptBlock::tiles
+  const Real* cosine = nullptr;  ///< by class: of half the pitch (revolved)
   const Real* sine = nullptr;
   const Real* radius = nullptr;   ///< by section node (revolved) [m]
   const double* angle = nullptr;  ///< by station (revolved) [rad]
@@ -73,7 +65,7 @@ struct MarchBlock {
   double gravity = 0;      ///< downwards, where the block spins [m/s2]
   double frame_angle = 0;  ///< of the frame of a spinning block [rad]
 
-  int runs() const { return (stations + run_length - 1) / run_length; }
+  int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
   int teams() const { return parts * runs(); }
 };
 

@@ -22,8 +22,8 @@ namespace {
 using namespace samples;
 using Case = DeviceCase;
 
-/// Teams of few quads and stations, some of them smaller than the others.
-std::shared_ptr<Device> device(std::uint64_t order, MarchCut cut = {7, 5}) {
+/// Teams of few quads and tiles, some of them smaller than the others.
+std::shared_ptr<Device> device(std::uint64_t order, MarchCut cut = {7, 2}) {
   return emulated_device({.cut = cut, .order = order, .spoils_copies = true});
 }
 
@@ -65,7 +65,7 @@ void expect_same_steps(const SceneOf& scene, std::int64_t steps, const std::stri
   EXPECT_EQ(history_row(at.model(), on_device->sample()), history_row(at.model(), shuffled->sample()));
   EXPECT_EQ(samples::differences(on_device->state(), shuffled->state()), "");
   if (precision == "mixed") return;  // rounded relative to a node of the part
-  const auto cut_otherwise = roll(at.start(device(7, {40, 16})), steps);
+  const auto cut_otherwise = roll(at.start(device(7, {40, 5})), steps);
   EXPECT_EQ(samples::differences(on_device->state(), cut_otherwise->state()), "");
 }
 
