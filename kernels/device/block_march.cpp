@@ -110,6 +110,8 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
     std::sort(quads.begin(), quads.end(),
               [&](int a, int b) { return std::pair(colour[index(a)], a) < std::pair(colour[index(b)], b); });
     quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
+    at.quads = static_cast<int>(quads.size());
+    std::vector<char> begun(index(section.nodes()), 0);
     for (const int place : quads) {
       MarchQuad& quad = cut.quads.emplace_back();
       quad.place = place;
@@ -118,6 +120,7 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
         const int node = corners_of(place)[index(corner)];
         add_node(node);
         quad.node[corner] = local[index(node)];
+        quad.begins[corner] = std::exchange(begun[index(node)], 1) == 0;
       }
     }
     for (int c = 0; c <= cut.colours; ++c) {
@@ -156,6 +159,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
   block_.first_of_colour = keep(device, cut.first_of_colour);
   for (const MarchPart& part : cut.parts) {
     block_.most_nodes = std::max(block_.most_nodes, part.nodes);
+    block_.most_quads = std::max(block_.most_quads, part.quads);
     block_.most_own_nodes = std::max(block_.most_own_nodes, part.own_nodes);
   }
   block_.damping = static_cast<Real>(damping);
@@ -165,7 +169,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
 
 template <class Real>
 void BlockMarch<Real>::build_tiles(Device& device) {
-  block_.base = swept_->base;
+  block_.first_group = swept_->base / kLanes;
   block_.tiles = static_cast<int>(swept_->tiles.size());
   block_.tile = keep(device, swept_->tiles);
   if (swept_->sweep == Sweep::extruded) return;

@@ -47,8 +47,12 @@ class CudaTeam {
   mutable std::size_t used_ = 0;
 };
 
+/// Teams that a multiprocessor has registers for. Plastic elements need more than linear ones.
+template <class Real, bool linear>
+inline constexpr int kTeams = linear ? (sizeof(Real) == sizeof(double) ? 4 : 5) : 2;
+
 template <class March, class Real, class U>
-__global__ void __launch_bounds__(kThreads)
+__global__ void __launch_bounds__(kThreads, kTeams<Real, March::kLinear>)
     march_kernel(MarchBlock<Real> block, MarchFields<Real, U> fields) {
   CudaTeam team;
   March(team, block, fields).run();

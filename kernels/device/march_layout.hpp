@@ -19,13 +19,15 @@ struct MarchPart {
   int nodes = 0;
   int own_nodes = 0;
   int first_quad = 0;  ///< into MarchBlock::part_quads
+  int quads = 0;
 };
 
 /// A quad of a part.
 struct MarchQuad {
-  int node[4];  ///< its corners among the part's nodes
-  int place;    ///< in the front plan, by which coefficients are ordered
-  int own;      ///< nonzero in the one part that writes the state of its elements
+  int node[4];    ///< its corners among the part's nodes
+  int begins[4];  ///< by corner: nonzero where no quad before this one adds forces to the node
+  int place;      ///< in the front plan, by which coefficients are ordered
+  int own;        ///< nonzero in the one part that writes the state of its elements
 };
 
 /// A block; arrays by tile and by station have one entry for each, those by class one for each pitch class.
@@ -40,13 +42,14 @@ struct MarchBlock {
   int run_tiles = 0;       ///< tiles of a run; the last one has the rest
   int most_nodes = 0;      ///< of a part
   int most_own_nodes = 0;  ///< of a part
+  int most_quads = 0;      ///< of a part
 
   const MarchPart* part = nullptr;
   const int* part_nodes = nullptr;  ///< section nodes
   const MarchQuad* part_quads = nullptr;
   const int* first_of_colour = nullptr;  ///< [part][colour] and one more colour: among the part's quads
 
-  std::int64_t base = 0;         ///< SweptBlock::base
+  std::int64_t first_group = 0;  ///< of kLanes slots, among all
   const Tile* tile = nullptr;    ///< SweptBlock::tiles
   const Real* cosine = nullptr;  ///< by class: of half the pitch (revolved)
   const Real* sine = nullptr;

@@ -2,7 +2,7 @@
 // Kernels that take one value or node a thread, as functions of its number, for every kind of device.
 
 #include "kernels/device/field_kernels.hpp"
-#include "kernels/device/march_body.hpp"
+#include "kernels/device/march_node.hpp"
 #include "kernels/lanes/tie_station_body.hpp"
 #include "kernels/material/branch_lag.hpp"
 
@@ -121,7 +121,8 @@ struct MovePrimary {
       force[c] = static_cast<Real>(sum[c] + fields.force[node.own + c * kLanes + lane]);
     Real weight[2] = {};
     if constexpr (sweep == Sweep::revolved) weigh(block, node.station + lane, weight);
-    move_on_device<sweep, first>(block, fields, node.section_node, node.own / 3 + lane, weight, force);
+    move_on_device<sweep, first>(block, fields, node.section_node, node.own / 3 + lane, node.own + lane,
+                                 weight, force);
   }
 };
 

@@ -1,0 +1,66 @@
+#pragma once
+// Nodes of a march: what a team keeps for them, and their motion. [kernels/device/march_body.hpp]
+
+#include <cstdint>
+
+#include "core/inline.hpp"
+#include "kernels/device/march_layout.hpp"
+
+namespace tread {
+
+/// 1 << shift lanes of a tile from `from` on.
+struct MarchLanes {
+  int from, shift;
+
+  TREAD_INLINE int item(int i) const { return i >> shift; }
+  TREAD_INLINE int lane(int i) const { return from + (i & ((1 << shift) - 1)); }
+};
+
+inline constexpr int kNodeValues = 6 * kLanes;  ///< sums and differences of a node
+
+/// Sums (rows 0 ... 2) and differences (3 ... 5) of the values of a node's elements in a lane. Even and odd
+/// rows change places from node to node: on a card two nodes that are read at once then seldom lie in the
+/// same banks.
+template <class Real>
+class NodeValues {
+ public:
+  TREAD_INLINE NodeValues(Real* values, int node, int lane)
+      : even_(values + node * kNodeValues + lane + (node & 1) * kLanes),
+        odd_(values + node * kNodeValues + lane - (node & 1) * kLanes) {}
+  TREAD_INLINE Real& operator[](int row) const { return (row % 2 == 0 ? even_ : odd_)[row * kLanes]; }
+
+ private:
+  Real *even_, *odd_;
+};
+
+/// Moves a node under its force. `at`: place of its component 0 in the fields; `weight`: gravity at its
+/// station (revolved), rounded [m/s2].
+template <Sweep sweep, int first, class Real, class U>
+TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields,
+                                 int section_node, std::int64_t slot, std::int64_t at,
+                                 const Real (&weight)[2], const Real (&force)[3]) {
+  U u[3] = {};
+  Real v[3] = {};
+  for (int i = first; i < 3; ++i) {
+    u[i] = fields.u[at + i * kLanes];
+    v[i] = fields.v[at + i * kLanes];
+  }
+  if constexpr (sweep == Sweep::revolved)
+    move_spinning(block.step, weight, block.radius[section_node], fields.inverse_mass[slot], force, u, v);
+  else
+    move_fixed<first>(block.step, fields.inverse_mass[slot], force, u, v);
+  for (int i = first; i < 3; ++i) {
+    fields.moved_u[at + i * kLanes] = u[i];
+    fields.moved_v[at + i * kLanes] = v[i];
+  }
+}
+
+/// Gravity at a station of a revolved block, rounded [m/s2].
+template <class Real>
+TREAD_INLINE void weigh(const MarchBlock<Real>& block, int station, Real* weight) {
+  const GravityInSweep gravity = gravity_in_sweep(block.gravity, block.angle[station] + block.frame_angle);
+  weight[0] = static_cast<Real>(gravity.along);
+  weight[1] = static_cast<Real>(gravity.outwards);
+}
+
+}  // namespace tread
