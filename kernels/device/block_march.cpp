@@ -16,6 +16,8 @@ namespace tread {
 
 namespace {
 
+constexpr std::uint32_t kMostPlaces = (1U << 27) - 1;  ///< of MarchQuad
+
 /// Halves a list of quads until no part has more than `most`.
 void halve(const std::vector<std::array<double, 2>>& centre, std::span<int> quads, int most,
            std::vector<std::span<int>>& parts) {
@@ -113,15 +115,16 @@ SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_q
     at.quads = static_cast<int>(quads.size());
     std::vector<char> begun(index(section.nodes()), 0);
     for (const int place : quads) {
-      MarchQuad& quad = cut.quads.emplace_back();
-      quad.place = place;
-      quad.own = part_of_quad[index(place)] == part;
-      for (int corner = 0; corner < 4; ++corner) {
-        const int node = corners_of(place)[index(corner)];
+      MarchQuad quad{};
+      quad.place = static_cast<unsigned>(place) & kMostPlaces;
+      quad.own = part_of_quad[index(place)] == part ? 1 : 0;
+      for (unsigned corner = 0; corner < 4; ++corner) {
+        const int node = corners_of(place)[corner];
         add_node(node);
-        quad.node[corner] = local[index(node)];
-        quad.begins[corner] = std::exchange(begun[index(node)], 1) == 0;
+        quad.node[corner] = static_cast<std::uint16_t>(local[index(node)]);
+        if (std::exchange(begun[index(node)], 1) == 0) quad.begins |= 1U << corner;
       }
+      cut.quads.push_back(quad);
     }
     for (int c = 0; c <= cut.colours; ++c) {
       const auto before = [&](int place) { return colour[index(place)] < c; };

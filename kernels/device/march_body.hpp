@@ -33,7 +33,6 @@ class March {
         part_(block.part[part_number_]) {
     values_ = team.template share<Real>(kNodeValues * part_.nodes);
     if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeValues * part_.nodes);
-    if (block.row != nullptr) shifts_ = team.template share<Real>(kNodeValues * part_.nodes);
     sums_ = team.template share<Real>(kNodeValues * part_.own_nodes);
     carry_ = team.template share<Real>(6 * part_.own_nodes);
     if constexpr (sweep == Sweep::revolved)
@@ -44,7 +43,7 @@ class March {
 
   /// Bytes that the threads of a team share at most.
   static std::size_t shared_bytes(const MarchBlock<Real>& block) {
-    const int fields = 1 + (kLinear ? 0 : 1) + (block.row != nullptr ? 1 : 0);
+    const int fields = kLinear ? 1 : 2;
     const int weights = sweep == Sweep::revolved ? 2 * kLanes * block.run_tiles : 0;
     const int reals =
         kNodeValues * fields * block.most_nodes + (kNodeValues + 6) * block.most_own_nodes + weights;
@@ -151,17 +150,21 @@ class March {
 
   /// Sums and differences of a node's values at both ends of an element, in its middle frame.
   template <int from>
-  TREAD_INLINE void spread(const Station& at, const Real (&near)[3], const Real (&far)[3],
-                           NodeValues<Real> to) const {
-    Real s[3];
-    Real d[3];
+  TREAD_INLINE void spread(const Station& at, const Real (&near)[3], const Real (&far)[3], Real (&s)[3],
+                           Real (&d)[3]) const {
     for (int i = from; i < 3; ++i) {
       s[i] = near[i] + far[i];
       d[i] = far[i] - near[i];
     }
     if constexpr (sweep == Sweep::revolved)
       turn_to_middle(block_.cosine[at.tile.pitch_class], block_.sine[at.tile.pitch_class], s, d);
-    for (int i = from; i < 3; ++i) {
+  }
+  TREAD_INLINE void keep(const Station& at, const Real (&near)[3], const Real (&far)[3],
+                         NodeValues<Real> to) const {
+    Real s[3];
+    Real d[3];
+    spread<first>(at, near, far, s, d);
+    for (int i = first; i < 3; ++i) {
       to[i] = s[i];
       to[3 + i] = d[i];
     }
@@ -188,11 +191,10 @@ class March {
           far[i] += far_rate[i];
         }
       } else {
-        spread<first>(at, near_rate, far_rate, NodeValues<Real>(rates_, node, lane));
+        keep(at, near_rate, far_rate, NodeValues<Real>(rates_, node, lane));
       }
     }
-    spread<first>(at, near, far, NodeValues<Real>(values_, node, lane));
-    if (at.row >= 0) open_shift(at, node, section, lane);
+    keep(at, near, far, NodeValues<Real>(values_, node, lane));
   }
 
   /// Where displacements are more precise than the elements, they are taken relative to a translation, that
@@ -220,15 +222,6 @@ class March {
     }
   }
 
-  TREAD_INLINE void open_shift(const Station& at, int node, int section, int lane) const {
-    Real near[3];
-    Real far[3];
-    const bool inside = lane + 1 < at.tile.elements;
-    shift(at.row, section, lane, near);
-    shift(inside ? at.row : at.next_row, section, inside ? lane + 1 : 0, far);
-    spread<0>(at, near, far, NodeValues<Real>(shifts_, node, lane));
-  }
-
   TREAD_INLINE void shift(int row, int section, int lane, Real (&value)[3]) const {
     const int entry = row < 0 ? 0 : block_.shifted[std::int64_t{row} * block_.section_nodes + section];
     for (int i = 0; i < 3; ++i) value[i] = block_.shifts[entry > 0 ? entry : 0].shift[i][lane];
@@ -253,15 +246,36 @@ class March {
     }
   }
 
-  TREAD_INLINE void add_element(const Station& at, const MarchQuad& quad, int lane, bool own) const {
+  /// Amplitudes of the shifts of a quad's nodes.
+  TREAD_INLINE void shifts(const Station& at, const MarchQuad& quad, int lane,
+                           Real (&of_modes)[3][kModes]) const {
+    const bool inside = lane + 1 < at.tile.elements;
+    Real s[3][4];
+    Real d[3][4];
+    for (int j = 0; j < 4; ++j) {
+      const int section = section_node_[quad.node[j]];
+      Real near[3];
+      Real far[3];
+      shift(at.row, section, lane, near);
+      shift(inside ? at.row : at.next_row, section, inside ? lane + 1 : 0, far);
+      Real sum[3];
+      Real difference[3];
+      spread<0>(at, near, far, sum, difference);
+      for (int i = 0; i < 3; ++i) {
+        s[i][j] = sum[i];
+        d[i][j] = difference[i];
+      }
+    }
+    for (int i = 0; i < 3; ++i) to_modes(s[i], d[i], of_modes[i]);
+  }
+
+  TREAD_INLINE void add_element(const Station& at, const MarchQuad quad, int lane, bool own) const {
     const std::int64_t place = std::int64_t{at.tile.pitch_class} * block_.quads + quad.place;
     const SweptConstants<Real>& constants = block_.constants[place];
     if (at.row >= 0 && block_.perturbed[std::int64_t{at.row} * block_.quads + quad.place] != 0) {
-      Real shift[3][kModes];
-      amplitudes<0>(quad, lane, shifts_, [&](int i, const Real(&a)[kModes]) {
-        for (int m = 0; m < kModes; ++m) shift[i][m] = a[m];
-      });
-      add_element(at, quad, place, lane, own, PerturbedElement<Real, Real>(constants, shift));
+      Real of_modes[3][kModes];
+      shifts(at, quad, lane, of_modes);
+      add_element(at, quad, place, lane, own, PerturbedElement<Real, Real>(constants, of_modes));
     } else {
       add_element(at, quad, place, lane, own, SweptElement<sweep, Real>{constants});
     }
@@ -304,8 +318,9 @@ class March {
       for (int j = 0; j < 4; ++j) {
         if (quad.node[j] >= part_.own_nodes) continue;
         const NodeValues<Real> sums(sums_, quad.node[j], lane);
-        sums[i] = quad.begins[j] != 0 ? s[j] : sums[i] + s[j];
-        sums[3 + i] = quad.begins[j] != 0 ? d[j] : sums[3 + i] + d[j];
+        const bool begins = (quad.begins >> j & 1U) != 0;
+        sums[i] = begins ? s[j] : sums[i] + s[j];
+        sums[3 + i] = begins ? d[j] : sums[3 + i] + d[j];
       }
     }
   }
@@ -388,7 +403,6 @@ class March {
   const MarchPart part_;
   Real* values_ = nullptr;      ///< of the part's nodes [NodeValues]
   Real* rates_ = nullptr;       ///< the same of what damping adds, where the law is not linear
-  Real* shifts_ = nullptr;      ///< the same of the shifts of moved nodes, where there are any
   Real* sums_ = nullptr;        ///< of the forces on own nodes [NodeValues]
   Real* carry_ = nullptr;       ///< of two tiles in turn, [component][own node]: of the element before a tile
   Real* weights_ = nullptr;     ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]

@@ -24,10 +24,10 @@ struct MarchPart {
 
 /// A quad of a part.
 struct MarchQuad {
-  int node[4];    ///< its corners among the part's nodes
-  int begins[4];  ///< by corner: nonzero where no quad before this one adds forces to the node
-  int place;      ///< in the front plan, by which coefficients are ordered
-  int own;        ///< nonzero in the one part that writes the state of its elements
+  std::uint16_t node[4];     ///< its corners among the part's nodes
+  std::uint32_t place : 27;  ///< in the front plan, by which coefficients are ordered
+  std::uint32_t own : 1;     ///< in the one part that writes the state of its elements
+  std::uint32_t begins : 4;  ///< a bit by corner: no quad before this one adds forces to the node
 };
 
 /// A block; arrays by tile and by station have one entry for each, those by class one for each pitch class.
