@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "kernels/device/device.hpp"
@@ -12,6 +13,7 @@ namespace tread {
 namespace {
 
 constexpr int kThreads = 128;       ///< of a team
+constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
 constexpr int kPatchThreads = 768;  ///< of the one team of a patch
 constexpr unsigned kAll = ~0U;      ///< lanes of a warp
 constexpr int kWarp = 32;
@@ -196,7 +198,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   template <class Body>
   void each(const Body& body) {
-    constexpr int threads = kThreads;
+    constexpr int threads = std::is_same_v<Body, SearchPoints> ? kSearchThreads : kThreads;
     const auto blocks = static_cast<unsigned>((body.count() + threads - 1) / threads);
     each_kernel<<<blocks, threads>>>(body.count(), body);
     check(cudaGetLastError(), "values of nodes");
