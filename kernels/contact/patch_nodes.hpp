@@ -45,33 +45,45 @@ struct SurfaceGrid {
 SurfaceGrid make_surface_grid(const SweptBlock& rail, const SurfaceProfile& profile, SurfaceKind kind,
                               std::array<int, 2> edges);
 
-/// Lumped averages at a node; tractions are those of the middle of a step, zero outside of contact.
-struct NodalContact {
-  double pressure = 0;          ///< [Pa]
-  Traction shear;               ///< on the rail [Pa]
-  Traction slip_speed;          ///< of the wheel against the rail, mean over what touches [m/s]
-  double frictional_work = 0;   ///< of the step [J/m2]
-  double frictional_power = 0;  ///< shear stress times slip speed [W/m2]
-  double touching = 0;          ///< share of the node's area [-]
-  double slipping = 0;          ///< share of the node's area [-]
+/// Lumped averages at a node that the record of a passage takes; tractions are those of the middle of a step,
+/// zero outside of contact.
+struct NodalStress {
+  double pressure = 0;         ///< [Pa]
+  Traction shear;              ///< on the rail [Pa]
+  double frictional_work = 0;  ///< of the step [J/m2]
 
   /// Adds a point's share, of the node's area.
-  TREAD_BODY void add(const ContactPoint& point, double share) {
+  template <class Point>
+  TREAD_BODY void add(const Point& point, double share) {
     frictional_work += share * point.frictional_work;
     if (point.pressure <= 0) return;
     pressure += share * point.pressure;
     shear.along += share * point.shear.along;
     shear.across += share * point.shear.across;
+  }
+
+  TREAD_BODY double shear_size() const {
+    return std::sqrt(shear.along * shear.along + shear.across * shear.across);
+  }  ///< [Pa]
+};
+
+/// All averages at a node.
+struct NodalContact : NodalStress {
+  Traction slip_speed;          ///< of the wheel against the rail, mean over what touches [m/s]
+  double frictional_power = 0;  ///< shear stress times slip speed [W/m2]
+  double touching = 0;          ///< share of the node's area [-]
+  double slipping = 0;          ///< share of the node's area [-]
+
+  /// Adds a point's share, of the node's area.
+  void add(const ContactPoint& point, double share) {
+    NodalStress::add(point, share);
+    if (point.pressure <= 0) return;
     slip_speed.along += share * point.slip_speed.along;
     slip_speed.across += share * point.slip_speed.across;
     frictional_power += share * point.frictional_power();
     touching += share;
     if (point.slips) slipping += share;
   }
-
-  TREAD_BODY double shear_size() const {
-    return std::sqrt(shear.along * shear.along + shear.across * shear.across);
-  }  ///< [Pa]
 };
 
 enum class PatchState : std::uint8_t { out, stick, slip };

@@ -74,23 +74,34 @@ struct PointLane {
   /// impulse on the wheel [N s].
   TREAD_BODY PatchVector guess(const ContactPoint& point, const PointSprings& springs, double dt) const {
     const Traction slip{tile.slip_before[0][lane], tile.slip_before[1][lane]};
+    const Traction shear{tile.shear_before[0][lane], tile.shear_before[1][lane]};
     const PointTraction<double> traction =
-        respond<double>({point.gap, slip, point.shear_before, tile.friction[lane], 0}, springs, dt,
-                        {dot(point.velocity_before, point.normal), slip}, {});
+        respond<double>({tile.gap[lane], slip, shear, tile.friction[lane], 0}, springs, dt,
+                        {dot(point.velocity_before, axis(tile.normal)), slip}, {});
     const double values[3] = {traction.pressure, traction.shear.along, traction.shear.across};
     for (int c = 0; c < 3; ++c) tile.held[c][lane] = tile.response[c][lane] = values[c];
-    return padded(-dt * point.area *
-                  (values[0] * point.normal + values[1] * point.along + values[2] * point.across));
+    return impulse_of(values);
   }
 
   /// Sets the tractions of the point to the last response. Returns its impulse on the wheel [N s].
-  TREAD_BODY PatchVector settle(ContactPoint& point, double dt) const {
+  TREAD_BODY PatchVector settle(ContactPoint& point) const {
     point.pressure = tile.response[0][lane];
     point.shear = {tile.response[1][lane], tile.response[2][lane]};
     const double size = std::hypot(point.shear.along, point.shear.across);
     const double limit = tile.friction[lane] * point.pressure;
     point.slips = tile.friction[lane] == 0 || (size > 0 && size >= kSlipping * limit);
-    return padded(-dt * point.area * point.traction());
+    const double values[3] = {point.pressure, point.shear.along, point.shear.across};
+    return impulse_of(values);
+  }
+
+ private:
+  TREAD_BODY Vec3 axis(const double (&of)[3][kLanes]) const {
+    return {of[0][lane], of[1][lane], of[2][lane]};
+  }
+  /// Of tractions on the wheel [N s].
+  TREAD_BODY PatchVector impulse_of(const double (&traction)[3]) const {
+    return padded(-tile.impulse[lane] * (traction[0] * axis(tile.normal) + traction[1] * axis(tile.along) +
+                                         traction[2] * axis(tile.across)));
   }
 };
 

@@ -116,9 +116,9 @@ void PatchSolver::iterate(const std::vector<ContactPoint>& points, const PointSp
   }
 }
 
-void PatchSolver::settle(std::vector<ContactPoint>& points, double dt) {
+void PatchSolver::settle(std::vector<ContactPoint>& points) {
   for (std::size_t i = 0; i < points.size(); ++i)
-    impulse_[i] = PointLane::of(tiles_.data(), i).settle(points[i], dt);
+    impulse_[i] = PointLane::of(tiles_.data(), i).settle(points[i]);
   sum_impulses();
 }
 
@@ -140,7 +140,7 @@ void PatchSolver::solve(std::vector<ContactPoint>& points, const PointSprings& s
   std::visit([&](auto& of) { advance(points, of, dt); }, friction);
   set_compliances(points, dt);
   iterate(points, springs, dt);
-  settle(points, dt);
+  settle(points);
   set_speeds(points);
   std::visit(
       [&](auto& of) {

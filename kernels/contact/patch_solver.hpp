@@ -63,7 +63,7 @@ class PatchSolver {
   /// Sets the change of velocity of nodes and points from the impulses of the points.
   void sum_impulses();
   /// Sets the tractions of the points, and the impulses to them alone.
-  void settle(std::vector<ContactPoint>& points, double dt);
+  void settle(std::vector<ContactPoint>& points);
   void set_speeds(std::vector<ContactPoint>& points) const;
   void write_back(const NodeMotion& motion, double spin, double dt);
 

@@ -43,37 +43,67 @@ struct FaceWindow {
 struct Candidates {
   ContactPoint* point = nullptr;
   int* kept = nullptr;    ///< nonzero for those of the patch
-  int* place = nullptr;   ///< in the patch, of those
   double* gap = nullptr;  ///< [m]
 };
 
-/// Nodes and cells of the patch. A cell: points that the same 16 nodes of a body carry. [PatchCells]
-struct PatchLinks {
-  /// Entries: the rail's support of every point, then the wheel's.
-  int* cell = nullptr;              ///< by entry
-  PatchWeights* weights = nullptr;  ///< by entry
-  int* first_entry = nullptr;       ///< by cell
-  int* first_listed = nullptr;      ///< by cell and one more, into listed
-  int* listed = nullptr;            ///< entries by cell
-  int* cell_node = nullptr;         ///< kCellNodes by cell
-  std::int64_t* slot = nullptr;     ///< by node
-  double* basis = nullptr;          ///< by node: cosine and sine of its angle
-  int* of_wheel = nullptr;          ///< by node
-  int* first_term = nullptr;        ///< by node and one more, into term
-  int* term = nullptr;              ///< places in the cells' sums, by node
-  int* at_slot = nullptr;           ///< by slot; the largest int between two uses
-  int* flag = nullptr;              ///< by entry or place in the cells' sums
-  int* number = nullptr;            ///< likewise
+/// A point's weights in one body. Its size lets threads of consecutive entries read from different banks.
+struct LinkedEntry {
+  PatchWeights weights;
+  int point;
 };
 
-/// Vectors of the solution. [PatchSolver]
+struct PatchNode {
+  std::int64_t slot;
+  double cosine, sine;  ///< of the angle of its basis
+  int of_wheel;
+};
+
+/// Between the cells' nodes, and between the cells' sums: odd or 3 more than a multiple of 16, for the banks.
+inline constexpr int kCellStride = kCellNodes + 1;
+inline constexpr int kSumStride = 3 * kCellNodes + 3;
+
+/// Nodes and cells of the patch. A cell: points that the same 16 nodes of a body carry. [PatchCells]
+struct PatchLinks {
+  LinkedEntry* entry = nullptr;    ///< cell by cell: the rail's and the wheel's support of every point
+  int* place = nullptr;            ///< among these, of the rail's support of every point, then of the wheel's
+  int* first_entry = nullptr;      ///< by cell and one more
+  int* cell_node = nullptr;        ///< kCellStride by cell: places of the nodes' vectors
+  PatchNode* node = nullptr;       ///< by node
+  double* inverse_mass = nullptr;  ///< by node [1/kg]
+  int* first_term = nullptr;       ///< by node and one more, into term
+  int* term = nullptr;             ///< by node: places in the cells' sums
+  // While cells and nodes are found: a table of keys, and lists.
+  int* known = nullptr;   ///< by place in the table: key
+  int* first = nullptr;   ///< by place in the table: first item of the key
+  int* number = nullptr;  ///< by place in the table: of the key
+  int* mark = nullptr;    ///< by item: place in the table
+  int* sample = nullptr;  ///< by cell: its first entry
+  int* nth = nullptr;     ///< by item: others of its owner that came before
+  int* item = nullptr;    ///< by owner
+  int* owned = nullptr;   ///< by owner: number of items
+};
+
+/// kLanes points of a team. Consecutive points lie in different banks, in two of these too.
+struct TeamTile : PointTile {
+  double free[3][kLanes];  ///< velocity without contact, Cartesian [m/s]
+};
+
+/// What record and result take of a point. Its size is that of an odd number of doubles, for the banks.
+struct PointOutcome {
+  static constexpr int kSums = 5;
+  double pressure;         ///< [Pa]
+  Traction shear;          ///< [Pa]
+  double frictional_work;  ///< [J/m2]
+  double share[4];         ///< area at the face's corners [m2]
+  double sum[kSums];       ///< force on the rail [N], work of friction and of damping [J]
+};
+
+/// Vectors of the solution, three components each. [PatchSolver]
 struct PatchVectors {
-  PointTile* tile = nullptr;
-  PatchVector* free = nullptr;      ///< by point
-  PatchVector* impulse = nullptr;   ///< by point
-  PatchVector* sum = nullptr;       ///< by entry
-  PatchVector* change = nullptr;    ///< by node
-  PatchVector* cell_sum = nullptr;  ///< kCellNodes by cell
+  TeamTile* tile = nullptr;
+  double* impulse = nullptr;   ///< by point
+  double* change = nullptr;    ///< by node
+  double* cell_sum = nullptr;  ///< kSumStride by cell; or 6 by point
 };
 
 /// Largest stresses and frictional work of a passage, [station][row]. [SurfaceFields]
@@ -115,6 +145,7 @@ struct ContactTask {
   double* wake_time = nullptr;      ///< by face of the whole rail [s]
   Candidates candidates;
   ContactPoint* point = nullptr;  ///< of the patch
+  int* origin = nullptr;          ///< by point of the patch: candidate
   PatchLinks links;
   PatchVectors vectors;
   RecordView record;

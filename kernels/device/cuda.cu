@@ -1,6 +1,8 @@
 // The device of NVIDIA's cards: the only source that knows CUDA. HIP would be one more file like it.
 
+#include <cstddef>
 #include <string>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "kernels/device/device.hpp"
@@ -11,7 +13,10 @@ namespace tread {
 namespace {
 
 constexpr int kThreads = 128;       ///< of a team
-constexpr int kPatchThreads = 512;  ///< of the one team of a patch
+constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
+constexpr int kPatchThreads = 768;  ///< of the one team of a patch
+constexpr unsigned kAll = ~0U;      ///< lanes of a warp
+constexpr int kWarp = 32;
 
 /// ResourceError where a call failed.
 void check(cudaError_t status, const char* what) {
@@ -35,16 +40,99 @@ class CudaTeam {
     used_ += n * sizeof(T);
     return first;
   }
-  __device__ void least(int* at, int value) const { atomicMin(at, value); }
-  __device__ int add(int* at, int value) const { return atomicAdd(at, value); }
   template <class Body>
   __device__ void for_each(int n, const Body& body) const {
     for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
     __syncthreads();
   }
 
- private:
+ protected:
   mutable std::size_t used_ = 0;
+};
+
+/// Largest of the values of a warp's lanes, which are zero or more: then their bits have their order.
+__device__ double largest_of_warp(double value) {
+  const auto high = static_cast<unsigned>(__double2hiint(value));
+  const unsigned most = __reduce_max_sync(kAll, high);
+  const unsigned low = high == most ? static_cast<unsigned>(__double2loint(value)) : 0U;
+  return __hiloint2double(static_cast<int>(most), static_cast<int>(__reduce_max_sync(kAll, low)));
+}
+
+/// kernels/device/patch_arena.hpp
+class CudaPatchTeam : public CudaTeam {
+ public:
+  __device__ explicit CudaPatchTeam(unsigned bytes)
+      : bytes_(bytes), largest_(share<LargestPair>(2 * kWarp)), sums_(share<int>(kWarp)) {}
+
+  struct Spare {
+    std::byte* first;
+    std::size_t bytes;
+    __device__ std::byte* data() const { return first; }
+    __device__ std::size_t size() const { return bytes; }
+  };
+  __device__ Spare spare() const {
+    return {reinterpret_cast<std::byte*>(shared_memory) + used_, bytes_ - used_};
+  }
+  __device__ void least(int* at, int value) const { atomicMin(at, value); }
+  __device__ int add(int* at, int value) const { return atomicAdd(at, value); }
+  __device__ int claim(int* at, int value) const {
+    const int before = atomicCAS(at, 0, value);
+    return before == 0 ? value : before;
+  }
+
+  /// Each warp takes a run of values, kWarp of them at a time.
+  template <class Value, class Take>
+  __device__ int number(int n, const Value& value, const Take& take) const {
+    const int length = (n + kPatchThreads - 1) / kPatchThreads * kWarp;
+    const int begin = warp() * length;
+    const int end = begin + length < n ? begin + length : n;
+    int own = 0;
+    for (int i = begin + lane(); i < end; i += kWarp) own += value(i);
+    own = __reduce_add_sync(kAll, own);
+    if (lane() == 0) sums_[warp()] = own;
+    __syncthreads();
+    const int other = lane() < kWarps ? sums_[lane()] : 0;
+    const int all = __reduce_add_sync(kAll, other);
+    int before = __reduce_add_sync(kAll, lane() < warp() ? other : 0);
+    for (int first = begin; first < end; first += kWarp) {
+      const int i = first + lane();
+      const int one = i < end ? value(i) : 0;
+      int sum = one;
+      for (int step = 1; step < kWarp; step *= 2) {
+        const int lower = __shfl_up_sync(kAll, sum, static_cast<unsigned>(step));
+        if (lane() >= step) sum += lower;
+      }
+      if (i < end) take(i, before + sum - one);
+      before += __shfl_sync(kAll, sum, kWarp - 1);
+    }
+    __syncthreads();
+    return all;
+  }
+
+  /// Places of the warps' largest values change from call to call: no one waits until all have read them.
+  template <class Values>
+  __device__ LargestPair largest(int n, const Values& values) const {
+    LargestPair most{0, 0};
+    for (int i = static_cast<int>(threadIdx.x); i < n; i += kPatchThreads) raise(most, values(i));
+    LargestPair* const of_warps = largest_ + turn_ * kWarp;
+    turn_ = 1 - turn_;
+    const LargestPair of_warp{largest_of_warp(most.first), largest_of_warp(most.second)};
+    if (lane() == 0) of_warps[warp()] = of_warp;
+    __syncthreads();
+    const LargestPair other = lane() < kWarps ? of_warps[lane()] : LargestPair{0, 0};
+    return {largest_of_warp(other.first), largest_of_warp(other.second)};
+  }
+
+ private:
+  static constexpr int kWarps = kPatchThreads / kWarp;
+
+  __device__ static int lane() { return static_cast<int>(threadIdx.x) % kWarp; }
+  __device__ static int warp() { return static_cast<int>(threadIdx.x) / kWarp; }
+
+  unsigned bytes_;
+  LargestPair* largest_;
+  int* sums_;
+  mutable int turn_ = 0;
 };
 
 /// Teams that a multiprocessor has registers for. Plastic elements need more than linear ones.
@@ -66,13 +154,10 @@ __global__ void each_kernel(std::int64_t n, Body body) {
 
 template <class Law>
 __global__ void __launch_bounds__(kPatchThreads)
-    patch_kernel(ContactTask task, Law law, typename Law::State* state) {
-  CudaTeam team;
-  PatchTeam<Law, CudaTeam>(team, task, law, state).run();
-}
-
-unsigned blocks_for(std::int64_t n) {
-  return static_cast<unsigned>((n + kThreads - 1) / kThreads);
+    patch_kernel(const __grid_constant__ ContactTask task, const __grid_constant__ Law law,
+                 typename Law::State* state, unsigned shared) {
+  CudaPatchTeam team(shared);
+  PatchTeam<Law, CudaPatchTeam>(team, task, law, state).run();
 }
 
 class CudaDevice final : public KernelDevice<CudaDevice> {
@@ -117,13 +202,19 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   template <class Body>
   void each(const Body& body) {
-    each_kernel<<<blocks_for(body.count()), kThreads>>>(body.count(), body);
+    constexpr int threads = std::is_same_v<Body, SearchPoints> ? kSearchThreads : kThreads;
+    const auto blocks = static_cast<unsigned>((body.count() + threads - 1) / threads);
+    each_kernel<<<blocks, threads>>>(body.count(), body);
     check(cudaGetLastError(), "values of nodes");
   }
 
   template <class Law>
   void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
-    patch_kernel<<<1, kPatchThreads, PatchTeam<Law, CudaTeam>::shared_bytes()>>>(task, law, state);
+    const auto kernel = patch_kernel<Law>;
+    check(
+        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_)),
+        "shared memory");
+    kernel<<<1, kPatchThreads, shared_>>>(task, law, state, static_cast<unsigned>(shared_));
     check(cudaGetLastError(), "patch");
   }
 

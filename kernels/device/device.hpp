@@ -138,8 +138,9 @@ class DeviceArray {
 /// Emulation of a device by the processor's threads.
 struct Emulation {
   MarchCut cut;
-  std::uint64_t order = 0;     ///< seed of the order of teams and of their threads; 0: ascending
-  bool spoils_copies = false;  ///< Device::spoils_copies
+  std::uint64_t order = 0;         ///< seed of the order of teams and of their threads; 0: ascending
+  bool spoils_copies = false;      ///< Device::spoils_copies
+  std::size_t shared = 200 << 10;  ///< memory that the team of a patch shares [B]
 };
 std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
 

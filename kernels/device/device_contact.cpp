@@ -1,18 +1,18 @@
 #include "kernels/device/device_contact.hpp"
 
 #include <algorithm>
-#include <climits>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "core/index.hpp"
+#include "kernels/device/patch_links.hpp"
 
 namespace tread {
 
 /// Largest numbers of a step.
 struct DeviceContact::Sizes {
-  std::size_t candidates, faces, cells, places, nodes;
+  std::size_t candidates, faces, cells, places, nodes, sums;
 
   explicit Sizes(const Contact& contact) {
     const ContactSearch& search = contact.searching();
@@ -25,6 +25,7 @@ struct DeviceContact::Sizes {
     nodes = index(surfaces.rail().station_count()) * index(surfaces.rail_profile().edges() + 1) +
             index(surfaces.wheel().station_count()) * index(surfaces.wheel_profile().edges() + 1);
     nodes = std::min(nodes, places);
+    sums = std::max(kSumStride * cells, 6 * candidates);
   }
 };
 
@@ -64,7 +65,7 @@ DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact,
   task_.window.rail_edges = surfaces.rail_profile().edges();
   task_.window.points = search.quadrature().size();
   keep_law();
-  make_room(mesh.slots);
+  make_room();
 }
 
 SurfaceSide DeviceContact::side(const SweptBlock& block, const SurfaceProfile& profile,
@@ -104,34 +105,34 @@ void DeviceContact::keep_law() {
       contact_->friction());
 }
 
-void DeviceContact::make_room(std::int64_t slots) {
+void DeviceContact::make_room() {
   const Sizes most(*contact_);
   const std::size_t points = most.candidates;
   points_.resize(points);
   task_.history = room<PointHistory>(contact_->history().size());
   task_.wake_time = room<double>(contact_->searching().wake_time().size());
-  task_.candidates = {room<ContactPoint>(points), room<int>(points), room<int>(points), room<double>(points)};
+  task_.candidates = {room<ContactPoint>(points), room<int>(points), room<double>(points)};
   task_.point = room<ContactPoint>(points);
-  PatchLinks& links = task_.links;
-  links.cell = room<int>(2 * points);
-  links.weights = room<PatchWeights>(2 * points);
-  links.first_entry = room<int>(most.cells);
-  links.first_listed = room<int>(most.cells + 1);
-  links.listed = room<int>(2 * points);
-  links.cell_node = room<int>(most.places);
-  links.slot = room<std::int64_t>(most.nodes);
-  links.basis = room<double>(2 * most.nodes);
-  links.of_wheel = room<int>(most.nodes);
-  links.first_term = room<int>(most.nodes + 1);
-  links.term = room<int>(most.places);
-  links.flag = room<int>(std::max(2 * points, most.places));
-  links.number = room<int>(std::max(2 * points, most.places));
-  links.at_slot = room<int>(index(slots));
-  const std::vector<int> none(index(slots), INT_MAX);
-  device_->upload(links.at_slot, none.data(), none.size() * sizeof(int));
-  task_.vectors = {
-      room<PointTile>(points / kLanes + 1), room<PatchVector>(points),     room<PatchVector>(points),
-      room<PatchVector>(2 * points),        room<PatchVector>(most.nodes), room<PatchVector>(most.places)};
+  task_.origin = room<int>(points);
+  const auto table = index(table_size(static_cast<int>(most.places)));
+  task_.links = {room<LinkedEntry>(2 * points),
+                 room<int>(2 * points),
+                 room<int>(2 * points + 1),
+                 room<int>(kCellStride * most.cells),
+                 room<PatchNode>(most.nodes),
+                 room<double>(most.nodes),
+                 room<int>(most.nodes + 1),
+                 room<int>(most.places),
+                 room<int>(table),
+                 room<int>(table),
+                 room<int>(table),
+                 room<int>(most.places),
+                 room<int>(2 * points),
+                 room<int>(most.places),
+                 room<int>(most.places),
+                 room<int>(most.places)};
+  task_.vectors = {room<TeamTile>(points / kLanes + 1), room<double>(3 * points),
+                   room<double>(3 * most.nodes), room<double>(most.sums)};
   const SurfaceGrid& grid = contact_->nodes().grid();
   task_.record = {room<double>(grid.nodes()), room<double>(grid.nodes()), room<double>(grid.nodes()),
                   keep(grid.length),          keep(grid.width),           grid.rows(),
@@ -216,11 +217,13 @@ void DeviceContact::release() {
 
 std::int64_t DeviceContact::bytes(const Contact& contact) {
   const Sizes most(contact);
-  const std::size_t of_point = 2 * sizeof(ContactPoint) + 2 * sizeof(PatchWeights) + 4 * sizeof(PatchVector) +
-                               sizeof(PointTile) / kLanes + 6 * sizeof(int) + sizeof(double);
-  const std::size_t of_place = sizeof(PatchVector) + 4 * sizeof(int);
-  return static_cast<std::int64_t>(most.candidates * of_point + most.places * of_place +
-                                   most.nodes * (sizeof(PatchVector) + 4 * sizeof(double))) +
+  const std::size_t of_point = 2 * sizeof(ContactPoint) + 2 * sizeof(LinkedEntry) +
+                               sizeof(TeamTile) / kLanes + 4 * sizeof(double) + 8 * sizeof(int);
+  const std::size_t of_node = sizeof(PatchNode) + 4 * sizeof(double) + sizeof(int);
+  const auto table = index(table_size(static_cast<int>(most.places)));
+  const std::size_t ints = 3 * table + 5 * most.places + kCellStride * most.cells;
+  return static_cast<std::int64_t>(most.candidates * of_point + most.nodes * of_node + ints * sizeof(int) +
+                                   most.sums * sizeof(double)) +
          contact.bytes();
 }
 

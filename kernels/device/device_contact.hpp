@@ -49,7 +49,7 @@ class DeviceContact {
   SurfaceSide side(const SweptBlock& block, const SurfaceProfile& profile, const StationFinder& stations);
   CorrugationView corrugation();
   void keep_law();
-  void make_room(std::int64_t slots);
+  void make_room();
   void send();
 
   Device* device_;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <new>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "core/aligned.hpp"
@@ -35,27 +36,47 @@ class Order {
 
 class EmulatedTeam {
  public:
-  EmulatedTeam(int block, std::uint64_t seed, std::byte* memory)
+  EmulatedTeam(int block, std::uint64_t seed, std::span<std::byte> memory)
       : block_(block), seed_(seed), memory_(memory) {}
 
   int block() const { return block_; }
   template <class T>
   T* share(std::size_t n) const {
-    return reinterpret_cast<T*>(std::exchange(memory_, memory_ + n * sizeof(T)));
+    T* const first = reinterpret_cast<T*>(memory_.data());
+    memory_ = memory_.subspan(n * sizeof(T));
+    return first;
   }
+  std::span<std::byte> spare() const { return memory_; }
   /// One thread at a time changes what all share.
   void least(int* at, int value) const { *at = std::min(*at, value); }
   int add(int* at, int value) const { return std::exchange(*at, *at + value); }
+  int claim(int* at, int value) const { return *at = *at == 0 ? value : *at; }
   template <class Body>
   void for_each(int n, const Body& body) const {
     const Order order(n, seed_);
     for (int i = 0; i < n; ++i) body(static_cast<int>(order(i)));
   }
+  template <class Value, class Take>
+  int number(int n, const Value& value, const Take& take) const {
+    int before = 0;
+    for (int i = 0; i < n; ++i) {
+      const int own = value(i);
+      take(i, before);
+      before += own;
+    }
+    return before;
+  }
+  template <class Values>
+  LargestPair largest(int n, const Values& values) const {
+    LargestPair most{0, 0};
+    for_each(n, [&](int i) { raise(most, values(i)); });
+    return most;
+  }
 
  private:
   int block_;
   std::uint64_t seed_;
-  mutable std::byte* memory_;
+  mutable std::span<std::byte> memory_;
 };
 
 class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
@@ -92,8 +113,8 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
   void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) const {
     using Patch = PatchTeam<Law, EmulatedTeam>;
     thread_local AlignedVector<std::byte> memory;
-    memory.resize(std::max(memory.size(), Patch::shared_bytes()));
-    const EmulatedTeam team(0, emulation_.order, memory.data());
+    memory.resize(emulation_.shared);
+    const EmulatedTeam team(0, emulation_.order, memory);
     Patch(team, task, law, state).run();
   }
 
@@ -106,7 +127,7 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
         thread_local AlignedVector<std::byte> memory;
         memory.resize(std::max(memory.size(), M::shared_bytes(block)));
         for (std::int64_t i = first; i < last; ++i) {
-          const EmulatedTeam team(static_cast<int>(order(i)), emulation_.order, memory.data());
+          const EmulatedTeam team(static_cast<int>(order(i)), emulation_.order, memory);
           M(team, block, fields).run();
         }
       });

@@ -1,14 +1,16 @@
 #pragma once
-// Patch and tractions of a step by one team of threads. Numbers, sums and their orders are those of
-// PatchCells and PatchSolver. Written once for a GPU and for its emulation. [docs/records/device.md]
+// Patch and tractions of a step by one team of threads, with the numbers of PatchCells and PatchSolver.
+// Written once for a GPU and for its emulation. [docs/records/device.md]
 //
-// A team has what kernels/device/march_body.hpp says, and `least(at, value)` and `add(at, value)`, which
-// change an int that its threads share as one operation; `add` returns the former value.
+// An iteration waits for memory, not for arithmetic: what it touches lies in the memory that the threads
+// share, as far as that goes, and an item reads a cell's weights or nodes once for all that it adds.
 
-#include <climits>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <new>
 
+#include "kernels/contact/patch_point_body.hpp"
 #include "kernels/device/contact_layout.hpp"
 #include "kernels/device/patch_links.hpp"
 #include "kernels/lanes/patch_respond_body.hpp"
@@ -54,29 +56,28 @@ template <class Law, class Team>
 class PatchTeam {
  public:
   TREAD_BODY PatchTeam(const Team& team, const ContactTask& task, const Law& law, typename Law::State* state)
-      : team_(team), task_(task), law_(law), state_(state), links_(team, task.links), v_(task.vectors) {
-    largest_ = team.template share<double>(2 * kParts);
-    sums_ = team.template share<double>(5 * kParts);
-    ends_ = team.template share<int>(2);
-  }
-
-  static std::size_t shared_bytes() {
-    return sizeof(double) * 7 * kParts + sizeof(int) * 2 + LinkedPatch<Team>::shared_bytes();
-  }
+      : team_(team),
+        task_(task),
+        law_(law),
+        state_(state),
+        sums_(team.template share<double>(kSums * kParts)),
+        ends_(team.template share<int>(1)),
+        links_(team, PatchArena(team.spare()), task.links) {}
 
   TREAD_BODY void run() {
     wake_faces();
     gather();
     if (points_ > 0) {
-      links_.link(task_.point, points_);
+      links_.link(task_.point, points_, task_.inverse_mass);
       solve();
+      record();
     }
-    record();
     sum_up();
   }
 
  private:
-  static constexpr int kParts = kPatchParts;
+  static constexpr int kParts = 32;  ///< of sums over the points
+  static constexpr int kSums = PointOutcome::kSums;
 
   /// Sets when faces that were searched may close.
   TREAD_BODY void wake_faces() const {
@@ -95,58 +96,113 @@ class PatchTeam {
 
   /// Makes the patch of the candidates that were kept, in their order.
   TREAD_BODY void gather() {
-    const auto count = static_cast<int>(task_.window.stations * task_.window.edges * task_.window.points);
-    const Candidates& from = task_.candidates;
-    points_ = links_.number(from.kept, from.place, count);
-    team_.for_each(count, [&](int i) {
-      if (from.kept[i] != 0) task_.point[from.place[i]] = from.point[i];
-    });
-    // First point of each face of the window, and one more.
     const FaceWindow& window = task_.window;
-    team_.for_each(window.stations * window.edges + 1, [&](int i) {
-      const int first = i * window.points;
-      task_.record.first_point[i] = first < count ? from.place[first] : points_;
+    const int faces = window.stations * window.edges;
+    const Candidates& from = task_.candidates;
+    points_ = team_.number(
+        faces * window.points, [&](int i) { return from.kept[i]; },
+        [&](int i, int place) {
+          if (i % window.points == 0) task_.record.first_point[i / window.points] = place;
+          if (from.kept[i] != 0) task_.origin[place] = i;
+        });
+    team_.for_each(points_ * kPieces + 1, [&](int i) {
+      if (i < points_ * kPieces) {
+        copy_piece(from.point[task_.origin[i / kPieces]], task_.point[i / kPieces], i % kPieces);
+      } else {
+        task_.record.first_point[faces] = points_;
+        ends_[0] = 0;
+      }
     });
   }
 
+  static constexpr int kWords = static_cast<int>(sizeof(ContactPoint) / sizeof(std::uint64_t));
+  static constexpr int kPiece = 8;  ///< words that a thread copies at once
+  static constexpr int kPieces = (kWords + kPiece - 1) / kPiece;
+
+  TREAD_BODY static void copy_piece(const ContactPoint& from, ContactPoint& to, int piece) {
+    const char* const source = reinterpret_cast<const char*>(&from);
+    char* const target = reinterpret_cast<char*>(&to);
+    const int first = piece * kPiece;
+    std::uint64_t words[kPiece];
+    for (int w = 0; w < kPiece; ++w)
+      if (first + w < kWords) std::memcpy(words + w, source + (first + w) * sizeof words[0], sizeof words[0]);
+    for (int w = 0; w < kPiece; ++w)
+      if (first + w < kWords) std::memcpy(target + (first + w) * sizeof words[0], words + w, sizeof words[0]);
+  }
+
   TREAD_BODY ContactPoint& point(int i) const { return task_.point[i]; }
-  TREAD_BODY PointLane lane(int i) const { return PointLane::of(v_.tile, static_cast<std::size_t>(i)); }
-  TREAD_BODY int tiles() const { return (points_ + kLanes - 1) / kLanes; }
-  TREAD_BODY double sum(int i, int c) const { return v_.sum[i].value[c] + v_.sum[points_ + i].value[c]; }
-  TREAD_BODY Vec3 sum(int i) const { return {sum(i, 0), sum(i, 1), sum(i, 2)}; }
+  TREAD_BODY TeamTile& tile(int i) const { return tile_[i / kLanes]; }
+  TREAD_BODY PointLane lane(int i) const { return {tile(i), static_cast<std::size_t>(i % kLanes)}; }
+  TREAD_BODY double sum(int i, int c) const {
+    return sum_[3 * links_.links().place[i] + c] + sum_[3 * links_.links().place[points_ + i] + c];
+  }
+  /// Velocity of the wheel against the rail.
+  TREAD_BODY double velocity(int i, int c) const { return tile(i).free[c][i % kLanes] + sum(i, c); }
+  TREAD_BODY static void put(double* vectors, int i, const Vec3& value) {
+    for (int c = 0; c < 3; ++c) vectors[3 * i + c] = value[c];
+  }
+
+  TREAD_BODY void solve() {
+    make_room();
+    set_free();
+    team_.for_each(points_, [&](int i) { fill(i); });
+    sum_impulses();
+    set_mobilities();
+    iterate();
+    team_.for_each(points_, [&](int i) { put(impulse_, i, vector_of(lane(i).settle(point(i)))); });
+    sum_impulses();
+    finish();
+  }
+
+  TREAD_BODY void make_room() {
+    const PatchVectors& room = task_.vectors;
+    PatchArena& arena = links_.arena();
+    impulse_ = arena.keep(3 * points_, room.impulse);
+    change_ = arena.keep(3 * links_.nodes(), room.change);
+    // Sums by cell are read before those by entry are written, and the other way round.
+    const int sums = kSumStride * links_.cells();
+    cell_sum_ = arena.keep(sums > 6 * points_ ? sums : 6 * points_, room.cell_sum);
+    sum_ = cell_sum_;
+    tile_ = arena.keep((points_ + kLanes - 1) / kLanes, room.tile);
+  }
 
   /// Sets `change` to the inverse mass times the weighted sum of the points' impulses.
   TREAD_BODY void to_nodes() const {
-    const PatchLinks& l = task_.links;
-    team_.for_each(3 * kCellNodes * links_.cells(), [&](int i) {
+    const PatchLinks& l = links_.links();
+    team_.for_each(3 * links_.cells(), [&](int i) {
+      const int cell = i / 3;
       const int c = i % 3;
-      const int k = i / 3 % kCellNodes;
-      const int cell = i / 3 / kCellNodes;
-      double part = 0;
-      for (int e = l.first_listed[cell]; e < l.first_listed[cell + 1]; ++e) {
-        const int entry = l.listed[e];
-        part += node_part(l.weights[entry], k, v_.impulse[entry % points_].value[c]);
+      double part[kCellNodes] = {};
+      const int end = l.first_entry[cell + 1];
+      for (int e = l.first_entry[cell]; e < end; ++e) {
+        const LinkedEntry& entry = l.entry[e];
+        const double value = impulse_[3 * entry.point + c];
+        for (int k = 0; k < kCellNodes; ++k) part[k] += node_part(entry.weights, k, value);
       }
-      v_.cell_sum[i / 3].value[c] = part;
+      double* const to = cell_sum_ + cell * kSumStride + c;
+      for (int k = 0; k < kCellNodes; ++k) to[3 * k] = part[k];
     });
     team_.for_each(3 * links_.nodes(), [&](int i) {
       const int node = i / 3;
+      const double* const sums = cell_sum_ + i % 3;
+      const int end = l.first_term[node + 1];
       double all = 0;
-      for (int t = l.first_term[node]; t < l.first_term[node + 1]; ++t)
-        all += v_.cell_sum[l.term[t]].value[i % 3];
-      v_.change[node].value[i % 3] = all * task_.inverse_mass[l.slot[node]];
+      for (int t = l.first_term[node]; t < end; ++t) all += sums[l.term[t]];
+      change_[i] = all * l.inverse_mass[node];
     });
   }
 
   /// Sets the sums by entry to the points' weighted sums of the nodes' vectors.
   TREAD_BODY void to_points() const {
-    const PatchLinks& l = task_.links;
-    team_.for_each(6 * points_, [&](int i) {
-      const int entry = i / 3;
+    const PatchLinks& l = links_.links();
+    team_.for_each(3 * links_.cells(), [&](int i) {
+      const int cell = i / 3;
       const int c = i % 3;
-      const int* const node = l.cell_node + l.cell[entry] * kCellNodes;
-      v_.sum[entry].value[c] =
-          point_sum<double>(l.weights[entry], [&](int k) { return v_.change[node[k]].value[c]; });
+      double value[kCellNodes];
+      for (int k = 0; k < kCellNodes; ++k) value[k] = change_[l.cell_node[cell * kCellStride + k] + c];
+      const int end = l.first_entry[cell + 1];
+      for (int e = l.first_entry[cell]; e < end; ++e)
+        sum_[3 * e + c] = point_sum<double>(l.entry[e].weights, [&](int k) { return value[k]; });
     });
   }
 
@@ -155,42 +211,25 @@ class PatchTeam {
     to_points();
   }
 
-  TREAD_BODY void solve() {
-    set_free();
-    team_.for_each(tiles(), [&](int t) { v_.tile[t] = PointTile{}; });
-    team_.for_each(points_, [&](int i) {
-      lane(i).fill(point(i), task_.dt);
-      rub(i);
-      v_.impulse[i] = {{0.5 * task_.dt * task_.dt * point(i).area, 0, 0, 0}};
-    });
-    sum_impulses();
-    team_.for_each(points_, [&](int i) {
-      const double own = 0.5 * task_.dt * task_.dt * point(i).area * mobility(i);
-      const double all = sum(i, 0);
-      lane(i).tile.compliance[i % kLanes] = own < all ? all : own;
-    });
-    iterate();
-    team_.for_each(points_, [&](int i) { v_.impulse[i] = lane(i).settle(point(i), task_.dt); });
-    sum_impulses();
-    team_.for_each(points_, [&](int i) {
-      set_speeds(point(i), vector_of(v_.free[i]) + sum(i));
-      if constexpr (FrictionOf<Law>::kHasState)
-        if (point(i).pressure <= 0) state_[point(i).history] = {};
-    });
-    write_back();
-  }
-
-  /// Sets the points' velocities without contact.
+  /// Sets the nodes' and the points' velocities without contact.
   TREAD_BODY void set_free() const {
-    const PatchLinks& l = task_.links;
+    const PatchLinks& l = links_.links();
     team_.for_each(links_.nodes(), [&](int n) {
-      const Vec3 velocity = task_.v.at(l.slot[n]);
-      v_.change[n] = padded(l.of_wheel[n] != 0 ? globalise(l.basis[2 * n], l.basis[2 * n + 1], velocity)
-                                               : -1 * velocity);
+      const PatchNode& node = l.node[n];
+      const Vec3 velocity = task_.v.at(node.slot);
+      put(change_, n, node.of_wheel != 0 ? globalise(node.cosine, node.sine, velocity) : -1 * velocity);
     });
     to_points();
-    team_.for_each(points_,
-                   [&](int i) { v_.free[i] = padded(frame_velocity(point(i), task_.wheel) + sum(i)); });
+  }
+
+  /// Sets the constants of a point, and a unit pressure.
+  TREAD_BODY void fill(int i) const {
+    const ContactPoint& of = point(i);
+    const Vec3 frame = frame_velocity(of, task_.wheel);
+    for (int c = 0; c < 3; ++c) tile(i).free[c][i % kLanes] = frame[c] + sum(i, c);
+    lane(i).fill(of, task_.dt);
+    rub(i);
+    put(impulse_, i, {0.5 * task_.dt * task_.dt * of.area, 0, 0});
   }
 
   TREAD_BODY void rub(int i) const {
@@ -202,117 +241,99 @@ class PatchTeam {
     }
   }
 
-  /// PatchCells::own_mobility
-  TREAD_BODY double mobility(int i) const {
-    const PatchLinks& l = task_.links;
-    double own = 0;
-    const int entries[2] = {i, points_ + i};
-    for (const int entry : entries) {
-      const int* const node = l.cell_node + l.cell[entry] * kCellNodes;
-      for (int k = 0; k < kCellNodes; ++k) {
-        const double weight = l.weights[entry].along[k / 4] * l.weights[entry].across[k % 4];
-        own += weight * weight * task_.inverse_mass[l.slot[node[k]]];
+  /// PatchCells::own_mobility, in place of the second component of the sums, which unit pressures do not use.
+  TREAD_BODY void set_mobilities() const {
+    const PatchLinks& l = links_.links();
+    team_.for_each(links_.cells(), [&](int cell) {
+      double mobility[kCellNodes];
+      for (int k = 0; k < kCellNodes; ++k)
+        mobility[k] = l.inverse_mass[l.cell_node[cell * kCellStride + k] / 3];
+      for (int e = l.first_entry[cell]; e < l.first_entry[cell + 1]; ++e) {
+        const PatchWeights& weights = l.entry[e].weights;
+        double own = 0;
+        for (int k = 0; k < kCellNodes; ++k) {
+          const double weight = weights.along[k / 4] * weights.across[k % 4];
+          own += weight * weight * mobility[k];
+        }
+        sum_[3 * e + 1] = own;
       }
-    }
-    return own;
+    });
   }
 
-  struct Pair {
-    double first, second;
-  };
-
-  /// Largest of both of values(point), which are zero or more.
-  template <class Values>
-  TREAD_BODY Pair find_largest(const Values& values) const {
-    team_.for_each(kParts, [&](int part) {
-      Pair most{0, 0};
-      for (int i = part; i < points_; i += kParts) {
-        const Pair both = values(i);
-        if (both.first > most.first) most.first = both.first;
-        if (both.second > most.second) most.second = both.second;
-      }
-      largest_[2 * part] = most.first;
-      largest_[2 * part + 1] = most.second;
+  /// Guesses the tractions under compliance(point). Returns the momentum of the iterations to come.
+  template <class Compliance>
+  TREAD_BODY double begin(const Compliance& compliance) const {
+    const LargestPair largest = team_.largest(points_, [&](int i) {
+      const double own = compliance(i);
+      tile(i).compliance[i % kLanes] = own;
+      put(impulse_, i, vector_of(lane(i).guess(point(i), task_.springs, task_.dt)));
+      return LargestPair{own, 0};
     });
-    team_.for_each(2, [&](int j) {
-      for (int part = 1; part < kParts; ++part)
-        if (largest_[2 * part + j] > largest_[j]) largest_[j] = largest_[2 * part + j];
-    });
-    return {largest_[0], largest_[1]};
-  }
-
-  /// Guesses the tractions. Returns the momentum of the iterations to come.
-  TREAD_BODY double begin() const {
-    const Pair largest = find_largest([&](int i) { return Pair{lane(i).tile.compliance[i % kLanes], 0}; });
-    team_.for_each(points_, [&](int i) { v_.impulse[i] = lane(i).guess(point(i), task_.springs, task_.dt); });
     return momentum_of(task_.springs, largest.first);
   }
 
-  TREAD_BODY void respond(double momentum) const {
+  /// Returns the largest change and the largest pressure, the former squared.
+  TREAD_BODY LargestPair respond(double momentum) const {
     const PointIteration iteration{task_.springs, task_.dt, momentum};
-    team_.for_each(points_, [&](int i) {
-      double velocity[3];
-      for (int c = 0; c < 3; ++c)
-        velocity[c] = v_.free[i].value[c] + v_.sum[i].value[c] + v_.sum[points_ + i].value[c];
+    return team_.largest(points_, [&](int i) {
+      const double motion[3] = {velocity(i, 0), velocity(i, 1), velocity(i, 2)};
       double impulse[3];
-      respond_in(v_.tile[i / kLanes], OneLane{i % kLanes}, iteration, velocity, impulse);
-      v_.impulse[i] = {{impulse[0], impulse[1], impulse[2], 0}};
+      respond_in(tile(i), OneLane{i % kLanes}, iteration, motion, impulse);
+      for (int c = 0; c < 3; ++c) impulse_[3 * i + c] = impulse[c];
+      return LargestPair{tile(i).change[i % kLanes], tile(i).response[0][i % kLanes]};
     });
   }
 
   /// PatchSolver::iterate
   TREAD_BODY void iterate() const {
-    double momentum = begin();
+    double momentum = begin([&](int i) {
+      const double own = 0.5 * task_.dt * task_.dt * point(i).area * sum(i, 1);
+      const double all = sum(i, 0);
+      return own < all ? all : own;
+    });
     double first = 0;
     for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
       sum_impulses();
-      respond(iteration > 1 ? momentum : 0);
-      const Pair largest = find_largest([&](int i) {
-        const PointTile& tile = lane(i).tile;
-        return Pair{tile.change[i % kLanes], tile.response[0][i % kLanes]};
-      });
+      const LargestPair largest = respond(iteration > 1 ? momentum : 0);
       const double change = std::sqrt(largest.first);
       if (change <= kTractionTolerance * largest.second) break;
       if (iteration == 1) first = change;
-      if (change > kDivergence * first) {
-        team_.for_each(points_, [&](int i) { lane(i).tile.compliance[i % kLanes] *= 2; });
-        momentum = begin();
-      }
+      if (change > kDivergence * first)
+        momentum = begin([&](int i) { return 2 * tile(i).compliance[i % kLanes]; });
     }
   }
 
-  TREAD_BODY void write_back() const {
+  /// The points' outcomes lie where their weights lay, which no one reads any more.
+  TREAD_BODY PointOutcome* outcomes() const {
+    static_assert(sizeof(PointOutcome) <= 2 * sizeof(LinkedEntry));
+    return reinterpret_cast<PointOutcome*>(links_.links().entry);
+  }
+
+  /// Outcomes of the points, and motion of the nodes.
+  TREAD_BODY void finish() const {
     const NodeKick kick(task_.wheel.spin, task_.dt);
-    const PatchLinks& l = task_.links;
-    team_.for_each(links_.nodes(), [&](int n) {
-      const Vec3 change =
-          kick.local(vector_of(v_.change[n]), l.of_wheel[n] != 0, l.basis[2 * n], l.basis[2 * n + 1]);
-      task_.v.add(l.slot[n], change);
-      task_.u.add(l.slot[n], task_.dt * change);
+    team_.for_each(points_ + links_.nodes(), [&](int i) {
+      if (i < points_)
+        finish_point(i);
+      else
+        write_back(kick, i - points_);
     });
   }
 
-  /// Works and forces of the points, each part of them in its order, then the parts in theirs.
-  TREAD_BODY void sum_up() const {
-    team_.for_each(1, [&](int) { ends_[0] = 0; });
-    team_.for_each(kParts, [&](int part) {
-      Vec3 force;
-      PointWork works{0, 0};
-      for (int i = part; i < points_; i += kParts) {
-        force += point(i).area * point(i).traction();
-        works.frictional += point(i).area * point(i).frictional_work;
-        works.damping += task_.vectors.free[i].value[3];
-        if (point(i).pressure > 0 && at_the_end(point(i))) team_.add(ends_, 1);
-      }
-      const double values[5] = {force.x, force.y, force.z, works.frictional, works.damping};
-      for (int j = 0; j < 5; ++j) sums_[5 * part + j] = values[j];
-    });
-    team_.for_each(5, [&](int j) {
-      for (int part = 1; part < kParts; ++part) sums_[j] += sums_[5 * part + j];
-    });
-    team_.for_each(1, [&](int) {
-      *task_.result = {{sums_[0], sums_[1], sums_[2]}, sums_[3], sums_[4], points_, ends_[0]};
-    });
+  TREAD_BODY void finish_point(int i) const {
+    ContactPoint& of = point(i);
+    set_speeds(of, {velocity(i, 0), velocity(i, 1), velocity(i, 2)});
+    if constexpr (FrictionOf<Law>::kHasState)
+      if (of.pressure <= 0) state_[of.history] = {};
+    const PointWork work = settle_history(of, task_.history[of.history], task_.springs, task_.dt);
+    const Vec3 force = of.area * of.traction();
+    new (outcomes() + i) PointOutcome{of.pressure,
+                                      of.shear,
+                                      of.frictional_work,
+                                      {of.area * of.face_share[0], of.area * of.face_share[1],
+                                       of.area * of.face_share[2], of.area * of.face_share[3]},
+                                      {force.x, force.y, force.z, work.frictional, work.damping}};
+    if (of.pressure > 0 && at_the_end(of)) team_.add(ends_, 1);
   }
 
   TREAD_BODY bool at_the_end(const ContactPoint& of) const {
@@ -320,13 +341,16 @@ class PatchTeam {
                          of.position.x - task_.wheel.origin.x);
   }
 
-  /// Settles the points' histories, and adds averages at the nodes about the patch to the record.
+  TREAD_BODY void write_back(const NodeKick& kick, int n) const {
+    const PatchNode& node = links_.links().node[n];
+    const Vec3 of_node = {change_[3 * n], change_[3 * n + 1], change_[3 * n + 2]};
+    const Vec3 change = kick.local(of_node, node.of_wheel != 0, node.cosine, node.sine);
+    task_.v.add(node.slot, change);
+    task_.u.add(node.slot, task_.dt * change);
+  }
+
+  /// Adds averages at the nodes about the patch to the record.
   TREAD_BODY void record() const {
-    team_.for_each(points_, [&](int i) {
-      const PointWork work =
-          settle_history(point(i), task_.history[point(i).history], task_.springs, task_.dt);
-      task_.vectors.free[i].value[3] = work.damping;
-    });
     const int rows = task_.window.edges + 1;
     team_.for_each((task_.window.stations + 1) * rows, [&](int i) { record_node(i / rows, i % rows); });
   }
@@ -337,15 +361,20 @@ class PatchTeam {
     const RecordView& to = task_.record;
     const int at = window.first_station + station;
     const double area = to.length[at] * to.width[row];
-    NodalContact node;
+    NodalStress node;
+    bool met = false;
     for (int corner = 3; corner >= 0; --corner) {
       const int of_station = station - corner / 2;
       const int of_edge = row - corner % 2;
       if (of_station < 0 || of_station >= window.stations || of_edge < 0 || of_edge >= window.edges) continue;
       const int face = of_station * window.edges + of_edge;
-      for (int i = to.first_point[face]; i < to.first_point[face + 1]; ++i)
-        node.add(point(i), point(i).area * point(i).face_share[static_cast<std::size_t>(corner)] / area);
+      for (int i = to.first_point[face]; i < to.first_point[face + 1]; ++i) {
+        const PointOutcome& of = outcomes()[i];
+        node.add(of, of.share[corner] / area);
+        met = true;
+      }
     }
+    if (!met) return;
     const std::int64_t place = std::int64_t{at} * to.rows + row;
     if (node.pressure > to.max_pressure[place]) to.max_pressure[place] = node.pressure;
     const double shear = node.shear_size();
@@ -353,16 +382,34 @@ class PatchTeam {
     to.frictional_work[place] += node.frictional_work;
   }
 
+  /// Works and forces of the points, each part of them in its order, then the parts in theirs.
+  TREAD_BODY void sum_up() const {
+    team_.for_each(kSums * kParts, [&](int i) {
+      double own = 0;
+      for (int of = i / kSums; of < points_; of += kParts) own += outcomes()[of].sum[i % kSums];
+      sums_[i] = own;
+    });
+    team_.for_each(kSums, [&](int j) {
+      for (int part = 1; part < kParts; ++part) sums_[j] += sums_[kSums * part + j];
+    });
+    team_.for_each(1, [&](int) {
+      *task_.result = {{sums_[0], sums_[1], sums_[2]}, sums_[3], sums_[4], points_, ends_[0]};
+    });
+  }
+
   const Team& team_;
   const ContactTask& task_;
   const Law& law_;
   typename Law::State* state_;
-  LinkedPatch<Team> links_;
-  const PatchVectors& v_;
-  double* largest_;
   double* sums_;
   int* ends_;
+  LinkedPatch<Team> links_;
   int points_ = 0;
+  double* impulse_ = nullptr;   ///< by point
+  double* change_ = nullptr;    ///< by node
+  double* cell_sum_ = nullptr;  ///< kSumStride by cell
+  double* sum_ = nullptr;       ///< by entry
+  TeamTile* tile_ = nullptr;
 };
 
 }  // namespace tread

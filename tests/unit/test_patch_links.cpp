@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <climits>
 #include <cstddef>
+#include <numeric>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/aligned.hpp"
 #include "kernels/contact/patch_cells.hpp"
 #include "kernels/device/patch_links.hpp"
 
@@ -26,25 +28,28 @@ std::size_t index(std::int64_t i) {
 /// Threads one after the other, forwards or backwards.
 class Team {
  public:
-  explicit Team(bool backwards) : backwards_(backwards), memory_(1024) {}
+  explicit Team(bool backwards) : backwards_(backwards) {}
 
-  template <class T>
-  T* share(std::size_t n) const {
-    const std::size_t first =
-        std::exchange(used_, used_ + (n * sizeof(T) + sizeof(double) - 1) / sizeof(double));
-    return reinterpret_cast<T*>(memory_.data() + first);
-  }
   template <class Body>
   void for_each(int n, const Body& body) const {
     for (int i = 0; i < n; ++i) body(backwards_ ? n - 1 - i : i);
   }
+  template <class Value, class Take>
+  int number(int n, const Value& value, const Take& take) const {
+    int before = 0;
+    for (int i = 0; i < n; ++i) {
+      const int own = value(i);
+      take(i, before);
+      before += own;
+    }
+    return before;
+  }
   void least(int* at, int value) const { *at = std::min(*at, value); }
   int add(int* at, int value) const { return std::exchange(*at, *at + value); }
+  int claim(int* at, int value) const { return *at = *at == 0 ? value : *at; }
 
  private:
   bool backwards_;
-  mutable std::vector<double> memory_;
-  mutable std::size_t used_ = 0;
 };
 
 /// Nodes about a face; at the ends of a surface the outer ones repeat their neighbours.
@@ -81,23 +86,22 @@ std::vector<ContactPoint> made_up_points() {
 /// Room for the links of some points.
 struct Room {
   explicit Room(std::size_t points)
-      : ints(11, std::vector<int>(2 * kCellNodes * 2 * points + 1)),
-        weights(2 * points),
-        slot(index(kSlots)),
-        basis(2 * index(kSlots)),
-        at_slot(index(kSlots), INT_MAX) {}
+      : ints(13, std::vector<int>(4 * kCellStride * 2 * points)),
+        entry(2 * points),
+        node(index(kSlots)),
+        inverse_mass(index(kSlots)) {}
 
   PatchLinks links() {
-    return {ints[0].data(), weights.data(), ints[1].data(), ints[2].data(), ints[3].data(),
-            ints[4].data(), slot.data(),    basis.data(),   ints[5].data(), ints[6].data(),
-            ints[7].data(), at_slot.data(), ints[8].data(), ints[9].data()};
+    return {entry.data(),   ints[0].data(),      ints[1].data(),  ints[2].data(),
+            node.data(),    inverse_mass.data(), ints[3].data(),  ints[4].data(),
+            ints[5].data(), ints[6].data(),      ints[7].data(),  ints[8].data(),
+            ints[9].data(), ints[10].data(),     ints[11].data(), ints[12].data()};
   }
 
   std::vector<std::vector<int>> ints;
-  std::vector<PatchWeights> weights;
-  std::vector<std::int64_t> slot;
-  std::vector<double> basis;
-  std::vector<int> at_slot;
+  std::vector<LinkedEntry> entry;
+  std::vector<PatchNode> node;
+  std::vector<double> inverse_mass;
 };
 
 TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
@@ -106,36 +110,43 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
   ASSERT_GT(count, 50);
   PatchCells cells;
   cells.reserve(kSlots, points.size(), index(kSlots));
-  const std::vector<double> inverse_mass(index(kSlots), 1.0);
+  std::vector<double> inverse_mass(index(kSlots));
+  std::iota(inverse_mass.begin(), inverse_mass.end(), 1.0);
   cells.link(points, inverse_mass.data());
   std::vector<PatchVector> numbers(points.size());
   for (int i = 0; i < count; ++i) numbers[index(i)].value[0] = i + 1;
   std::vector<PatchVector> sums(cells.nodes().size());
   cells.to_nodes(numbers, sums);
 
-  for (const bool backwards : {false, true}) {
-    Room room(points.size());
-    const PatchLinks links = room.links();
-    const Team team(backwards);
-    LinkedPatch<Team> patch(team, links);
-    for (int again = 0; again < 2; ++again) patch.link(points.data(), count);  // it leaves no traces
-    ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
-    for (int n = 0; n < patch.nodes(); ++n) {
-      const PatchCells::Node& node = cells.nodes()[index(n)];
-      EXPECT_EQ(links.slot[n], node.slot);
-      EXPECT_EQ(links.of_wheel[n] != 0, node.of_wheel);
-      EXPECT_EQ(links.basis[2 * n], node.cosine);
-      EXPECT_EQ(links.basis[2 * n + 1], node.sine);
-      double sum = 0;
-      for (int t = links.first_term[n]; t < links.first_term[n + 1]; ++t) {
-        EXPECT_TRUE(t == links.first_term[n] || links.term[t - 1] < links.term[t]);
-        const int cell = links.term[t] / kCellNodes;
-        for (int e = links.first_listed[cell]; e < links.first_listed[cell + 1]; ++e)
-          sum += 0.0625 * (links.listed[e] % count + 1);
+  for (const bool backwards : {false, true})
+    for (const std::size_t shared : {std::size_t{0}, std::size_t{30000}, std::size_t{1} << 20}) {
+      Room room(points.size());
+      const PatchLinks of_room = room.links();
+      AlignedVector<std::byte> memory(shared);
+      const Team team(backwards);
+      LinkedPatch<Team> patch(team, PatchArena(std::span<std::byte>(memory)), of_room);
+      patch.link(points.data(), count, inverse_mass.data());
+      const PatchLinks& links = patch.links();
+      ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
+      for (int n = 0; n < patch.nodes(); ++n) {
+        const PatchCells::Node& node = cells.nodes()[index(n)];
+        EXPECT_EQ(links.node[n].slot, node.slot);
+        EXPECT_EQ(links.node[n].of_wheel != 0, node.of_wheel);
+        EXPECT_EQ(links.node[n].cosine, node.cosine);
+        EXPECT_EQ(links.node[n].sine, node.sine);
+        EXPECT_EQ(links.inverse_mass[n], node.inverse_mass);
+        double sum = 0;
+        for (int t = links.first_term[n]; t < links.first_term[n + 1]; ++t) {
+          EXPECT_TRUE(t == links.first_term[n] || links.term[t - 1] < links.term[t]);
+          const int cell = links.term[t] / kSumStride;
+          EXPECT_EQ(links.cell_node[cell * kCellStride + links.term[t] % kSumStride / 3], 3 * n);
+          for (int e = links.first_entry[cell]; e < links.first_entry[cell + 1]; ++e)
+            sum += 0.0625 * (links.entry[e].point + 1);
+        }
+        EXPECT_DOUBLE_EQ(sum * node.inverse_mass, sums[index(n)].value[0]);
       }
-      EXPECT_DOUBLE_EQ(sum, sums[index(n)].value[0]);
+      for (int e = 0; e < 2 * count; ++e) EXPECT_EQ(links.entry[links.place[e]].point, e % count);
     }
-  }
 }
 
 }  // namespace
