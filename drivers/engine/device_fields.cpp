@@ -13,6 +13,14 @@
 
 namespace tread {
 
+namespace {
+
+/// Displacements and velocities of a group [B].
+template <class Real, class U>
+inline constexpr std::size_t kGroupBytes = kGroupValues*(sizeof(U) + sizeof(Real));
+
+}  // namespace
+
 template <class Real, class U>
 DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> device)
     : Base(model),
@@ -79,7 +87,9 @@ void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::make_room() {
-  packed_f_.resize(host_groups_.size() * kGroupValues);
+  locked_ = {lock_pages(*device_, this->u()), lock_pages(*device_, this->v()),
+             lock_pages(*device_, this->f())};
+  packed_f_ = HostArray<Real>(*device_, host_groups_.size() * kGroupValues);
   device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
   const std::size_t most = host_groups_.size() + (surfaces_ ? surfaces_->capacity() : 0);
   sent_groups_.reserve(most);
@@ -87,12 +97,10 @@ void DeviceFields<Real, U>::make_room() {
   sent_.assign(group_mark_.size(), 0);
   copied_.assign(group_mark_.size(), 0);
   for (const std::int64_t group : host_groups_) sent_[index(group)] = 1;
-  packed_u_.resize(most * kGroupValues);
-  packed_v_.resize(most * kGroupValues);
   device_sent_groups_ = DeviceArray<std::int64_t>(*device_, most);
   device_sent_groups_.upload(host_groups_.data(), host_groups_.size());
-  device_u_ = DeviceArray<U>(*device_, packed_u_.size());
-  device_v_ = DeviceArray<Real>(*device_, packed_v_.size());
+  packed_ = HostArray<std::byte>(*device_, most * kGroupBytes<Real, U>);
+  device_packed_ = DeviceArray<std::byte>(*device_, packed_.size());
 }
 
 template <class Real, class U>
@@ -127,20 +135,25 @@ void DeviceFields<Real, U>::send() {
   device_whole_ = true;
 }
 
-/// Sends what the host has moved.
+/// Packed values of the groups that are sent.
+template <class Real, class U>
+GroupValues<Real, U> DeviceFields<Real, U>::packed(std::byte* values) const {
+  auto* const u = reinterpret_cast<U*>(values);
+  auto* const v = reinterpret_cast<Real*>(u + sent_groups_.size() * kGroupValues);
+  return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
+}
+
+/// Sends what the host has moved, by one copy.
 template <class Real, class U>
 void DeviceFields<Real, U>::send_groups() {
   add_patch_groups();
-  const std::size_t values = sent_groups_.size() * kGroupValues;
-  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t packed, std::int64_t place) {
-    std::copy_n(this->u().data() + place, kGroupValues, packed_u_.data() + packed);
-    std::copy_n(this->v().data() + place, kGroupValues, packed_v_.data() + packed);
+  const GroupValues<Real, U> values = packed(packed_.data());
+  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(this->u().data() + place, kGroupValues, values.u + at);
+    std::copy_n(this->v().data() + place, kGroupValues, values.v + at);
   });
-  device_u_.upload(packed_u_.data(), values);
-  device_v_.upload(packed_v_.data(), values);
-  const GroupValues<Real, U> sent{device_sent_groups_.data(), std::ssize(sent_groups_), device_u_.data(),
-                                  device_v_.data()};
-  kernels_.place(sent, now_.u.data(), now_.v.data());
+  device_packed_.upload(packed_.data(), sent_groups_.size() * kGroupBytes<Real, U>);
+  kernels_.place(packed(device_packed_.data()), now_.u.data(), now_.v.data());
 }
 
 /// Adds the groups that the tractions have moved. Those of tied nodes follow on the device.

@@ -102,6 +102,13 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     return memory;
   }
   void release(void* memory) override { cudaFree(memory); }
+  /// A limit of the host's locked memory is no failure: copies are slower then.
+  void lock(void* pages, std::size_t bytes) override {
+    if (cudaHostRegister(pages, bytes, cudaHostRegisterDefault) != cudaSuccess) cudaGetLastError();
+  }
+  void unlock(void* pages) override {
+    if (cudaHostUnregister(pages) != cudaSuccess) cudaGetLastError();
+  }
 
   void wait() override { check(cudaDeviceSynchronize(), "waiting for it"); }
 

@@ -47,6 +47,10 @@ class Device {
   /// Zeros. ResourceError where there is no room.
   virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory) = 0;
+  /// Keeps whole pages of the host in place until they are unlocked, so that copies pass through no other
+  /// memory. Nothing where the host may not.
+  virtual void lock(void* /*pages*/, std::size_t /*bytes*/) {}
+  virtual void unlock(void* /*pages*/) {}
   /// Copies end before these return. ResourceError where the device is lost.
   void upload(void* to, const void* from, std::size_t bytes) {
     traffic_.to_device += static_cast<std::int64_t>(bytes);

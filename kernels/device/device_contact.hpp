@@ -9,6 +9,7 @@
 #include "kernels/contact/contact.hpp"
 #include "kernels/contact/surface_fields.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/device/host_array.hpp"
 
 namespace tread {
 
@@ -60,8 +61,8 @@ class DeviceContact {
   FrictionLaw law_;
   void* law_state_ = nullptr;
   std::size_t law_state_bytes_ = 0;
-  PatchResult result_{};
-  std::vector<ContactPoint> points_;
+  HostArray<PatchResult> result_;
+  HostArray<ContactPoint> points_;
   bool sent_ = false;  ///< the device holds histories and record
 };
 

@@ -14,8 +14,8 @@ template <class Real, class U>
 struct GroupValues {
   const std::int64_t* groups = nullptr;
   std::int64_t count = 0;
-  const U* u = nullptr;     ///< [m]
-  const Real* v = nullptr;  ///< [m/s]
+  U* u = nullptr;     ///< [m]
+  Real* v = nullptr;  ///< [m/s]
 };
 
 /// Nodes of a running surface on a stretch of tiles, which may pass the end of a full turn.
