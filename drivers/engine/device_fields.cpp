@@ -17,7 +17,7 @@ namespace {
 
 /// Displacements and velocities of a group [B].
 template <class Real, class U>
-inline constexpr std::size_t kGroupBytes = kGroupValues*(sizeof(U) + sizeof(Real));
+inline constexpr std::size_t kGroupBytes = (sizeof(U) + sizeof(Real)) * kGroupValues;
 
 }  // namespace
 
@@ -30,7 +30,6 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       contact_(model.contact.get()) {
   const Mesh& mesh = model.mesh;
   const std::size_t components = index(3 * mesh.slots);
-  std::size_t tiles = 0;
   for (Arrays* arrays : {&now_, &next_}) {
     arrays->u = DeviceArray<U>(*device_, components);
     arrays->v = DeviceArray<Real>(*device_, components);
@@ -43,12 +42,10 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
     for (Arrays* arrays : {&now_, &next_}) arrays->state.emplace_back(*device_, values);
-    tiles += block.tiles.size();
   }
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
-  no_whole_tiles_.assign(tiles, 0);
   const std::vector<std::int64_t> held = held_unknowns(mesh, model.restrained);
   held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
   choose_host_groups(model);
@@ -301,7 +298,8 @@ template <class Real, class U>
 void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
   if (!surfaces_) return;
   surfaces_->fetch(contact_->near(wheel, dt), now_.u.data(), now_.v.data());
-  parallel_ranges(surfaces_->groups(), [&](std::int64_t first, std::int64_t last) {
+  const std::int64_t groups = surfaces_->groups();
+  ranges_of_values(groups, kGroupValues * groups, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       const std::int64_t group = surfaces_->group(i);
       if (group_mark_[index(group)] >= 0) continue;
@@ -351,7 +349,7 @@ void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_rest(const StepLoads& loads) {
-  host_update_.move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, no_whole_tiles_);
+  host_update_.move_deferred(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
 template <class Real, class U>

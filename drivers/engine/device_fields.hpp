@@ -80,7 +80,6 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves or kKeeps
   DeviceArray<int> device_group_mark_;
   BasicTimeUpdate<Real, U> host_update_;  ///< of the host's groups alone
-  std::vector<unsigned char> no_whole_tiles_;
   HostArray<Real> packed_f_;              ///< of the host's groups: [group][component][lane]
   DeviceArray<Real> device_f_;
 
