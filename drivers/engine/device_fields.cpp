@@ -140,16 +140,17 @@ GroupValues<Real, U> DeviceFields<Real, U>::packed(std::byte* values) const {
   return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
 }
 
-/// Sends what the host has moved, by one copy.
+/// Sends what the host has moved, by one copy. The host packs again after it has waited for a later kernel.
 template <class Real, class U>
 void DeviceFields<Real, U>::send_groups() {
   add_patch_groups();
+  if (sent_groups_.empty()) return;
   const GroupValues<Real, U> values = packed(packed_.data());
   for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t at, std::int64_t place) {
     std::copy_n(this->u().data() + place, kGroupValues, values.u + at);
     std::copy_n(this->v().data() + place, kGroupValues, values.v + at);
   });
-  device_packed_.upload(packed_.data(), sent_groups_.size() * kGroupBytes<Real, U>);
+  device_->start_upload(device_packed_.data(), packed_.data(), sent_groups_.size() * kGroupBytes<Real, U>);
   kernels_.place(packed(device_packed_.data()), now_.u.data(), now_.v.data());
 }
 
@@ -240,10 +241,19 @@ TileVariant DeviceFields<Real, U>::variant(int block) const {
           internal.law(block)};
 }
 
+/// All blocks at once: a small one leaves most of a device idle.
 template <class Real, class U>
 void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
-  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b)
+  const auto march = [&](int b) {
     kernels_.march(variant(b), blocks_[index(b)]->at(loads), march_fields(b, moves));
+  };
+  const int last = static_cast<int>(blocks_.size()) - 1;
+  for (int b = 0; b < last; ++b) {
+    const Beside beside(*device_, kFanQueue + b % (kQueues - kFanQueue));
+    march(b);
+  }
+  march(last);
+  for (int b = 0; b < std::min(last, kQueues - kFanQueue); ++b) device_->after(kFanQueue + b);
 }
 
 /// Moves the primary nodes, restrains all, and lets the secondary nodes follow.
@@ -266,28 +276,38 @@ void DeviceFields<Real, U>::internal_force() {
   fetch_law_state(next_);
 }
 
+/// Goes on after the march.
 template <class Real, class U>
-void DeviceFields<Real, U>::move_on_device(const StepLoads& loads) {
-  march(loads, true);
+void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
   tie(loads);
   std::swap(now_, next_);
   ++step_;
   host_moves_ = true;
+  if (device_contact_) device_contact_->start(now_.u.data(), now_.v.data());
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
-  move_on_device(loads);
-  fetch_host_forces();
+  march(loads, true);
+  start_host_forces();
+  finish_motion(loads);
+  take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
   if (device_->spoils_copies()) spoil();
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::fetch_host_forces() {
-  device_f_.download(packed_f_.data());
+void DeviceFields<Real, U>::start_host_forces() {
+  const Beside beside(*device_, kCopyQueue);
+  if (packed_f_.size() > 0)
+    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::take_host_forces() {
+  device_->finish(kCopyQueue);
   for_groups(host_groups_, 0, std::ssize(host_groups_), [&](std::int64_t packed, std::int64_t place) {
     std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
   });
@@ -319,7 +339,7 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
 /// In steps that look at the energies the host's copies move by the tractions, too.
 template <class Real, class U>
 void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
-  device_contact_->resolve(now_.u.data(), now_.v.data());
+  device_contact_->resolve();
   if (!host_whole_) return;
   device_contact_->fetch_points();
   fetch_surfaces(wheel, dt);
@@ -342,7 +362,8 @@ void DeviceFields<Real, U>::spoil() {
 /// the device count.
 template <class Real, class U>
 void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
-  move_on_device(loads);
+  march(loads, true);
+  finish_motion(loads);
   Base::move_all(loads);
   apart_ = true;
 }

@@ -55,8 +55,9 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   TileVariant variant(int block) const;
   void march(const StepLoads& loads, bool moves);
   void tie(const StepLoads& loads);
-  void move_on_device(const StepLoads& loads);
-  void fetch_host_forces();
+  void finish_motion(const StepLoads& loads);
+  void start_host_forces();
+  void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);
   void fetch_nodes();
   bool has_contact() const;

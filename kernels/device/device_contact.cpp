@@ -174,14 +174,22 @@ void DeviceContact::search(NodeField displacement, NodeField velocity, const Bod
   task_.wheel = wheel;
   task_.u = displacement;
   task_.v = velocity;
+  const Beside beside(*device_, kSearchQueue);
   device_->search(task_);
+  searched_ = true;
 }
 
-void DeviceContact::resolve(NodeField displacement, NodeField velocity) {
+void DeviceContact::start(NodeField displacement, NodeField velocity) {
+  if (!std::exchange(searched_, false)) return;
   task_.u = displacement;
   task_.v = velocity;
+  device_->after(kSearchQueue);
   device_->resolve(task_, law_, law_state_);
-  device_->download(result_.data(), task_.result, sizeof(PatchResult));
+  device_->start_download(result_.data(), task_.result, sizeof(PatchResult));
+}
+
+void DeviceContact::resolve() {
+  device_->finish(kMainQueue);
   const PatchResult& result = *result_.data();
   contact_->take({result.force_on_rail, result.frictional_work, result.damping_work});
   if (result.at_the_end != 0) fetch_points();
