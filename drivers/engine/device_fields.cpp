@@ -13,14 +13,6 @@
 
 namespace tread {
 
-namespace {
-
-/// Displacements and velocities of a group [B].
-template <class Real, class U>
-inline constexpr std::size_t kGroupBytes = (sizeof(U) + sizeof(Real)) * kGroupValues;
-
-}  // namespace
-
 template <class Real, class U>
 DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> device)
     : Base(model),
@@ -96,7 +88,7 @@ void DeviceFields<Real, U>::make_room() {
   for (const std::int64_t group : host_groups_) sent_[index(group)] = 1;
   device_sent_groups_ = DeviceArray<std::int64_t>(*device_, most);
   device_sent_groups_.upload(host_groups_.data(), host_groups_.size());
-  packed_ = HostArray<std::byte>(*device_, most * kGroupBytes<Real, U>);
+  packed_ = HostArray<std::byte>(*device_, most * kGroupBytes);
   device_packed_ = DeviceArray<std::byte>(*device_, packed_.size());
 }
 
@@ -150,7 +142,7 @@ void DeviceFields<Real, U>::send_groups() {
     std::copy_n(this->u().data() + place, kGroupValues, values.u + at);
     std::copy_n(this->v().data() + place, kGroupValues, values.v + at);
   });
-  device_->start_upload(device_packed_.data(), packed_.data(), sent_groups_.size() * kGroupBytes<Real, U>);
+  device_->start_upload(device_packed_.data(), packed_.data(), sent_groups_.size() * kGroupBytes);
   kernels_.place(packed(device_packed_.data()), now_.u.data(), now_.v.data());
 }
 
@@ -256,12 +248,23 @@ void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
   for (int b = 0; b < std::min(last, kQueues - kFanQueue); ++b) device_->after(kFanQueue + b);
 }
 
+template <class Real, class U>
+void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
+  kernels_.sum_stations(ties_->sums(), force_.data());
+  PrimaryBlocks<Real> primary;
+  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
+    if (const PrimaryNodes nodes = ties_->primary(b); nodes.count > 0)
+      primary.add(nodes, blocks_[index(b)]->at(loads), variant(b));
+    if (primary.blocks == PrimaryBlocks<Real>::kMost)
+      kernels_.move_primary(std::exchange(primary, {}), march_fields(b, true));
+  }
+  kernels_.move_primary(primary, march_fields(0, true));
+}
+
 /// Moves the primary nodes, restrains all, and lets the secondary nodes follow.
 template <class Real, class U>
 void DeviceFields<Real, U>::tie(const StepLoads& loads) {
-  for (int b = 0; ties_ && b < static_cast<int>(blocks_.size()); ++b)
-    if (const TiedNodes primary = ties_->primary(b); primary.count > 0)
-      kernels_.move_primary(variant(b), primary, blocks_[index(b)]->at(loads), march_fields(b, true));
+  if (ties_) move_primary(loads);
   kernels_.hold(static_cast<std::int64_t>(held_.size()), held_.data(), next_.u.data(), next_.v.data());
   if (ties_) kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
 }

@@ -42,6 +42,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
  private:
   using Base = PreciseFields<Real, U>;
+  /// Displacements and velocities of a group [B].
+  static constexpr std::size_t kGroupBytes = 3 * kLanes * (sizeof(U) + sizeof(Real));
   /// Fields that a step reads, and where it writes those that elements of several teams read.
   struct Arrays {
     DeviceArray<U> u;
@@ -54,6 +56,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   MarchFields<Real, U> march_fields(int block, bool moves);
   TileVariant variant(int block) const;
   void march(const StepLoads& loads, bool moves);
+  void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
   void finish_motion(const StepLoads& loads);
   void start_host_forces();
