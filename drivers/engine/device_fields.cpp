@@ -22,7 +22,6 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       contact_(model.contact.get()) {
   const Mesh& mesh = model.mesh;
   const std::size_t components = index(3 * mesh.slots);
-  std::size_t tiles = 0;
   for (Arrays* arrays : {&now_, &next_}) {
     arrays->u = DeviceArray<U>(*device_, components);
     arrays->v = DeviceArray<Real>(*device_, components);
@@ -35,12 +34,10 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
     for (Arrays* arrays : {&now_, &next_}) arrays->state.emplace_back(*device_, values);
-    tiles += block.tiles.size();
   }
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
-  no_whole_tiles_.assign(tiles, 0);
   const std::vector<std::int64_t> held = held_unknowns(mesh, model.restrained);
   held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
   choose_host_groups(model);
@@ -79,7 +76,9 @@ void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::make_room() {
-  packed_f_.resize(host_groups_.size() * kGroupValues);
+  locked_ = {lock_pages(*device_, this->u()), lock_pages(*device_, this->v()),
+             lock_pages(*device_, this->f())};
+  packed_f_ = HostArray<Real>(*device_, host_groups_.size() * kGroupValues);
   device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
   const std::size_t most = host_groups_.size() + (surfaces_ ? surfaces_->capacity() : 0);
   sent_groups_.reserve(most);
@@ -87,12 +86,10 @@ void DeviceFields<Real, U>::make_room() {
   sent_.assign(group_mark_.size(), 0);
   copied_.assign(group_mark_.size(), 0);
   for (const std::int64_t group : host_groups_) sent_[index(group)] = 1;
-  packed_u_.resize(most * kGroupValues);
-  packed_v_.resize(most * kGroupValues);
   device_sent_groups_ = DeviceArray<std::int64_t>(*device_, most);
   device_sent_groups_.upload(host_groups_.data(), host_groups_.size());
-  device_u_ = DeviceArray<U>(*device_, packed_u_.size());
-  device_v_ = DeviceArray<Real>(*device_, packed_v_.size());
+  packed_ = HostArray<std::byte>(*device_, most * kGroupBytes);
+  device_packed_ = DeviceArray<std::byte>(*device_, packed_.size());
 }
 
 template <class Real, class U>
@@ -127,20 +124,26 @@ void DeviceFields<Real, U>::send() {
   device_whole_ = true;
 }
 
-/// Sends what the host has moved.
+/// Packed values of the groups that are sent.
+template <class Real, class U>
+GroupValues<Real, U> DeviceFields<Real, U>::packed(std::byte* values) const {
+  auto* const u = reinterpret_cast<U*>(values);
+  auto* const v = reinterpret_cast<Real*>(u + sent_groups_.size() * kGroupValues);
+  return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
+}
+
+/// Sends what the host has moved, by one copy. The host packs again after it has waited for a later kernel.
 template <class Real, class U>
 void DeviceFields<Real, U>::send_groups() {
   add_patch_groups();
-  const std::size_t values = sent_groups_.size() * kGroupValues;
-  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t packed, std::int64_t place) {
-    std::copy_n(this->u().data() + place, kGroupValues, packed_u_.data() + packed);
-    std::copy_n(this->v().data() + place, kGroupValues, packed_v_.data() + packed);
+  if (sent_groups_.empty()) return;
+  const GroupValues<Real, U> values = packed(packed_.data());
+  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(this->u().data() + place, kGroupValues, values.u + at);
+    std::copy_n(this->v().data() + place, kGroupValues, values.v + at);
   });
-  device_u_.upload(packed_u_.data(), values);
-  device_v_.upload(packed_v_.data(), values);
-  const GroupValues<Real, U> sent{device_sent_groups_.data(), std::ssize(sent_groups_), device_u_.data(),
-                                  device_v_.data()};
-  kernels_.place(sent, now_.u.data(), now_.v.data());
+  device_->start_upload(device_packed_.data(), packed_.data(), sent_groups_.size() * kGroupBytes);
+  kernels_.place(packed(device_packed_.data()), now_.u.data(), now_.v.data());
 }
 
 /// Adds the groups that the tractions have moved. Those of tied nodes follow on the device.
@@ -230,18 +233,38 @@ TileVariant DeviceFields<Real, U>::variant(int block) const {
           internal.law(block)};
 }
 
+/// All blocks at once: a small one leaves most of a device idle.
 template <class Real, class U>
 void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
-  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b)
+  const auto march = [&](int b) {
     kernels_.march(variant(b), blocks_[index(b)]->at(loads), march_fields(b, moves));
+  };
+  const int last = static_cast<int>(blocks_.size()) - 1;
+  for (int b = 0; b < last; ++b) {
+    const Beside beside(*device_, kFanQueue + b % (kQueues - kFanQueue));
+    march(b);
+  }
+  march(last);
+  for (int b = 0; b < std::min(last, kQueues - kFanQueue); ++b) device_->after(kFanQueue + b);
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
+  kernels_.sum_stations(ties_->sums(), force_.data());
+  PrimaryBlocks<Real> primary;
+  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
+    if (const PrimaryNodes nodes = ties_->primary(b); nodes.count > 0)
+      primary.add(nodes, blocks_[index(b)]->at(loads), variant(b));
+    if (primary.blocks == PrimaryBlocks<Real>::kMost)
+      kernels_.move_primary(std::exchange(primary, {}), march_fields(b, true));
+  }
+  kernels_.move_primary(primary, march_fields(0, true));
 }
 
 /// Moves the primary nodes, restrains all, and lets the secondary nodes follow.
 template <class Real, class U>
 void DeviceFields<Real, U>::tie(const StepLoads& loads) {
-  for (int b = 0; ties_ && b < static_cast<int>(blocks_.size()); ++b)
-    if (const TiedNodes primary = ties_->primary(b); primary.count > 0)
-      kernels_.move_primary(variant(b), primary, blocks_[index(b)]->at(loads), march_fields(b, true));
+  if (ties_) move_primary(loads);
   kernels_.hold(static_cast<std::int64_t>(held_.size()), held_.data(), next_.u.data(), next_.v.data());
   if (ties_) kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
 }
@@ -256,28 +279,38 @@ void DeviceFields<Real, U>::internal_force() {
   fetch_law_state(next_);
 }
 
+/// Goes on after the march.
 template <class Real, class U>
-void DeviceFields<Real, U>::move_on_device(const StepLoads& loads) {
-  march(loads, true);
+void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
   tie(loads);
   std::swap(now_, next_);
   ++step_;
   host_moves_ = true;
+  if (device_contact_) device_contact_->start(now_.u.data(), now_.v.data());
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
-  move_on_device(loads);
-  fetch_host_forces();
+  march(loads, true);
+  start_host_forces();
+  finish_motion(loads);
+  take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
   if (device_->spoils_copies()) spoil();
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::fetch_host_forces() {
-  device_f_.download(packed_f_.data());
+void DeviceFields<Real, U>::start_host_forces() {
+  const Beside beside(*device_, kCopyQueue);
+  if (packed_f_.size() > 0)
+    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::take_host_forces() {
+  device_->finish(kCopyQueue);
   for_groups(host_groups_, 0, std::ssize(host_groups_), [&](std::int64_t packed, std::int64_t place) {
     std::copy_n(packed_f_.data() + packed, kGroupValues, this->f().data() + place);
   });
@@ -288,7 +321,8 @@ template <class Real, class U>
 void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
   if (!surfaces_) return;
   surfaces_->fetch(contact_->near(wheel, dt), now_.u.data(), now_.v.data());
-  parallel_ranges(surfaces_->groups(), [&](std::int64_t first, std::int64_t last) {
+  const std::int64_t groups = surfaces_->groups();
+  ranges_of_values(groups, kGroupValues * groups, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
       const std::int64_t group = surfaces_->group(i);
       if (group_mark_[index(group)] >= 0) continue;
@@ -308,7 +342,7 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
 /// In steps that look at the energies the host's copies move by the tractions, too.
 template <class Real, class U>
 void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
-  device_contact_->resolve(now_.u.data(), now_.v.data());
+  device_contact_->resolve();
   if (!host_whole_) return;
   device_contact_->fetch_points();
   fetch_surfaces(wheel, dt);
@@ -331,14 +365,15 @@ void DeviceFields<Real, U>::spoil() {
 /// the device count.
 template <class Real, class U>
 void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
-  move_on_device(loads);
+  march(loads, true);
+  finish_motion(loads);
   Base::move_all(loads);
   apart_ = true;
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_rest(const StepLoads& loads) {
-  host_update_.move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, no_whole_tiles_);
+  host_update_.move_deferred(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
 template <class Real, class U>

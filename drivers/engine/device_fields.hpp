@@ -6,6 +6,8 @@
 // Contact with surfaces that the device does not know runs on the host, with copies of both about the patch.
 // The views of NodeFields show the host's copies.
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "kernels/device/device.hpp"
 #include "kernels/device/device_contact.hpp"
 #include "kernels/device/device_ties.hpp"
+#include "kernels/device/host_array.hpp"
 #include "kernels/device/surface_copies.hpp"
 
 namespace tread {
@@ -39,6 +42,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
  private:
   using Base = PreciseFields<Real, U>;
+  /// Displacements and velocities of a group [B].
+  static constexpr std::size_t kGroupBytes = 3 * kLanes * (sizeof(U) + sizeof(Real));
   /// Fields that a step reads, and where it writes those that elements of several teams read.
   struct Arrays {
     DeviceArray<U> u;
@@ -51,9 +56,11 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   MarchFields<Real, U> march_fields(int block, bool moves);
   TileVariant variant(int block) const;
   void march(const StepLoads& loads, bool moves);
+  void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
-  void move_on_device(const StepLoads& loads);
-  void fetch_host_forces();
+  void finish_motion(const StepLoads& loads);
+  void start_host_forces();
+  void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);
   void fetch_nodes();
   bool has_contact() const;
@@ -61,6 +68,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void resolve(const BodyFrame& wheel, double dt) override;
   void send();
   void send_groups();
+  GroupValues<Real, U> packed(std::byte* values) const;
   void add_patch_groups();
   void fetch_law_state(const Arrays& from);
   void advance_device_lag();
@@ -76,8 +84,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves or kKeeps
   DeviceArray<int> device_group_mark_;
   BasicTimeUpdate<Real, U> host_update_;  ///< of the host's groups alone
-  std::vector<unsigned char> no_whole_tiles_;
-  AlignedVector<Real> packed_f_;  ///< of the host's groups: [group][component][lane]
+  HostArray<Real> packed_f_;              ///< of the host's groups: [group][component][lane]
   DeviceArray<Real> device_f_;
 
   std::optional<DeviceTies> ties_;  ///< none: there are no ties, or connectors act on tied nodes
@@ -92,10 +99,9 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::vector<std::int64_t> sent_groups_;  ///< the host's, then those of the patch
   std::vector<unsigned char> sent_;        ///< by group: in sent_groups_
   DeviceArray<std::int64_t> device_sent_groups_;
-  AlignedVector<U> packed_u_;  ///< of sent_groups_: [group][component][lane]
-  AlignedVector<Real> packed_v_;
-  DeviceArray<U> device_u_;
-  DeviceArray<Real> device_v_;
+  HostArray<std::byte> packed_;  ///< of sent_groups_: displacements [group][component][lane], then velocities
+  DeviceArray<std::byte> device_packed_;
+  std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present
   bool apart_ = false;         ///< but by motion of its own, whose bits are not the device's

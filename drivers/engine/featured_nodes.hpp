@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/parallel/parallel.hpp"
+#include "core/parallel/few_values.hpp"
 #include "drivers/engine/model.hpp"
 
 namespace tread {
@@ -28,7 +28,7 @@ std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::in
 template <class Copy>
 void for_groups(const std::vector<std::int64_t>& groups, std::int64_t first, std::int64_t last,
                 const Copy& copy) {
-  parallel_ranges(last - first, [&](std::int64_t from, std::int64_t to) {
+  ranges_of_values(last - first, kGroupValues * (last - first), [&](std::int64_t from, std::int64_t to) {
     for (std::int64_t i = first + from; i < first + to; ++i)
       copy(i * kGroupValues, groups[static_cast<std::size_t>(i)] * kGroupValues);
   });

@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "core/page_vector.hpp"
 #include "core/parallel/chunks.hpp"
 #include "drivers/engine/node_fields.hpp"
 #include "kernels/material/branch_lag.hpp"
@@ -133,9 +134,9 @@ class PreciseFields : public NodeFields {
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
 
   BasicTimeUpdate<Real, U>& update() { return update_; }
-  AlignedVector<U>& u() { return u_; }
-  AlignedVector<Real>& v() { return v_; }
-  AlignedVector<Real>& f() { return f_; }
+  PageVector<U>& u() { return u_; }
+  PageVector<Real>& v() { return v_; }
+  PageVector<Real>& f() { return f_; }
   std::optional<BranchLag<Real>>& q() { return q_; }
   std::optional<LawState<Real>>& law_state() { return state_; }
   ForceFields<Real, U> force_fields() {
@@ -159,8 +160,8 @@ class PreciseFields : public NodeFields {
   const Mesh* mesh_;
   std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
   BasicTimeUpdate<Real, U> update_;
-  AlignedVector<U> u_;
-  AlignedVector<Real> v_, f_;
+  PageVector<U> u_;
+  PageVector<Real> v_, f_;
   std::optional<BranchLag<Real>> q_;
   std::optional<LawState<Real>> state_;
 };

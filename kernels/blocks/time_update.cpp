@@ -3,13 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "core/contract.hpp"
 #include "core/index.hpp"
-#include "core/parallel/parallel.hpp"
+#include "core/parallel/few_values.hpp"
 
 namespace tread {
+
+namespace {
+
+template <class Real, class U>
+void expect_motion(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) {
+  TREAD_EXPECT(loads.dt > 0 && std::isfinite(loads.dt) && std::isfinite(loads.frame.spin));
+  TREAD_EXPECT(fields.displacement && fields.velocity && fields.force);
+}
+
+}  // namespace
 
 template <class Real>
 StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads) {
@@ -54,6 +63,7 @@ void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
   }
   deferred_nodes_.clear();
   first_deferred_.assign(1, 0);
+  with_deferred_.clear();
   for (const auto [block, tile] : items_) {
     const SweptBlock& swept = mesh_.blocks[index(block)];
     const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
@@ -63,6 +73,8 @@ void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
       if (deferred_[index(first + node)] != 0 && moves) deferred_nodes_.push_back(node);
     }
     first_deferred_.push_back(deferred_nodes_.size());
+    if (!deferred_nodes(first_deferred_.size() - 2).empty())
+      with_deferred_.push_back(first_deferred_.size() - 2);
   }
 }
 
@@ -91,24 +103,49 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
                                     const unsigned char* whole) const {
-  TREAD_EXPECT(loads.dt > 0 && std::isfinite(loads.dt) && std::isfinite(loads.frame.spin));
-  TREAD_EXPECT(fields.displacement && fields.velocity && fields.force);
-  const auto select = tile_forces().front()->loops<Real, U>().move;
+  expect_motion(loads, fields);
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
-    for (std::int64_t i = from; i < to; ++i) {
-      const auto [block, tile] = items_[index(i)];
-      const SweptBlock& swept = mesh_.blocks[index(block)];
-      std::span<const int> nodes(all_nodes_.data(), index(swept.section.nodes()));
-      if (whole != nullptr && whole[i] == 0)
-        nodes = {deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i)]),
-                 deferred_nodes_.begin() + static_cast<std::ptrdiff_t>(first_deferred_[index(i + 1)])};
-      if (nodes.empty()) continue;
-      const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
-      select({.sweep = swept.sweep, .vertical_only = swept.vertical_only})(
-          motion(block, tile, loads, fields.displacement, fields.velocity), nodes,
-          fields.force + dof(slot, 0));
+    for (std::size_t item = index(from); item < index(to); ++item) {
+      const SweptBlock& swept = mesh_.blocks[index(items_[item].block)];
+      if (whole != nullptr && whole[item] == 0)
+        move_nodes(item, deferred_nodes(item), loads, fields);
+      else
+        move_nodes(item, {all_nodes_.data(), index(swept.section.nodes())}, loads, fields);
     }
   });
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move_deferred(const StepLoads& loads,
+                                             const BasicUpdateFields<Real, U>& fields) const {
+  expect_motion(loads, fields);
+  const std::int64_t values = 3 * kLanes * std::ssize(deferred_nodes_);
+  ranges_of_values(std::ssize(with_deferred_), values, [&](std::int64_t from, std::int64_t to) {
+    for (std::int64_t i = from; i < to; ++i) {
+      const std::size_t item = with_deferred_[index(i)];
+      move_nodes(item, deferred_nodes(item), loads, fields);
+    }
+  });
+}
+
+/// Moves nodes of a tile.
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move_nodes(std::size_t item, std::span<const int> nodes,
+                                          const StepLoads& loads,
+                                          const BasicUpdateFields<Real, U>& fields) const {
+  if (nodes.empty()) return;
+  const auto [block, tile] = items_[item];
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
+  const auto select = tile_forces().front()->loops<Real, U>().move;
+  select({.sweep = swept.sweep, .vertical_only = swept.vertical_only})(
+      motion(block, tile, loads, fields.displacement, fields.velocity), nodes, fields.force + dof(slot, 0));
+}
+
+template <class Real, class U>
+std::span<const int> BasicTimeUpdate<Real, U>::deferred_nodes(std::size_t item) const {
+  return std::span(deferred_nodes_)
+      .subspan(first_deferred_[item], first_deferred_[item + 1] - first_deferred_[item]);
 }
 
 template class BasicTimeUpdate<double>;

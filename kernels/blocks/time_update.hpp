@@ -2,6 +2,7 @@
 // Central difference: velocities and displacements from forces. [theory.md, Time step]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -60,6 +61,8 @@ class BasicTimeUpdate {
                  const std::vector<unsigned char>& whole) const {
     move(loads, fields, whole.data());
   }
+  /// Moves the deferred nodes alone, by one thread where they are few.
+  void move_deferred(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
 
  private:
   struct Item {
@@ -68,6 +71,9 @@ class BasicTimeUpdate {
   };
   void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
             const unsigned char* whole) const;
+  void move_nodes(std::size_t item, std::span<const int> nodes, const StepLoads& loads,
+                  const BasicUpdateFields<Real, U>& fields) const;
+  std::span<const int> deferred_nodes(std::size_t item) const;
 
   const Mesh& mesh_;
   const Real* inverse_mass_;
@@ -76,6 +82,7 @@ class BasicTimeUpdate {
   std::vector<unsigned char> deferred_;      ///< by tile and section node: by slot / kLanes
   std::vector<int> deferred_nodes_;          ///< section nodes, tile by tile
   std::vector<std::size_t> first_deferred_;  ///< by item, into deferred_nodes_
+  std::vector<std::size_t> with_deferred_;   ///< items that have any
   std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
 };
 

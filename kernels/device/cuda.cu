@@ -1,8 +1,10 @@
 // The device of NVIDIA's cards: the only source that knows CUDA. HIP would be one more file like it.
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "kernels/device/device.hpp"
@@ -168,6 +170,18 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(cudaGetDeviceProperties(&properties, number), "its properties");
     name_ = properties.name;
     shared_ = properties.sharedMemPerBlockOptin;
+    for (Queue& queue : queues_) {
+      check(cudaStreamCreateWithFlags(&queue.stream, cudaStreamNonBlocking), "a queue");
+      check(cudaEventCreateWithFlags(&queue.end, cudaEventDisableTiming), "a queue");
+    }
+  }
+  CudaDevice(const CudaDevice&) = delete;
+  CudaDevice& operator=(const CudaDevice&) = delete;
+  ~CudaDevice() override {
+    for (const Queue& queue : queues_) {
+      cudaEventDestroy(queue.end);
+      cudaStreamDestroy(queue.stream);
+    }
   }
 
   std::string name() const override { return name_; }
@@ -183,28 +197,58 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
                           " free, too little for this scene; larger elements, or --device cpu, need none");
     }
     check(status, "memory");
-    check(cudaMemset(memory, 0, bytes), "memory");
+    check(cudaMemsetAsync(memory, 0, bytes, stream()), "memory");
     return memory;
   }
   void release(void* memory) override { cudaFree(memory); }
+  /// A limit of the host's locked memory is no failure: copies are slower then.
+  void lock(void* pages, std::size_t bytes) override {
+    if (cudaHostRegister(pages, bytes, cudaHostRegisterDefault) != cudaSuccess) cudaGetLastError();
+  }
+  void unlock(void* pages) override {
+    cudaDeviceSynchronize();  // a copy may be under way
+    if (cudaHostUnregister(pages) != cudaSuccess) cudaGetLastError();
+  }
 
+  void finish(int queue) override {
+    check(cudaStreamSynchronize(queues_[queue].stream), "waiting for a queue");
+  }
   void wait() override { check(cudaDeviceSynchronize(), "waiting for it"); }
 
  private:
   friend KernelDevice<CudaDevice>;
 
+  struct Queue {
+    cudaStream_t stream = nullptr;
+    cudaEvent_t end = nullptr;  ///< of what the queue held when it was marked last
+    bool marked = false;        ///< the queue holds nothing after that
+  };
+
+  /// The queue in use, which gets something.
+  cudaStream_t stream() {
+    queues_[used()].marked = false;
+    return queues_[used()].stream;
+  }
+
+  void let_wait(int waiting, int queue) override {
+    Queue& of = queues_[queue];
+    if (!std::exchange(of.marked, true)) check(cudaEventRecord(of.end, of.stream), "the end of a queue");
+    queues_[waiting].marked = false;
+    check(cudaStreamWaitEvent(queues_[waiting].stream, of.end, 0), "a queue after another");
+  }
+
   void copy_to(void* to, const void* from, std::size_t bytes) override {
-    check(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to it");
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream()), "copy to it");
   }
   void copy_from(void* to, const void* from, std::size_t bytes) override {
-    check(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from it");
+    check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, stream()), "copy from it");
   }
 
   template <class Body>
   void each(const Body& body) {
     constexpr int threads = std::is_same_v<Body, SearchPoints> ? kSearchThreads : kThreads;
     const auto blocks = static_cast<unsigned>((body.count() + threads - 1) / threads);
-    each_kernel<<<blocks, threads>>>(body.count(), body);
+    each_kernel<<<blocks, threads, 0, stream()>>>(body.count(), body);
     check(cudaGetLastError(), "values of nodes");
   }
 
@@ -214,7 +258,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(
         cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_)),
         "shared memory");
-    kernel<<<1, kPatchThreads, shared_>>>(task, law, state, static_cast<unsigned>(shared_));
+    kernel<<<1, kPatchThreads, shared_, stream()>>>(task, law, state, static_cast<unsigned>(shared_));
     check(cudaGetLastError(), "patch");
   }
 
@@ -240,13 +284,14 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
       check(
           cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
           "shared memory");
-      kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes>>>(block, fields);
+      kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes, device.stream()>>>(block, fields);
       check(cudaGetLastError(), "march");
     }
   };
 
   std::string name_;
   std::size_t shared_ = 0;
+  std::array<Queue, kQueues> queues_;
 };
 
 }  // namespace

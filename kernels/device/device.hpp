@@ -30,6 +30,13 @@ struct DeviceTraffic {
   std::int64_t launches = 0;     ///< of kernels
 };
 
+/// Queues of a device. Kernels and copies of one queue run in their order, those of several at once.
+inline constexpr int kMainQueue = 0;
+inline constexpr int kSearchQueue = 1;  ///< of the contact's search
+inline constexpr int kCopyQueue = 2;    ///< of copies to the host
+inline constexpr int kFanQueue = 3;     ///< this one and all after it: of marches
+inline constexpr int kQueues = 8;
+
 class Device {
  public:
   Device() = default;
@@ -47,16 +54,38 @@ class Device {
   /// Zeros. ResourceError where there is no room.
   virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory) = 0;
+  /// Keeps whole pages of the host in place until they are unlocked, so that copies pass through no other
+  /// memory. Nothing where the host may not.
+  virtual void lock(void* /*pages*/, std::size_t /*bytes*/) {}
+  virtual void unlock(void* /*pages*/) {}
   /// Copies end before these return. ResourceError where the device is lost.
   void upload(void* to, const void* from, std::size_t bytes) {
+    start_upload(to, from, bytes);
+    finish(used_);
+  }
+  void download(void* to, const void* from, std::size_t bytes) {
+    start_download(to, from, bytes);
+    finish(used_);
+  }
+  /// Copies take their turn in the queue: the host leaves its values alone until they have ended.
+  void start_upload(void* to, const void* from, std::size_t bytes) {
     traffic_.to_device += static_cast<std::int64_t>(bytes);
     copy_to(to, from, bytes);
   }
-  void download(void* to, const void* from, std::size_t bytes) {
+  void start_download(void* to, const void* from, std::size_t bytes) {
     traffic_.from_device += static_cast<std::int64_t>(bytes);
     copy_from(to, from, bytes);
   }
   const DeviceTraffic& traffic() const { return traffic_; }
+
+  /// Kernels and copies go to this queue from now on; at first to the main one.
+  void use(int queue) { used_ = queue; }
+  /// What follows in the queue in use begins after all that `queue` holds by now.
+  void after(int queue) {
+    if (queue != used_) let_wait(used_, queue);
+  }
+  /// Ends when all has ended that the queue holds.
+  virtual void finish(int queue) = 0;
 
   /// Kernels over fields of these precisions.
   template <class Real, class U>
@@ -84,10 +113,28 @@ class Device {
   virtual FieldKernels<double, double>& kernels_of(Precision<double, double> of) = 0;
   virtual FieldKernels<float, double>& kernels_of(Precision<float, double> of) = 0;
   virtual FieldKernels<float, float>& kernels_of(Precision<float, float> of) = 0;
+  virtual void let_wait(int waiting, int queue) = 0;
   void count_launch() { ++traffic_.launches; }
+  int used() const { return used_; }
 
  private:
   DeviceTraffic traffic_;
+  int used_ = kMainQueue;
+};
+
+/// Sends kernels and copies to another queue while it lives. They begin after what the main one holds.
+class Beside {
+ public:
+  Beside(Device& device, int queue) : device_(&device) {
+    device.use(queue);
+    device.after(kMainQueue);
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  ~Beside() { device_->use(kMainQueue); }
+
+ private:
+  Device* device_;
 };
 
 /// An array on a device.
@@ -138,7 +185,8 @@ class DeviceArray {
 /// Emulation of a device by the processor's threads.
 struct Emulation {
   MarchCut cut;
-  std::uint64_t order = 0;         ///< seed of the order of teams and of their threads; 0: ascending
+  /// Seed of the order of teams and of their threads; 0: ascending. With another all queues are late.
+  std::uint64_t order = 0;
   bool spoils_copies = false;      ///< Device::spoils_copies
   std::size_t shared = 200 << 10;  ///< memory that the team of a patch shares [B]
 };

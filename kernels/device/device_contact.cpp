@@ -108,7 +108,8 @@ void DeviceContact::keep_law() {
 void DeviceContact::make_room() {
   const Sizes most(*contact_);
   const std::size_t points = most.candidates;
-  points_.resize(points);
+  points_ = HostArray<ContactPoint>(*device_, points);
+  result_ = HostArray<PatchResult>(*device_, 1);
   task_.history = room<PointHistory>(contact_->history().size());
   task_.wake_time = room<double>(contact_->searching().wake_time().size());
   task_.candidates = {room<ContactPoint>(points), room<int>(points), room<double>(points)};
@@ -174,20 +175,29 @@ void DeviceContact::search(NodeField displacement, NodeField velocity, const Bod
   task_.wheel = wheel;
   task_.u = displacement;
   task_.v = velocity;
+  const Beside beside(*device_, kSearchQueue);
   device_->search(task_);
+  searched_ = true;
 }
 
-void DeviceContact::resolve(NodeField displacement, NodeField velocity) {
+void DeviceContact::start(NodeField displacement, NodeField velocity) {
+  if (!std::exchange(searched_, false)) return;
   task_.u = displacement;
   task_.v = velocity;
+  device_->after(kSearchQueue);
   device_->resolve(task_, law_, law_state_);
-  device_->download(&result_, task_.result, sizeof result_);
-  contact_->take({result_.force_on_rail, result_.frictional_work, result_.damping_work});
-  if (result_.at_the_end != 0) fetch_points();
+  device_->start_download(result_.data(), task_.result, sizeof(PatchResult));
+}
+
+void DeviceContact::resolve() {
+  device_->finish(kMainQueue);
+  const PatchResult& result = *result_.data();
+  contact_->take({result.force_on_rail, result.frictional_work, result.damping_work});
+  if (result.at_the_end != 0) fetch_points();
 }
 
 void DeviceContact::fetch_points() {
-  const auto count = index(result_.points);
+  const auto count = index(result_.data()->points);
   if (count > 0) device_->download(points_.data(), task_.point, count * sizeof(ContactPoint));
   contact_->take_points({points_.data(), count});
 }

@@ -9,6 +9,7 @@
 #include "kernels/contact/contact.hpp"
 #include "kernels/contact/surface_fields.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/device/host_array.hpp"
 
 namespace tread {
 
@@ -20,10 +21,13 @@ class DeviceContact {
   /// Copies what does not change. Keeps references. `inverse_mass`: by slot of the mesh [1/kg].
   DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass);
 
-  /// Finds the candidates of a step of dt [s]; fields of the device. The contact's search is aimed.
+  /// Starts to find the candidates of a step of dt [s], beside the march; fields of the device. The contact's
+  /// search is aimed.
   void search(NodeField displacement, NodeField velocity, const BodyFrame& wheel, double time, double dt);
-  /// Solves the tractions, and hands the step's outcome to the contact.
-  void resolve(NodeField displacement, NodeField velocity);
+  /// Starts to solve the tractions, if the step has searched.
+  void start(NodeField displacement, NodeField velocity);
+  /// Hands the outcome of what was started to the contact.
+  void resolve();
 
   /// Hands the points of the last step to the contact.
   void fetch_points();
@@ -60,9 +64,10 @@ class DeviceContact {
   FrictionLaw law_;
   void* law_state_ = nullptr;
   std::size_t law_state_bytes_ = 0;
-  PatchResult result_{};
-  std::vector<ContactPoint> points_;
-  bool sent_ = false;  ///< the device holds histories and record
+  HostArray<PatchResult> result_;
+  HostArray<ContactPoint> points_;
+  bool sent_ = false;      ///< the device holds histories and record
+  bool searched_ = false;  ///< but has not started on the tractions
 };
 
 }  // namespace tread

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "core/index.hpp"
 
@@ -21,11 +22,13 @@ std::vector<NodeLink> links_of(const TieSums& sums) {
   return links;
 }
 
-/// The nodes of a block that have a link and a tied slot, which `slots` lists in ascending order.
-std::vector<TiedNode> nodes_of(const SweptBlock& block, const TieSums& sums,
-                               const std::vector<std::int64_t>& slots) {
-  std::vector<TiedNode> nodes;
-  for (const TieSums::Item& item : sums.items) {
+/// Calls visit(number of the item, linked node, its slot of lane 0, tile) for the nodes of a block that have
+/// a link and a tied slot, which `slots` lists in ascending order.
+template <class Visit>
+void for_each_node(const SweptBlock& block, const TieSums& sums, const std::vector<std::int64_t>& slots,
+                   const Visit& visit) {
+  for (std::size_t i = 0; i < sums.items.size(); ++i) {
+    const TieSums::Item& item = sums.items[i];
     const std::int64_t first_slot = item.own / 3 - block.base;
     if (first_slot < 0 || first_slot >= block.slots()) continue;
     const Tile& tile = block.tiles[index(first_slot / kLanes / block.section.nodes())];
@@ -33,13 +36,29 @@ std::vector<TiedNode> nodes_of(const SweptBlock& block, const TieSums& sums,
       const LinkedNode& of = sums.nodes[item.first_node + index(n)];
       const std::int64_t slot = item.own / 3 + std::int64_t{of.node} * kLanes;
       const auto tied = std::lower_bound(slots.begin(), slots.end(), slot);
-      if (tied == slots.end() || *tied >= slot + kLanes) continue;
-      const auto first_share = static_cast<int>(item.first_station);
-      nodes.push_back({3 * slot, tile.first_station, tile.stations, of.node, of.first, of.last, first_share,
-                       first_share + item.station_count});
+      if (tied != slots.end() && *tied < slot + kLanes) visit(i, of, slot, tile);
     }
   }
-  return nodes;
+}
+
+/// Shares of an item's tile, as numbers of its first and of the one after its last.
+std::pair<int, int> shares_of(const TieSums::Item& item) {
+  const auto first = static_cast<int>(item.first_station);
+  return {first, first + item.station_count};
+}
+
+/// The sums of all items, one after another; `first`: by item, the number of its first one.
+std::vector<StationSum> station_sums(const TieSums& sums, std::vector<int>& first) {
+  std::vector<StationSum> all;
+  for (const TieSums::Item& item : sums.items) {
+    first.push_back(static_cast<int>(all.size()));
+    const auto [first_share, last_share] = shares_of(item);
+    for (int i = 0; i < item.other_count; ++i) {
+      const int node = sums.others[item.first_other + index(i)];
+      all.push_back({std::int64_t{3 * kLanes} * node, first_share, last_share});
+    }
+  }
+  return all;
 }
 
 std::int64_t groups_in(const std::vector<std::int64_t>& slots) {
@@ -61,25 +80,37 @@ DeviceArray<T> copy(Device& device, const std::vector<T>& values) {
 }  // namespace
 
 DeviceTies::DeviceTies(Device& device, const Mesh& mesh, const Ties& ties) {
+  const TieSums& to_secondary = ties.to_secondary();
+  const TieSums& to_primary = ties.to_primary();
+  std::vector<int> first_sum;
+  const std::vector<StationSum> sums = station_sums(to_primary, first_sum);
   std::vector<TiedNode> secondary;
   std::int64_t primary = 0;
   for (const SweptBlock& block : mesh.blocks) {
-    const std::vector<TiedNode> own = nodes_of(block, ties.to_secondary(), ties.secondary_slots());
-    secondary.insert(secondary.end(), own.begin(), own.end());
-    Nodes& of_block = primary_.emplace_back();
-    const std::vector<TiedNode> nodes = nodes_of(block, ties.to_primary(), ties.primary_slots());
+    for_each_node(block, to_secondary, ties.secondary_slots(),
+                  [&](std::size_t item, const LinkedNode& node, std::int64_t slot, const Tile& /*tile*/) {
+                    const auto [first_share, last_share] = shares_of(to_secondary.items[item]);
+                    secondary.push_back({3 * slot, node.first, node.last, first_share, last_share});
+                  });
+    std::vector<PrimaryNode> nodes;
+    for_each_node(block, to_primary, ties.primary_slots(),
+                  [&](std::size_t item, const LinkedNode& node, std::int64_t slot, const Tile& tile) {
+                    nodes.push_back({3 * slot, tile.first_station, tile.stations, node.node, node.first,
+                                     node.last, first_sum[item]});
+                  });
     primary += std::ssize(nodes);
-    if (nodes.empty()) continue;
-    of_block.node = copy(device, nodes);
-    of_block.links = copy(device, links_of(ties.to_primary()));
-    of_block.shares = copy(device, ties.to_primary().stations);
+    primary_.push_back(copy(device, nodes));
   }
   if (std::ssize(secondary) != groups_in(ties.secondary_slots()) ||
       primary != groups_in(ties.primary_slots()))
     throw std::logic_error("a tied node takes no sum, or several");
-  secondary_.node = copy(device, secondary);
-  secondary_.links = copy(device, links_of(ties.to_secondary()));
-  secondary_.shares = copy(device, ties.to_secondary().stations);
+  secondary_ = copy(device, secondary);
+  secondary_links_ = copy(device, links_of(to_secondary));
+  secondary_shares_ = copy(device, to_secondary.stations);
+  sums_ = copy(device, sums);
+  sum_shares_ = copy(device, to_primary.stations);
+  values_ = DeviceArray<double>(device, 3 * kLanes * sums.size());
+  primary_links_ = copy(device, to_primary.links);
 }
 
 }  // namespace tread

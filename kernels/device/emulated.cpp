@@ -1,8 +1,11 @@
 // Teams and their threads, taken one after another by the threads of the processor. What they share must not
-// depend on their order: tests shuffle it.
+// depend on their order, nor on that of queues: tests shuffle the one and delay the others.
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <deque>
+#include <functional>
 #include <new>
 #include <numeric>
 #include <span>
@@ -32,6 +35,41 @@ class Order {
   std::int64_t n_;
   std::int64_t first_ = 0;
   std::int64_t step_ = 1;
+};
+
+/// Queues whose kernels and copies begin as late as they may: when the host waits for them, or another queue
+/// that it waits for.
+class LateQueues {
+ public:
+  void add(int queue, std::function<void()> task) { queue_[at(queue)].tasks.push_back(std::move(task)); }
+  void let_wait(int waiting, int queue) {
+    add(waiting, [this, queue, until = added(queue)] { run(queue, until); });
+  }
+  void run(int queue) { run(queue, added(queue)); }
+  void run_all() {
+    for (int queue = 0; queue < kQueues; ++queue) run(queue);
+  }
+
+ private:
+  struct Queue {
+    std::deque<std::function<void()>> tasks;
+    std::int64_t begun = 0;
+  };
+  static std::size_t at(int queue) { return static_cast<std::size_t>(queue); }
+  std::int64_t added(int queue) const {
+    return queue_[at(queue)].begun + std::ssize(queue_[at(queue)].tasks);
+  }
+  void run(int queue, std::int64_t until) {
+    Queue& of = queue_[at(queue)];
+    while (of.begun < until) {
+      const std::function<void()> task = std::move(of.tasks.front());
+      of.tasks.pop_front();
+      ++of.begun;
+      task();
+    }
+  }
+
+  std::array<Queue, kQueues> queue_;
 };
 
 class EmulatedTeam {
@@ -92,49 +130,74 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
     std::memset(memory, 0, bytes);
     return memory;
   }
-  void release(void* memory) override { ::operator delete (memory, std::align_val_t{64}); }
-  void wait() override {}
+  void release(void* memory) override {
+    wait();
+    ::operator delete (memory, std::align_val_t{64});
+  }
+  /// A copy may be under way.
+  void unlock(void* /*pages*/) override { wait(); }
+  void finish(int queue) override { queues_.run(queue); }
+  void wait() override { queues_.run_all(); }
 
  private:
   friend KernelDevice<EmulatedDevice>;
 
-  void copy_to(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
-  void copy_from(void* to, const void* from, std::size_t bytes) override { std::memcpy(to, from, bytes); }
+  void let_wait(int waiting, int queue) override { queues_.let_wait(waiting, queue); }
+  void copy_to(void* to, const void* from, std::size_t bytes) override { copy(to, from, bytes); }
+  void copy_from(void* to, const void* from, std::size_t bytes) override { copy(to, from, bytes); }
+  void copy(void* to, const void* from, std::size_t bytes) {
+    start([=] { std::memcpy(to, from, bytes); });
+  }
+
+  /// At once in the order of the calls, late in another.
+  template <class Task>
+  void start(const Task& task) {
+    if (emulation_.order == 0)
+      task();
+    else
+      queues_.add(used(), task);
+  }
 
   template <class Body>
-  void each(const Body& body) const {
-    const Order order(body.count(), emulation_.order);
-    parallel_ranges(body.count(), [&](std::int64_t first, std::int64_t last) {
-      for (std::int64_t i = first; i < last; ++i) body(order(i));
+  void each(const Body& body) {
+    start([body, seed = emulation_.order] {
+      const Order order(body.count(), seed);
+      parallel_ranges(body.count(), [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) body(order(i));
+      });
     });
   }
 
   template <class Law>
-  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) const {
-    using Patch = PatchTeam<Law, EmulatedTeam>;
-    thread_local AlignedVector<std::byte> memory;
-    memory.resize(emulation_.shared);
-    const EmulatedTeam team(0, emulation_.order, memory);
-    Patch(team, task, law, state).run();
+  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
+    start([=, seed = emulation_.order, shared = emulation_.shared] {
+      using Patch = PatchTeam<Law, EmulatedTeam>;
+      thread_local AlignedVector<std::byte> memory;
+      memory.resize(shared);
+      const EmulatedTeam team(0, seed, memory);
+      Patch(team, task, law, state).run();
+    });
   }
 
   template <class Real, class U>
-  void march_any(TileVariant variant, const MarchBlock<Real>& block,
-                 const MarchFields<Real, U>& fields) const {
-    with_march<Real, U, EmulatedTeam>(variant, [&]<class M>() {
-      const Order order(block.teams(), emulation_.order);
-      parallel_ranges(block.teams(), [&](std::int64_t first, std::int64_t last) {
-        thread_local AlignedVector<std::byte> memory;
-        memory.resize(std::max(memory.size(), M::shared_bytes(block)));
-        for (std::int64_t i = first; i < last; ++i) {
-          const EmulatedTeam team(static_cast<int>(order(i)), emulation_.order, memory);
-          M(team, block, fields).run();
-        }
+  void march_any(TileVariant variant, const MarchBlock<Real>& block, const MarchFields<Real, U>& fields) {
+    start([=, seed = emulation_.order] {
+      with_march<Real, U, EmulatedTeam>(variant, [&]<class M>() {
+        const Order order(block.teams(), seed);
+        parallel_ranges(block.teams(), [&](std::int64_t first, std::int64_t last) {
+          thread_local AlignedVector<std::byte> memory;
+          memory.resize(std::max(memory.size(), M::shared_bytes(block)));
+          for (std::int64_t i = first; i < last; ++i) {
+            const EmulatedTeam team(static_cast<int>(order(i)), seed, memory);
+            M(team, block, fields).run();
+          }
+        });
       });
     });
   }
 
   Emulation emulation_;
+  LateQueues queues_;
 };
 
 }  // namespace

@@ -14,8 +14,8 @@ template <class Real, class U>
 struct GroupValues {
   const std::int64_t* groups = nullptr;
   std::int64_t count = 0;
-  const U* u = nullptr;     ///< [m]
-  const Real* v = nullptr;  ///< [m/s]
+  U* u = nullptr;     ///< [m]
+  Real* v = nullptr;  ///< [m/s]
 };
 
 /// Nodes of a running surface on a stretch of tiles, which may pass the end of a full turn.
@@ -42,22 +42,75 @@ struct SurfaceWindows {
   std::int64_t groups() const { return of[0].groups() + of[1].groups(); }
 };
 
-/// A section node of a tile that takes values by a tie.
+/// A section node of a tile that takes values of primary nodes by a tie.
 struct TiedNode {
-  std::int64_t own;  ///< place of lane 0, component 0, in a vector field
-  int station;       ///< of lane 0
-  int stations;      ///< of the tile; further lanes are unused
-  int section_node;
+  std::int64_t own;             ///< place of lane 0, component 0, in a vector field
   int first_link, last_link;    ///< into TiedNodes::links
   int first_share, last_share;  ///< into TiedNodes::shares
 };
 
-/// Nodes of a block that take sums over nodes of others. [TieSum]
+/// Secondary nodes, which take sums over nodes of other blocks. [TieSum]
 struct TiedNodes {
   const TiedNode* node = nullptr;
   std::int64_t count = 0;
   const NodeLink* links = nullptr;  ///< NodeLink::other: a section node of the other block
   const StationLink* shares = nullptr;
+};
+
+/// What the lanes of a tile take from a section node of another block, summed up over its stations. Several
+/// primary nodes share it.
+struct StationSum {
+  std::int64_t other;           ///< place of the section node in a vector field, its station's left out
+  int first_share, last_share;  ///< into StationSums::shares
+};
+
+struct StationSums {
+  const StationSum* sum = nullptr;
+  std::int64_t count = 0;
+  const StationLink* shares = nullptr;
+  double* value = nullptr;  ///< [sum][component][lane]
+};
+
+/// A section node of a tile that takes values of secondary nodes by a tie.
+struct PrimaryNode {
+  std::int64_t own;  ///< place of lane 0, component 0, in a vector field
+  int station;       ///< of lane 0
+  int stations;      ///< of the tile; further lanes are unused
+  int section_node;
+  int first_link, last_link;  ///< into PrimaryNodes::links
+  int first_sum;              ///< of the tile, among all
+};
+
+/// Primary nodes of a block.
+struct PrimaryNodes {
+  const PrimaryNode* node = nullptr;
+  std::int64_t count = 0;
+  const NodeLink* links = nullptr;  ///< NodeLink::other: a sum of the tile
+  const double* sums = nullptr;     ///< StationSums::value
+};
+
+/// Primary nodes of several blocks, and what moves them.
+template <class Real>
+struct PrimaryBlocks {
+  static constexpr int kMost = 6;
+  struct Of {
+    PrimaryNodes nodes;
+    MarchBlock<Real> block;
+    bool revolved = false;
+    bool vertical_only = false;
+  };
+
+  Of of[kMost];
+  int blocks = 0;
+
+  void add(const PrimaryNodes& nodes, const MarchBlock<Real>& block, const TileVariant& variant) {
+    of[blocks++] = {nodes, block, variant.sweep == Sweep::revolved, variant.vertical_only};
+  }
+  std::int64_t count() const {
+    std::int64_t sum = 0;
+    for (int b = 0; b < blocks; ++b) sum += of[b].nodes.count;
+    return sum;
+  }
 };
 
 template <class Real, class U>
@@ -70,10 +123,11 @@ class FieldKernels {
   /// Forces of a block, and motion of its nodes. `variant.damped` does not matter: fields.added says it.
   virtual void march(TileVariant variant, const MarchBlock<Real>& block,
                      const MarchFields<Real, U>& fields) = 0;
-  /// Adds the forces of the secondary nodes to those of a block's primary nodes, and moves these. All lie in
-  /// fields.force.
-  virtual void move_primary(TileVariant variant, const TiedNodes& primary, const MarchBlock<Real>& block,
-                            const MarchFields<Real, U>& fields) = 0;
+  /// Sums up the forces of secondary nodes.
+  virtual void sum_stations(const StationSums& sums, const Real* force) = 0;
+  /// Adds these sums to the forces of primary nodes, which lie in fields.force, and moves the nodes.
+  /// `fields`: of any block.
+  virtual void move_primary(const PrimaryBlocks<Real>& primary, const MarchFields<Real, U>& fields) = 0;
   /// Sets these values of both fields to zero.
   virtual void hold(std::int64_t count, const std::int64_t* unknowns, U* u, Real* v) = 0;
   /// Sets the values of the secondary nodes from those of the primary ones.

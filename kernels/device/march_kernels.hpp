@@ -69,14 +69,11 @@ class KernelDevice : public Device {
       device_->count_launch();
       device_->own().march_any(variant, block, fields);
     }
-    void move_primary(TileVariant variant, const TiedNodes& primary, const MarchBlock<Real>& block,
-                      const MarchFields<Real, U>& fields) override {
-      if (variant.sweep == Sweep::revolved)
-        device_->each(MovePrimary<Real, U, Sweep::revolved, 0>{primary, block, fields});
-      else if (variant.vertical_only)
-        device_->each(MovePrimary<Real, U, Sweep::extruded, 2>{primary, block, fields});
-      else
-        device_->each(MovePrimary<Real, U, Sweep::extruded, 0>{primary, block, fields});
+    void sum_stations(const StationSums& sums, const Real* force) override {
+      device_->each(SumStations<Real>{sums, force});
+    }
+    void move_primary(const PrimaryBlocks<Real>& primary, const MarchFields<Real, U>& fields) override {
+      device_->each(MovePrimary<Real, U>{primary, fields});
     }
     void hold(std::int64_t count, const std::int64_t* unknowns, U* u, Real* v) override {
       device_->each(HoldUnknowns<Real, U>{count, unknowns, u, v});

@@ -61,67 +61,107 @@ struct HoldUnknowns {
   }
 };
 
-/// Values that a lane of a node takes from a field by a tie, summed up in the order of TieSum.
+/// Adds what a lane takes from a section node, over stations in their order. `other`: its place in the field,
+/// the station's left out.
 template <class Value>
-TREAD_INLINE void tied_values(const TiedNodes& tied, const TiedNode& node, int lane, const Value* field,
-                              double (&sum)[3]) {
-  for (int l = node.first_link; l < node.last_link; ++l) {
-    const NodeLink& link = tied.links[l];
-    double taken[3] = {};
-    for (int s = node.first_share; s < node.last_share; ++s) {
-      const StationLink& station = tied.shares[s];
-      const Value* const at = field + station.at[lane] + link.other * kGroupOfValues;
-      add_station_values<double>(station.share[lane], station.cosine[lane], station.sine[lane], at[0],
-                                 at[kLanes], at[2 * kLanes], taken);
-    }
-    for (int c = 0; c < 3; ++c) sum[c] += product(link.share, taken[c]);
+TREAD_INLINE void add_stations(const StationLink* shares, int first, int last, int lane, std::int64_t other,
+                               const Value* field, double (&taken)[3]) {
+  for (int s = first; s < last; ++s) {
+    const StationLink& station = shares[s];
+    const Value* const at = field + station.at[lane] + other;
+    add_station_values<double>(station.share[lane], station.cosine[lane], station.sine[lane], at[0],
+                               at[kLanes], at[2 * kLanes], taken);
   }
 }
 
-/// FieldKernels::follow
+/// FieldKernels::follow: a thread for each field, too.
 template <class Real, class U>
 struct FollowTies {
   TiedNodes tied;
   U* u;
   Real* v;
 
-  std::int64_t count() const { return kLanes * tied.count; }
+  std::int64_t count() const { return 2 * kLanes * tied.count; }
   TREAD_INLINE void operator()(std::int64_t i) const {
-    const TiedNode& node = tied.node[i / kLanes];
+    const TiedNode& node = tied.node[i / (2 * kLanes)];
     const int lane = static_cast<int>(i % kLanes);
-    follow(node, lane, u);
-    follow(node, lane, v);
+    if (i / kLanes % 2 == 0)
+      follow(node, lane, u);
+    else
+      follow(node, lane, v);
   }
 
  private:
   template <class Value>
   TREAD_INLINE void follow(const TiedNode& node, int lane, Value* field) const {
     double sum[3] = {};
-    tied_values(tied, node, lane, field, sum);
+    for (int l = node.first_link; l < node.last_link; ++l) {
+      const NodeLink& link = tied.links[l];
+      double taken[3] = {};
+      add_stations(tied.shares, node.first_share, node.last_share, lane, link.other * kGroupOfValues, field,
+                   taken);
+      for (int c = 0; c < 3; ++c) sum[c] += product(link.share, taken[c]);
+    }
     for (int c = 0; c < 3; ++c) field[node.own + c * kLanes + lane] = static_cast<Value>(sum[c]);
   }
 };
 
+/// FieldKernels::sum_stations
+template <class Real>
+struct SumStations {
+  StationSums sums;
+  const Real* force;
+
+  std::int64_t count() const { return kLanes * sums.count; }
+  TREAD_INLINE void operator()(std::int64_t i) const {
+    const StationSum& sum = sums.sum[i / kLanes];
+    const int lane = static_cast<int>(i % kLanes);
+    double taken[3] = {};
+    add_stations(sums.shares, sum.first_share, sum.last_share, lane, sum.other, force, taken);
+    double* const to = sums.value + i / kLanes * kGroupOfValues + lane;
+    for (int c = 0; c < 3; ++c) to[c * kLanes] = taken[c];
+  }
+};
+
 /// FieldKernels::move_primary
-template <class Real, class U, Sweep sweep, int first>
+template <class Real, class U>
 struct MovePrimary {
-  TiedNodes tied;
-  MarchBlock<Real> block;
+  PrimaryBlocks<Real> primary;
   MarchFields<Real, U> fields;
 
-  std::int64_t count() const { return kLanes * tied.count; }
+  std::int64_t count() const { return kLanes * primary.count(); }
   TREAD_INLINE void operator()(std::int64_t i) const {
-    const TiedNode& node = tied.node[i / kLanes];
+    std::int64_t at = i / kLanes;
+    int b = 0;
+    while (at >= primary.of[b].nodes.count) at -= primary.of[b++].nodes.count;
+    const auto& of = primary.of[b];
+    const PrimaryNode& node = of.nodes.node[at];
     const int lane = static_cast<int>(i % kLanes);
     if (lane >= node.stations) return;
+    if (of.revolved)
+      move<Sweep::revolved, 0>(of, node, lane);
+    else if (of.vertical_only)
+      move<Sweep::extruded, 2>(of, node, lane);
+    else
+      move<Sweep::extruded, 0>(of, node, lane);
+  }
+
+ private:
+  template <Sweep sweep, int first>
+  TREAD_INLINE void move(const typename PrimaryBlocks<Real>::Of& of, const PrimaryNode& node,
+                         int lane) const {
     double sum[3] = {};
-    tied_values(tied, node, lane, fields.force, sum);
+    for (int l = node.first_link; l < node.last_link; ++l) {
+      const NodeLink& link = of.nodes.links[l];
+      const double* const taken = of.nodes.sums + (node.first_sum + link.other) * kGroupOfValues + lane;
+      for (int c = 0; c < 3; ++c) sum[c] += product(link.share, taken[c * kLanes]);
+    }
     Real force[3] = {};
     for (int c = 0; c < 3; ++c)
       force[c] = static_cast<Real>(sum[c] + fields.force[node.own + c * kLanes + lane]);
     Real weight[2] = {};
-    if constexpr (sweep == Sweep::revolved) weigh(block, node.station + lane, weight);
-    move_on_device<sweep, first>(block, fields, node.section_node, node.own / 3 + lane, node.own + lane,
+    if constexpr (sweep == Sweep::revolved) weigh(of.block, node.station + lane, weight);
+    move_on_device<sweep, first>(of.block, fields, node.section_node, node.own / 3 + lane, node.own + lane,
                                  weight, force);
   }
 };

@@ -19,8 +19,8 @@ SurfaceCopies<Real, U>::SurfaceCopies(Device& device, const Mesh& mesh, const Co
     device_nodes_[body] = DeviceArray<int>(device, std::span<const int>(nodes_[body]));
     values += 3 * kLanes * nodes_[body].size() * blocks_[body]->tiles.size();
   }
-  u_.resize(values);
-  v_.resize(values);
+  u_ = HostArray<U>(device, values);
+  v_ = HostArray<Real>(device, values);
   device_u_ = DeviceArray<U>(device, values);
   device_v_ = DeviceArray<Real>(device, values);
 }

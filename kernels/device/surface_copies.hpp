@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/aligned.hpp"
 #include "kernels/contact/contact.hpp"
 #include "kernels/device/device.hpp"
+#include "kernels/device/host_array.hpp"
 
 namespace tread {
 
@@ -39,8 +39,8 @@ class SurfaceCopies {
   std::array<DeviceArray<int>, 2> device_nodes_;
   std::array<int, 2> first_node_{};
   SurfaceWindows windows_;
-  AlignedVector<U> u_;
-  AlignedVector<Real> v_;
+  HostArray<U> u_;
+  HostArray<Real> v_;
   DeviceArray<U> device_u_;
   DeviceArray<Real> device_v_;
 };
