@@ -139,7 +139,7 @@ class CudaPatchTeam : public CudaTeam {
 
 /// Teams that a multiprocessor has registers for. Plastic elements need more than linear ones.
 template <class Real, bool linear>
-inline constexpr int kTeams = linear ? (sizeof(Real) == sizeof(double) ? 4 : 5) : 2;
+inline constexpr int kTeams = linear ? (sizeof(Real) == sizeof(double) ? 3 : 5) : 2;
 
 template <class March, class Real, class U>
 __global__ void __launch_bounds__(kThreads, kTeams<Real, March::kLinear>)
