@@ -8,6 +8,7 @@
 #include "kernels/device/march_body.hpp"
 #include "kernels/device/node_kernels.hpp"
 #include "kernels/device/patch_team.hpp"
+#include "kernels/device/search_points.hpp"
 
 namespace tread {
 

@@ -1,0 +1,39 @@
+#pragma once
+// Search of a step on a device.
+
+#include <array>
+#include <cstdint>
+
+#include "kernels/contact/patch_point_body.hpp"
+#include "kernels/device/contact_layout.hpp"
+
+namespace tread {
+
+/// Search of a step: a candidate a thread.
+struct SearchPoints {
+  ContactTask task;
+
+  std::int64_t count() const { return task.window.count(); }
+  TREAD_BODY void operator()(std::int64_t i) const {
+    const FaceWindow& window = task.window;
+    const auto of_window = static_cast<int>(i / window.points);
+    const auto k = static_cast<int>(i % window.points);
+    const std::int64_t face = window.face(of_window);
+    task.candidates.kept[i] = 0;
+    if (task.bounds.time < task.wake_time[face]) return;
+    const ContactState state{task.u, task.v, &task.wheel};
+    ContactPoint point{};
+    point.history = face * window.points + k;
+    double gap = 0;
+    const std::array<int, 2> at = {window.first_station + of_window / window.edges,
+                                   window.first_edge + of_window % window.edges};
+    const bool found = find_point(task.surfaces, state, task.bounds, at, task.quadrature[k],
+                                  task.history[point.history], point, gap);
+    task.candidates.gap[i] = gap;
+    if (!found || stays_open(point, kSpareClosing, task.dt)) return;
+    task.candidates.kept[i] = 1;
+    task.candidates.point[i] = point;
+  }
+};
+
+}  // namespace tread
