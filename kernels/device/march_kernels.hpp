@@ -43,7 +43,13 @@ void with_march(TileVariant v, const Launch& launch) {
 template <class Own>
 class KernelDevice : public Device {
  public:
-  void search(const ContactTask& task) override { each(SearchPoints{task}); }
+  void search(const ContactTask& task) override {
+    task.u.visit([&]<class U>(const U* u) {
+      task.v.visit([&]<class V>(const V* v) {
+        if constexpr (sizeof(V) <= sizeof(U)) each(SearchPoints<U, V>{task, {u}, {v}});
+      });
+    });
+  }
   void resolve(const ContactTask& task, const FrictionLaw& law, void* state) override {
     this->count_launch();
     std::visit(

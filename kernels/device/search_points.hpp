@@ -4,14 +4,31 @@
 #include <array>
 #include <cstdint>
 
+#include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/patch_point_body.hpp"
 #include "kernels/device/contact_layout.hpp"
 
 namespace tread {
 
+/// A field whose type is known: where it is chosen at every node, the loads of many nodes wait for each
+/// other.
+template <class Value>
+struct TypedNodeField {
+  const Value* values;
+
+  TREAD_BODY explicit operator bool() const { return values != nullptr; }
+  TREAD_BODY Vec3 at(std::int64_t slot) const {
+    const Value* const first = values + dof(slot, 0);
+    return {first[0], first[kLanes], first[2 * kLanes]};
+  }
+};
+
 /// Search of a step: a candidate a thread.
+template <class U, class V>
 struct SearchPoints {
   ContactTask task;
+  TypedNodeField<U> u;
+  TypedNodeField<V> v;
 
   std::int64_t count() const { return task.window.count(); }
   TREAD_BODY void operator()(std::int64_t i) const {
@@ -21,7 +38,7 @@ struct SearchPoints {
     const std::int64_t face = window.face(of_window);
     task.candidates.kept[i] = 0;
     if (task.bounds.time < task.wake_time[face]) return;
-    const ContactState state{task.u, task.v, &task.wheel};
+    const ContactStateOf<TypedNodeField<U>, TypedNodeField<V>> state{u, v, &task.wheel};
     ContactPoint point{};
     point.history = face * window.points + k;
     double gap = 0;
