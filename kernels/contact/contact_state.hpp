@@ -10,15 +10,19 @@
 
 namespace tread {
 
-/// Displacement and velocity fields in local components, and the wheel's frame.
-struct ContactState {
-  ConstNodeField displacement;  ///< [m]
-  ConstNodeField velocity;      ///< relative to the frame [m/s]; none in statics
+/// Displacement and velocity fields in local components, and the wheel's frame. A field has at(slot), and is
+/// false where there is none.
+template <class Displacement, class Velocity>
+struct ContactStateOf {
+  Displacement displacement;  ///< [m]
+  Velocity velocity;          ///< relative to the frame [m/s]; none in statics
   const BodyFrame* wheel;
 };
+using ContactState = ContactStateOf<ConstNodeField, ConstNodeField>;
 
 /// Velocity of the rail's surface at the point [m/s].
-TREAD_BODY Vec3 rail_velocity(const ContactState& state, const ContactPoint& point) {
+template <class State>
+TREAD_BODY Vec3 rail_velocity(const State& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
     v += point.rail.weight(k) * state.velocity.at(point.rail.slot[k]);
@@ -26,7 +30,8 @@ TREAD_BODY Vec3 rail_velocity(const ContactState& state, const ContactPoint& poi
 }
 
 /// Velocity of the wheel's surface at the point [m/s].
-TREAD_BODY Vec3 wheel_velocity(const ContactState& state, const ContactPoint& point) {
+template <class State>
+TREAD_BODY Vec3 wheel_velocity(const State& state, const ContactPoint& point) {
   Vec3 v;
   for (std::size_t k = 0; k < kSupport; ++k)
     v += point.wheel.weight(k) * globalise(point.wheel_cosine[k / 4], point.wheel_sine[k / 4],

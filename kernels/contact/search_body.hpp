@@ -41,8 +41,8 @@ struct SearchEnd {
 /// Sets place, bases, history and velocity of a point of a face, and its gap [m]. Returns false if it is left
 /// out: it does not touch before the step ends, and carried no pressure `before`. Without velocities
 /// (statics) the history stays zero.
-template <class Depths>
-TREAD_BODY bool find_point(const SurfacePairBody<Depths>& surfaces, const ContactState& state,
+template <class Depths, class State>
+TREAD_BODY bool find_point(const SurfacePairBody<Depths>& surfaces, const State& state,
                            const SearchBounds& bounds, const std::array<int, 2>& face,
                            const FaceQuadrature::Point& at, const PointHistory& before, ContactPoint& point,
                            double& gap) {

@@ -44,11 +44,12 @@ struct SurfacePairBody {
 
   /// Sets nodes, weights, place, face and area of a point on a rail face; `along` and `across` on [0, 1],
   /// `share` of the face.
-  TREAD_BODY void place(const ContactState& state, const std::array<int, 2>& face, double at_along,
-                        double at_across, double share, ContactPoint& point) const {
+  template <class State>
+  TREAD_BODY void place(const State& state, const std::array<int, 2>& face, double at_along, double at_across,
+                        double share, ContactPoint& point) const {
     const int face_station = face[0];
     const int edge = face[1];
-    const ConstNodeField u = state.displacement;
+    const auto u = state.displacement;
     const StationLine& line = rail_side.stations;
     const bool exact = kind == SurfaceKind::exact;
     const auto profile = rail_side.profile.evaluate(edge, at_across, kind);
@@ -82,7 +83,8 @@ struct SurfacePairBody {
   /// Sets the wheel's nodes, weights, angles, normal and gap at the wheel's point that is closest to the
   /// placed rail point. Returns the gap [m], or the largest number beyond the wheel's surface. A gap above
   /// `far` [m] is rough.
-  TREAD_BODY double find_gap(const ContactState& state, double far, ContactPoint& point) const {
+  template <class State>
+  TREAD_BODY double find_gap(const State& state, double far, ContactPoint& point) const {
     constexpr int kMaxIterations = 6;
     constexpr double kNone = std::numeric_limits<double>::max();
     const ProfileView& profile = wheel_side.profile;
@@ -142,7 +144,8 @@ struct SurfacePairBody {
   }
 
   /// Displacement of a wheel's node; for facets its place, too.
-  TREAD_BODY Vec3 nodal(const ContactState& state, int node, int station, std::int64_t slot) const {
+  template <class State>
+  TREAD_BODY Vec3 nodal(const State& state, int node, int station, std::int64_t slot) const {
     Vec3 value = state.displacement.at(slot);
     if (kind == SurfaceKind::exact) return value;
     const double across = wheel_side.p[node];
@@ -152,8 +155,8 @@ struct SurfacePairBody {
   }
 
   /// Sets the point's nodes, weights and angles of the wheel too.
-  TREAD_BODY WheelSurface wheel_surface(const ContactState& state, const WheelPlace& at,
-                                        ContactPoint& point) const {
+  template <class State>
+  TREAD_BODY WheelSurface wheel_surface(const State& state, const WheelPlace& at, ContactPoint& point) const {
     const bool exact = kind == SurfaceKind::exact;
     const StationLine& stations = wheel_side.stations;
     const StationLine::Cell& cell = at.cell;

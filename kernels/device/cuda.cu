@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -149,7 +148,12 @@ __global__ void __launch_bounds__(kThreads, kTeams<Real, March::kLinear>)
 }
 
 template <class Body>
-__global__ void each_kernel(std::int64_t n, Body body) {
+constexpr int kThreadsOf = kThreads;
+template <class U, class V>
+constexpr int kThreadsOf<SearchPoints<U, V>> = kSearchThreads;
+
+template <class Body>
+__global__ void each_kernel(std::int64_t n, const __grid_constant__ Body body) {
   const std::int64_t i = std::int64_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i < n) body(i);
 }
@@ -246,7 +250,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   template <class Body>
   void each(const Body& body) {
-    constexpr int threads = std::is_same_v<Body, SearchPoints> ? kSearchThreads : kThreads;
+    constexpr int threads = kThreadsOf<Body>;
     const auto blocks = static_cast<unsigned>((body.count() + threads - 1) / threads);
     each_kernel<<<blocks, threads, 0, stream()>>>(body.count(), body);
     check(cudaGetLastError(), "values of nodes");

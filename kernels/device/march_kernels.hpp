@@ -8,6 +8,7 @@
 #include "kernels/device/march_body.hpp"
 #include "kernels/device/node_kernels.hpp"
 #include "kernels/device/patch_team.hpp"
+#include "kernels/device/search_points.hpp"
 
 namespace tread {
 
@@ -42,7 +43,13 @@ void with_march(TileVariant v, const Launch& launch) {
 template <class Own>
 class KernelDevice : public Device {
  public:
-  void search(const ContactTask& task) override { each(SearchPoints{task}); }
+  void search(const ContactTask& task) override {
+    task.u.visit([&]<class U>(const U* u) {
+      task.v.visit([&]<class V>(const V* v) {
+        if constexpr (sizeof(V) <= sizeof(U)) each(SearchPoints<U, V>{task, {u}, {v}});
+      });
+    });
+  }
   void resolve(const ContactTask& task, const FrictionLaw& law, void* state) override {
     this->count_launch();
     std::visit(

@@ -17,33 +17,6 @@
 
 namespace tread {
 
-/// Search of a step: a candidate a thread.
-struct SearchPoints {
-  ContactTask task;
-
-  std::int64_t count() const { return task.window.count(); }
-  TREAD_BODY void operator()(std::int64_t i) const {
-    const FaceWindow& window = task.window;
-    const auto of_window = static_cast<int>(i / window.points);
-    const auto k = static_cast<int>(i % window.points);
-    const std::int64_t face = window.face(of_window);
-    task.candidates.kept[i] = 0;
-    if (task.bounds.time < task.wake_time[face]) return;
-    const ContactState state{task.u, task.v, &task.wheel};
-    ContactPoint point{};
-    point.history = face * window.points + k;
-    double gap = 0;
-    const std::array<int, 2> at = {window.first_station + of_window / window.edges,
-                                   window.first_edge + of_window % window.edges};
-    const bool found = find_point(task.surfaces, state, task.bounds, at, task.quadrature[k],
-                                  task.history[point.history], point, gap);
-    task.candidates.gap[i] = gap;
-    if (!found || stays_open(point, kSpareClosing, task.dt)) return;
-    task.candidates.kept[i] = 1;
-    task.candidates.point[i] = point;
-  }
-};
-
 /// One lane of a tile.
 struct OneLane {
   int lane;
@@ -345,8 +318,10 @@ class PatchTeam {
     const PatchNode& node = links_.links().node[n];
     const Vec3 of_node = {change_[3 * n], change_[3 * n + 1], change_[3 * n + 2]};
     const Vec3 change = kick.local(of_node, node.of_wheel != 0, node.cosine, node.sine);
-    task_.v.add(node.slot, change);
-    task_.u.add(node.slot, task_.dt * change);
+    const Vec3 v = task_.v.at(node.slot) + change;
+    const Vec3 u = task_.u.at(node.slot) + task_.dt * change;
+    task_.v.set(node.slot, v);
+    task_.u.set(node.slot, u);
   }
 
   /// Adds averages at the nodes about the patch to the record.
@@ -361,20 +336,22 @@ class PatchTeam {
     const RecordView& to = task_.record;
     const int at = window.first_station + station;
     const double area = to.length[at] * to.width[row];
-    NodalStress node;
-    bool met = false;
-    for (int corner = 3; corner >= 0; --corner) {
+    int first[4];
+    int last[4];
+    for (int corner = 0; corner < 4; ++corner) {
       const int of_station = station - corner / 2;
       const int of_edge = row - corner % 2;
-      if (of_station < 0 || of_station >= window.stations || of_edge < 0 || of_edge >= window.edges) continue;
-      const int face = of_station * window.edges + of_edge;
-      for (int i = to.first_point[face]; i < to.first_point[face + 1]; ++i) {
-        const PointOutcome& of = outcomes()[i];
-        node.add(of, of.share[corner] / area);
-        met = true;
-      }
+      const bool there =
+          of_station >= 0 && of_station < window.stations && of_edge >= 0 && of_edge < window.edges;
+      const int face = there ? of_station * window.edges + of_edge : 0;
+      first[corner] = to.first_point[face];
+      last[corner] = there ? to.first_point[face + 1] : first[corner];
     }
-    if (!met) return;
+    if (first[0] == last[0] && first[1] == last[1] && first[2] == last[2] && first[3] == last[3]) return;
+    NodalStress node;
+    for (int corner = 3; corner >= 0; --corner)
+      for (int i = first[corner]; i < last[corner]; ++i)
+        node.add(outcomes()[i], outcomes()[i].share[corner] / area);
     const std::int64_t place = std::int64_t{at} * to.rows + row;
     if (node.pressure > to.max_pressure[place]) to.max_pressure[place] = node.pressure;
     const double shear = node.shear_size();
