@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kThreads = 128;       ///< of a team
 constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
-constexpr int kPatchThreads = 768;  ///< of the one team of a patch
+constexpr int kPatchThreads = 512;  ///< of the one team of a patch
 constexpr unsigned kAll = ~0U;      ///< lanes of a warp
 constexpr int kWarp = 32;
 
@@ -73,6 +73,11 @@ class CudaPatchTeam : public CudaTeam {
   };
   __device__ Spare spare() const {
     return {reinterpret_cast<std::byte*>(shared_memory) + used_, bytes_ - used_};
+  }
+  template <class T>
+  __device__ T* near(T* pointer) const {
+    const std::size_t place = __cvta_generic_to_shared(pointer) - __cvta_generic_to_shared(shared_memory);
+    return reinterpret_cast<T*>(reinterpret_cast<std::byte*>(shared_memory) + place);
   }
   __device__ void least(int* at, int value) const { atomicMin(at, value); }
   __device__ int add(int* at, int value) const { return atomicAdd(at, value); }

@@ -85,6 +85,10 @@ class EmulatedTeam {
     return first;
   }
   std::span<std::byte> spare() const { return memory_; }
+  template <class T>
+  T* near(T* pointer) const {
+    return pointer;
+  }
   /// One thread at a time changes what all share.
   void least(int* at, int value) const { *at = std::min(*at, value); }
   int add(int* at, int value) const { return std::exchange(*at, *at + value); }

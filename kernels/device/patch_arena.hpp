@@ -3,6 +3,7 @@
 //
 // Besides what kernels/device/march_body.hpp says, its team has
 //   spare()                 data() and size() of the memory that its threads share and no one has taken [B]
+//   near(pointer)           the same, of what lies in that memory
 //   add(at, value)          adds to an int that its threads share as one operation; returns the former value
 //   least(at, value)        lowers one likewise
 //   claim(at, value)        sets one likewise where it is zero; returns what it is then
@@ -44,7 +45,10 @@ class PatchArena {
   template <class T>
   TREAD_BODY T* keep(int n, T* other) {
     const std::ptrdiff_t bytes = bytes_of<T>(n);
-    if (bytes > high_ - low_) return other;
+    if (bytes > high_ - low_) {
+      near_ = false;
+      return other;
+    }
     std::byte* const first = low_;
     low_ += bytes;
     return reinterpret_cast<T*>(first);
@@ -58,6 +62,8 @@ class PatchArena {
     return reinterpret_cast<T*>(high_);
   }
   TREAD_BODY void take_back() { high_ = end_; }
+  /// True where there was room for all that was kept.
+  TREAD_BODY bool near() const { return near_; }
 
  private:
   template <class T>
@@ -68,6 +74,7 @@ class PatchArena {
   std::byte* low_;
   std::byte* end_;
   std::byte* high_;
+  bool near_ = true;
 };
 
 }  // namespace tread

@@ -30,6 +30,17 @@ class LinkedPatch {
   /// What the links left.
   TREAD_BODY PatchArena& arena() { return arena_; }
 
+  /// PatchTeam::name_near
+  TREAD_BODY void name_near() {
+    l_.entry = team_.near(l_.entry);
+    l_.place = team_.near(l_.place);
+    l_.first_entry = team_.near(l_.first_entry);
+    l_.cell_node = team_.near(l_.cell_node);
+    l_.first_term = team_.near(l_.first_term);
+    l_.term = team_.near(l_.term);
+    l_.inverse_mass = team_.near(l_.inverse_mass);
+  }
+
   /// Finds cells and nodes of the points. `inverse_mass`: by slot [1/kg].
   TREAD_BODY void link(const ContactPoint* points, int count, const double* inverse_mass) {
     points_ = points;

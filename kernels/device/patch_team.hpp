@@ -121,7 +121,7 @@ class PatchTeam {
     team_.for_each(points_, [&](int i) { fill(i); });
     sum_impulses();
     set_mobilities();
-    iterate();
+    iterate_from_near();
     team_.for_each(points_, [&](int i) { put(impulse_, i, vector_of(lane(i).settle(point(i)))); });
     sum_impulses();
     finish();
@@ -136,7 +136,32 @@ class PatchTeam {
     const int sums = kSumStride * links_.cells();
     cell_sum_ = arena.keep(sums > 6 * points_ ? sums : 6 * points_, room.cell_sum);
     sum_ = cell_sum_;
+    near_ = arena.near();
     tile_ = arena.keep((points_ + kLanes - 1) / kLanes, room.tile);
+  }
+
+  /// The compiler of a card is told where the arrays lie: loads of shared memory are shorter than those from
+  /// anywhere.
+  TREAD_BODY void iterate_from_near() {
+    if (!near_) {
+      iterate();
+      return;
+    }
+    name_near();
+    if (links_.arena().near()) {
+      tile_ = team_.near(tile_);
+      iterate();
+    } else {
+      tile_ = task_.vectors.tile;
+      iterate();
+    }
+  }
+  TREAD_BODY void name_near() {
+    links_.name_near();
+    impulse_ = team_.near(impulse_);
+    change_ = team_.near(change_);
+    cell_sum_ = team_.near(cell_sum_);
+    sum_ = cell_sum_;
   }
 
   /// Sets `change` to the inverse mass times the weighted sum of the points' impulses.
@@ -387,6 +412,7 @@ class PatchTeam {
   double* cell_sum_ = nullptr;  ///< kSumStride by cell
   double* sum_ = nullptr;       ///< by entry
   TeamTile* tile_ = nullptr;
+  bool near_ = false;  ///< all but the tiles lies in shared memory
 };
 
 }  // namespace tread
