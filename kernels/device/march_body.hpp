@@ -58,10 +58,10 @@ class March {
         first_tile_ + block_.run_tiles < block_.tiles ? first_tile_ + block_.run_tiles : block_.tiles;
     copy_tables(end);
     lead_in(first_tile_ > 0 || block_.closed == 0 ? first_tile_ - 1 : block_.tiles - 1);
-    Station to = enter(first_tile_);
+    TileAt to = enter(first_tile_);
     team_.for_each(kLanes * part_.nodes, [&](int i) { open_node(to, i / kLanes, i % kLanes); });
     for (int tile = first_tile_; tile < end; ++tile) {
-      const Station at = to;
+      const TileAt at = to;
       add_elements(at, MarchLanes{0, 3}, true);
       const bool last = tile + 1 == end;
       if (!last) to = enter(tile + 1);
@@ -79,14 +79,6 @@ class March {
   static constexpr int kValues = kStateValues<Law>;
   using State = typename Law<Real>::template State<Real>;
 
-  /// A tile at which the team is.
-  struct Station {
-    Tile tile;
-    int number;
-    std::int64_t group, next_group;  ///< of section node 0, of the tile and its next one
-    int row, next_row;               ///< in the tables of moved nodes; -1: none near
-  };
-
   TREAD_INLINE void copy_tables(int end) {
     if constexpr (sweep == Sweep::revolved)
       team_.for_each(kLanes * (end - first_tile_), [&](int i) {
@@ -97,8 +89,8 @@ class March {
     team_.for_each(part_.nodes, [&](int i) { section_node_[i] = block_.part_nodes[part_.first_node + i]; });
   }
 
-  TREAD_INLINE Station enter(int tile) const {
-    Station at{block_.tile[tile], tile, 0, 0, -1, -1};
+  TREAD_INLINE TileAt enter(int tile) const {
+    TileAt at{block_.tile[tile], tile, 0, 0, -1, -1};
     at.group = block_.first_group + std::int64_t{tile} * block_.section_nodes;
     at.next_group = block_.first_group + std::int64_t{at.tile.next} * block_.section_nodes;
     if (block_.row == nullptr) return at;
@@ -111,7 +103,7 @@ class March {
   /// none.
   TREAD_INLINE void lead_in(int tile) {
     const bool any = tile >= 0 && block_.tile[tile].elements > 0;
-    Station at{};
+    TileAt at{};
     if (any) {
       at = enter(tile);
       const MarchLanes last{at.tile.elements - 1, 0};
@@ -126,7 +118,7 @@ class March {
   }
 
   /// Adds the forces of elements of the tile. Those that share a node do so one after the other, by colour.
-  TREAD_INLINE void add_elements(const Station& at, MarchLanes lanes, bool own) const {
+  TREAD_INLINE void add_elements(const TileAt& at, MarchLanes lanes, bool own) const {
     const int* const of_colour = block_.first_of_colour + std::int64_t{part_number_} * (block_.colours + 1);
     for (int colour = 0; colour < block_.colours; ++colour) {
       const int begin = of_colour[colour];
@@ -139,18 +131,9 @@ class March {
     }
   }
 
-  /// Place of a node's component 0 in a field, at the near end of an element.
-  TREAD_INLINE static std::int64_t near_place(const Station& at, int section, int lane) {
-    return (at.group + section) * (3 * kLanes) + lane;
-  }
-  TREAD_INLINE static std::int64_t far_place(const Station& at, int section, int lane) {
-    return lane + 1 < at.tile.elements ? near_place(at, section, lane + 1)
-                                       : (at.next_group + section) * (3 * kLanes);
-  }
-
   /// Sums and differences of a node's values at both ends of an element, in its middle frame.
   template <int from>
-  TREAD_INLINE void spread(const Station& at, const Real (&near)[3], const Real (&far)[3], Real (&s)[3],
+  TREAD_INLINE void spread(const TileAt& at, const Real (&near)[3], const Real (&far)[3], Real (&s)[3],
                            Real (&d)[3]) const {
     for (int i = from; i < 3; ++i) {
       s[i] = near[i] + far[i];
@@ -159,7 +142,7 @@ class March {
     if constexpr (sweep == Sweep::revolved)
       turn_to_middle(block_.cosine[at.tile.pitch_class], block_.sine[at.tile.pitch_class], s, d);
   }
-  TREAD_INLINE void keep(const Station& at, const Real (&near)[3], const Real (&far)[3],
+  TREAD_INLINE void keep(const TileAt& at, const Real (&near)[3], const Real (&far)[3],
                          NodeValues<Real> to) const {
     Real s[3];
     Real d[3];
@@ -170,11 +153,11 @@ class March {
     }
   }
 
-  TREAD_INLINE void open_node(const Station& at, int node, int lane) const {
+  TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
     if (lane >= at.tile.elements) return;
     const int section = section_node_[node];
-    const std::int64_t near_at = near_place(at, section, lane);
-    const std::int64_t far_at = far_place(at, section, lane);
+    const std::int64_t near_at = at.near_place(section, lane);
+    const std::int64_t far_at = at.far_place(section, lane);
     Real near[3];
     Real far[3];
     displacements(at, near_at, far_at, lane, near, far);
@@ -199,12 +182,12 @@ class March {
 
   /// Where displacements are more precise than the elements, they are taken relative to a translation, that
   /// of the part's first node, so that what all nodes share is not rounded.
-  TREAD_INLINE void displacements(const Station& at, std::int64_t near_at, std::int64_t far_at, int lane,
+  TREAD_INLINE void displacements(const TileAt& at, std::int64_t near_at, std::int64_t far_at, int lane,
                                   Real (&near)[3], Real (&far)[3]) const {
     U origin[3] = {};
     U far_origin[3] = {};
     if constexpr (kRelative) {
-      const std::int64_t of = near_place(at, section_node_[0], lane);
+      const std::int64_t of = at.near_place(section_node_[0], lane);
       for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = fields_.u[of + i * kLanes];
       if constexpr (sweep == Sweep::revolved) {
         const U c = block_.cosine[at.tile.pitch_class];
@@ -247,7 +230,7 @@ class March {
   }
 
   /// Amplitudes of the shifts of a quad's nodes.
-  TREAD_INLINE void shifts(const Station& at, const MarchQuad& quad, int lane,
+  TREAD_INLINE void shifts(const TileAt& at, const MarchQuad& quad, int lane,
                            Real (&of_modes)[3][kModes]) const {
     const bool inside = lane + 1 < at.tile.elements;
     Real s[3][4];
@@ -269,7 +252,7 @@ class March {
     for (int i = 0; i < 3; ++i) to_modes(s[i], d[i], of_modes[i]);
   }
 
-  TREAD_INLINE void add_element(const Station& at, const MarchQuad quad, int lane, bool own) const {
+  TREAD_INLINE void add_element(const TileAt& at, const MarchQuad quad, int lane, bool own) const {
     const std::int64_t place = std::int64_t{at.tile.pitch_class} * block_.quads + quad.place;
     const SweptConstants<Real>& constants = block_.constants[place];
     if (at.row >= 0 && block_.perturbed[std::int64_t{at.row} * block_.quads + quad.place] != 0) {
@@ -282,7 +265,7 @@ class March {
   }
 
   template <class Element>
-  TREAD_INLINE void add_element(const Station& at, const MarchQuad& quad, std::int64_t place, int lane,
+  TREAD_INLINE void add_element(const TileAt& at, const MarchQuad& quad, std::int64_t place, int lane,
                                 bool own, const Element& element) const {
     const SweptConstants<Real>& constants = block_.constants[place];
     Strain<Real> strain;
@@ -344,7 +327,7 @@ class March {
   }
 
   /// Sums and differences of the forces of a lane's elements on a node, in the nodes' own bases.
-  TREAD_INLINE void forces(const Station& at, int node, int lane, Real (&s)[3], Real (&d)[3]) const {
+  TREAD_INLINE void forces(const TileAt& at, int node, int lane, Real (&s)[3], Real (&d)[3]) const {
     const NodeValues<Real> sums(sums_, node, lane);
     for (int i = first; i < 3; ++i) {
       s[i] = sums[i];
@@ -354,7 +337,7 @@ class March {
       turn_to_nodes(block_.cosine[at.tile.pitch_class], block_.sine[at.tile.pitch_class], s, d);
   }
 
-  TREAD_INLINE void forces_on_far(const Station& at, int node, int lane, Real (&force)[3]) const {
+  TREAD_INLINE void forces_on_far(const TileAt& at, int node, int lane, Real (&force)[3]) const {
     Real s[3] = {};
     Real d[3] = {};
     forces(at, node, lane, s, d);
@@ -362,7 +345,7 @@ class March {
   }
 
   /// Adds what the elements on both sides of a station have for a node; keeps what belongs to the next tile.
-  TREAD_INLINE void close_node(const Station& at, int node, int lane) const {
+  TREAD_INLINE void close_node(const TileAt& at, int node, int lane) const {
     if (lane >= at.tile.stations) return;
     Real s[3] = {};
     Real d[3] = {};
@@ -380,9 +363,9 @@ class March {
   }
 
   /// Moves a node or stores its force.
-  TREAD_INLINE void finish_node(const Station& at, int section, int lane, const Real (&force)[3]) const {
+  TREAD_INLINE void finish_node(const TileAt& at, int section, int lane, const Real (&force)[3]) const {
     const std::int64_t group = at.group + section;
-    const std::int64_t place = near_place(at, section, lane);
+    const std::int64_t place = at.near_place(section, lane);
     const int host = fields_.group_mark[group];
     if (host >= 0 && fields_.moved_u != nullptr) {
       for (int i = 0; i < 3; ++i) fields_.host_force[(std::int64_t{host} * 3 + i) * kLanes + lane] = force[i];

@@ -1,5 +1,6 @@
 #pragma once
-// Nodes of a march: what a team keeps for them, and their motion. [kernels/device/march_body.hpp]
+// Tiles and nodes of a march: what a team keeps for them, and the motion of nodes.
+// [kernels/device/march_body.hpp]
 
 #include <cstdint>
 
@@ -14,6 +15,23 @@ struct MarchLanes {
 
   TREAD_INLINE int item(int i) const { return i >> shift; }
   TREAD_INLINE int lane(int i) const { return from + (i & ((1 << shift) - 1)); }
+};
+
+/// A tile at which a team is.
+struct TileAt {
+  Tile tile;
+  int number;
+  std::int64_t group, next_group;  ///< of section node 0, of the tile and its next one
+  int row, next_row;               ///< in the tables of moved nodes; -1: none near
+
+  /// Place of a node's component 0 in a field, at the near end of a lane's element.
+  TREAD_INLINE std::int64_t near_place(int section_node, int lane) const {
+    return (group + section_node) * (3 * kLanes) + lane;
+  }
+  TREAD_INLINE std::int64_t far_place(int section_node, int lane) const {
+    return lane + 1 < tile.elements ? near_place(section_node, lane + 1)
+                                    : (next_group + section_node) * (3 * kLanes);
+  }
 };
 
 inline constexpr int kNodeValues = 6 * kLanes;  ///< sums and differences of a node

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <new>
 
 #include "kernels/contact/patch_point_body.hpp"
@@ -16,14 +15,6 @@
 #include "kernels/lanes/patch_respond_body.hpp"
 
 namespace tread {
-
-/// One lane of a tile.
-struct OneLane {
-  int lane;
-
-  TREAD_INLINE double load(const double (&values)[kLanes]) const { return values[lane]; }
-  TREAD_INLINE void store(double (&values)[kLanes], double value) const { values[lane] = value; }
-};
 
 template <class Law, class Team>
 class PatchTeam {
@@ -78,29 +69,15 @@ class PatchTeam {
           if (i % window.points == 0) task_.record.first_point[i / window.points] = place;
           if (from.kept[i] != 0) task_.origin[place] = i;
         });
-    team_.for_each(points_ * kPieces + 1, [&](int i) {
-      if (i < points_ * kPieces) {
-        copy_piece(from.point[task_.origin[i / kPieces]], task_.point[i / kPieces], i % kPieces);
+    team_.for_each(points_ * kPieces<ContactPoint> + 1, [&](int i) {
+      if (i < points_ * kPieces<ContactPoint>) {
+        copy_piece(from.point[task_.origin[i / kPieces<ContactPoint>]],
+                   task_.point[i / kPieces<ContactPoint>], i % kPieces<ContactPoint>);
       } else {
         task_.record.first_point[faces] = points_;
         ends_[0] = 0;
       }
     });
-  }
-
-  static constexpr int kWords = static_cast<int>(sizeof(ContactPoint) / sizeof(std::uint64_t));
-  static constexpr int kPiece = 8;  ///< words that a thread copies at once
-  static constexpr int kPieces = (kWords + kPiece - 1) / kPiece;
-
-  TREAD_BODY static void copy_piece(const ContactPoint& from, ContactPoint& to, int piece) {
-    const char* const source = reinterpret_cast<const char*>(&from);
-    char* const target = reinterpret_cast<char*>(&to);
-    const int first = piece * kPiece;
-    std::uint64_t words[kPiece];
-    for (int w = 0; w < kPiece; ++w)
-      if (first + w < kWords) std::memcpy(words + w, source + (first + w) * sizeof words[0], sizeof words[0]);
-    for (int w = 0; w < kPiece; ++w)
-      if (first + w < kWords) std::memcpy(target + (first + w) * sizeof words[0], words + w, sizeof words[0]);
   }
 
   TREAD_BODY ContactPoint& point(int i) const { return task_.point[i]; }

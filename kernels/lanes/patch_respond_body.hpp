@@ -5,6 +5,14 @@
 
 namespace tread {
 
+/// One lane of a tile.
+struct OneLane {
+  int lane;
+
+  TREAD_INLINE double load(const double (&values)[kLanes]) const { return values[lane]; }
+  TREAD_INLINE void store(double (&values)[kLanes], double value) const { values[lane] = value; }
+};
+
 /// Part of a point's vector in the sum of the k-th node of its cell.
 template <class V>
 TREAD_INLINE V node_part(const PatchWeights& weights, int k, const V& vector) {
