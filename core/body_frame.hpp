@@ -16,6 +16,7 @@ struct BodyFrame {
   double angle = 0;  ///< rotation about +y [rad]
   double spin = 0;   ///< angular velocity about +y [rad/s]
 
+  bool operator==(const BodyFrame&) const = default;
   void advance(double dt) {
     origin += dt * velocity;
     angle += dt * spin;

@@ -14,6 +14,7 @@ struct Vec3 {
 
   TREAD_BODY double& operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
   TREAD_BODY double operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
+  bool operator==(const Vec3&) const = default;
   TREAD_BODY Vec3& operator+=(const Vec3& b) {
     x += b.x;
     y += b.y;

@@ -18,6 +18,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
     : Base(model),
       device_(std::move(device)),
       kernels_(device_->template kernels<Real, U>()),
+      marches_(*device_),
       host_update_(model.mesh, this->inverse_mass()),
       contact_(model.contact.get()) {
   const Mesh& mesh = model.mesh;
@@ -29,7 +30,10 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
     const BlockElements<Real>& elements = this->internal().elements(b);
     const SweptBlock& block = mesh.blocks[index(b)];
-    blocks_.push_back(std::make_unique<BlockMarch<Real>>(*device_, elements, this->internal().damping(b)));
+    const auto& internal = this->internal();
+    marches_.add(std::make_unique<BlockMarch<Real>>(*device_, elements, internal.damping(b)),
+                 {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
+                  internal.law(b)});
     const int law = this->law_state() ? elements.law() : 0;
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
@@ -48,6 +52,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
 
 template <class Real, class U>
 DeviceFields<Real, U>::~DeviceFields() {
+  device_->wait();
   if (has_contact()) contact_->run_on(nullptr);
 }
 
@@ -72,6 +77,7 @@ void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
   device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
+  host_ties_ = model.ties && !ties_;
 }
 
 template <class Real, class U>
@@ -101,6 +107,7 @@ void DeviceFields<Real, U>::set(const AlignedVector<double>& displacement,
 
 template <class Real, class U>
 void DeviceFields<Real, U>::changed() {
+  marches_.forget();
   host_whole_ = true;
   device_whole_ = false;
   apart_ = false;
@@ -122,14 +129,6 @@ void DeviceFields<Real, U>::send() {
   for (std::size_t b = 0; b < now_.state.size(); ++b)
     if (now_.state[b].size() > 0) now_.state[b].upload(this->law_state()->values(static_cast<int>(b)));
   device_whole_ = true;
-}
-
-/// Packed values of the groups that are sent.
-template <class Real, class U>
-GroupValues<Real, U> DeviceFields<Real, U>::packed(std::byte* values) const {
-  auto* const u = reinterpret_cast<U*>(values);
-  auto* const v = reinterpret_cast<Real*>(u + sent_groups_.size() * kGroupValues);
-  return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
 }
 
 /// Sends what the host has moved, by one copy. The host packs again after it has waited for a later kernel.
@@ -169,7 +168,7 @@ void DeviceFields<Real, U>::add_patch_groups() {
 template <class Real, class U>
 void DeviceFields<Real, U>::advance_device_lag() {
   if (lag_step_ == 0) return;
-  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
+  for (int b = 0; b < marches_.blocks(); ++b) {
     if (!this->q()->branch(b)) continue;
     const auto [kept, gained] = this->q()->advance_of(b, lag_step_);
     const SweptBlock& block = this->mesh().blocks[index(b)];
@@ -226,35 +225,35 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) 
 }
 
 template <class Real, class U>
-TileVariant DeviceFields<Real, U>::variant(int block) const {
-  const SweptBlock& swept = this->mesh().blocks[index(block)];
-  const auto& internal = this->internal();
-  return {swept.sweep, internal.damping(block) != 0, internal.finite_rotation(block), swept.vertical_only,
-          internal.law(block)};
+void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
+  marches_.march(loads, moves, [&](int block) { return march_fields(block, moves); });
 }
 
-/// All blocks at once: a small one leaves most of a device idle.
+/// Begins the next step where the tractions of this one, which are being solved, move no nodes. It counts if
+/// no one looks at the energies or changes the fields before. The host has moved its nodes.
 template <class Real, class U>
-void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
-  const auto march = [&](int b) {
-    kernels_.march(variant(b), blocks_[index(b)]->at(loads), march_fields(b, moves));
+void DeviceFields<Real, U>::march_ahead(const BodyFrame& wheel, double dt) {
+  if (host_whole_ || host_ties_ || this->q()) return;
+  send();
+  const std::array<SurfacePart, 2> parts = contact_->near(wheel, dt);
+  const auto reached = [&](int block, const SurfacePart& part) {
+    return ReachedTiles{block, tiles_of(this->mesh().blocks[index(block)], part)};
   };
-  const int last = static_cast<int>(blocks_.size()) - 1;
-  for (int b = 0; b < last; ++b) {
-    const Beside beside(*device_, kFanQueue + b % (kQueues - kFanQueue));
-    march(b);
-  }
-  march(last);
-  for (int b = 0; b < std::min(last, kQueues - kFanQueue); ++b) device_->after(kFanQueue + b);
+  StepLoads next = loads_;
+  next.frame.advance(dt);
+  marches_.begin_ahead(
+      next,
+      {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
+      [&](int block) { return march_fields(block, true); });
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
   kernels_.sum_stations(ties_->sums(), force_.data());
   PrimaryBlocks<Real> primary;
-  for (int b = 0; b < static_cast<int>(blocks_.size()); ++b) {
+  for (int b = 0; b < marches_.blocks(); ++b) {
     if (const PrimaryNodes nodes = ties_->primary(b); nodes.count > 0)
-      primary.add(nodes, blocks_[index(b)]->at(loads), variant(b));
+      primary.add(nodes, marches_.block(b).at(loads), marches_.variant(b));
     if (primary.blocks == PrimaryBlocks<Real>::kMost)
       kernels_.move_primary(std::exchange(primary, {}), march_fields(b, true));
   }
@@ -285,6 +284,7 @@ void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
   tie(loads);
   std::swap(now_, next_);
   ++step_;
+  loads_ = loads;
   host_moves_ = true;
   if (device_contact_) device_contact_->start(now_.u.data(), now_.v.data());
 }
@@ -293,19 +293,15 @@ template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
   march(loads, true);
-  start_host_forces();
+  if (packed_f_.size() > 0) {
+    const Beside beside(*device_, kCopyQueue);
+    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
+  }
   finish_motion(loads);
   take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
   if (device_->spoils_copies()) spoil();
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::start_host_forces() {
-  const Beside beside(*device_, kCopyQueue);
-  if (packed_f_.size() > 0)
-    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
 }
 
 template <class Real, class U>
@@ -342,6 +338,7 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
 /// In steps that look at the energies the host's copies move by the tractions, too.
 template <class Real, class U>
 void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
+  march_ahead(wheel, dt);
   device_contact_->resolve();
   if (!host_whole_) return;
   device_contact_->fetch_points();

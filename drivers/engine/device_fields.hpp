@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "drivers/engine/precise_fields.hpp"
-#include "kernels/device/block_march.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/device_contact.hpp"
 #include "kernels/device/device_ties.hpp"
 #include "kernels/device/host_array.hpp"
+#include "kernels/device/march_fan.hpp"
 #include "kernels/device/surface_copies.hpp"
 
 namespace tread {
@@ -54,12 +54,11 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void choose_host_groups(const Model& model);
   void make_room();
   MarchFields<Real, U> march_fields(int block, bool moves);
-  TileVariant variant(int block) const;
   void march(const StepLoads& loads, bool moves);
+  void march_ahead(const BodyFrame& wheel, double dt);
   void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
   void finish_motion(const StepLoads& loads);
-  void start_host_forces();
   void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);
   void fetch_nodes();
@@ -68,7 +67,12 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void resolve(const BodyFrame& wheel, double dt) override;
   void send();
   void send_groups();
-  GroupValues<Real, U> packed(std::byte* values) const;
+  /// Packed values of the groups that are sent.
+  GroupValues<Real, U> packed(std::byte* values) const {
+    auto* const u = reinterpret_cast<U*>(values);
+    auto* const v = reinterpret_cast<Real*>(u + 3 * kLanes * sent_groups_.size());
+    return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
+  }
   void add_patch_groups();
   void fetch_law_state(const Arrays& from);
   void advance_device_lag();
@@ -76,7 +80,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   std::shared_ptr<Device> device_;
   FieldKernels<Real, U>& kernels_;
-  std::vector<std::unique_ptr<BlockMarch<Real>>> blocks_;
+  MarchFan<Real, U> marches_;
   Arrays now_, next_;
   DeviceArray<Real> lag_, force_, inverse_mass_;
 
@@ -88,6 +92,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   DeviceArray<Real> device_f_;
 
   std::optional<DeviceTies> ties_;  ///< none: there are no ties, or connectors act on tied nodes
+  bool host_ties_ = false;          ///< connectors act on tied nodes
   DeviceArray<std::int64_t> held_;  ///< unknowns that stay zero
 
   Contact* contact_;                                ///< null: absent
@@ -102,6 +107,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   HostArray<std::byte> packed_;  ///< of sent_groups_: displacements [group][component][lane], then velocities
   DeviceArray<std::byte> device_packed_;
   std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
+
+  StepLoads loads_;  ///< of the last step
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present
   bool apart_ = false;         ///< but by motion of its own, whose bits are not the device's

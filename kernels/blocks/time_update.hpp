@@ -26,6 +26,8 @@ struct StepLoads {
   double dt = 0;       ///< length of the step [s]
   double gravity = 0;  ///< downwards [m/s2]
   BodyFrame frame;     ///< of revolved blocks
+
+  bool operator==(const StepLoads&) const = default;
 };
 
 /// The step of a block's nodes.

@@ -206,11 +206,31 @@ void BlockMarch<Real>::build_coefficients(Device& device, const BlockElements<Re
 }
 
 template <class Real>
-const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads) {
+const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads, MarchRuns runs) {
+  block_.marched = runs;
   block_.step = step_constants<Real>(*swept_, loads);
   block_.gravity = loads.gravity;
   block_.frame_angle = loads.frame.angle;
   return block_;
+}
+
+/// A run reads a tile before and a tile after its own.
+template <class Real>
+MarchRuns BlockMarch<Real>::near(TileSpan tiles) const {
+  const int all = block_.tiles;
+  if (tiles.count + 2 >= all) return {0, block_.runs()};
+  int first = tiles.first - 1;
+  int last = tiles.first + tiles.count;
+  if (block_.closed == 0) {
+    first = std::max(first, 0);
+    last = std::min(last, all - 1);
+  }
+  const int from = (first + all) % all / block_.run_tiles;
+  const int to = last % all / block_.run_tiles;
+  const int count = (to - from + block_.runs()) % block_.runs() + 1;
+  // A stretch that begins and ends in one run lies in it, or passes all others.
+  const bool around = count == 1 && last - first >= block_.run_tiles;
+  return {from, around ? block_.runs() : count};
 }
 
 template class BlockMarch<double>;

@@ -29,8 +29,15 @@ class BlockMarch {
   /// Copies everything. `damping`: factor of the velocity [s] or of the lag [-].
   BlockMarch(Device& device, const BlockElements<Real>& elements, double damping);
 
-  /// What a march reads in a step with these loads.
-  const MarchBlock<Real>& at(const StepLoads& loads);
+  /// What a march reads in a step with these loads, over all runs.
+  const MarchBlock<Real>& at(const StepLoads& loads) { return at(loads, runs()); }
+  const MarchBlock<Real>& at(const StepLoads& loads, MarchRuns runs);
+  MarchRuns runs() const { return {0, block_.runs()}; }
+  /// Runs that read or write a stretch of tiles, which may pass the end of a full turn, and the others.
+  MarchRuns near(TileSpan tiles) const;
+  MarchRuns beyond(MarchRuns near) const {
+    return {(near.first + near.count) % block_.runs(), block_.runs() - near.count};
+  }
 
  private:
   /// Copies values to the device.

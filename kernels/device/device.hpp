@@ -34,8 +34,9 @@ struct DeviceTraffic {
 inline constexpr int kMainQueue = 0;
 inline constexpr int kSearchQueue = 1;  ///< of the contact's search
 inline constexpr int kCopyQueue = 2;    ///< of copies to the host
-inline constexpr int kFanQueue = 3;     ///< this one and all after it: of marches
-inline constexpr int kQueues = 8;
+inline constexpr int kPatchQueue = 3;   ///< of the contact's tractions
+inline constexpr int kFanQueue = 4;     ///< this one and all after it: of marches
+inline constexpr int kQueues = 12;
 
 class Device {
  public:

@@ -184,13 +184,14 @@ void DeviceContact::start(NodeField displacement, NodeField velocity) {
   if (!std::exchange(searched_, false)) return;
   task_.u = displacement;
   task_.v = velocity;
+  const Beside beside(*device_, kPatchQueue);
   device_->after(kSearchQueue);
   device_->resolve(task_, law_, law_state_);
   device_->start_download(result_.data(), task_.result, sizeof(PatchResult));
 }
 
 void DeviceContact::resolve() {
-  device_->finish(kMainQueue);
+  device_->finish(kPatchQueue);
   const PatchResult& result = *result_.data();
   contact_->take({result.force_on_rail, result.frictional_work, result.damping_work});
   if (result.at_the_end != 0) fetch_points();

@@ -28,8 +28,8 @@ class March {
       : team_(team),
         block_(block),
         fields_(fields),
-        run_(team.block() / block.parts),
-        part_number_(team.block() - run_ * block.parts),
+        run_((block.marched.first + team.block() / block.parts) % block.runs()),
+        part_number_(team.block() % block.parts),
         part_(block.part[part_number_]) {
     values_ = team.template share<Real>(kNodeValues * part_.nodes);
     if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeValues * part_.nodes);

@@ -30,6 +30,15 @@ struct MarchQuad {
   std::uint32_t begins : 4;  ///< a bit by corner: no quad before this one adds forces to the node
 };
 
+/// Successive tiles of a block, which may pass the end of a full turn.
+struct TileSpan {
+  int first = 0, count = 0;
+};
+/// Successive runs likewise.
+struct MarchRuns {
+  int first = 0, count = 0;
+};
+
 /// A block; arrays by tile and by station have one entry for each, those by class one for each pitch class.
 template <class Real>
 struct MarchBlock {
@@ -40,6 +49,7 @@ struct MarchBlock {
   int colours = 0;        ///< quads of one colour share no node
   int parts = 0;
   int run_tiles = 0;       ///< tiles of a run; the last one has the rest
+  MarchRuns marched;       ///< of the runs, in this march
   int most_nodes = 0;      ///< of a part
   int most_own_nodes = 0;  ///< of a part
   int most_quads = 0;      ///< of a part
@@ -69,7 +79,7 @@ struct MarchBlock {
   double frame_angle = 0;  ///< of the frame of a spinning block [rad]
 
   int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
-  int teams() const { return parts * runs(); }
+  int teams() const { return parts * marched.count; }
 };
 
 /// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force.

@@ -6,6 +6,14 @@
 
 namespace tread {
 
+TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part) {
+  const auto all = static_cast<int>(block.tiles.size());
+  const int first = block.tile_of_station[index(part.first)];
+  const int last = block.tile_of_station[index((part.first + part.count - 1) % block.station_count())];
+  // A stretch that begins and ends in one tile lies in it, or passes all others.
+  return {first, first == last && part.count > kLanes ? all : (last - first + all) % all + 1};
+}
+
 template <class Real, class U>
 SurfaceCopies<Real, U>::SurfaceCopies(Device& device, const Mesh& mesh, const Contact& contact)
     : device_(&device),
@@ -31,20 +39,15 @@ void SurfaceCopies<Real, U>::fetch(const std::array<SurfacePart, 2>& parts, cons
     const SurfacePart& part = parts[body];
     const SweptBlock& block = *blocks_[body];
     SurfaceWindow& window = windows_.of[body];
-    const auto all = static_cast<int>(block.tiles.size());
-    const int stations = block.station_count();
-    const int first = block.tile_of_station[index(part.first)];
-    const int last = block.tile_of_station[index((part.first + part.count - 1) % stations)];
-    // A stretch that begins and ends in one tile lies in it, or passes all others.
-    const int tiles = first == last && part.count > kLanes ? all : (last - first + all) % all + 1;
+    const TileSpan tiles = tiles_of(block, part);
     first_node_[body] = part.first_node;
     window = {device_nodes_[body].data() + part.first_node,
               part.last_node - part.first_node,
               block.base / kLanes,
               block.section.nodes(),
-              all,
-              first,
-              tiles};
+              static_cast<int>(block.tiles.size()),
+              tiles.first,
+              tiles.count};
   }
   device_->kernels<Real, U>().collect(windows_, u, v, device_u_.data(), device_v_.data());
   const std::size_t values = 3 * kLanes * index(windows_.groups());
