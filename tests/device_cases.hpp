@@ -110,6 +110,24 @@ inline void expect_same_contact(const Simulation& a, const Simulation& b) {
   EXPECT_LT(difference(a.surface()->frictional_work(), b.surface()->frictional_work()), 1e-8);
 }
 
+/// Fields of a run on a device after the steps of a run in double on the processor. Returns their difference.
+inline Apart expect_same_fields(const Simulation& in_double, DeviceCase& at, const Simulation& on_device,
+                                const std::string& precision) {
+  const Apart error = apart(at.values(), in_double, on_device);
+  if (precision == "double") {
+    EXPECT_LT(error.displacement, 1e-9);
+    EXPECT_LT(error.velocity, 1e-9);
+    expect_same_contact(in_double, on_device);
+  } else {
+    // Velocities hold the noise of rounding: the device's must not exceed the processor's.
+    const auto on_processor = roll(at.start(nullptr), in_double.steps());
+    EXPECT_LT(apart(at.values(), *on_processor, on_device).displacement, 1e-5);
+    EXPECT_LT(error.displacement, 1e-5);
+    EXPECT_LT(error.velocity, 2 * apart(at.values(), in_double, *on_processor).velocity);
+  }
+  return error;
+}
+
 /// Scenes by precision: of the tyre, and of a file.
 inline auto tyre(std::vector<std::string> overrides) {
   return [overrides](const std::string& precision) {

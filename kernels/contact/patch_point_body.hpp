@@ -98,7 +98,7 @@ struct PointLane {
   TREAD_BODY Vec3 axis(const double (&of)[3][kLanes]) const {
     return {of[0][lane], of[1][lane], of[2][lane]};
   }
-  /// Of tractions on the wheel [N s].
+  /// Impulse of tractions on the wheel [N s].
   TREAD_BODY PatchVector impulse_of(const double (&traction)[3]) const {
     return padded(-tile.impulse[lane] * (traction[0] * axis(tile.normal) + traction[1] * axis(tile.along) +
                                          traction[2] * axis(tile.across)));

@@ -29,7 +29,7 @@ class BlockMarch {
   /// Copies everything. `damping`: factor of the velocity [s] or of the lag [-].
   BlockMarch(Device& device, const BlockElements<Real>& elements, double damping);
 
-  /// What a march reads in a step with these loads, over all runs.
+  /// Data of a march in a step with these loads, over all runs.
   const MarchBlock<Real>& at(const StepLoads& loads) { return at(loads, runs()); }
   const MarchBlock<Real>& at(const StepLoads& loads, MarchRuns runs);
   MarchRuns runs() const { return {0, block_.runs()}; }

@@ -88,7 +88,8 @@ struct TeamTile : PointTile {
   double free[3][kLanes];  ///< velocity without contact, Cartesian [m/s]
 };
 
-/// What record and result take of a point. Its size is that of an odd number of doubles, for the banks.
+/// Values that record and result take of a point. Its size is that of an odd number of doubles, for the
+/// banks.
 struct PointOutcome {
   static constexpr int kSums = 5;
   double pressure;         ///< [Pa]

@@ -17,7 +17,7 @@
 
 namespace tread {
 
-/// How sections and tiles are cut for the teams.
+/// Cut of sections and tiles for the teams.
 struct MarchCut {
   int part_quads = 64;  ///< quads that a part owns at most
   int run_tiles = 4;    ///< tiles of a run
@@ -81,7 +81,7 @@ class Device {
 
   /// Kernels and copies go to this queue from now on; at first to the main one.
   void use(int queue) { used_ = queue; }
-  /// What follows in the queue in use begins after all that `queue` holds by now.
+  /// Lets what follows in the queue in use begin after all that `queue` holds by now.
   void after(int queue) {
     if (queue != used_) let_wait(used_, queue);
   }
@@ -186,7 +186,8 @@ class DeviceArray {
 /// Emulation of a device by the processor's threads.
 struct Emulation {
   MarchCut cut;
-  /// Seed of the order of teams and of their threads; 0: ascending. With another all queues are late.
+  /// Seed of the order of teams and of their threads; 0: ascending. With another all queues are late, but
+  /// with an even one marches begin at once, before the tractions beside them.
   std::uint64_t order = 0;
   bool spoils_copies = false;      ///< Device::spoils_copies
   std::size_t shared = 200 << 10;  ///< memory that the team of a patch shares [B]

@@ -156,10 +156,12 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
   /// At once in the order of the calls, late in another.
   template <class Task>
   void start(const Task& task) {
-    if (emulation_.order == 0)
+    if (emulation_.order == 0) {
       task();
-    else
-      queues_.add(used(), task);
+      return;
+    }
+    queues_.add(used(), task);
+    if (emulation_.order % 2 == 0 && used() >= kFanQueue) queues_.run(used());
   }
 
   template <class Body>

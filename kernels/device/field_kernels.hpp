@@ -57,8 +57,8 @@ struct TiedNodes {
   const StationLink* shares = nullptr;
 };
 
-/// What the lanes of a tile take from a section node of another block, summed up over its stations. Several
-/// primary nodes share it.
+/// Sums that the lanes of a tile take from a section node of another block, summed up over its stations.
+/// Several primary nodes share it.
 struct StationSum {
   std::int64_t other;           ///< place of the section node in a vector field, its station's left out
   int first_share, last_share;  ///< into StationSums::shares

@@ -27,7 +27,7 @@ class LinkedPatch {
   TREAD_BODY int cells() const { return cells_; }
   TREAD_BODY int nodes() const { return nodes_; }
   TREAD_BODY const PatchLinks& links() const { return l_; }
-  /// What the links left.
+  /// Memory that the links left.
   TREAD_BODY PatchArena& arena() { return arena_; }
 
   /// PatchTeam::name_near

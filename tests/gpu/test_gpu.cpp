@@ -31,16 +31,7 @@ class Gpu : public testing::Test {
     const auto in_double = roll(exact.start(nullptr), steps);
     DeviceCase at(scene(precision));
     const auto on_card = roll(at.start(open_gpu(0)), steps);
-    const Apart error = apart(exact.values(), *in_double, *on_card);
-    if (precision == "double") {
-      EXPECT_LT(error.displacement, 1e-9);
-      EXPECT_LT(error.velocity, 1e-9);
-      expect_same_contact(*in_double, *on_card);
-    } else {
-      const auto on_processor = roll(at.start(nullptr), steps);
-      EXPECT_LT(error.displacement, 1e-5);
-      EXPECT_LT(error.velocity, 2 * apart(exact.values(), *in_double, *on_processor).velocity);
-    }
+    const Apart error = expect_same_fields(*in_double, at, *on_card, precision);
     std::printf("%s: displacements differ by %.2g, velocities by %.2g of their range\n", precision.c_str(),
                 error.displacement, error.velocity);
     const auto again = roll(at.start(open_gpu(0)), steps);
