@@ -21,7 +21,8 @@ struct StepConstants {
 };
 
 /// Product a b, rounded before anything is added to it. Compilers that contract across expressions need the
-/// barrier.
+/// barrier: an empty instruction where one register holds the product, because GCC's own barrier takes
+/// vectors of single precision apart.
 template <class A, class B>
 TREAD_INLINE auto product(const A& a, const B& b) {
 #if defined(__CUDA_ARCH__)
@@ -29,10 +30,14 @@ TREAD_INLINE auto product(const A& a, const B& b) {
     return __dmul_rn(a, b);
   else
     return __fmul_rn(a, b);
-#elif __has_builtin(__builtin_assoc_barrier) && !defined(__CUDACC__)
-  return __builtin_assoc_barrier(a * b);
-#else
+#elif defined(__CUDACC__) || defined(__clang__)
   return a * b;
+#elif defined(__x86_64__)
+  auto value = a * b;
+  asm("" : "+v"(value));
+  return value;
+#else
+  return __builtin_assoc_barrier(a * b);
 #endif
 }
 
