@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
 #include "drivers/engine/preload.hpp"
+#include "drivers/results/run_warnings.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -117,6 +119,17 @@ TEST(Sleepers, BedsCarryWheelRailAndSleepers) {
   EXPECT_NEAR(forces[0] + forces[1] + forces[2], model.wheel_load() + weight, 1e-3 * model.wheel_load());
   EXPECT_NEAR(forces[0], forces[2], 5e-3 * forces[1]);
   EXPECT_GT(forces[1], forces[0]);
+}
+
+TEST(Sleepers, TheirBendingNeedsNoFinerMesh) {
+  const Model model(samples::tyre_scene(ballasted()));
+  RunResults results;
+  results.samples.resize(1);
+  results.block_energy.assign(model.mesh.blocks.size(), {.strain = 3, .hourglass = 1});
+  const std::vector<std::string> warnings = run_warnings(model, results);
+  const auto of_energy = [](const std::string& warning) { return warning.find("hourglass") != warning.npos; };
+  EXPECT_EQ(std::ranges::count_if(warnings, of_energy),
+            std::ssize(model.mesh.blocks) - std::ssize(model.index.sleepers));
 }
 
 TEST(Sleepers, AHangingOneLeavesTheLoadToItsNeighbours) {
