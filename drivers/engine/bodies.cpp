@@ -104,8 +104,7 @@ void Bodies::update(StepState& step) const {
     step.fields.move_all(loads(step));
   else
     step.fields.move_rest(loads(step));
-  // Contact must not see restrained nodes move.
-  for (const std::int64_t unknown : held_) step.displacement[unknown] = step.velocity[unknown] = 0;
+  step.fields.hold(held_);  // contact must not see restrained nodes move
 }
 
 void Bodies::begin_sample(const StepState& step, Sample& sample) {

@@ -42,9 +42,11 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
+  choose_host_groups(model);
   const std::vector<std::int64_t> held = held_unknowns(mesh, model.restrained);
   held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
-  choose_host_groups(model);
+  for (const std::int64_t unknown : held)
+    if (group_mark_[index(unknown / kGroupValues)] >= 0) host_held_.push_back(unknown);
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/engine/precise_fields.hpp"
@@ -37,6 +38,10 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void internal_force_and_move(const StepLoads& loads) override;
   void move_all(const StepLoads& loads) override;
   void move_rest(const StepLoads& loads) override;
+  /// The device holds those of its own as they move.
+  void hold(std::span<const std::int64_t> unknowns) override {
+    Base::hold(host_whole_ ? unknowns : host_held_);
+  }
   void advance_lag(double dt) override;
   void list_state(StateList& list) override;
 
@@ -91,9 +96,10 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   HostArray<Real> packed_f_;              ///< of the host's groups: [group][component][lane]
   DeviceArray<Real> device_f_;
 
-  std::optional<DeviceTies> ties_;  ///< none: there are no ties, or connectors act on tied nodes
-  bool host_ties_ = false;          ///< connectors act on tied nodes
-  DeviceArray<std::int64_t> held_;  ///< unknowns that stay zero
+  std::optional<DeviceTies> ties_;       ///< none: there are no ties, or connectors act on tied nodes
+  bool host_ties_ = false;               ///< connectors act on tied nodes
+  DeviceArray<std::int64_t> held_;       ///< unknowns that stay zero
+  std::vector<std::int64_t> host_held_;  ///< the host's groups' among them
 
   Contact* contact_;                                ///< null: absent
   std::optional<SurfaceCopies<Real, U>> surfaces_;  ///< with contact

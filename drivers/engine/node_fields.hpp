@@ -2,6 +2,9 @@
 // Fields at the nodes of a run, in the scene's precision, and the operations of a step on all of them at
 // once. Whoever touches few of them does so through views, in double. [theory.md, Precision]
 
+#include <cstdint>
+#include <span>
+
 #include "core/aligned.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/state_list.hpp"
@@ -52,6 +55,8 @@ class NodeFields : public WholeFields {
   virtual void move_all(const StepLoads& loads) = 0;
   /// Moves those that internal_force_and_move() left.
   virtual void move_rest(const StepLoads& loads) = 0;
+  /// Lets the unknowns, which have moved, stand still at zero.
+  virtual void hold(std::span<const std::int64_t> unknowns) = 0;
 
   /// The lag follows the motion of a step of dt [s].
   virtual void advance_lag(double dt) = 0;

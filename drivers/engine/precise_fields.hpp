@@ -7,8 +7,10 @@
 #include <span>
 #include <type_traits>
 
+#include "core/index.hpp"
 #include "core/page_vector.hpp"
 #include "core/parallel/chunks.hpp"
+#include "core/parallel/few_values.hpp"
 #include "drivers/engine/node_fields.hpp"
 #include "kernels/material/branch_lag.hpp"
 #include "kernels/material/laws.hpp"
@@ -82,6 +84,13 @@ class PreciseFields : public NodeFields {
   }
   void move_rest(const StepLoads& loads) override {
     update_.move_rest(loads, {u_.data(), v_.data(), f_.data()}, parts_.internal().unmoved_tiles());
+  }
+  void hold(std::span<const std::int64_t> unknowns) override {
+    const std::int64_t touched = 2 * kLanes * std::ssize(unknowns);  // hardly two share a line of the cache
+    ranges_of_values(std::ssize(unknowns), touched, [&](std::int64_t first, std::int64_t last) {
+      for (const std::int64_t unknown : unknowns.subspan(index(first), index(last - first)))
+        u_[index(unknown)] = v_[index(unknown)] = 0;
+    });
   }
 
   void advance_lag(double dt) override {
