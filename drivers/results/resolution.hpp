@@ -1,6 +1,6 @@
 #pragma once
-// Warnings of a mesh that resolves the contact patch or the corrugation too coarsely, and of a way that is too
-// short for them.
+// Warnings of a mesh that resolves the contact patch or the corrugation too coarsely, and of a way that is
+// too short for them.
 
 #include <optional>
 #include <string>

@@ -174,9 +174,10 @@ void add_wear(Keys& keys) {
                           "Shortest wave that wear changes; shorter waves count as noise of the mesh"));
   keys.push_back(quantity("wear.longest", {Effect::wear}, at(&Scene::wear, &WearSpec::longest), kLength, "mm",
                           above(0, 10), "Longest wave that wear changes"));
-  keys.push_back(flag("wear.across", {Effect::wear}, at(&Scene::wear, &WearSpec::across),
-                      "Each row of nodes across the rail wears by its own work; without it the depth keeps its "
-                      "parabola across"));
+  keys.push_back(
+      flag("wear.across", {Effect::wear}, at(&Scene::wear, &WearSpec::across),
+           "Each row of nodes across the rail wears by its own work; without it the depth keeps its "
+           "parabola across"));
 }
 
 void add_impacts(Keys& keys) {

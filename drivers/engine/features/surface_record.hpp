@@ -18,8 +18,7 @@ class SurfaceRecord final : public Feature {
     double last_x;   ///< wheel's last place at which it is noted [m]
   };
   /// Keeps references.
-  SurfaceRecord(Contact& contact, const InternalForce& internal, const SweptBlock& rail,
-                const Place& place);
+  SurfaceRecord(Contact& contact, const InternalForce& internal, const SweptBlock& rail, const Place& place);
 
   const SurfaceFields& surface() const { return surface_; }
   const RailLine& line() const { return line_; }
