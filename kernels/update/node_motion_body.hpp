@@ -30,14 +30,14 @@ TREAD_INLINE auto product(const A& a, const B& b) {
     return __dmul_rn(a, b);
   else
     return __fmul_rn(a, b);
-#elif defined(__CUDACC__) || defined(__clang__)
-  return a * b;
-#elif defined(__x86_64__)
+#elif defined(__x86_64__) && !defined(__clang__) && !defined(__CUDACC__)
   auto value = a * b;
   asm("" : "+v"(value));
   return value;
-#else
+#elif __has_builtin(__builtin_assoc_barrier) && !defined(__CUDACC__)
   return __builtin_assoc_barrier(a * b);
+#else
+  return a * b;
 #endif
 }
 
