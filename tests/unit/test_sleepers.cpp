@@ -14,6 +14,7 @@
 #include "drivers/engine/beam/track_beam.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/results/run_warnings.hpp"
+#include "tests/program.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -127,7 +128,7 @@ TEST(Sleepers, TheirBendingNeedsNoFinerMesh) {
   results.samples.resize(1);
   results.block_energy.assign(model.mesh.blocks.size(), {.strain = 3, .hourglass = 1});
   const std::vector<std::string> warnings = run_warnings(model, results);
-  const auto of_energy = [](const std::string& warning) { return warning.find("hourglass") != warning.npos; };
+  const auto of_energy = [](const std::string& warning) { return samples::has(warning, "hourglass"); };
   EXPECT_EQ(std::ranges::count_if(warnings, of_energy),
             std::ssize(model.mesh.blocks) - std::ssize(model.index.sleepers));
 }
