@@ -78,8 +78,8 @@ struct MarchBlock {
   double gravity = 0;      ///< downwards, where the block spins [m/s2]
   double frame_angle = 0;  ///< of the frame of a spinning block [rad]
 
-  int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
-  int teams() const { return parts * marched.count; }
+  constexpr int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
+  constexpr int teams() const { return parts * marched.count; }
 };
 
 /// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force.
