@@ -43,10 +43,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
   choose_host_groups(model);
-  const std::vector<std::int64_t> held = held_unknowns(mesh, model.restrained);
-  held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(held));
-  for (const std::int64_t unknown : held)
-    if (group_mark_[index(unknown / kGroupValues)] >= 0) host_held_.push_back(unknown);
+  hold_on_device(held_unknowns(mesh, model.restrained));
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();
@@ -68,6 +65,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
   Movers movers = movers_of(model);
   group_mark_ = std::move(movers.marks);
+  tied_surfaces_ = movers.tied_surfaces;
   if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.inverse_mass.data());
   std::vector<std::int64_t> slots;
   for (std::int64_t group = 0; group < std::ssize(group_mark_); ++group) {
@@ -80,6 +78,19 @@ void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
   host_ties_ = model.ties && !ties_;
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::hold_on_device(const std::vector<std::int64_t>& held) {
+  std::vector<std::int64_t> moving;
+  std::vector<std::int64_t> tied;
+  for (const std::int64_t unknown : held) {
+    const int mark = group_mark_[index(unknown / kGroupValues)];
+    (mark == kKeeps ? tied : moving).push_back(unknown);
+    if (mark >= 0) host_held_.push_back(unknown);
+  }
+  held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(moving));
+  held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(tied));
 }
 
 template <class Real, class U>
@@ -262,12 +273,23 @@ void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
   kernels_.move_primary(primary, march_fields(0, true));
 }
 
-/// Moves the primary nodes, restrains all, and lets the secondary nodes follow.
+template <class Real, class U>
+void DeviceFields<Real, U>::hold_next(const DeviceArray<std::int64_t>& unknowns) {
+  kernels_.hold(static_cast<std::int64_t>(unknowns.size()), unknowns.data(), next_.u.data(), next_.v.data());
+}
+
+/// Moves and restrains the primary nodes, and lets the secondary nodes follow.
 template <class Real, class U>
 void DeviceFields<Real, U>::tie(const StepLoads& loads) {
-  if (ties_) move_primary(loads);
-  kernels_.hold(static_cast<std::int64_t>(held_.size()), held_.data(), next_.u.data(), next_.v.data());
-  if (ties_) kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
+  if (!ties_) return;
+  move_primary(loads);
+  hold_next(held_ties_);
+  kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::start_contact() {
+  if (device_contact_) device_contact_->start(next_.u.data(), next_.v.data());
 }
 
 /// The laws' state of the host advances; that of the device does so with the motion.
@@ -280,15 +302,17 @@ void DeviceFields<Real, U>::internal_force() {
   fetch_law_state(next_);
 }
 
-/// Goes on after the march.
+/// Goes on after the march. Tractions do not wait for ties elsewhere.
 template <class Real, class U>
 void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
+  hold_next(held_);
+  if (!tied_surfaces_) start_contact();
   tie(loads);
+  if (tied_surfaces_) start_contact();
   std::swap(now_, next_);
   ++step_;
   loads_ = loads;
   host_moves_ = true;
-  if (device_contact_) device_contact_->start(now_.u.data(), now_.v.data());
 }
 
 template <class Real, class U>

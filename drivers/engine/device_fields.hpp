@@ -62,7 +62,10 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void march(const StepLoads& loads, bool moves);
   void march_ahead(const BodyFrame& wheel, double dt);
   void move_primary(const StepLoads& loads);
+  void hold_on_device(const std::vector<std::int64_t>& held);
+  void hold_next(const DeviceArray<std::int64_t>& unknowns);
   void tie(const StepLoads& loads);
+  void start_contact();
   void finish_motion(const StepLoads& loads);
   void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);
@@ -98,12 +101,14 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   std::optional<DeviceTies> ties_;       ///< none: there are no ties, or connectors act on tied nodes
   bool host_ties_ = false;               ///< connectors act on tied nodes
-  DeviceArray<std::int64_t> held_;       ///< unknowns that stay zero
+  DeviceArray<std::int64_t> held_;       ///< unknowns that stay zero, but for those of ties
+  DeviceArray<std::int64_t> held_ties_;  ///< those of ties
   std::vector<std::int64_t> host_held_;  ///< the host's groups' among them
 
   Contact* contact_;                                ///< null: absent
   std::optional<SurfaceCopies<Real, U>> surfaces_;  ///< with contact
   std::optional<DeviceContact> device_contact_;     ///< none: the host searches and solves
+  bool tied_surfaces_ = false;                      ///< surfaces in contact have tied nodes
   std::vector<std::int64_t> copied_;                ///< by group: step of its last copy to the host
   std::int64_t step_ = 0;                           ///< number of the step, from 1 on
 

@@ -37,6 +37,7 @@ Movers movers_of(const Model& model) {
     const int moves = tied[group] != 0 ? kKeeps : kMoves;
     movers.marks.push_back(host[group] != 0 ? static_cast<int>(movers.hosted++) : moves);
   }
+  movers.tied_surfaces = meet(surfaces, tied);
   movers.contact = model.contact && DeviceContact::knows(*model.contact) && !meet(host, surfaces);
   return movers;
 }

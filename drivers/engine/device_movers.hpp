@@ -11,9 +11,10 @@ namespace tread {
 
 /// Movers of the groups of kLanes slots.
 struct Movers {
-  std::vector<int> marks;   ///< by group: kMoves, kKeeps or, of the host's, its place among them
-  std::int64_t hosted = 0;  ///< groups of the host
-  bool contact = false;     ///< contact runs on the device
+  std::vector<int> marks;      ///< by group: kMoves, kKeeps or, of the host's, its place among them
+  std::int64_t hosted = 0;     ///< groups of the host
+  bool contact = false;        ///< contact runs on the device
+  bool tied_surfaces = false;  ///< surfaces in contact have tied nodes
 };
 
 /// Ties between nodes on which connectors act, or contact, are the host's, and contact with surfaces on which

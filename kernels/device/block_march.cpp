@@ -214,6 +214,18 @@ const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads, MarchRuns r
   return block_;
 }
 
+template <class Real>
+MarchBlock<Real> BlockMarch<Real>::in_tiles(const StepLoads& loads, MarchRuns runs) {
+  MarchBlock<Real> block = at(loads, runs);
+  block.run_tiles = 1;
+  block.marched.first = runs.first * block_.run_tiles;
+  block.marched.count = runs.count * block_.run_tiles;
+  // The last run of the block may have fewer tiles.
+  if (runs.first + runs.count >= block_.runs())
+    block.marched.count -= block_.runs() * block_.run_tiles - block_.tiles;
+  return block;
+}
+
 /// A run reads a tile before and a tile after its own.
 template <class Real>
 MarchRuns BlockMarch<Real>::near(TileSpan tiles) const {

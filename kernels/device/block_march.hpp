@@ -32,6 +32,8 @@ class BlockMarch {
   /// Data of a march in a step with these loads, over all runs.
   const MarchBlock<Real>& at(const StepLoads& loads) { return at(loads, runs()); }
   const MarchBlock<Real>& at(const StepLoads& loads, MarchRuns runs);
+  /// The same by runs of one tile: more teams, which end sooner but do more work.
+  MarchBlock<Real> in_tiles(const StepLoads& loads, MarchRuns runs);
   MarchRuns runs() const { return {0, block_.runs()}; }
   /// Runs that read or write a stretch of tiles, which may pass the end of a full turn, and the others.
   MarchRuns near(TileSpan tiles) const;

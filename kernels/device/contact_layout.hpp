@@ -46,6 +46,14 @@ struct Candidates {
   double* gap = nullptr;  ///< [m]
 };
 
+/// Points of the patch, where the search left them.
+struct PatchPoints {
+  ContactPoint* candidate = nullptr;
+  const int* origin = nullptr;  ///< by point: candidate
+
+  TREAD_BODY ContactPoint& operator[](int i) const { return candidate[origin[i]]; }
+};
+
 /// A point's weights in one body. Its size lets threads of consecutive entries read from different banks.
 struct LinkedEntry {
   PatchWeights weights;
@@ -145,8 +153,8 @@ struct ContactTask {
   PointHistory* history = nullptr;  ///< by integration point of the whole rail
   double* wake_time = nullptr;      ///< by face of the whole rail [s]
   Candidates candidates;
-  ContactPoint* point = nullptr;  ///< of the patch
   int* origin = nullptr;          ///< by point of the patch: candidate
+  ContactPoint* point = nullptr;  ///< of the patch, for the host
   PatchLinks links;
   PatchVectors vectors;
   RecordView record;

@@ -99,6 +99,8 @@ class Device {
   /// Makes the patch of them and solves its tractions; `state`: of the law, by integration point. The law's
   /// arrays lie on the device. [PatchTeam]
   virtual void resolve(const ContactTask& task, const FrictionLaw& law, void* state) = 0;
+  /// Copies its points to task.point.
+  virtual void gather(const ContactTask& task, int points) = 0;
 
   /// Ends when all kernels have ended.
   virtual void wait() = 0;

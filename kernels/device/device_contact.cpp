@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/contract.hpp"
 #include "core/index.hpp"
 #include "kernels/device/patch_links.hpp"
 
@@ -198,9 +199,13 @@ void DeviceContact::resolve() {
 }
 
 void DeviceContact::fetch_points() {
-  const auto count = index(result_.data()->points);
-  if (count > 0) device_->download(points_.data(), task_.point, count * sizeof(ContactPoint));
-  contact_->take_points({points_.data(), count});
+  TREAD_EXPECT(!searched_);  // the next search writes over them
+  const int count = result_.data()->points;
+  if (count > 0) {
+    device_->gather(task_, count);
+    device_->download(points_.data(), task_.point, index(count) * sizeof(ContactPoint));
+  }
+  contact_->take_points({points_.data(), index(count)});
 }
 
 void DeviceContact::fetch_record() {

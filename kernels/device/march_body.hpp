@@ -39,6 +39,7 @@ class March {
       weights_ = team.template share<Real>(2 * kLanes * block.run_tiles);
     quads_ = team.template share<MarchQuad>(part_.quads);
     section_node_ = team.template share<int>(part_.nodes);
+    first_of_colour_ = team.template share<int>(block.colours + 1);
   }
 
   /// Bytes that the threads of a team share at most.
@@ -49,7 +50,7 @@ class March {
         kNodeValues * fields * block.most_nodes + (kNodeValues + 6) * block.most_own_nodes + weights;
     return sizeof(Real) * static_cast<std::size_t>(reals) +
            sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
-           sizeof(int) * static_cast<std::size_t>(block.most_nodes);
+           sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
   }
 
   TREAD_INLINE void run() {
@@ -67,8 +68,11 @@ class March {
       if (!last) to = enter(tile + 1);
       team_.for_each(kLanes * (last ? part_.own_nodes : part_.nodes), [&](int i) {
         const int node = i / kLanes;
-        if (node < part_.own_nodes) close_node(at, node, i % kLanes);
-        if (!last) open_node(to, node, i % kLanes);
+        const int lane = i % kLanes;
+        NodeEnds ends{};  // loads of both nodes wait at once
+        if (!last) load_ends(to, node, lane, ends);
+        if (node < part_.own_nodes) close_node(at, node, lane);
+        if (!last) keep_ends(to, node, lane, ends);
       });
       old_carry_ = 3 * part_.own_nodes - old_carry_;
     }
@@ -79,14 +83,20 @@ class March {
   static constexpr int kValues = kStateValues<Law>;
   using State = typename Law<Real>::template State<Real>;
 
+  /// By one loop, so that the loads of all wait at once.
   TREAD_INLINE void copy_tables(int end) {
-    if constexpr (sweep == Sweep::revolved)
-      team_.for_each(kLanes * (end - first_tile_), [&](int i) {
-        const Tile& tile = block_.tile[first_tile_ + i / kLanes];
-        if (i % kLanes < tile.stations) weigh(block_, tile.first_station + i % kLanes, weights_ + 2 * i);
-      });
-    team_.for_each(part_.quads, [&](int i) { quads_[i] = block_.part_quads[part_.first_quad + i]; });
-    team_.for_each(part_.nodes, [&](int i) { section_node_[i] = block_.part_nodes[part_.first_node + i]; });
+    const int weighed = sweep == Sweep::revolved ? kLanes * (end - first_tile_) : 0;
+    const int* const of_colour = block_.first_of_colour + std::int64_t{part_number_} * (block_.colours + 1);
+    int most = block_.colours + 1;
+    for (const int items : {weighed, part_.quads, part_.nodes}) most = most < items ? items : most;
+    team_.for_each(most, [&](int i) {
+      if (i < part_.quads) quads_[i] = block_.part_quads[part_.first_quad + i];
+      if (i < part_.nodes) section_node_[i] = block_.part_nodes[part_.first_node + i];
+      if (i <= block_.colours) first_of_colour_[i] = of_colour[i];
+      if (i >= weighed) return;
+      const Tile& tile = block_.tile[first_tile_ + i / kLanes];
+      if (i % kLanes < tile.stations) weigh(block_, tile.first_station + i % kLanes, weights_ + 2 * i);
+    });
   }
 
   TREAD_INLINE TileAt enter(int tile) const {
@@ -119,10 +129,9 @@ class March {
 
   /// Adds the forces of elements of the tile. Those that share a node do so one after the other, by colour.
   TREAD_INLINE void add_elements(const TileAt& at, MarchLanes lanes, bool own) const {
-    const int* const of_colour = block_.first_of_colour + std::int64_t{part_number_} * (block_.colours + 1);
     for (int colour = 0; colour < block_.colours; ++colour) {
-      const int begin = of_colour[colour];
-      const int quads = of_colour[colour + 1] - begin;
+      const int begin = first_of_colour_[colour];
+      const int quads = first_of_colour_[colour + 1] - begin;
       if (quads == 0) continue;
       team_.for_each(quads << lanes.shift, [&](int i) {
         const int lane = lanes.lane(i);
@@ -153,20 +162,41 @@ class March {
     }
   }
 
-  TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
+  /// Values of a node at both ends of an element.
+  struct NodeEnds {
+    U near[3], far[3];
+    U origin[3];                       ///< of the part's first node, at the near end
+    Real near_added[3], far_added[3];  ///< MarchFields::added
+  };
+
+  TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds& ends) const {
     if (lane >= at.tile.elements) return;
     const int section = section_node_[node];
     const std::int64_t near_at = at.near_place(section, lane);
     const std::int64_t far_at = at.far_place(section, lane);
+    const std::int64_t of_origin = kRelative ? at.near_place(section_node_[0], lane) : 0;
+    const bool adds = fields_.added != nullptr;
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (kRelative) ends.origin[i] = fields_.u[of_origin + i * kLanes];
+      if (i < first) continue;
+      ends.near[i] = fields_.u[near_at + i * kLanes];
+      ends.far[i] = fields_.u[far_at + i * kLanes];
+      ends.near_added[i] = adds ? fields_.added[near_at + i * kLanes] : Real{};
+      ends.far_added[i] = adds ? fields_.added[far_at + i * kLanes] : Real{};
+    }
+  }
+
+  TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds& ends) const {
+    if (lane >= at.tile.elements) return;
     Real near[3];
     Real far[3];
-    displacements(at, near_at, far_at, lane, near, far);
+    displacements(at, ends, near, far);
     if (fields_.added != nullptr) {
       Real near_rate[3];
       Real far_rate[3];
       for (int i = first; i < 3; ++i) {
-        near_rate[i] = block_.damping * fields_.added[near_at + i * kLanes];
-        far_rate[i] = block_.damping * fields_.added[far_at + i * kLanes];
+        near_rate[i] = block_.damping * ends.near_added[i];
+        far_rate[i] = block_.damping * ends.far_added[i];
       }
       if constexpr (kLinear) {
         for (int i = first; i < 3; ++i) {
@@ -180,15 +210,20 @@ class March {
     keep(at, near, far, NodeValues<Real>(values_, node, lane));
   }
 
+  TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
+    NodeEnds ends{};
+    load_ends(at, node, lane, ends);
+    keep_ends(at, node, lane, ends);
+  }
+
   /// Where displacements are more precise than the elements, they are taken relative to a translation, that
   /// of the part's first node, so that what all nodes share is not rounded.
-  TREAD_INLINE void displacements(const TileAt& at, std::int64_t near_at, std::int64_t far_at, int lane,
-                                  Real (&near)[3], Real (&far)[3]) const {
+  TREAD_INLINE void displacements(const TileAt& at, const NodeEnds& ends, Real (&near)[3],
+                                  Real (&far)[3]) const {
     U origin[3] = {};
     U far_origin[3] = {};
     if constexpr (kRelative) {
-      const std::int64_t of = at.near_place(section_node_[0], lane);
-      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = fields_.u[of + i * kLanes];
+      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = ends.origin[i];
       if constexpr (sweep == Sweep::revolved) {
         const U c = block_.cosine[at.tile.pitch_class];
         const U w = block_.sine[at.tile.pitch_class];
@@ -200,8 +235,8 @@ class March {
       }
     }
     for (int i = first; i < 3; ++i) {
-      near[i] = static_cast<Real>(fields_.u[near_at + i * kLanes] - origin[i]);
-      far[i] = static_cast<Real>(fields_.u[far_at + i * kLanes] - far_origin[i]);
+      near[i] = static_cast<Real>(ends.near[i] - origin[i]);
+      far[i] = static_cast<Real>(ends.far[i] - far_origin[i]);
     }
   }
 
@@ -347,6 +382,12 @@ class March {
   /// Adds what the elements on both sides of a station have for a node; keeps what belongs to the next tile.
   TREAD_INLINE void close_node(const TileAt& at, int node, int lane) const {
     if (lane >= at.tile.stations) return;
+    const int section = section_node_[node];
+    const std::int64_t group = at.group + section;
+    const int mark = fields_.group_mark[group];
+    NodeBefore<Real, U> node_before;  // loaded before the forces are at hand
+    node_before.template load<sweep, first>(block_, fields_, section, group * kLanes + lane,
+                                            at.near_place(section, lane));
     Real s[3] = {};
     Real d[3] = {};
     if (lane < at.tile.elements) forces(at, node, lane, s, d);
@@ -359,14 +400,13 @@ class March {
         carry_[3 * part_.own_nodes - old_carry_ + i * part_.own_nodes + node] = s[i] + d[i];
       force[i] = (s[i] - d[i]) + before[i];
     }
-    finish_node(at, section_node_[node], lane, force);
+    finish_node(at, section, lane, mark, force, node_before);
   }
 
-  /// Moves a node or stores its force.
-  TREAD_INLINE void finish_node(const TileAt& at, int section, int lane, const Real (&force)[3]) const {
-    const std::int64_t group = at.group + section;
+  /// Moves a node or stores its force. `host`: of its group [MarchFields::group_mark].
+  TREAD_INLINE void finish_node(const TileAt& at, int section, int lane, int host, const Real (&force)[3],
+                                NodeBefore<Real, U>& before) const {
     const std::int64_t place = at.near_place(section, lane);
-    const int host = fields_.group_mark[group];
     if (host >= 0 && fields_.moved_u != nullptr) {
       for (int i = 0; i < 3; ++i) fields_.host_force[(std::int64_t{host} * 3 + i) * kLanes + lane] = force[i];
     } else if (host == kKeeps || fields_.moved_u == nullptr) {
@@ -375,7 +415,7 @@ class March {
       Real weight[2] = {};
       if constexpr (sweep == Sweep::revolved)
         for (int i = 0; i < 2; ++i) weight[i] = weights_[2 * (kLanes * (at.number - first_tile_) + lane) + i];
-      move_on_device<sweep, first>(block_, fields_, section, group * kLanes + lane, place, weight, force);
+      move_on_device<sweep, first>(block_, fields_, place, weight, force, before);
     }
   }
 
@@ -390,9 +430,10 @@ class March {
   Real* carry_ = nullptr;       ///< of two tiles in turn, [component][own node]: of the element before a tile
   Real* weights_ = nullptr;     ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
   MarchQuad* quads_ = nullptr;  ///< of the part
-  int* section_node_ = nullptr;  ///< of the part's nodes
-  int first_tile_ = 0;           ///< of the run
-  int old_carry_ = 0;            ///< place of the carry of the tile before
+  int* section_node_ = nullptr;     ///< of the part's nodes
+  int* first_of_colour_ = nullptr;  ///< among the part's quads, and one more
+  int first_tile_ = 0;              ///< of the run
+  int old_carry_ = 0;               ///< place of the carry of the tile before
 };
 
 }  // namespace tread

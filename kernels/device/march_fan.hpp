@@ -39,7 +39,11 @@ class MarchFan {
   void march(const StepLoads& loads, bool moves, const Fields& fields) {
     const bool begun = moves && ahead_ == loads;
     if (!begun) join();
-    for (int b = 0; b < blocks(); ++b) launch(b, loads, begun ? reached_[index(b)] : block(b).runs(), fields);
+    for (int b = 0; b < blocks(); ++b)
+      if (begun)
+        launch(b, block(b).in_tiles(loads, reached_[index(b)]), fields);
+      else
+        launch(b, block(b).at(loads), fields);
     join();
     ahead_.reset();
   }
@@ -48,7 +52,8 @@ class MarchFan {
   template <class Fields>
   void begin_ahead(const StepLoads& loads, const std::array<ReachedTiles, 2>& reached, const Fields& fields) {
     for (const ReachedTiles& of : reached) reached_[index(of.block)] = block(of.block).near(of.tiles);
-    for (int b = 0; b < blocks(); ++b) launch(b, loads, block(b).beyond(reached_[index(b)]), fields);
+    for (int b = 0; b < blocks(); ++b)
+      launch(b, block(b).at(loads, block(b).beyond(reached_[index(b)])), fields);
     ahead_ = loads;
   }
   /// Fields have changed: what has begun ahead does not count.
@@ -56,10 +61,10 @@ class MarchFan {
 
  private:
   template <class Fields>
-  void launch(int number, const StepLoads& loads, MarchRuns runs, const Fields& fields) {
-    if (runs.count == 0) return;
+  void launch(int number, const MarchBlock<Real>& marched, const Fields& fields) {
+    if (marched.marched.count == 0) return;
     const Beside beside(*device_, kFanQueue + number % (kQueues - kFanQueue));
-    kernels_->march(variant(number), block(number).at(loads, runs), fields(number));
+    kernels_->march(variant(number), marched, fields(number));
   }
 
   void join() {

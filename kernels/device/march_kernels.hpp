@@ -58,6 +58,9 @@ class KernelDevice : public Device {
         },
         law);
   }
+  void gather(const ContactTask& task, int points) override {
+    each(GatherPoints{{task.candidates.point, task.origin}, task.point, points});
+  }
   void triad(std::int64_t n, double* a, const double* b, const double* c) override {
     each(Triad{n, a, b, c});
   }

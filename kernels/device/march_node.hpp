@@ -51,25 +51,40 @@ class NodeValues {
   Real *even_, *odd_;
 };
 
+/// A node before it moves.
+template <class Real, class U>
+struct NodeBefore {
+  U u[3] = {};
+  Real v[3] = {};
+  Real inverse_mass = 0;
+  Real radius = 0;  ///< revolved
+
+  /// `at`: place of its component 0 in the fields.
+  template <Sweep sweep, int first>
+  TREAD_INLINE void load(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields, int section_node,
+                         std::int64_t slot, std::int64_t at) {
+    if constexpr (sweep == Sweep::revolved) radius = block.radius[section_node];
+    inverse_mass = fields.inverse_mass[slot];
+    for (int i = first; i < 3; ++i) {
+      u[i] = fields.u[at + i * kLanes];
+      v[i] = fields.v[at + i * kLanes];
+    }
+  }
+};
+
 /// Moves a node under its force. `at`: place of its component 0 in the fields; `weight`: gravity at its
 /// station (revolved), rounded [m/s2].
 template <Sweep sweep, int first, class Real, class U>
 TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields,
-                                 int section_node, std::int64_t slot, std::int64_t at,
-                                 const Real (&weight)[2], const Real (&force)[3]) {
-  U u[3] = {};
-  Real v[3] = {};
-  for (int i = first; i < 3; ++i) {
-    u[i] = fields.u[at + i * kLanes];
-    v[i] = fields.v[at + i * kLanes];
-  }
+                                 std::int64_t at, const Real (&weight)[2], const Real (&force)[3],
+                                 NodeBefore<Real, U>& node) {
   if constexpr (sweep == Sweep::revolved)
-    move_spinning(block.step, weight, block.radius[section_node], fields.inverse_mass[slot], force, u, v);
+    move_spinning(block.step, weight, node.radius, node.inverse_mass, force, node.u, node.v);
   else
-    move_fixed<first>(block.step, fields.inverse_mass[slot], force, u, v);
+    move_fixed<first>(block.step, node.inverse_mass, force, node.u, node.v);
   for (int i = first; i < 3; ++i) {
-    fields.moved_u[at + i * kLanes] = u[i];
-    fields.moved_v[at + i * kLanes] = v[i];
+    fields.moved_u[at + i * kLanes] = node.u[i];
+    fields.moved_v[at + i * kLanes] = node.v[i];
   }
 }
 

@@ -161,8 +161,10 @@ struct MovePrimary {
       force[c] = static_cast<Real>(sum[c] + fields.force[node.own + c * kLanes + lane]);
     Real weight[2] = {};
     if constexpr (sweep == Sweep::revolved) weigh(of.block, node.station + lane, weight);
-    move_on_device<sweep, first>(of.block, fields, node.section_node, node.own / 3 + lane, node.own + lane,
-                                 weight, force);
+    NodeBefore<Real, U> before;
+    before.template load<sweep, first>(of.block, fields, node.section_node, node.own / 3 + lane,
+                                       node.own + lane);
+    move_on_device<sweep, first>(of.block, fields, node.own + lane, weight, force, before);
   }
 };
 

@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "core/inline.hpp"
 
@@ -27,27 +26,6 @@ struct LargestPair {
 TREAD_BODY void raise(LargestPair& most, const LargestPair& other) {
   if (other.first > most.first) most.first = other.first;
   if (other.second > most.second) most.second = other.second;
-}
-
-/// Threads copy a value by pieces of kPiece words each.
-inline constexpr int kPiece = 8;
-template <class T>
-inline constexpr int kWords = static_cast<int>(sizeof(T) / sizeof(std::uint64_t));
-template <class T>
-inline constexpr int kPieces = (kWords<T> + kPiece - 1) / kPiece;
-
-template <class T>
-TREAD_BODY void copy_piece(const T& from, T& to, int piece) {
-  const char* const source = reinterpret_cast<const char*>(&from);
-  char* const target = reinterpret_cast<char*>(&to);
-  const int first = piece * kPiece;
-  std::uint64_t words[kPiece];
-  for (int w = 0; w < kPiece; ++w)
-    if (first + w < kWords<T>)
-      std::memcpy(words + w, source + (first + w) * sizeof words[0], sizeof words[0]);
-  for (int w = 0; w < kPiece; ++w)
-    if (first + w < kWords<T>)
-      std::memcpy(target + (first + w) * sizeof words[0], words + w, sizeof words[0]);
 }
 
 /// Memory that the threads share, which is near, and other arrays where it is too small.

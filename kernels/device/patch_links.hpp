@@ -42,7 +42,7 @@ class LinkedPatch {
   }
 
   /// Finds cells and nodes of the points. `inverse_mass`: by slot [1/kg].
-  TREAD_BODY void link(const ContactPoint* points, int count, const double* inverse_mass) {
+  TREAD_BODY void link(const PatchPoints& points, int count, const double* inverse_mass) {
     points_ = points;
     count_ = count;
     find_cells();
@@ -187,7 +187,7 @@ class LinkedPatch {
   PatchArena arena_;  // here: a reference would keep all of this from registers
   const PatchLinks& room_;
   PatchLinks l_{};
-  const ContactPoint* points_ = nullptr;
+  PatchPoints points_;
   int count_ = 0;
   int cells_ = 0;
   int nodes_ = 0;

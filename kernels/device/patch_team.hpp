@@ -30,9 +30,9 @@ class PatchTeam {
 
   TREAD_BODY void run() {
     wake_faces();
-    gather();
+    number_points();
     if (points_ > 0) {
-      links_.link(task_.point, points_, task_.inverse_mass);
+      links_.link({task_.candidates.point, task_.origin}, points_, task_.inverse_mass);
       solve();
       record();
     }
@@ -58,8 +58,8 @@ class PatchTeam {
     });
   }
 
-  /// Makes the patch of the candidates that were kept, in their order.
-  TREAD_BODY void gather() {
+  /// Numbers the candidates that were kept, in their order.
+  TREAD_BODY void number_points() {
     const FaceWindow& window = task_.window;
     const int faces = window.stations * window.edges;
     const Candidates& from = task_.candidates;
@@ -69,18 +69,13 @@ class PatchTeam {
           if (i % window.points == 0) task_.record.first_point[i / window.points] = place;
           if (from.kept[i] != 0) task_.origin[place] = i;
         });
-    team_.for_each(points_ * kPieces<ContactPoint> + 1, [&](int i) {
-      if (i < points_ * kPieces<ContactPoint>) {
-        copy_piece(from.point[task_.origin[i / kPieces<ContactPoint>]],
-                   task_.point[i / kPieces<ContactPoint>], i % kPieces<ContactPoint>);
-      } else {
-        task_.record.first_point[faces] = points_;
-        ends_[0] = 0;
-      }
+    team_.for_each(1, [&](int) {
+      task_.record.first_point[faces] = points_;
+      ends_[0] = 0;
     });
   }
 
-  TREAD_BODY ContactPoint& point(int i) const { return task_.point[i]; }
+  TREAD_BODY ContactPoint& point(int i) const { return task_.candidates.point[task_.origin[i]]; }
   TREAD_BODY TeamTile& tile(int i) const { return tile_[i / kLanes]; }
   TREAD_BODY PointLane lane(int i) const { return {tile(i), static_cast<std::size_t>(i % kLanes)}; }
   TREAD_BODY double sum(int i, int c) const {

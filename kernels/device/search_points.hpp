@@ -1,8 +1,9 @@
 #pragma once
-// Search of a step on a device.
+// Search of a step on a device, and copies of what it found.
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/patch_point_body.hpp"
@@ -50,6 +51,24 @@ struct SearchPoints {
     if (!found || stays_open(point, kSpareClosing, task.dt)) return;
     task.candidates.kept[i] = 1;
     task.candidates.point[i] = point;
+  }
+};
+
+/// Copies the points of the patch together: a word a thread.
+struct GatherPoints {
+  PatchPoints from;
+  ContactPoint* to;
+  int points;
+
+  using Word = std::uint64_t;
+  static constexpr std::int64_t kWords = sizeof(ContactPoint) / sizeof(Word);
+  static_assert(kWords * sizeof(Word) == sizeof(ContactPoint));
+
+  std::int64_t count() const { return points * kWords; }
+  TREAD_BODY void operator()(std::int64_t i) const {
+    const std::int64_t of_word = i % kWords * static_cast<std::int64_t>(sizeof(Word));
+    const char* const source = reinterpret_cast<const char*>(&from[static_cast<int>(i / kWords)]);
+    std::memcpy(reinterpret_cast<char*>(to + i / kWords) + of_word, source + of_word, sizeof(Word));
   }
 };
 

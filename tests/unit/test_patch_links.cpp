@@ -105,9 +105,11 @@ struct Room {
 };
 
 TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
-  const std::vector<ContactPoint> points = made_up_points();
+  std::vector<ContactPoint> points = made_up_points();
   const int count = static_cast<int>(points.size());
   ASSERT_GT(count, 50);
+  std::vector<int> origin(points.size());
+  std::iota(origin.begin(), origin.end(), 0);
   PatchCells cells;
   cells.reserve(kSlots, points.size(), index(kSlots));
   std::vector<double> inverse_mass(index(kSlots));
@@ -125,7 +127,7 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
       AlignedVector<std::byte> memory(shared);
       const Team team(backwards);
       LinkedPatch<Team> patch(team, PatchArena(std::span<std::byte>(memory)), of_room);
-      patch.link(points.data(), count, inverse_mass.data());
+      patch.link({points.data(), origin.data()}, count, inverse_mass.data());
       const PatchLinks& links = patch.links();
       ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
       for (int n = 0; n < patch.nodes(); ++n) {
