@@ -43,7 +43,10 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
   choose_host_groups(model);
-  hold_on_device(held_unknowns(mesh, model.restrained));
+  choose_holders(held_unknowns(mesh, model.restrained));
+  device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
+  for (int b = 0; b < marches_.blocks(); ++b)
+    if (awaits_host(mesh.blocks[index(b)])) marches_.await_host(b);
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();
@@ -61,6 +64,13 @@ bool DeviceFields<Real, U>::has_contact() const {
   return device_contact_ && contact_->steps() == this;
 }
 
+/// True for blocks of which the host moves nodes.
+template <class Real, class U>
+bool DeviceFields<Real, U>::awaits_host(const SweptBlock& block) const {
+  const auto first = group_mark_.begin() + block.base / kLanes;
+  return std::any_of(first, first + block.slots() / kLanes, [](int mark) { return mark >= 0; });
+}
+
 template <class Real, class U>
 void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
   Movers movers = movers_of(model);
@@ -74,23 +84,28 @@ void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
     slots.push_back(group * kLanes);
   }
   host_update_.defer(slots);
-  device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
   host_ties_ = model.ties && !ties_;
 }
 
+/// Sorts unknowns that stay zero by who holds them.
 template <class Real, class U>
-void DeviceFields<Real, U>::hold_on_device(const std::vector<std::int64_t>& held) {
-  std::vector<std::int64_t> moving;
-  std::vector<std::int64_t> tied;
+void DeviceFields<Real, U>::choose_holders(const std::vector<std::int64_t>& held) {
+  std::vector<unsigned char> by_slot(index(this->mesh().slots), 0);
+  std::vector<std::int64_t> of_ties;
   for (const std::int64_t unknown : held) {
-    const int mark = group_mark_[index(unknown / kGroupValues)];
-    (mark == kKeeps ? tied : moving).push_back(unknown);
+    const std::int64_t group = unknown / kGroupValues;
+    int& mark = group_mark_[index(group)];
     if (mark >= 0) host_held_.push_back(unknown);
+    if (mark == kKeeps) of_ties.push_back(unknown);
+    if (mark != kMoves && mark != kHolds) continue;
+    mark = kHolds;
+    by_slot[index(group * kLanes + unknown % kLanes)] |=
+        static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
   }
-  held_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(moving));
-  held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(tied));
+  held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(by_slot));
+  held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(of_ties));
 }
 
 template <class Real, class U>
@@ -231,6 +246,7 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) 
   }
   fields.force = force_.data();
   fields.group_mark = device_group_mark_.data();
+  fields.held = held_.data();
   fields.host_force = device_f_.data();
   fields.state = now_.state[index(block)].data();
   fields.moved_state = next_.state[index(block)].data();
@@ -238,22 +254,21 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) 
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::march(const StepLoads& loads, bool moves) {
-  marches_.march(loads, moves, [&](int block) { return march_fields(block, moves); });
+void DeviceFields<Real, U>::start_march(const StepLoads& loads, bool moves) {
+  marches_.start(loads, moves, [&](int block) { return march_fields(block, moves); });
 }
 
-/// Begins the next step where the tractions of this one, which are being solved, move no nodes. It counts if
-/// no one looks at the energies or changes the fields before. The host has moved its nodes.
+/// Begins the next step where the tractions of this one move no nodes, in blocks of which the host moves
+/// none. It counts if no one looks at the energies or changes the fields before.
 template <class Real, class U>
-void DeviceFields<Real, U>::march_ahead(const BodyFrame& wheel, double dt) {
-  if (host_whole_ || host_ties_ || this->q()) return;
-  send();
-  const std::array<SurfacePart, 2> parts = contact_->near(wheel, dt);
+void DeviceFields<Real, U>::march_ahead() {
+  if (!has_contact() || host_ties_ || this->q()) return;
+  const std::array<SurfacePart, 2> parts = contact_->near(loads_.frame, loads_.dt);
   const auto reached = [&](int block, const SurfacePart& part) {
     return ReachedTiles{block, tiles_of(this->mesh().blocks[index(block)], part)};
   };
   StepLoads next = loads_;
-  next.frame.advance(dt);
+  next.frame.advance(loads_.dt);
   marches_.begin_ahead(
       next,
       {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
@@ -273,23 +288,23 @@ void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
   kernels_.move_primary(primary, march_fields(0, true));
 }
 
-template <class Real, class U>
-void DeviceFields<Real, U>::hold_next(const DeviceArray<std::int64_t>& unknowns) {
-  kernels_.hold(static_cast<std::int64_t>(unknowns.size()), unknowns.data(), next_.u.data(), next_.v.data());
-}
-
 /// Moves and restrains the primary nodes, and lets the secondary nodes follow.
 template <class Real, class U>
 void DeviceFields<Real, U>::tie(const StepLoads& loads) {
   if (!ties_) return;
   move_primary(loads);
-  hold_next(held_ties_);
+  kernels_.hold(static_cast<std::int64_t>(held_ties_.size()), held_ties_.data(), next_.u.data(),
+                next_.v.data());
   kernels_.follow(ties_->secondary(), next_.u.data(), next_.v.data());
 }
 
 template <class Real, class U>
 void DeviceFields<Real, U>::start_contact() {
-  if (device_contact_) device_contact_->start(next_.u.data(), next_.v.data());
+  if (!device_contact_) return;
+  device_->use(kPatchQueue);
+  marches_.await_near();
+  device_->use(kMainQueue);
+  device_contact_->start(next_.u.data(), next_.v.data());
 }
 
 /// The laws' state of the host advances; that of the device does so with the motion.
@@ -297,16 +312,22 @@ template <class Real, class U>
 void DeviceFields<Real, U>::internal_force() {
   fetch_nodes();
   send();
-  march({}, false);
+  start_march({}, false);
+  marches_.join();
   force_.download(this->f().data());
   fetch_law_state(next_);
 }
 
-/// Goes on after the march. Tractions do not wait for ties elsewhere.
+/// Tractions wait for the nodes about the patch alone, unless surfaces have tied nodes.
+template <class Real, class U>
+void DeviceFields<Real, U>::begin_motion(const StepLoads& loads) {
+  start_march(loads, true);
+  if (!tied_surfaces_) start_contact();
+  marches_.join();
+}
+
 template <class Real, class U>
 void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
-  hold_next(held_);
-  if (!tied_surfaces_) start_contact();
   tie(loads);
   if (tied_surfaces_) start_contact();
   std::swap(now_, next_);
@@ -318,12 +339,13 @@ void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
 template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
   send();
-  march(loads, true);
+  begin_motion(loads);
   if (packed_f_.size() > 0) {
     const Beside beside(*device_, kCopyQueue);
     device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
   }
   finish_motion(loads);
+  march_ahead();
   take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
@@ -364,7 +386,10 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
 /// In steps that look at the energies the host's copies move by the tractions, too.
 template <class Real, class U>
 void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
-  march_ahead(wheel, dt);
+  if (marches_.has_begun()) {
+    send();
+    marches_.go_on_ahead([&](int block) { return march_fields(block, true); });
+  }
   device_contact_->resolve();
   if (!host_whole_) return;
   device_contact_->fetch_points();
@@ -388,7 +413,7 @@ void DeviceFields<Real, U>::spoil() {
 /// the device count.
 template <class Real, class U>
 void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
-  march(loads, true);
+  begin_motion(loads);
   finish_motion(loads);
   Base::move_all(loads);
   apart_ = true;

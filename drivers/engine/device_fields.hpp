@@ -57,15 +57,16 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   };
 
   void choose_host_groups(const Model& model);
+  void choose_holders(const std::vector<std::int64_t>& held);
+  bool awaits_host(const SweptBlock& block) const;
   void make_room();
   MarchFields<Real, U> march_fields(int block, bool moves);
-  void march(const StepLoads& loads, bool moves);
-  void march_ahead(const BodyFrame& wheel, double dt);
+  void start_march(const StepLoads& loads, bool moves);
+  void march_ahead();
   void move_primary(const StepLoads& loads);
-  void hold_on_device(const std::vector<std::int64_t>& held);
-  void hold_next(const DeviceArray<std::int64_t>& unknowns);
   void tie(const StepLoads& loads);
   void start_contact();
+  void begin_motion(const StepLoads& loads);
   void finish_motion(const StepLoads& loads);
   void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);
@@ -101,8 +102,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   std::optional<DeviceTies> ties_;       ///< none: there are no ties, or connectors act on tied nodes
   bool host_ties_ = false;               ///< connectors act on tied nodes
-  DeviceArray<std::int64_t> held_;       ///< unknowns that stay zero, but for those of ties
-  DeviceArray<std::int64_t> held_ties_;  ///< those of ties
+  DeviceArray<unsigned char> held_;      ///< MarchFields::held
+  DeviceArray<std::int64_t> held_ties_;  ///< unknowns of tied nodes that stay zero
   std::vector<std::int64_t> host_held_;  ///< the host's groups' among them
 
   Contact* contact_;                                ///< null: absent

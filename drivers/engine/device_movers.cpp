@@ -50,7 +50,7 @@ DeviceNeed device_need(const Model& model) {
   const int others = bytes.other * (model.has_branches() ? 2 : 1);    // forces, lag
   DeviceNeed need;
   need.host_nodes = groups * kLanes;
-  need.bytes = 3 * model.mesh.slots * (moved + others) + model.mesh.slots * bytes.other +
+  need.bytes = 3 * model.mesh.slots * (moved + others) + model.mesh.slots * (bytes.other + 1) +
                groups * kGroupValues * (bytes.displacement + 2 * bytes.other);
   if (has_laws(model.mesh)) need.bytes += 2 * bytes.other * law_state_values(model.mesh);
   if (model.ties) need.bytes += model.ties->bytes();

@@ -10,19 +10,6 @@
 
 namespace tread {
 
-/// Parts of a section, each of compact shape, and the tables of their nodes and quads.
-struct SectionCut {
-  std::vector<MarchPart> parts;
-  std::vector<int> nodes;
-  std::vector<MarchQuad> quads;
-  int colours = 0;
-  std::vector<int> first_of_colour;  ///< [part][colour] and one more colour
-};
-
-/// Cuts a section into parts of at most `part_quads` quads, by halving it across its longer side. Quads are
-/// numbered by their place in the plan.
-SectionCut cut_section(const Section& section, const FrontPlan& plan, int part_quads);
-
 template <class Real>
 class BlockMarch {
  public:

@@ -13,7 +13,7 @@ namespace tread {
 
 namespace {
 
-constexpr int kThreads = 128;       ///< of a team
+constexpr int kThreads = MarchCut{}.threads;
 constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
 constexpr int kPatchThreads = 512;  ///< of the one team of a patch
 constexpr unsigned kAll = ~0U;      ///< lanes of a warp
@@ -143,7 +143,7 @@ class CudaPatchTeam : public CudaTeam {
 
 /// Teams that a multiprocessor has registers for. Plastic elements need more than linear ones.
 template <class Real, bool linear>
-inline constexpr int kTeams = linear ? (sizeof(Real) == sizeof(double) ? 3 : 5) : 2;
+inline constexpr int kTeams = linear ? (sizeof(Real) == sizeof(double) ? 2 : 3) : 1;
 
 template <class March, class Real, class U>
 __global__ void __launch_bounds__(kThreads, kTeams<Real, March::kLinear>)

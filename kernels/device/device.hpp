@@ -14,14 +14,9 @@
 #include "kernels/contact/friction/friction_law.hpp"
 #include "kernels/device/contact_layout.hpp"
 #include "kernels/device/field_kernels.hpp"
+#include "kernels/device/section_cut.hpp"
 
 namespace tread {
-
-/// Cut of sections and tiles for the teams.
-struct MarchCut {
-  int part_quads = 64;  ///< quads that a part owns at most
-  int run_tiles = 4;    ///< tiles of a run
-};
 
 /// Copies and launches since a device was opened.
 struct DeviceTraffic {
@@ -35,8 +30,9 @@ inline constexpr int kMainQueue = 0;
 inline constexpr int kSearchQueue = 1;  ///< of the contact's search
 inline constexpr int kCopyQueue = 2;    ///< of copies to the host
 inline constexpr int kPatchQueue = 3;   ///< of the contact's tractions
-inline constexpr int kFanQueue = 4;     ///< this one and all after it: of marches
-inline constexpr int kQueues = 12;
+inline constexpr int kNearQueue = 4;    ///< this one and the next: of marches about the patch
+inline constexpr int kFanQueue = 6;     ///< this one and all after it: of other marches
+inline constexpr int kQueues = 14;
 
 class Device {
  public:

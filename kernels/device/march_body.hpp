@@ -327,7 +327,17 @@ class March {
   template <class Element>
   TREAD_INLINE void add_forces(const MarchQuad& quad, int lane, const Element& element,
                                const Strain<Real>& force) const {
+    const NodeValues<Real> sums[4] = {
+        NodeValues<Real>(sums_, quad.node[0], lane), NodeValues<Real>(sums_, quad.node[1], lane),
+        NodeValues<Real>(sums_, quad.node[2], lane), NodeValues<Real>(sums_, quad.node[3], lane)};
+    bool adds[4];
+    for (int j = 0; j < 4; ++j) adds[j] = quad.node[j] < part_.own_nodes && (quad.begins >> j & 1U) == 0;
     for (int i = first; i < 3; ++i) {
+      Real before[8];  // loads of all corners wait at once
+      for (int j = 0; j < 4; ++j) {
+        before[j] = adds[j] ? sums[j][i] : Real{};
+        before[4 + j] = adds[j] ? sums[j][3 + i] : Real{};
+      }
       Real s[4];
       Real d[4];
       Real a[kModes];
@@ -335,10 +345,8 @@ class March {
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
         if (quad.node[j] >= part_.own_nodes) continue;
-        const NodeValues<Real> sums(sums_, quad.node[j], lane);
-        const bool begins = (quad.begins >> j & 1U) != 0;
-        sums[i] = begins ? s[j] : sums[i] + s[j];
-        sums[3 + i] = begins ? d[j] : sums[3 + i] + d[j];
+        sums[j][i] = adds[j] ? before[j] + s[j] : s[j];
+        sums[j][3 + i] = adds[j] ? before[4 + j] + d[j] : d[j];
       }
     }
   }
@@ -415,7 +423,8 @@ class March {
       Real weight[2] = {};
       if constexpr (sweep == Sweep::revolved)
         for (int i = 0; i < 2; ++i) weight[i] = weights_[2 * (kLanes * (at.number - first_tile_) + lane) + i];
-      move_on_device<sweep, first>(block_, fields_, place, weight, force, before);
+      const unsigned held = host == kHolds ? fields_.held[place / (3 * kLanes) * kLanes + lane] : 0U;
+      move_on_device<sweep, first>(block_, fields_, place, weight, force, held, before);
     }
   }
 

@@ -27,56 +27,86 @@ class MarchFan {
     blocks_.push_back(std::move(block));
     variants_.push_back(variant);
     reached_.emplace_back();
+    awaits_host_.push_back(0);
   }
+  /// Of a block of which the host moves nodes.
+  void await_host(int block) { awaits_host_[index(block)] = 1; }
 
   int blocks() const { return static_cast<int>(blocks_.size()); }
   BlockMarch<Real>& block(int number) { return *blocks_[index(number)]; }
   TileVariant variant(int block) const { return variants_[index(block)]; }
 
-  /// Marches over all blocks, with fields(block); what follows in the main queue begins after it. Nothing
-  /// moves, or what has begun ahead counts if it was begun with these loads; else all is done anew.
+  /// Starts on what is left of a march over all blocks, with fields(block). Nothing moves, or what has begun
+  /// ahead counts if it was begun with these loads; else all is done anew.
   template <class Fields>
-  void march(const StepLoads& loads, bool moves, const Fields& fields) {
-    const bool begun = moves && ahead_ == loads;
-    if (!begun) join();
+  void start(const StepLoads& loads, bool moves, const Fields& fields) {
+    only_near_left_ = moves && ahead_ == loads;
+    forget();
+    if (!only_near_left_) join();
+    int near_queue = kNearQueue;
     for (int b = 0; b < blocks(); ++b)
-      if (begun)
-        launch(b, block(b).in_tiles(loads, reached_[index(b)]), fields);
-      else
-        launch(b, block(b).at(loads), fields);
-    join();
-    ahead_.reset();
+      if (!only_near_left_)
+        launch(fan_queue(b), b, block(b).at(loads), fields);
+      else if (reached_[index(b)].count > 0)
+        launch(near_queue++, b, block(b).in_tiles(loads, reached_[index(b)]), fields);
+  }
+  /// Lets what follows in the queue in use begin after the march about the patch.
+  void await_near() {
+    for (int queue = kNearQueue; queue < (only_near_left_ ? kFanQueue : kQueues); ++queue)
+      device_->after(queue);
+  }
+  /// Likewise after all marches.
+  void join() {
+    for (int queue = kNearQueue; queue < kQueues; ++queue) device_->after(queue);
   }
 
-  /// Begins a step with these loads beyond tiles that still change.
+  /// Begins a step with these loads beyond tiles that still change, in blocks of which the host moves no
+  /// node.
   template <class Fields>
   void begin_ahead(const StepLoads& loads, const std::array<ReachedTiles, 2>& reached, const Fields& fields) {
     for (const ReachedTiles& of : reached) reached_[index(of.block)] = block(of.block).near(of.tiles);
-    for (int b = 0; b < blocks(); ++b)
-      launch(b, block(b).at(loads, block(b).beyond(reached_[index(b)])), fields);
-    ahead_ = loads;
+    launch_ahead(loads, false, fields);
+    begun_ = loads;
   }
+  /// Begins it in the others, when the host has moved its nodes.
+  template <class Fields>
+  void go_on_ahead(const Fields& fields) {
+    launch_ahead(*begun_, true, fields);
+    ahead_ = begun_;
+  }
+  bool has_begun() const { return begun_.has_value(); }
   /// Fields have changed: what has begun ahead does not count.
-  void forget() { ahead_.reset(); }
+  void forget() {
+    begun_.reset();
+    ahead_.reset();
+  }
 
  private:
   template <class Fields>
-  void launch(int number, const MarchBlock<Real>& marched, const Fields& fields) {
+  void launch(int queue, int number, const MarchBlock<Real>& marched, const Fields& fields) {
     if (marched.marched.count == 0) return;
-    const Beside beside(*device_, kFanQueue + number % (kQueues - kFanQueue));
+    const Beside beside(*device_, queue);
     kernels_->march(variant(number), marched, fields(number));
   }
 
-  void join() {
-    for (int queue = kFanQueue; queue < kQueues; ++queue) device_->after(queue);
+  template <class Fields>
+  void launch_ahead(const StepLoads& loads, bool awaits_host, const Fields& fields) {
+    for (int b = 0; b < blocks(); ++b)
+      if ((awaits_host_[index(b)] != 0) == awaits_host)
+        launch(fan_queue(b), b, block(b).at(loads, block(b).beyond(reached_[index(b)])), fields);
   }
+
+  static int fan_queue(int block) { return kFanQueue + block % (kQueues - kFanQueue); }
 
   Device* device_;
   FieldKernels<Real, U>* kernels_;
   std::vector<std::unique_ptr<BlockMarch<Real>>> blocks_;
   std::vector<TileVariant> variants_;
-  std::vector<MarchRuns> reached_;  ///< by block; none: the tractions do not reach it
-  std::optional<StepLoads> ahead_;  ///< of the step that has begun
+  std::vector<MarchRuns> reached_;          ///< by block; none: the tractions do not reach it
+  std::vector<unsigned char> awaits_host_;  ///< by block
+  std::optional<StepLoads> begun_;  ///< of the step that has begun in blocks that do not await the host
+  std::optional<StepLoads> ahead_;  ///< of the step that has begun in all
+  bool only_near_left_ = false;     ///< when the last march started
 };
 
 }  // namespace tread

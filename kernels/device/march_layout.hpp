@@ -82,9 +82,11 @@ struct MarchBlock {
   constexpr int teams() const { return parts * marched.count; }
 };
 
-/// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force.
+/// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force; those that move
+/// but for some unknowns.
 inline constexpr int kMoves = -1;
 inline constexpr int kKeeps = -2;
+inline constexpr int kHolds = -3;
 
 /// Node fields on the device, of 3 * slots values in the order of dof(), and states of laws.
 template <class Real, class U>
@@ -96,10 +98,12 @@ struct MarchFields {
   U* moved_u = nullptr;                ///< after the step; null: nothing moves, all forces go to `force`
   Real* moved_v = nullptr;
   Real* force = nullptr;  ///< [N]
-  /// By group of kLanes slots: where the host's groups have their forces in `host_force`; or kMoves, kKeeps.
+  /// By group of kLanes slots: where the host's groups have their forces in `host_force`; or kMoves, kKeeps,
+  /// kHolds.
   const int* group_mark = nullptr;
-  Real* host_force = nullptr;   ///< [group][component][lane] [N]
-  const Real* state = nullptr;  ///< of the block: [tile][place][value][lane]
+  const unsigned char* held = nullptr;  ///< by slot of the last: a bit for each component that stays zero
+  Real* host_force = nullptr;           ///< [group][component][lane] [N]
+  const Real* state = nullptr;          ///< of the block: [tile][place][value][lane]
   Real* moved_state = nullptr;
 };
 

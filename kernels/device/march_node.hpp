@@ -73,18 +73,19 @@ struct NodeBefore {
 };
 
 /// Moves a node under its force. `at`: place of its component 0 in the fields; `weight`: gravity at its
-/// station (revolved), rounded [m/s2].
+/// station (revolved), rounded [m/s2]; `held`: a bit for each component that stays zero.
 template <Sweep sweep, int first, class Real, class U>
 TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields,
                                  std::int64_t at, const Real (&weight)[2], const Real (&force)[3],
-                                 NodeBefore<Real, U>& node) {
+                                 unsigned held, NodeBefore<Real, U>& node) {
   if constexpr (sweep == Sweep::revolved)
     move_spinning(block.step, weight, node.radius, node.inverse_mass, force, node.u, node.v);
   else
     move_fixed<first>(block.step, node.inverse_mass, force, node.u, node.v);
   for (int i = first; i < 3; ++i) {
-    fields.moved_u[at + i * kLanes] = node.u[i];
-    fields.moved_v[at + i * kLanes] = node.v[i];
+    const bool stays = (held >> i & 1U) != 0;
+    fields.moved_u[at + i * kLanes] = stays ? U{} : node.u[i];
+    fields.moved_v[at + i * kLanes] = stays ? Real{} : node.v[i];
   }
 }
 

@@ -164,7 +164,7 @@ struct MovePrimary {
     NodeBefore<Real, U> before;
     before.template load<sweep, first>(of.block, fields, node.section_node, node.own / 3 + lane,
                                        node.own + lane);
-    move_on_device<sweep, first>(of.block, fields, node.own + lane, weight, force, before);
+    move_on_device<sweep, first>(of.block, fields, node.own + lane, weight, force, 0U, before);
   }
 };
 
