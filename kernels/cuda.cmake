@@ -2,6 +2,7 @@
 # the target nvcc_check compiles what a card will run, for one architecture, without linking it.
 set(cuda_source ${CMAKE_CURRENT_SOURCE_DIR}/device/cuda.cu)
 set(cuda_flags -std=c++20 --expt-relaxed-constexpr -Werror all-warnings -I ${PROJECT_SOURCE_DIR})
+set(nvcc ${PROJECT_SOURCE_DIR}/scripts/nvcc_whole.sh)
 set(architectures ${TREAD_CUDA_ARCHITECTURES})
 
 if(NOT TREAD_CUDA STREQUAL "OFF")
@@ -33,9 +34,9 @@ endforeach()
 
 if(with_cuda)
   set(cuda_object ${CMAKE_CURRENT_BINARY_DIR}/cuda.o)
-  add_custom_command(OUTPUT ${cuda_object} VERBATIM DEPENDS ${cuda_source} DEPFILE ${cuda_object}.d
+  add_custom_command(OUTPUT ${cuda_object} VERBATIM DEPENDS ${cuda_source} ${nvcc} DEPFILE ${cuda_object}.d
     COMMENT "Building CUDA object ${cuda_object}"
-    COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags} -O3 ${targets} -Xcompiler -fPIE,-Wno-psabi -MD -MF ${cuda_object}.d
+    COMMAND ${nvcc} ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags} -O3 ${targets} -Xcompiler -fPIE,-Wno-psabi -MD -MF ${cuda_object}.d
       -c -o ${cuda_object} ${cuda_source})
   set_source_files_properties(${cuda_object} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
   get_target_property(sources tread_kernels SOURCES)
@@ -50,6 +51,6 @@ endif()
 
 if(CUDAToolkit_NVCC_EXECUTABLE)
   add_custom_target(nvcc_check VERBATIM)
-  add_custom_command(TARGET nvcc_check VERBATIM COMMAND ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags} -arch=sm_90 -cubin
-    -o ${CMAKE_CURRENT_BINARY_DIR}/cuda.cubin ${cuda_source})
+  add_custom_command(TARGET nvcc_check VERBATIM COMMAND ${nvcc} ${CUDAToolkit_NVCC_EXECUTABLE} ${cuda_flags}
+    -arch=sm_90 -cubin -o ${CMAKE_CURRENT_BINARY_DIR}/cuda.cubin ${cuda_source})
 endif()

@@ -9,7 +9,6 @@
 #include "core/index.hpp"
 #include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/featured_nodes.hpp"
-#include "drivers/engine/restraints.hpp"
 
 namespace tread {
 
@@ -42,11 +41,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
-  choose_host_groups(model);
-  choose_holders(held_unknowns(mesh, model.restrained));
-  device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
-  for (int b = 0; b < marches_.blocks(); ++b)
-    if (awaits_host(mesh.blocks[index(b)])) marches_.await_host(b);
+  choose_movers(model);
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();
@@ -64,48 +59,25 @@ bool DeviceFields<Real, U>::has_contact() const {
   return device_contact_ && contact_->steps() == this;
 }
 
-/// True for blocks of which the host moves nodes.
 template <class Real, class U>
-bool DeviceFields<Real, U>::awaits_host(const SweptBlock& block) const {
-  const auto first = group_mark_.begin() + block.base / kLanes;
-  return std::any_of(first, first + block.slots() / kLanes, [](int mark) { return mark >= 0; });
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::choose_host_groups(const Model& model) {
+void DeviceFields<Real, U>::choose_movers(const Model& model) {
   Movers movers = movers_of(model);
   group_mark_ = std::move(movers.marks);
+  device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
+  host_groups_ = std::move(movers.hosted);
+  std::vector<std::int64_t> slots;
+  for (const std::int64_t group : host_groups_) slots.push_back(group * kLanes);
+  host_update_.defer(slots);
+  for (int b = 0; b < marches_.blocks(); ++b)
+    if (movers.hosted_blocks[index(b)] != 0) marches_.await_host(b);
+  host_held_ = std::move(movers.held_hosts);
+  held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(movers.held));
+  held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(movers.held_ties));
   tied_surfaces_ = movers.tied_surfaces;
   if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.inverse_mass.data());
-  std::vector<std::int64_t> slots;
-  for (std::int64_t group = 0; group < std::ssize(group_mark_); ++group) {
-    if (group_mark_[index(group)] < 0) continue;
-    host_groups_.push_back(group);
-    slots.push_back(group * kLanes);
-  }
-  host_update_.defer(slots);
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
   host_ties_ = model.ties && !ties_;
-}
-
-/// Sorts unknowns that stay zero by who holds them.
-template <class Real, class U>
-void DeviceFields<Real, U>::choose_holders(const std::vector<std::int64_t>& held) {
-  std::vector<unsigned char> by_slot(index(this->mesh().slots), 0);
-  std::vector<std::int64_t> of_ties;
-  for (const std::int64_t unknown : held) {
-    const std::int64_t group = unknown / kGroupValues;
-    int& mark = group_mark_[index(group)];
-    if (mark >= 0) host_held_.push_back(unknown);
-    if (mark == kKeeps) of_ties.push_back(unknown);
-    if (mark != kMoves && mark != kHolds) continue;
-    mark = kHolds;
-    by_slot[index(group * kLanes + unknown % kLanes)] |=
-        static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
-  }
-  held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(by_slot));
-  held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(of_ties));
 }
 
 template <class Real, class U>
@@ -114,16 +86,9 @@ void DeviceFields<Real, U>::make_room() {
              lock_pages(*device_, this->f())};
   packed_f_ = HostArray<Real>(*device_, host_groups_.size() * kGroupValues);
   device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
-  const std::size_t most = host_groups_.size() + (surfaces_ ? surfaces_->capacity() : 0);
-  sent_groups_.reserve(most);
-  sent_groups_ = host_groups_;
-  sent_.assign(group_mark_.size(), 0);
   copied_.assign(group_mark_.size(), 0);
-  for (const std::int64_t group : host_groups_) sent_[index(group)] = 1;
-  device_sent_groups_ = DeviceArray<std::int64_t>(*device_, most);
-  device_sent_groups_.upload(host_groups_.data(), host_groups_.size());
-  packed_ = HostArray<std::byte>(*device_, most * kGroupBytes);
-  device_packed_ = DeviceArray<std::byte>(*device_, packed_.size());
+  sent_ =
+      SentGroups<Real, U>(*device_, host_groups_, surfaces_ ? surfaces_->capacity() : 0, group_mark_.size());
 }
 
 template <class Real, class U>
@@ -146,7 +111,10 @@ void DeviceFields<Real, U>::changed() {
 template <class Real, class U>
 void DeviceFields<Real, U>::send() {
   if (device_whole_) {
-    if (std::exchange(host_moves_, false)) send_groups();
+    if (std::exchange(host_moves_, false)) {
+      add_patch_groups();
+      sent_.send(this->u(), this->v(), now_.u.data(), now_.v.data());
+    }
     advance_device_lag();
     return;
   }
@@ -159,38 +127,18 @@ void DeviceFields<Real, U>::send() {
   device_whole_ = true;
 }
 
-/// Sends what the host has moved, by one copy. The host packs again after it has waited for a later kernel.
-template <class Real, class U>
-void DeviceFields<Real, U>::send_groups() {
-  add_patch_groups();
-  if (sent_groups_.empty()) return;
-  const GroupValues<Real, U> values = packed(packed_.data());
-  for_groups(sent_groups_, 0, std::ssize(sent_groups_), [&](std::int64_t at, std::int64_t place) {
-    std::copy_n(this->u().data() + place, kGroupValues, values.u + at);
-    std::copy_n(this->v().data() + place, kGroupValues, values.v + at);
-  });
-  device_->start_upload(device_packed_.data(), packed_.data(), sent_groups_.size() * kGroupBytes);
-  kernels_.place(packed(device_packed_.data()), now_.u.data(), now_.v.data());
-}
-
 /// Adds the groups that the tractions have moved. Those of tied nodes follow on the device.
 template <class Real, class U>
 void DeviceFields<Real, U>::add_patch_groups() {
   if (contact_ == nullptr || device_contact_) return;
-  for (std::size_t i = host_groups_.size(); i < sent_groups_.size(); ++i) sent_[index(sent_groups_[i])] = 0;
-  sent_groups_.resize(host_groups_.size());
+  sent_.reset();
   for (const PatchCells::Node& node : contact_->patch()) {
     const std::int64_t group = node.slot / kLanes;
-    if (sent_[index(group)] != 0 || group_mark_[index(group)] == kKeeps) continue;
+    if (sent_.has(group) || group_mark_[index(group)] == kKeeps) continue;
     if (!host_whole_ && copied_[index(group)] != step_)
       throw std::logic_error("the tractions moved nodes that the host had no copy of");
-    sent_[index(group)] = 1;
-    sent_groups_.push_back(group);
+    sent_.add(group);
   }
-  const std::size_t added = sent_groups_.size() - host_groups_.size();
-  if (added > 0)
-    device_->upload(device_sent_groups_.data() + host_groups_.size(),
-                    sent_groups_.data() + host_groups_.size(), added * sizeof(std::int64_t));
 }
 
 template <class Real, class U>

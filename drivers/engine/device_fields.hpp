@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "drivers/engine/precise_fields.hpp"
+#include "drivers/engine/sent_groups.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/device_contact.hpp"
 #include "kernels/device/device_ties.hpp"
@@ -47,8 +48,6 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
  private:
   using Base = PreciseFields<Real, U>;
-  /// Displacements and velocities of a group [B].
-  static constexpr std::size_t kGroupBytes = 3 * kLanes * (sizeof(U) + sizeof(Real));
   /// Fields that a step reads, and where it writes those that elements of several teams read.
   struct Arrays {
     DeviceArray<U> u;
@@ -56,9 +55,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
     std::vector<DeviceArray<Real>> state;  ///< by block; empty where its law has none
   };
 
-  void choose_host_groups(const Model& model);
-  void choose_holders(const std::vector<std::int64_t>& held);
-  bool awaits_host(const SweptBlock& block) const;
+  void choose_movers(const Model& model);
   void make_room();
   MarchFields<Real, U> march_fields(int block, bool moves);
   void start_march(const StepLoads& loads, bool moves);
@@ -75,13 +72,6 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void search(const BodyFrame& wheel, double time, double dt) override;
   void resolve(const BodyFrame& wheel, double dt) override;
   void send();
-  void send_groups();
-  /// Packed values of the groups that are sent.
-  GroupValues<Real, U> packed(std::byte* values) const {
-    auto* const u = reinterpret_cast<U*>(values);
-    auto* const v = reinterpret_cast<Real*>(u + 3 * kLanes * sent_groups_.size());
-    return {device_sent_groups_.data(), std::ssize(sent_groups_), u, v};
-  }
   void add_patch_groups();
   void fetch_law_state(const Arrays& from);
   void advance_device_lag();
@@ -94,7 +84,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   DeviceArray<Real> lag_, force_, inverse_mass_;
 
   std::vector<std::int64_t> host_groups_;  ///< the host's groups of kLanes slots, ascending
-  std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves or kKeeps
+  std::vector<int> group_mark_;            ///< by group: its place in host_groups_, kMoves, kKeeps or kHolds
   DeviceArray<int> device_group_mark_;
   BasicTimeUpdate<Real, U> host_update_;  ///< of the host's groups alone
   HostArray<Real> packed_f_;              ///< of the host's groups: [group][component][lane]
@@ -113,11 +103,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::vector<std::int64_t> copied_;                ///< by group: step of its last copy to the host
   std::int64_t step_ = 0;                           ///< number of the step, from 1 on
 
-  std::vector<std::int64_t> sent_groups_;  ///< the host's, then those of the patch
-  std::vector<unsigned char> sent_;        ///< by group: in sent_groups_
-  DeviceArray<std::int64_t> device_sent_groups_;
-  HostArray<std::byte> packed_;  ///< of sent_groups_: displacements [group][component][lane], then velocities
-  DeviceArray<std::byte> device_packed_;
+  SentGroups<Real, U> sent_;           ///< the host's groups, and those that its tractions moved
   std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
 
   StepLoads loads_;  ///< of the last step

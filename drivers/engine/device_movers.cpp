@@ -1,9 +1,11 @@
 #include "drivers/engine/device_movers.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "drivers/engine/featured_nodes.hpp"
 #include "drivers/engine/node_fields.hpp"
+#include "drivers/engine/restraints.hpp"
 #include "kernels/device/device_contact.hpp"
 #include "kernels/device/field_kernels.hpp"
 
@@ -15,6 +17,23 @@ bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>&
   for (std::size_t group = 0; group < a.size(); ++group)
     if (a[group] != 0 && b[group] != 0) return true;
   return false;
+}
+
+void choose_holders(const Model& model, Movers& movers) {
+  movers.held.assign(static_cast<std::size_t>(model.mesh.slots), 0);
+  for (const std::int64_t unknown : held_unknowns(model.mesh, model.restrained)) {
+    const std::int64_t group = unknown / kGroupValues;
+    int& mark = movers.marks[static_cast<std::size_t>(group)];
+    if (mark >= 0) {
+      movers.held_hosts.push_back(unknown);
+    } else if (mark == kKeeps) {
+      movers.held_ties.push_back(unknown);
+    } else {
+      mark = kHolds;
+      movers.held[static_cast<std::size_t>(group * kLanes + unknown % kLanes)] |=
+          static_cast<unsigned char>(1U << unknown % kGroupValues / kLanes);
+    }
+  }
 }
 
 }  // namespace
@@ -34,17 +53,25 @@ Movers movers_of(const Model& model) {
   }
   Movers movers;
   for (std::size_t group = 0; group < host.size(); ++group) {
-    const int moves = tied[group] != 0 ? kKeeps : kMoves;
-    movers.marks.push_back(host[group] != 0 ? static_cast<int>(movers.hosted++) : moves);
+    movers.marks.push_back(host[group] != 0   ? static_cast<int>(movers.hosted.size())
+                           : tied[group] != 0 ? kKeeps
+                                              : kMoves);
+    if (host[group] != 0) movers.hosted.push_back(static_cast<std::int64_t>(group));
+  }
+  for (const SweptBlock& block : model.mesh.blocks) {
+    const auto first = host.begin() + block.base / kLanes;
+    movers.hosted_blocks.push_back(std::count(first, first + block.slots() / kLanes, 0) <
+                                   block.slots() / kLanes);
   }
   movers.tied_surfaces = meet(surfaces, tied);
   movers.contact = model.contact && DeviceContact::knows(*model.contact) && !meet(host, surfaces);
+  choose_holders(model, movers);
   return movers;
 }
 
 DeviceNeed device_need(const Model& model) {
   const Movers movers = movers_of(model);
-  const std::int64_t groups = movers.hosted;
+  const auto groups = static_cast<std::int64_t>(movers.hosted.size());
   const ValueBytes bytes = value_bytes(model.scene);
   const std::int64_t moved = 2 * (bytes.displacement + bytes.other);  // before and after the step
   const int others = bytes.other * (model.has_branches() ? 2 : 1);    // forces, lag

@@ -9,12 +9,17 @@
 
 namespace tread {
 
-/// Movers of the groups of kLanes slots.
+/// Movers of the groups of kLanes slots, and unknowns that stay zero by who holds them.
 struct Movers {
-  std::vector<int> marks;      ///< by group: kMoves, kKeeps or, of the host's, its place among them
-  std::int64_t hosted = 0;     ///< groups of the host
-  bool contact = false;        ///< contact runs on the device
-  bool tied_surfaces = false;  ///< surfaces in contact have tied nodes
+  std::vector<int> marks;                    ///< MarchFields::group_mark
+  std::vector<std::int64_t> hosted;          ///< the host's groups, ascending
+  std::vector<unsigned char> hosted_blocks;  ///< by block: the host moves nodes of it
+  bool contact = false;                      ///< contact runs on the device
+  bool tied_surfaces = false;                ///< surfaces in contact have tied nodes
+
+  std::vector<unsigned char> held;       ///< MarchFields::held
+  std::vector<std::int64_t> held_ties;   ///< unknowns of tied nodes
+  std::vector<std::int64_t> held_hosts;  ///< unknowns of the host's nodes
 };
 
 /// Ties between nodes on which connectors act, or contact, are the host's, and contact with surfaces on which

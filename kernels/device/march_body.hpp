@@ -7,8 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <type_traits>
 
 #include "core/inline.hpp"
 #include "kernels/device/march_node.hpp"
@@ -69,7 +67,7 @@ class March {
       team_.for_each(kLanes * (last ? part_.own_nodes : part_.nodes), [&](int i) {
         const int node = i / kLanes;
         const int lane = i % kLanes;
-        NodeEnds ends{};  // loads of both nodes wait at once
+        NodeEnds<Real, U> ends{};  // loads of both nodes wait at once
         if (!last) load_ends(to, node, lane, ends);
         if (node < part_.own_nodes) close_node(at, node, lane);
         if (!last) keep_ends(to, node, lane, ends);
@@ -79,7 +77,6 @@ class March {
   }
 
  private:
-  static constexpr bool kRelative = !std::is_same_v<Real, U>;
   static constexpr int kValues = kStateValues<Law>;
   using State = typename Law<Real>::template State<Real>;
 
@@ -162,35 +159,22 @@ class March {
     }
   }
 
-  /// Values of a node at both ends of an element.
-  struct NodeEnds {
-    U near[3], far[3];
-    U origin[3];                       ///< of the part's first node, at the near end
-    Real near_added[3], far_added[3];  ///< MarchFields::added
-  };
-
-  TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds& ends) const {
-    if (lane >= at.tile.elements) return;
-    const int section = section_node_[node];
-    const std::int64_t near_at = at.near_place(section, lane);
-    const std::int64_t far_at = at.far_place(section, lane);
-    const std::int64_t of_origin = kRelative ? at.near_place(section_node_[0], lane) : 0;
-    const bool adds = fields_.added != nullptr;
-    for (int i = 0; i < 3; ++i) {
-      if constexpr (kRelative) ends.origin[i] = fields_.u[of_origin + i * kLanes];
-      if (i < first) continue;
-      ends.near[i] = fields_.u[near_at + i * kLanes];
-      ends.far[i] = fields_.u[far_at + i * kLanes];
-      ends.near_added[i] = adds ? fields_.added[near_at + i * kLanes] : Real{};
-      ends.far_added[i] = adds ? fields_.added[far_at + i * kLanes] : Real{};
-    }
+  TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds<Real, U>& ends) const {
+    if (lane < at.tile.elements)
+      ends.template load<first>(fields_, at, section_node_[node], section_node_[0], lane);
   }
 
-  TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds& ends) const {
+  TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds<Real, U>& ends) const {
     if (lane >= at.tile.elements) return;
     Real near[3];
     Real far[3];
-    displacements(at, ends, near, far);
+    U cosine = 1;
+    U sine = 0;
+    if constexpr (sweep == Sweep::revolved) {
+      cosine = block_.cosine[at.tile.pitch_class];
+      sine = block_.sine[at.tile.pitch_class];
+    }
+    ends.template displacements<sweep, first>(cosine, sine, near, far);
     if (fields_.added != nullptr) {
       Real near_rate[3];
       Real far_rate[3];
@@ -211,33 +195,9 @@ class March {
   }
 
   TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
-    NodeEnds ends{};
+    NodeEnds<Real, U> ends{};
     load_ends(at, node, lane, ends);
     keep_ends(at, node, lane, ends);
-  }
-
-  /// Where displacements are more precise than the elements, they are taken relative to a translation, that
-  /// of the part's first node, so that what all nodes share is not rounded.
-  TREAD_INLINE void displacements(const TileAt& at, const NodeEnds& ends, Real (&near)[3],
-                                  Real (&far)[3]) const {
-    U origin[3] = {};
-    U far_origin[3] = {};
-    if constexpr (kRelative) {
-      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i] = ends.origin[i];
-      if constexpr (sweep == Sweep::revolved) {
-        const U c = block_.cosine[at.tile.pitch_class];
-        const U w = block_.sine[at.tile.pitch_class];
-        for (int half = 0; half < 2; ++half) {
-          const U t = c * far_origin[0] - w * far_origin[2];
-          far_origin[2] = c * far_origin[2] + w * far_origin[0];
-          far_origin[0] = t;
-        }
-      }
-    }
-    for (int i = first; i < 3; ++i) {
-      near[i] = static_cast<Real>(ends.near[i] - origin[i]);
-      far[i] = static_cast<Real>(ends.far[i] - far_origin[i]);
-    }
   }
 
   TREAD_INLINE void shift(int row, int section, int lane, Real (&value)[3]) const {
@@ -312,14 +272,14 @@ class March {
     } else {
       const auto& law = static_cast<const ElementLaw<Law<Real>, Real>*>(block_.laws)[place];
       const std::int64_t of_state = (std::int64_t{at.number} * block_.quads + quad.place) * kValues;
-      State state = load_state(of_state, lane);
+      auto state = load_state<State>(fields_.state + of_state * kLanes + lane);
       Strain<Real> rate;
       if (fields_.added != nullptr)
         amplitudes<first>(quad, lane, rates_,
                           [&](int i, const Real(&a)[kModes]) { element.strain(i, a, rate); });
       law_forces<finite_rotation>(constants, law, element, strain, fields_.added != nullptr ? &rate : nullptr,
                                   state, force);
-      if (own && quad.own != 0) store_state(of_state, lane, state);
+      if (own && quad.own != 0) store_state(fields_.moved_state + of_state * kLanes + lane, state);
     }
     add_forces(quad, lane, element, force);
   }
@@ -348,24 +308,6 @@ class March {
         sums[j][i] = adds[j] ? before[j] + s[j] : s[j];
         sums[j][3 + i] = adds[j] ? before[4 + j] + d[j] : d[j];
       }
-    }
-  }
-
-  TREAD_INLINE State load_state(std::int64_t place, int lane) const {
-    State state{};
-    if constexpr (kValues > 0) {
-      Real values[kValues];
-      for (int i = 0; i < kValues; ++i) values[i] = fields_.state[(place + i) * kLanes + lane];
-      std::memcpy(&state, values, sizeof values);
-    }
-    return state;
-  }
-
-  TREAD_INLINE void store_state(std::int64_t place, int lane, const State& state) const {
-    if constexpr (kValues > 0) {
-      Real values[kValues];
-      std::memcpy(values, &state, sizeof values);
-      for (int i = 0; i < kValues; ++i) fields_.moved_state[(place + i) * kLanes + lane] = values[i];
     }
   }
 

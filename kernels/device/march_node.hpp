@@ -3,6 +3,8 @@
 // [kernels/device/march_body.hpp]
 
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "core/inline.hpp"
 #include "kernels/device/march_layout.hpp"
@@ -51,6 +53,53 @@ class NodeValues {
   Real *even_, *odd_;
 };
 
+/// Values of a node at both ends of an element, as the fields hold them.
+template <class Real, class U>
+struct NodeEnds {
+  /// Where displacements are more precise than the elements, they are taken relative to a translation, that
+  /// of the part's first node, so that what all nodes share is not rounded.
+  static constexpr bool kRelative = !std::is_same_v<Real, U>;
+
+  U near[3], far[3];                 ///< displacements
+  U origin[3];                       ///< of the part's first node, at the near end
+  Real near_added[3], far_added[3];  ///< MarchFields::added
+
+  /// `section_node`, `first_node`: its own, and that of the part's first node.
+  template <int first>
+  TREAD_INLINE void load(const MarchFields<Real, U>& fields, const TileAt& at, int section_node,
+                         int first_node, int lane) {
+    const std::int64_t near_at = at.near_place(section_node, lane);
+    const std::int64_t far_at = at.far_place(section_node, lane);
+    const bool adds = fields.added != nullptr;
+    for (int i = first; i < 3; ++i) {
+      near[i] = fields.u[near_at + i * kLanes];
+      far[i] = fields.u[far_at + i * kLanes];
+      near_added[i] = adds ? fields.added[near_at + i * kLanes] : Real{};
+      far_added[i] = adds ? fields.added[far_at + i * kLanes] : Real{};
+    }
+    if constexpr (kRelative)
+      for (int i = 0; i < 3; ++i) origin[i] = fields.u[at.near_place(first_node, lane) + i * kLanes];
+  }
+
+  /// Displacements for the elements. `c`, `s`: cosine and sine of half the pitch (revolved).
+  template <Sweep sweep, int first>
+  TREAD_INLINE void displacements(U c, U s, Real (&of_near)[3], Real (&of_far)[3]) const {
+    U far_origin[3] = {};
+    if constexpr (kRelative) {
+      for (int i = 0; i < 3; ++i) far_origin[i] = origin[i];
+      for (int half = 0; sweep == Sweep::revolved && half < 2; ++half) {
+        const U t = c * far_origin[0] - s * far_origin[2];
+        far_origin[2] = c * far_origin[2] + s * far_origin[0];
+        far_origin[0] = t;
+      }
+    }
+    for (int i = first; i < 3; ++i) {
+      of_near[i] = static_cast<Real>(near[i] - (kRelative ? origin[i] : U{}));
+      of_far[i] = static_cast<Real>(far[i] - far_origin[i]);
+    }
+  }
+};
+
 /// A node before it moves.
 template <class Real, class U>
 struct NodeBefore {
@@ -86,6 +135,28 @@ TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchField
     const bool stays = (held >> i & 1U) != 0;
     fields.moved_u[at + i * kLanes] = stays ? U{} : node.u[i];
     fields.moved_v[at + i * kLanes] = stays ? Real{} : node.v[i];
+  }
+}
+
+/// State of a law in a lane, value by value, kLanes apart.
+template <class State, class Real>
+TREAD_INLINE State load_state(const Real* from) {
+  constexpr int kValues = std::is_empty_v<State> ? 0 : static_cast<int>(sizeof(State) / sizeof(Real));
+  State state{};
+  if constexpr (kValues > 0) {
+    Real values[kValues];
+    for (int i = 0; i < kValues; ++i) values[i] = from[i * kLanes];
+    std::memcpy(&state, values, sizeof values);
+  }
+  return state;
+}
+template <class State, class Real>
+TREAD_INLINE void store_state(Real* to, const State& state) {
+  constexpr int kValues = std::is_empty_v<State> ? 0 : static_cast<int>(sizeof(State) / sizeof(Real));
+  if constexpr (kValues > 0) {
+    Real values[kValues];
+    std::memcpy(values, &state, sizeof values);
+    for (int i = 0; i < kValues; ++i) to[i * kLanes] = values[i];
   }
 }
 
