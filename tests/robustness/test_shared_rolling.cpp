@@ -254,5 +254,20 @@ TEST_F(SharedRollingPlan, ADeepCorrugationNeedsRoomAndANearOneSharesNothing) {
     EXPECT_FALSE(has(argument, "forks")) << argument;
 }
 
+TEST_F(SharedRollingPlan, ARunTakesTheCardThatItIsGiven) {
+  StudyPlan plan =
+      plan_study(read_study(program_.write("study.toml", fmt::format("[study]\nscene = \"{}\"\n[set]\n"
+                                                                     "scene.element_size = \"10 mm\"\n{}",
+                                                                     kTyre, waves("a", "0.02")))),
+                 program_.folder / "runs");
+  plan.device = "gpu";
+  const auto device_of = [&](int card) {
+    const std::vector<std::string> arguments = point_arguments(plan, plan.points[0], 1, card);
+    return *std::next(std::find(arguments.begin(), arguments.end(), "--device"));
+  };
+  EXPECT_EQ(device_of(-1), "gpu");
+  EXPECT_EQ(device_of(2), "gpu:2");
+}
+
 }  // namespace
 }  // namespace tread

@@ -89,6 +89,8 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
   EXPECT_TRUE(has(errors(), "-o is missing")) << errors();
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--jobs 1000"), 2);
   EXPECT_TRUE(has(errors(), "lower --jobs")) << errors();
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--jobs 2 --device gpu:0"), 2);
+  EXPECT_TRUE(has(errors(), "a card takes one run at a time, and there is one")) << errors();
   EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n"), "--set \"pulse.velocity=2 m/s\""), 2);
   EXPECT_TRUE(has(errors(), "differ in pulse.velocity")) << errors();
   EXPECT_FALSE(fs::exists(runs_ / "velocity=1m_s"));

@@ -55,6 +55,7 @@ struct StudyPlan {
   int jobs = 1;        ///< number of runs at once
   int threads = 0;     ///< threads of one run; 0: its share of the cores that are idle when it begins
   std::string device;  ///< of all runs; empty: the processor
+  int cards = 0;       ///< that the runs share, one run at a time each; 0: none, or those of `launcher`
   std::vector<std::string> launcher;  ///< program and arguments that start the runs; empty: this machine does
 
   /// Exit code of the first failed point's process; ExitCode::resources if a signal ended it.

@@ -53,6 +53,14 @@ std::vector<std::string> launcher_words(const std::string& text) {
   return words;
 }
 
+/// Cards that runs with this device share; 0: they need none.
+int cards_of(const std::string& device) {
+  if (device.starts_with("gpu:")) return 1;
+  const int all = static_cast<int>(gpus().size());
+  if (device == "gpu") return std::max(1, all);  // the runs say that there is none
+  return device == "auto" ? all : 0;
+}
+
 /// Chooses the number of runs before the cost is known: as many as cores have room for, elsewhere all at
 /// once.
 void choose_processes(StudyPlan& plan, const StudyOptions& options) {
@@ -67,11 +75,15 @@ void choose_processes(StudyPlan& plan, const StudyOptions& options) {
   }
   const int each = std::max(1, plan.threads);
   plan.device = options.device;
-  const bool one_card = plan.device.starts_with("gpu") || (plan.device == "auto" && !gpus().empty());
-  if (one_card && options.jobs > 1)
-    throw InputError(
-        fmt::format("--jobs {} with --device {}: a card takes one run at a time", options.jobs, plan.device));
-  const int jobs = one_card ? 1 : stated(options.jobs, plan.study.jobs);
+  plan.cards = cards_of(plan.device);
+  int jobs = stated(options.jobs, plan.study.jobs);
+  if (plan.cards > 0) {
+    if (options.jobs > plan.cards)
+      throw InputError(fmt::format("--jobs {} with --device {}: a card takes one run at a time, and there {}",
+                                   options.jobs, plan.device,
+                                   plan.cards == 1 ? "is one" : fmt::format("are {}", plan.cards)));
+    jobs = jobs > 0 ? std::min(jobs, plan.cards) : std::min(plan.cards, std::max(1, cores / each));
+  }
   plan.jobs = jobs > 0 ? jobs : std::max(1, cores / each);
   if (plan.jobs * each > cores)
     throw InputError(

@@ -40,11 +40,13 @@ int count(const StudyPlan& plan, PointState state) {
 
 }  // namespace
 
-std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count) {
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count,
+                                         int card) {
   const PointStatus& status = point.status;
   std::vector<std::string> place;
   if (count > 0) place = {"-t", std::to_string(count)};
-  if (!plan.device.empty()) place.insert(place.end(), {"--device", plan.device});
+  const std::string device = card < 0 ? plan.device : fmt::format("gpu:{}", card);
+  if (!device.empty()) place.insert(place.end(), {"--device", device});
   const bool failed = status.state == PointState::failed;
   std::vector<std::string> arguments;
   if (status.state == PointState::interrupted || (failed && !status.anew)) {
@@ -111,6 +113,15 @@ PlannedPoint* StudyRunner::take_next() {
   return point;
 }
 
+/// The first card on which no run is; -1 where the plan names one, or none.
+int StudyRunner::free_card() const {
+  int card = plan_->cards > 1 ? 0 : -1;
+  while (card >= 0 && std::any_of(running_.begin(), running_.end(),
+                                  [card](const Running& running) { return running.card == card; }))
+    ++card;
+  return card;
+}
+
 void StudyRunner::start(PlannedPoint& point, int threads) {
   make_directory(point.folder);
   if (is_taken(point.folder)) {
@@ -119,10 +130,11 @@ void StudyRunner::start(PlannedPoint& point, int threads) {
     return;
   }
   // Elsewhere a run takes all cores that it is given.
+  const int card = free_card();
   const std::vector<std::string> arguments =
-      point_arguments(*plan_, point, plan_->launcher.empty() ? threads : plan_->threads);
+      point_arguments(*plan_, point, plan_->launcher.empty() ? threads : plan_->threads, card);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
-  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads,
+  running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads, card,
                       progress_->seconds()});
   point.status = {PointState::running, ""};
 }

@@ -34,10 +34,12 @@ class StudyRunner {
     PlannedPoint* point;
     ChildProcess process;
     int threads;
+    int card;        ///< StudyPlan::cards; -1: none of its own
     double started;  ///< start on the clock of the progress [s]
   };
   int threads_for_next() const;
   PlannedPoint* take_next();
+  int free_card() const;
   void start(PlannedPoint& point, int threads);
   void collect_ended();
   void note_ended(const Running& running, const ProcessEnd& end);
@@ -56,7 +58,9 @@ class StudyRunner {
   std::string stopped_by_;
 };
 
-/// Command line of a point after "tread"; `threads` of 0 are not stated.
-std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads);
+/// Command line of a point after "tread"; `threads` of 0 are not stated. `card`: in place of the plan's
+/// device unless below 0.
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads,
+                                         int card = -1);
 
 }  // namespace tread
