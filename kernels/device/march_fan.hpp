@@ -29,7 +29,7 @@ class MarchFan {
     reached_.emplace_back();
     awaits_host_.push_back(0);
   }
-  /// Of a block of which the host moves nodes.
+  /// Notes that the host moves nodes of a block.
   void await_host(int block) { awaits_host_[index(block)] = 1; }
 
   int blocks() const { return static_cast<int>(blocks_.size()); }
