@@ -7,7 +7,6 @@
 
 #include "core/contract.hpp"
 #include "core/index.hpp"
-#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
@@ -21,6 +20,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       host_update_(model.mesh, this->inverse_mass()),
       contact_(model.contact.get()) {
   const Mesh& mesh = model.mesh;
+  Movers movers = movers_of(model);
   const std::size_t components = index(3 * mesh.slots);
   for (Arrays* arrays : {&now_, &next_}) {
     arrays->u = DeviceArray<U>(*device_, components);
@@ -32,7 +32,8 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
     const auto& internal = this->internal();
     marches_.add(std::make_unique<BlockMarch<Real>>(*device_, elements, internal.damping(b)),
                  {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
-                  internal.law(b)});
+                  internal.law(b)},
+                 movers.hosted_blocks[index(b)] != 0);
     const int law = this->law_state() ? elements.law() : 0;
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
@@ -41,7 +42,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
   inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
-  choose_movers(model);
+  choose_movers(model, std::move(movers));
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
   make_room();
@@ -60,16 +61,13 @@ bool DeviceFields<Real, U>::has_contact() const {
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::choose_movers(const Model& model) {
-  Movers movers = movers_of(model);
+void DeviceFields<Real, U>::choose_movers(const Model& model, Movers movers) {
   group_mark_ = std::move(movers.marks);
   device_group_mark_ = DeviceArray<int>(*device_, std::span<const int>(group_mark_));
   host_groups_ = std::move(movers.hosted);
   std::vector<std::int64_t> slots;
   for (const std::int64_t group : host_groups_) slots.push_back(group * kLanes);
   host_update_.defer(slots);
-  for (int b = 0; b < marches_.blocks(); ++b)
-    if (movers.hosted_blocks[index(b)] != 0) marches_.await_host(b);
   host_held_ = std::move(movers.held_hosts);
   held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(movers.held));
   held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(movers.held_ties));

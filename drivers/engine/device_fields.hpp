@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/sent_groups.hpp"
 #include "kernels/device/device.hpp"
@@ -55,7 +56,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
     std::vector<DeviceArray<Real>> state;  ///< by block; empty where its law has none
   };
 
-  void choose_movers(const Model& model);
+  void choose_movers(const Model& model, Movers movers);
   void make_room();
   MarchFields<Real, U> march_fields(int block, bool moves);
   void start_march(const StepLoads& loads, bool moves);

@@ -272,14 +272,14 @@ class March {
     } else {
       const auto& law = static_cast<const ElementLaw<Law<Real>, Real>*>(block_.laws)[place];
       const std::int64_t of_state = (std::int64_t{at.number} * block_.quads + quad.place) * kValues;
-      auto state = load_state<State>(fields_.state + of_state * kLanes + lane);
+      auto state = load_state<State, kValues>(fields_.state + of_state * kLanes + lane);
       Strain<Real> rate;
       if (fields_.added != nullptr)
         amplitudes<first>(quad, lane, rates_,
                           [&](int i, const Real(&a)[kModes]) { element.strain(i, a, rate); });
       law_forces<finite_rotation>(constants, law, element, strain, fields_.added != nullptr ? &rate : nullptr,
                                   state, force);
-      if (own && quad.own != 0) store_state(fields_.moved_state + of_state * kLanes + lane, state);
+      if (own && quad.own != 0) store_state<kValues>(fields_.moved_state + of_state * kLanes + lane, state);
     }
     add_forces(quad, lane, element, force);
   }

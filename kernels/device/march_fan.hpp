@@ -23,14 +23,13 @@ class MarchFan {
  public:
   explicit MarchFan(Device& device) : device_(&device), kernels_(&device.kernels<Real, U>()) {}
 
-  void add(std::unique_ptr<BlockMarch<Real>> block, TileVariant variant) {
+  /// `awaits_host`: the host moves nodes of the block.
+  void add(std::unique_ptr<BlockMarch<Real>> block, TileVariant variant, bool awaits_host) {
     blocks_.push_back(std::move(block));
     variants_.push_back(variant);
     reached_.emplace_back();
-    awaits_host_.push_back(0);
+    awaits_host_.push_back(awaits_host ? 1 : 0);
   }
-  /// Notes that the host moves nodes of a block.
-  void await_host(int block) { awaits_host_[index(block)] = 1; }
 
   int blocks() const { return static_cast<int>(blocks_.size()); }
   BlockMarch<Real>& block(int number) { return *blocks_[index(number)]; }

@@ -138,10 +138,9 @@ TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchField
   }
 }
 
-/// State of a law in a lane, value by value, kLanes apart.
-template <class State, class Real>
+/// State of a law in a lane: its values, kLanes apart.
+template <class State, int kValues, class Real>
 TREAD_INLINE State load_state(const Real* from) {
-  constexpr int kValues = std::is_empty_v<State> ? 0 : static_cast<int>(sizeof(State) / sizeof(Real));
   State state{};
   if constexpr (kValues > 0) {
     Real values[kValues];
@@ -150,9 +149,8 @@ TREAD_INLINE State load_state(const Real* from) {
   }
   return state;
 }
-template <class State, class Real>
+template <int kValues, class State, class Real>
 TREAD_INLINE void store_state(Real* to, const State& state) {
-  constexpr int kValues = std::is_empty_v<State> ? 0 : static_cast<int>(sizeof(State) / sizeof(Real));
   if constexpr (kValues > 0) {
     Real values[kValues];
     std::memcpy(values, &state, sizeof values);
