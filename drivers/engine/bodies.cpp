@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "drivers/engine/energy_sums.hpp"
 #include "drivers/engine/restraints.hpp"
 
 namespace tread {
@@ -91,19 +90,12 @@ void Bodies::apply(StepPhase phase, StepState& step) {
     update(step);
 }
 
-/// Energies want the forces of all nodes.
 void Bodies::internal_force(StepState& step) const {
-  if (step.measured)
-    step.fields.internal_force();
-  else
-    step.fields.internal_force_and_move(loads(step));
+  step.fields.internal_force_and_move(loads(step), step.measured);
 }
 
 void Bodies::update(StepState& step) const {
-  if (step.measured)
-    step.fields.move_all(loads(step));
-  else
-    step.fields.move_rest(loads(step));
+  step.fields.move_rest(loads(step), step.measured);
   step.fields.hold(held_);  // contact must not see restrained nodes move
 }
 
@@ -111,11 +103,11 @@ void Bodies::begin_sample(const StepState& step, Sample& sample) {
   const ElementEnergy elements = step.fields.element_energy();
   sample.energy.strain += elements.stored;
   sample.energy.plastic_work += elements.dissipated;
-  sample.energy.gravity += fixed_gravity_potential(*model_, step.displacement);
+  sample.energy.gravity += step.whole.fixed_gravity_potential();
 }
 
 void Bodies::add_kinetic_energy(const Motion& motion, double& sum) const {
-  sum += fixed_kinetic_energy(*model_, motion.velocity);
+  sum += motion.whole.fixed_kinetic_energy();
 }
 
 }  // namespace tread

@@ -16,7 +16,6 @@ class Bodies final : public Feature {
   explicit Bodies(const Model& model);
 
   /// Restrained unknowns that would move.
-  const std::vector<std::int64_t>& held() const { return held_; }
 
   const char* name() const override { return "bodies"; }
   std::vector<PhaseInfo> phases() const override;

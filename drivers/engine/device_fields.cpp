@@ -18,7 +18,8 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       kernels_(device_->template kernels<Real, U>()),
       marches_(*device_),
       host_update_(model.mesh, this->inverse_mass()),
-      contact_(model.contact.get()) {
+      contact_(model.contact.get()),
+      sums_(*device_, model.mesh, model.mass.data(), this->unforced()) {
   const Mesh& mesh = model.mesh;
   Movers movers = movers_of(model);
   const std::size_t components = index(3 * mesh.slots);
@@ -34,6 +35,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
                  {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
                   internal.law(b)},
                  movers.hosted_blocks[index(b)] != 0);
+    sums_.add(elements);
     const int law = this->law_state() ? elements.law() : 0;
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
@@ -87,6 +89,7 @@ void DeviceFields<Real, U>::make_room() {
   copied_.assign(group_mark_.size(), 0);
   sent_ =
       SentGroups<Real, U>(*device_, host_groups_, surfaces_ ? surfaces_->capacity() : 0, group_mark_.size());
+  shown_ = ShownGroups<Real, U>(*device_, host_groups_.size() + 1);
 }
 
 template <class Real, class U>
@@ -101,7 +104,6 @@ void DeviceFields<Real, U>::changed() {
   marches_.forget();
   host_whole_ = true;
   device_whole_ = false;
-  apart_ = false;
   lag_step_ = 0;
 }
 
@@ -162,34 +164,31 @@ void DeviceFields<Real, U>::fetch() {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::fetch_nodes() {
-  if (host_whole_ && !apart_) return;
+  if (host_whole_) return;
   send();
   now_.u.download(this->u().data());
   now_.v.download(this->v().data());
   if (this->q()) lag_.download(this->q()->values().data());
-  fetch_law_state(now_);
+  fetch_law_state();
   host_whole_ = true;
-  apart_ = false;
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::fetch_law_state(const Arrays& from) {
-  for (std::size_t b = 0; b < from.state.size(); ++b)
-    if (from.state[b].size() > 0) from.state[b].download(this->law_state()->values(static_cast<int>(b)));
+void DeviceFields<Real, U>::fetch_law_state() {
+  for (std::size_t b = 0; b < now_.state.size(); ++b)
+    if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
 }
 
 template <class Real, class U>
-MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) {
+MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block) {
   MarchFields<Real, U> fields;
   fields.u = now_.u.data();
   fields.v = now_.v.data();
   if (this->internal().damping(block) != 0)
     fields.added = this->internal().branch(block) != 0 ? lag_.data() : now_.v.data();
   fields.inverse_mass = inverse_mass_.data();
-  if (moves) {
-    fields.moved_u = next_.u.data();
-    fields.moved_v = next_.v.data();
-  }
+  fields.moved_u = next_.u.data();
+  fields.moved_v = next_.v.data();
   fields.force = force_.data();
   fields.group_mark = device_group_mark_.data();
   fields.held = held_.data();
@@ -197,11 +196,6 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block, bool moves) 
   fields.state = now_.state[index(block)].data();
   fields.moved_state = next_.state[index(block)].data();
   return fields;
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::start_march(const StepLoads& loads, bool moves) {
-  marches_.start(loads, moves, [&](int block) { return march_fields(block, moves); });
 }
 
 /// Begins the next step where the tractions of this one move no nodes, in blocks of which the host moves
@@ -218,7 +212,7 @@ void DeviceFields<Real, U>::march_ahead() {
   marches_.begin_ahead(
       next,
       {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
-      [&](int block) { return march_fields(block, true); });
+      [&](int block) { return march_fields(block); });
 }
 
 template <class Real, class U>
@@ -229,9 +223,9 @@ void DeviceFields<Real, U>::move_primary(const StepLoads& loads) {
     if (const PrimaryNodes nodes = ties_->primary(b); nodes.count > 0)
       primary.add(nodes, marches_.block(b).at(loads), marches_.variant(b));
     if (primary.blocks == PrimaryBlocks<Real>::kMost)
-      kernels_.move_primary(std::exchange(primary, {}), march_fields(b, true));
+      kernels_.move_primary(std::exchange(primary, {}), march_fields(b));
   }
-  kernels_.move_primary(primary, march_fields(0, true));
+  kernels_.move_primary(primary, march_fields(0));
 }
 
 /// Moves and restrains the primary nodes, and lets the secondary nodes follow.
@@ -253,21 +247,10 @@ void DeviceFields<Real, U>::start_contact() {
   device_contact_->start(next_.u.data(), next_.v.data());
 }
 
-/// The laws' state of the host advances; that of the device does so with the motion.
-template <class Real, class U>
-void DeviceFields<Real, U>::internal_force() {
-  fetch_nodes();
-  send();
-  start_march({}, false);
-  marches_.join();
-  force_.download(this->f().data());
-  fetch_law_state(next_);
-}
-
 /// Tractions wait for the nodes about the patch alone, unless surfaces have tied nodes.
 template <class Real, class U>
 void DeviceFields<Real, U>::begin_motion(const StepLoads& loads) {
-  start_march(loads, true);
+  marches_.start(loads, [&](int block) { return march_fields(block); });
   if (!tied_surfaces_) start_contact();
   marches_.join();
 }
@@ -283,7 +266,7 @@ void DeviceFields<Real, U>::finish_motion(const StepLoads& loads) {
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
+void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool measured) {
   send();
   begin_motion(loads);
   if (packed_f_.size() > 0) {
@@ -291,7 +274,10 @@ void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
     device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
   }
   finish_motion(loads);
-  march_ahead();
+  measured_ = opening_ = measured;
+  last_sums_.reset();
+  energies_.reset();
+  if (!measured) march_ahead();  // it writes over the motion before
   take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
@@ -329,17 +315,15 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
   device_contact_->search(now_.u.data(), now_.v.data(), wheel, time, dt);
 }
 
-/// In steps that look at the energies the host's copies move by the tractions, too.
+/// Samples read the points of the patch.
 template <class Real, class U>
-void DeviceFields<Real, U>::resolve(const BodyFrame& wheel, double dt) {
+void DeviceFields<Real, U>::resolve(const BodyFrame& /*wheel*/, double /*dt*/) {
   if (marches_.has_begun()) {
     send();
-    marches_.go_on_ahead([&](int block) { return march_fields(block, true); });
+    marches_.go_on_ahead([&](int block) { return march_fields(block); });
   }
   device_contact_->resolve();
-  if (!host_whole_) return;
-  device_contact_->fetch_points();
-  fetch_surfaces(wheel, dt);
+  if (measured_) device_contact_->fetch_points();
 }
 
 /// Whoever reads what is not fetched is found out.
@@ -355,18 +339,10 @@ void DeviceFields<Real, U>::spoil() {
   }
 }
 
-/// All nodes on both sides, so that none of their values have to be copied. The bits may differ, and those of
-/// the device count.
 template <class Real, class U>
-void DeviceFields<Real, U>::move_all(const StepLoads& loads) {
-  begin_motion(loads);
-  finish_motion(loads);
-  Base::move_all(loads);
-  apart_ = true;
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::move_rest(const StepLoads& loads) {
+void DeviceFields<Real, U>::move_rest(const StepLoads& loads, bool /*measured*/) {
+  opening_ = false;
+  last_sums_.reset();
   host_update_.move_deferred(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
@@ -375,6 +351,82 @@ void DeviceFields<Real, U>::advance_lag(double dt) {
   if (!this->q()) return;
   if (host_whole_) Base::advance_lag(dt);
   if (device_whole_) lag_step_ = dt;
+}
+
+/// Over the motion before the step while it opens, else over the present one.
+template <class Real, class U>
+const NodeSums& DeviceFields<Real, U>::sums(const BodyFrame& wheel) {
+  if (last_sums_ && last_sums_->wheel == wheel) return last_sums_->of;
+  if (!opening_) send();
+  const NodeMotions<Real, U> before{next_.u.data(), next_.v.data()};
+  const NodeMotions<Real, U> present{now_.u.data(), now_.v.data()};
+  const bool changes = measured_ && !opening_;
+  last_sums_ = {wheel, sums_.nodes(marches_, {wheel, loads_}, inverse_mass_.data(),
+                                   opening_ ? before : present, changes ? before : NodeMotions<Real, U>{})};
+  return last_sums_->of;
+}
+
+/// For sums that do not depend on the wheel's frame.
+template <class Real, class U>
+const NodeSums& DeviceFields<Real, U>::sums() {
+  if (last_sums_) return last_sums_->of;
+  BodyFrame wheel = loads_.frame;
+  if (!opening_) wheel.advance(loads_.dt);
+  return sums(wheel);
+}
+
+template <class Real, class U>
+const ElementSums& DeviceFields<Real, U>::energies() {
+  TREAD_EXPECT(opening_);
+  if (energies_) return *energies_;
+  energies_ = sums_.elements(marches_, [&](int b) {
+    typename DeviceSums<Real, U>::ElementFields of;
+    of.u = next_.u.data();
+    of.state = now_.state[index(b)].data();
+    if (this->energy_by_forces(b) && this->internal().damping(b) != 0) of.v = next_.v.data();
+    if (!this->q() || !this->q()->branch(b)) return of;
+    of.branch = &*this->q()->branch(b);
+    of.lag = lag_.data();
+    return of;
+  });
+  return *energies_;
+}
+
+template <class Real, class U>
+MeanMotion DeviceFields<Real, U>::mean_motion(const SpinningBody& body, const BodyFrame& wheel) {
+  if (host_whole_) return Base::mean_motion(body, wheel);
+  const NodeSums& of = sums(wheel);
+  return {(1 / body.mass()) * of.displacement, (1 / body.mass()) * of.velocity, of.rotation / body.inertia(),
+          of.spin / body.inertia()};
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel,
+                                   double dt) {
+  if (host_whole_) {
+    Base::anchor(body, mean, wheel, dt);
+    return;
+  }
+  send();
+  marches_.forget();
+  marches_.join();  // they read what moves
+  const Anchoring anchoring(mean, wheel, dt);
+  for (const int b : body.blocks())
+    kernels_.anchor(sums_.anchored(marches_.block(b).at(loads_), b, anchoring), now_.u.data(), now_.v.data());
+  wheel = anchoring.moved();
+  last_sums_.reset();
+  if (ties_) kernels_.follow(ties_->secondary(), now_.u.data(), now_.v.data());
+  shown_.fetch(host_groups_, now_.u.data(), now_.v.data(), this->u(), this->v());
+  host_moves_ = host_ties_;  // tied nodes have still to follow there
+  if (!device_contact_) fetch_surfaces(wheel, dt);
+}
+
+template <class Real, class U>
+void DeviceFields<Real, U>::show(const WatchedNodes& nodes) {
+  send();
+  shown_.fetch(nodes.groups(), now_.u.data(), now_.v.data(), this->u(), this->v());
+  if (this->q()) lag_.download(this->q()->values().data());
+  fetch_law_state();
 }
 
 /// Whoever lists the state may read or restore it.

@@ -16,8 +16,10 @@
 #include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/sent_groups.hpp"
+#include "drivers/engine/shown_groups.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/device_contact.hpp"
+#include "kernels/device/device_sums.hpp"
 #include "kernels/device/device_ties.hpp"
 #include "kernels/device/host_array.hpp"
 #include "kernels/device/march_fan.hpp"
@@ -34,17 +36,39 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
   void changed() override;
+  bool elsewhere() const override { return !host_whole_; }
+  void show(const WatchedNodes& nodes) override;
   bool ties_follow() const override { return ties_ && !host_whole_; }
 
-  void internal_force() override;
-  void internal_force_and_move(const StepLoads& loads) override;
-  void move_all(const StepLoads& loads) override;
-  void move_rest(const StepLoads& loads) override;
+  void internal_force_and_move(const StepLoads& loads, bool measured) override;
+  void move_rest(const StepLoads& loads, bool measured) override;
   /// The device holds those of its own as they move.
   void hold(std::span<const std::int64_t> unknowns) override {
     Base::hold(host_whole_ ? unknowns : host_held_);
   }
   void advance_lag(double dt) override;
+
+  ElementEnergy element_energy() override {
+    return host_whole_ ? Base::element_energy() : ElementEnergy{energies().stored, energies().dissipated};
+  }
+  BranchEnergy branch_energy() override {
+    return host_whole_ ? Base::branch_energy() : BranchEnergy{energies().branch, energies().power};
+  }
+  double fixed_kinetic_energy() override {
+    return host_whole_ ? Base::fixed_kinetic_energy() : sums().fixed_kinetic;
+  }
+  double fixed_gravity_potential() override {
+    return host_whole_ ? Base::fixed_gravity_potential() : this->model().scene.gravity * sums().fixed_moment;
+  }
+  double half_step_excess(double dt) override {
+    return host_whole_ ? Base::half_step_excess(dt) : 0.25 * sums().excess;
+  }
+  MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) override;
+  double kinetic_energy(const SpinningBody& body, const BodyFrame& wheel, double dt) override {
+    return host_whole_ ? Base::kinetic_energy(body, wheel, dt) : sums(wheel).spinning_kinetic;
+  }
+  void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
+
   void list_state(StateList& list) override;
 
  private:
@@ -58,8 +82,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   void choose_movers(const Model& model, Movers movers);
   void make_room();
-  MarchFields<Real, U> march_fields(int block, bool moves);
-  void start_march(const StepLoads& loads, bool moves);
+  MarchFields<Real, U> march_fields(int block);
   void march_ahead();
   void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
@@ -74,7 +97,10 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void resolve(const BodyFrame& wheel, double dt) override;
   void send();
   void add_patch_groups();
-  void fetch_law_state(const Arrays& from);
+  void fetch_law_state();
+  const NodeSums& sums(const BodyFrame& wheel);
+  const NodeSums& sums();
+  const ElementSums& energies();
   void advance_device_lag();
   void spoil();
 
@@ -107,10 +133,21 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   SentGroups<Real, U> sent_;           ///< the host's groups, and those that its tractions moved
   std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
 
-  StepLoads loads_;  ///< of the last step
+  StepLoads loads_;        ///< of the last step
+  bool measured_ = false;  ///< likewise
+  bool opening_ = false;   ///< its forces are at hand, and the sums are those of the motion before it
+
+  /// Sums over a motion, and the frame for which they are taken.
+  struct SumsAt {
+    BodyFrame wheel;
+    NodeSums of;
+  };
+  DeviceSums<Real, U> sums_;
+  std::optional<SumsAt> last_sums_;
+  std::optional<ElementSums> energies_;
+  ShownGroups<Real, U> shown_;
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present
-  bool apart_ = false;         ///< but by motion of its own, whose bits are not the device's
   bool host_moves_ = false;    ///< its groups since they were sent
   bool device_whole_ = false;  ///< the device holds those of all nodes that are not the host's
   double lag_step_ = 0;        ///< by which the device's lag has still to advance [s]

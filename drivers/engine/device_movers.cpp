@@ -7,6 +7,7 @@
 #include "drivers/engine/node_fields.hpp"
 #include "drivers/engine/restraints.hpp"
 #include "kernels/device/device_contact.hpp"
+#include "kernels/device/device_sums.hpp"
 #include "kernels/device/field_kernels.hpp"
 
 namespace tread {
@@ -82,6 +83,7 @@ DeviceNeed device_need(const Model& model) {
   if (has_laws(model.mesh)) need.bytes += 2 * bytes.other * law_state_values(model.mesh);
   if (model.ties) need.bytes += model.ties->bytes();
   if (movers.contact) need.bytes += DeviceContact::bytes(*model.contact);
+  need.bytes += DeviceSums<double, double>::bytes(model.mesh);
   need.bytes += model.internal->bytes() * bytes.other / static_cast<std::int64_t>(sizeof(double));
   return need;
 }

@@ -43,20 +43,15 @@ double fixed_gravity_potential(const Model& model, ConstNodeField u) {
   return model.scene.gravity * sum;
 }
 
-double half_step_excess(const Model& model, const std::vector<std::int64_t>& held, ConstNodeField force,
+double half_step_excess(const Model& model, const std::vector<std::int64_t>& unforced, ConstNodeField force,
                         double dt) {
   const double* inverse_mass = model.inverse_mass.data();
   double sum = 0;
   for (const SweptBlock& block : model.mesh.blocks)
     sum += weighted_sum(block, block.vertical_only ? 2 : 0, inverse_mass, force,
                         [](double value) { return value * value; });
-  const auto leave_out = [&](const std::vector<std::int64_t>& unknowns) {
-    for (const std::int64_t unknown : unknowns)
-      sum -=
-          inverse_mass[unknown / (3 * kLanes) * kLanes + unknown % kLanes] * force[unknown] * force[unknown];
-  };
-  leave_out(held);
-  if (model.guide) leave_out(model.guide->unknowns());
+  for (const std::int64_t unknown : unforced)
+    sum -= inverse_mass[unknown / (3 * kLanes) * kLanes + unknown % kLanes] * force[unknown] * force[unknown];
   return 0.25 * dt * dt * sum;
 }
 

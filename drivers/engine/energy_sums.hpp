@@ -16,9 +16,9 @@ double fixed_kinetic_energy(const Model& model, ConstNodeField v);
 double fixed_gravity_potential(const Model& model, ConstNodeField u);
 
 /// The mean of both half steps' kinetic energies exceeds v- . M v+ / 2, which central difference conserves
-/// together with the strain energy, by dt^2 / 4 F . M^-1 F [J]. `force`: vector field [N]; `held`: restrained
-/// unknowns but for those that a vertical-only block lacks.
-double half_step_excess(const Model& model, const std::vector<std::int64_t>& held, ConstNodeField force,
+/// together with the strain energy, by dt^2 / 4 F . M^-1 F [J]. `force`: vector field [N]; `unforced`:
+/// unknowns that forces do not move, but for those that a vertical-only block lacks.
+double half_step_excess(const Model& model, const std::vector<std::int64_t>& unforced, ConstNodeField force,
                         double dt);
 
 }  // namespace tread

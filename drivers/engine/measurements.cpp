@@ -150,19 +150,33 @@ void Measurements::measure_fastenings(const StepState& step) {
   }
 }
 
+template <class Visit>
+void Measurements::for_each_station(const Depth& depth, double wheel_x, const Visit& visit) const {
+  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(depth.below.block)];
+  const double reach = std::max(model_->contact->reach(), depth.below.depth);
+  const double first = std::max(wheel_x - reach, block.stations.front());
+  const double last = std::min(wheel_x + reach, block.stations.back());
+  if (last <= first) return;
+  const int end = std::min(depth.finder.find(last).station, block.station_count() - 2);
+  for (int station = depth.finder.find(first).station; station <= end; ++station) visit(station);
+}
+
 void Measurements::measure_depth(const Depth& depth, const StepState& step) {
   const QuadBelow& below = depth.below;
-  const SweptBlock& block = model_->mesh.blocks[static_cast<std::size_t>(below.block)];
-  const double x = step.wheel.origin.x;
-  const double reach = std::max(model_->contact->reach(), below.depth);
-  const double first = std::max(x - reach, block.stations.front());
-  const double last = std::min(x + reach, block.stations.back());
   double largest = 0;
-  const int end = last > first ? depth.finder.find(last).station : -1;
-  for (int station = last > first ? depth.finder.find(first).station : 0; station <= end; ++station)
-    if (station + 1 < block.station_count())
-      largest = std::max(largest, von_mises(stress_of(below.block, below.quad, station, step)));
+  for_each_station(depth, step.wheel.origin.x, [&](int station) {
+    largest = std::max(largest, von_mises(stress_of(below.block, below.quad, station, step)));
+  });
   values_.push_back(largest);
+}
+
+void Measurements::watch(const StepState& step, WatchedNodes& nodes) const {
+  if (!step.sampled) return;
+  for (const Probe& probe : probes_)
+    if (probe.point) nodes.add_element(probe.point->block, probe.point->quad, probe.point->station);
+  for (const Depth& depth : depths_)
+    for_each_station(depth, step.wheel.origin.x,
+                     [&](int station) { nodes.add_element(depth.below.block, depth.below.quad, station); });
 }
 
 }  // namespace tread

@@ -40,6 +40,7 @@ class Measurements final : public Feature {
   std::vector<PhaseInfo> phases() const override;
   std::vector<FieldBytes> fields() const override;
   void apply(StepPhase phase, StepState& step) override;
+  void watch(const StepState& step, WatchedNodes& nodes) const override;
 
  private:
   struct Probe {
@@ -60,6 +61,9 @@ class Measurements final : public Feature {
   void measure_probe(const Probe& probe, const StepState& step);
   void measure_fastenings(const StepState& step);
   void measure_depth(const Depth& depth, const StepState& step);
+  /// Calls visit(station) for the elements of a depth about the patch.
+  template <class Visit>
+  void for_each_station(const Depth& depth, double wheel_x, const Visit& visit) const;
 
   const Model* model_;
   std::vector<Probe> probes_;

@@ -47,14 +47,11 @@ class NodeFields : public WholeFields {
   /// Displacement [m] and velocity [m/s] of all nodes, rounded to the fields' precisions.
   virtual void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) = 0;
 
-  /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step.
-  virtual void internal_force() = 0;
-  /// The same in place of internal_force(), and nodes on which nothing else acts move.
-  virtual void internal_force_and_move(const StepLoads& loads) = 0;
-  /// Moves all nodes, after internal_force().
-  virtual void move_all(const StepLoads& loads) = 0;
-  /// Moves those that internal_force_and_move() left.
-  virtual void move_rest(const StepLoads& loads) = 0;
+  /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step. Nodes on which
+  /// nothing else acts may move, unless the step is measured: energies want the forces of all nodes.
+  virtual void internal_force_and_move(const StepLoads& loads, bool measured) = 0;
+  /// Moves those that have not moved, in the same step.
+  virtual void move_rest(const StepLoads& loads, bool measured) = 0;
   /// Lets the unknowns, which have moved, stand still at zero.
   virtual void hold(std::span<const std::int64_t> unknowns) = 0;
 
@@ -63,10 +60,10 @@ class NodeFields : public WholeFields {
 
   /// Energy in a block's elements, Maxwell branches aside [J].
   virtual DeformationEnergy energy(int block) const = 0;
-  /// The same in all blocks; cheaper than element by element where forces that internal_force() has left are
-  /// precise enough for it [J].
-  virtual ElementEnergy element_energy() const = 0;
-  virtual BranchEnergy branch_energy() const = 0;
+  /// The same in all blocks, in a measured step before nodes move; cheaper than element by element where the
+  /// forces are precise enough for it [J].
+  virtual ElementEnergy element_energy() = 0;
+  virtual BranchEnergy branch_energy() = 0;
 
   virtual bool finite() const = 0;
   virtual void list_state(StateList& list) = 0;

@@ -11,7 +11,9 @@
 #include "core/page_vector.hpp"
 #include "core/parallel/chunks.hpp"
 #include "core/parallel/few_values.hpp"
+#include "drivers/engine/energy_sums.hpp"
 #include "drivers/engine/node_fields.hpp"
+#include "drivers/engine/restraints.hpp"
 #include "kernels/material/branch_lag.hpp"
 #include "kernels/material/laws.hpp"
 
@@ -53,7 +55,8 @@ template <class Real, class U>
 class PreciseFields : public NodeFields {
  public:
   explicit PreciseFields(const Model& model)
-      : mesh_(&model.mesh),
+      : model_(&model),
+        unforced_(held_unknowns(model.mesh, model.restrained)),
         parts_(model),
         update_(model.mesh, parts_.inverse_mass()),
         u_(static_cast<std::size_t>(3 * model.mesh.slots), 0),
@@ -68,6 +71,8 @@ class PreciseFields : public NodeFields {
     }
     if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
     update_.defer(model.loaded_slots());
+    if (model.guide)
+      unforced_.insert(unforced_.end(), model.guide->unknowns().begin(), model.guide->unknowns().end());
   }
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
@@ -75,15 +80,18 @@ class PreciseFields : public NodeFields {
     std::copy(velocity.begin(), velocity.end(), v_.begin());
   }
 
-  void internal_force() override { parts_.internal().internal_force(force_fields()); }
-  void internal_force_and_move(const StepLoads& loads) override {
-    parts_.internal().move(update_, loads, force_fields());
+  void internal_force_and_move(const StepLoads& loads, bool measured) override {
+    if (measured)
+      parts_.internal().internal_force(force_fields());
+    else
+      parts_.internal().move(update_, loads, force_fields());
   }
-  void move_all(const StepLoads& loads) override {
-    update_.move_all(loads, {u_.data(), v_.data(), f_.data()});
-  }
-  void move_rest(const StepLoads& loads) override {
-    update_.move_rest(loads, {u_.data(), v_.data(), f_.data()}, parts_.internal().unmoved_tiles());
+  void move_rest(const StepLoads& loads, bool measured) override {
+    const BasicUpdateFields<Real, U> fields = {u_.data(), v_.data(), f_.data()};
+    if (measured)
+      update_.move_all(loads, fields);
+    else
+      update_.move_rest(loads, fields, parts_.internal().unmoved_tiles());
   }
   void hold(std::span<const std::int64_t> unknowns) override {
     const std::int64_t touched = 2 * kLanes * std::ssize(unknowns);  // hardly two share a line of the cache
@@ -101,9 +109,9 @@ class PreciseFields : public NodeFields {
     return parts_.internal().energy(block, u_.data(), state());
   }
 
-  ElementEnergy element_energy() const override {
+  ElementEnergy element_energy() override {
     ElementEnergy sum;
-    for (int b = 0; b < static_cast<int>(mesh_->blocks.size()); ++b) {
+    for (int b = 0; b < static_cast<int>(mesh().blocks.size()); ++b) {
       const ElementEnergy part = element_energy(b);
       sum.stored += part.stored;
       sum.dissipated += part.dissipated;
@@ -111,9 +119,9 @@ class PreciseFields : public NodeFields {
     return sum;
   }
 
-  BranchEnergy branch_energy() const override {
+  BranchEnergy branch_energy() override {
     BranchEnergy sum;
-    for (int b = 0; q_ && b < static_cast<int>(mesh_->blocks.size()); ++b) {
+    for (int b = 0; q_ && b < static_cast<int>(mesh().blocks.size()); ++b) {
       const std::optional<MaxwellBranch>& branch = q_->branch(b);
       if (!branch) continue;
       const double stored = branch->strength * parts_.internal().linear_energy(b, q_->data());
@@ -121,6 +129,26 @@ class PreciseFields : public NodeFields {
       sum.power += 2 * stored / branch->time;
     }
     return sum;
+  }
+
+  double fixed_kinetic_energy() override { return tread::fixed_kinetic_energy(*model_, velocity_); }
+  double fixed_gravity_potential() override { return tread::fixed_gravity_potential(*model_, displacement_); }
+  double half_step_excess(double dt) override {
+    return tread::half_step_excess(*model_, unforced_, force_, dt);
+  }
+  MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) override {
+    this->fetch();
+    return body.mean_motion(displacement_, velocity_, wheel);
+  }
+  double kinetic_energy(const SpinningBody& body, const BodyFrame& wheel, double dt) override {
+    BodyFrame half_frame = wheel;
+    half_frame.advance(-0.5 * dt);
+    return body.kinetic_energy(displacement_, velocity_, half_frame);
+  }
+  void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override {
+    this->fetch();
+    body.anchor(mean, displacement_, velocity_, wheel, dt);
+    this->changed();
   }
 
   bool finite() const override {
@@ -138,7 +166,16 @@ class PreciseFields : public NodeFields {
   }
 
  protected:
-  const Mesh& mesh() const { return *mesh_; }
+  const Model& model() const { return *model_; }
+  const Mesh& mesh() const { return model_->mesh; }
+  /// True where element_energy() of a block is u . K u / 2 by the force, which holds K (u + beta v) alone.
+  bool energy_by_forces(int b) const {
+    return std::is_same_v<Real, double> &&
+           mesh().blocks[static_cast<std::size_t>(b)].sweep == Sweep::extruded && !(q_ && q_->branch(b)) &&
+           is_linear(parts_.internal().law(b));
+  }
+  /// Unknowns that forces do not move.
+  const std::vector<std::int64_t>& unforced() const { return unforced_; }
   const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
 
@@ -157,16 +194,16 @@ class PreciseFields : public NodeFields {
   const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
   ElementEnergy element_energy(int b) const {
     if constexpr (std::is_same_v<Real, double>) {
-      // In the linear blocks u . K u / 2; the force still holds K (u + beta v) alone.
-      const SweptBlock& block = mesh_->blocks[static_cast<std::size_t>(b)];
-      if (block.sweep == Sweep::extruded && !(q_ && q_->branch(b)) && is_linear(parts_.internal().law(b)))
+      const SweptBlock& block = mesh().blocks[static_cast<std::size_t>(b)];
+      if (energy_by_forces(b))
         return {0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base), 0};
     }
     const DeformationEnergy part = energy(b);
     return {part.strain + part.hourglass, part.dissipated};
   }
 
-  const Mesh* mesh_;
+  const Model* model_;
+  std::vector<std::int64_t> unforced_;
   std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
   BasicTimeUpdate<Real, U> update_;
   PageVector<U> u_;

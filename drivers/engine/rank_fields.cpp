@@ -177,13 +177,12 @@ void RankFields<Real, U>::fetch() {
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::internal_force() {
-  fetch();
-  Base::internal_force();
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads) {
+void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool measured) {
+  if (measured) {
+    fetch();
+    Base::internal_force_and_move(loads, true);
+    return;
+  }
   this->internal().move(stretches_[own_], this->update(), loads, this->force_fields());
   pack();
   ranks_->gather(packed_.data(), first_packed_);

@@ -23,9 +23,8 @@ class RankFields final : public PreciseFields<Real, U> {
   void fetch() override;
   void changed() override { whole_ = true; }
 
-  /// All ranks compute all elements, so that all fields stay whole until the next step.
-  void internal_force() override;
-  void internal_force_and_move(const StepLoads& loads) override;
+  /// In measured steps all ranks compute all elements, so that all fields stay whole until the next step.
+  void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void advance_lag(double dt) override;
   void list_state(StateList& list) override;
 

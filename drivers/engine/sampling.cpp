@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "drivers/engine/energy_sums.hpp"
-
 namespace tread {
 
 std::int64_t sample_count(const Scene& scene) {
@@ -43,11 +41,10 @@ void Sampling::open_sample(const StepState& step) {
 
 void Sampling::close_sample(const StepState& step) {
   EnergyLedger& energy = sample_.energy;
-  const double excess = half_step_excess(*model_, *held_, step.force, step.dt);
+  const double excess = step.whole.half_step_excess(step.dt);
   energy.kinetic = 0.5 * (kinetic_before_ + kinetic_energy(step.motion())) - excess;
   for (const Feature* feature : features_) feature->end_sample(step, sample_);
-  if (!energy_watch_.started())
-    energy_watch_.start(energy, excess, fixed_kinetic_energy(*model_, step.velocity));
+  if (!energy_watch_.started()) energy_watch_.start(energy, excess, step.whole.fixed_kinetic_energy());
   if (!energy_watch_.balanced(energy, excess)) step.end.stop();
   energy.residual = energy.total() - energy_watch_.start_energy();
 }

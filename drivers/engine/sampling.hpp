@@ -14,9 +14,9 @@ std::int64_t sample_count(const Scene& scene);
 
 class Sampling final : public Feature {
  public:
-  /// Keeps references. `features`: whose values make a sample; `held`: restrained unknowns that would move.
-  Sampling(const Model& model, std::vector<Feature*> features, const std::vector<std::int64_t>& held)
-      : model_(&model), features_(std::move(features)), held_(&held) {}
+  /// Keeps a reference. `features`: whose values make a sample.
+  Sampling(const Model& model, std::vector<Feature*> features)
+      : model_(&model), features_(std::move(features)) {}
 
   const Sample& sample() const { return sample_; }
   const EnergyWatch& energy_watch() const { return energy_watch_; }
@@ -34,7 +34,6 @@ class Sampling final : public Feature {
 
   const Model* model_;
   std::vector<Feature*> features_;
-  const std::vector<std::int64_t>* held_;
   Sample sample_;
   double kinetic_before_ = 0;
   EnergyWatch energy_watch_;

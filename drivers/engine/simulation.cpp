@@ -31,7 +31,8 @@ Simulation::Simulation(const Model& model, double patch_y, double dt)
       u_(fields_->displacement()),
       v_(fields_->velocity()),
       force_(fields_->force()),
-      features_(model, patch_y) {}
+      features_(model, patch_y),
+      watched_(model.mesh) {}
 
 Simulation::Simulation(const Model& model, const Preload& preload, double dt)
     : Simulation(model, preload.contact.centre.y, dt) {
@@ -94,6 +95,7 @@ void Simulation::step() {
   apply(frame, s);
   advance_time();
   // 6  records
+  show_watched(s);
   apply(surface_fields, s);
   apply(samples, s);
   apply(anchor, s);
@@ -117,6 +119,14 @@ void Simulation::apply(StepPhase phase, StepState& step) {
 void Simulation::advance_time() {
   time_ += dt_;
   ++steps_;
+}
+
+void Simulation::show_watched(StepState& step) {
+  if (!step.measured || !step.whole.elsewhere()) return;
+  if (clock_) clock_->enter(StepPhase::samples);
+  watched_.clear();
+  for (const auto& feature : features_.all()) feature->watch(step, watched_);
+  step.whole.show(watched_);
 }
 
 void Simulation::stop() const {

@@ -70,12 +70,14 @@ class Simulation final : private RunEnd {
   StepState begin_step();
   void apply(StepPhase phase, StepState& step);
   void advance_time();
+  /// Brings nodes that samples read to the views.
+  void show_watched(StepState& step);
   /// The fields with all values at hand, wherever they live.
   const NodeFields& fetched() const {
     fields_->fetch();
     return *fields_;
   }
-  Motion motion() const { return {displacement(), velocity(), frame_, dt_}; }
+  Motion motion() const { return {displacement(), velocity(), frame_, dt_, *fields_}; }
   [[noreturn]] void stop() const override;
   void stop_if_unstable() const override;
 
@@ -93,6 +95,7 @@ class Simulation final : private RunEnd {
   ImpulseAccount impulse_;
   Vec3 start_momentum_;
   StepFeatures features_;
+  WatchedNodes watched_;
 };
 
 }  // namespace tread

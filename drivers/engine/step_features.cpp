@@ -37,7 +37,7 @@ StepFeatures::StepFeatures(const Model& model, double patch_y) {
   if (model.hammer) add<Hammer>(*model.scene.hammer, *model.hammer);
   std::vector<Feature*> sampled;
   for (const std::unique_ptr<Feature>& feature : all_) sampled.push_back(feature.get());
-  sampling_ = add<Sampling>(model, std::move(sampled), bodies_->held());
+  sampling_ = add<Sampling>(model, std::move(sampled));
   measurements_ = add<Measurements>(model, patch_y);
   for (const std::unique_ptr<Feature>& feature : all_)
     for (const PhaseInfo& info : feature->phases())

@@ -54,8 +54,8 @@ void add_motion(const Model& model, Estimate& e) {
   e.dt = model.scene.motion->step_safety * e.limit.stable_step;
   e.steps = step_count(model.scene, e.dt);
   const auto fields = make_node_fields(model);
-  e.rolling_seconds =
-      kStepOverhead * seconds_of([&] { fields->internal_force_and_move({}); }) * static_cast<double>(e.steps);
+  e.rolling_seconds = kStepOverhead * seconds_of([&] { fields->internal_force_and_move({}, false); }) *
+                      static_cast<double>(e.steps);
 }
 
 }  // namespace

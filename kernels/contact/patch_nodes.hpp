@@ -111,6 +111,17 @@ class PatchNodes {
   int last() const { return last_; }                                               ///< station
   const NodalContact& at(int station, int row) const { return nodes_[grid_.node(station - first_, row)]; }
 
+  /// Calls visit(station, row) for all cells with pressure at one of their nodes.
+  template <class Visit>
+  void for_each_pressed_cell(const Visit& visit) const {
+    const auto pressed = [this](int station, int row) { return at(station, row).pressure > 0; };
+    for (int station = first_; station < last_; ++station)
+      for (int row = 0; row + 1 < grid_.rows(); ++row)
+        if (pressed(station, row) || pressed(station, row + 1) || pressed(station + 1, row) ||
+            pressed(station + 1, row + 1))
+          visit(station, row);
+  }
+
   double max_pressure() const;  ///< [Pa]
   double max_shear() const;     ///< [Pa]
   std::int64_t bytes() const;

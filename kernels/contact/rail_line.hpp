@@ -21,6 +21,7 @@ class RailLine {
   /// `wheel_x`: where the wheel stands [m].
   void note_rolling(ConstNodeField displacement, double wheel_x);
 
+  const std::vector<std::int64_t>& slots() const { return slot_; }
   const std::vector<double>& x() const { return x_; }              ///< [m]
   const std::vector<double>& at_rest() const { return at_rest_; }  ///< the wheel at the start [m]
   const std::vector<double>& rolling() const { return rolling_; }  ///< [m]

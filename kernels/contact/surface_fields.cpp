@@ -14,11 +14,6 @@ void for_each_node(const PatchNodes& patch, const Visit& visit) {
       visit(patch.grid().node(station, row), patch.at(station, row));
 }
 
-bool pressed(const PatchNodes& patch, int station, int row) {
-  return patch.at(station, row).pressure > 0 || patch.at(station, row + 1).pressure > 0 ||
-         patch.at(station + 1, row).pressure > 0 || patch.at(station + 1, row + 1).pressure > 0;
-}
-
 void raise(double& largest, double value) {
   largest = std::max(largest, value);
 }
@@ -53,12 +48,11 @@ void SurfaceFields::add_sample(const PatchNodes& patch, double interval) {
 
 void SurfaceFields::add_stress(const PatchNodes& patch, const InternalForce& force, int block,
                                const Deformation& of) {
-  for (int station = patch.first(); station < patch.last(); ++station)
-    for (int row = 0; row + 1 < grid_.rows(); ++row)
-      if (pressed(patch, station, row))
-        raise(max_von_mises_[grid_.cell(station, row)],
-              von_mises(force.stress(block, grid_.quad[static_cast<std::size_t>(row)], station,
-                                     of.displacement, of.lag, of.laws)));
+  patch.for_each_pressed_cell([&](int station, int row) {
+    raise(max_von_mises_[grid_.cell(station, row)],
+          von_mises(force.stress(block, grid_.quad[static_cast<std::size_t>(row)], station, of.displacement,
+                                 of.lag, of.laws)));
+  });
 }
 
 double SurfaceFields::sum(const std::vector<double>& per_area) const {

@@ -4,12 +4,14 @@
 #include <cstdint>
 
 #include "kernels/device/march_layout.hpp"
+#include "kernels/device/sum_layout.hpp"
 #include "kernels/lanes/tie_sum.hpp"
 #include "kernels/lanes/tile_force.hpp"
+#include "kernels/update/anchoring.hpp"
 
 namespace tread {
 
-/// Groups of kLanes slots whose values come from the host, packed: [group][component][lane].
+/// Groups of kLanes slots whose values come from the host or go there, packed: [group][component][lane].
 template <class Real, class U>
 struct GroupValues {
   const std::int64_t* groups = nullptr;
@@ -113,6 +115,17 @@ struct PrimaryBlocks {
   }
 };
 
+/// The nodes of a revolved block, whose frame is moved onto their motion.
+template <class Real>
+struct AnchoredNodes {
+  MarchBlock<Real> block;
+  const double* y = nullptr;       ///< by section node [m]
+  const double* radius = nullptr;  ///< likewise [m]
+  Anchoring anchoring;
+
+  constexpr std::int64_t count() const { return std::int64_t{block.tiles} * block.section_nodes * kLanes; }
+};
+
 template <class Real, class U>
 class FieldKernels {
  public:
@@ -136,8 +149,16 @@ class FieldKernels {
   virtual void collect(const SurfaceWindows& windows, const U* u, const Real* v, U* to_u, Real* to_v) = 0;
   /// Writes the host's groups to the fields u and v.
   virtual void place(const GroupValues<Real, U>& values, U* u, Real* v) = 0;
+  /// Takes groups for the host from the fields.
+  virtual void take(const GroupValues<Real, U>& values, const U* u, const Real* v) = 0;
   /// q = kept q + gained v of n values. [BranchLag::advance]
   virtual void advance_lag(std::int64_t n, Real kept, Real gained, const Real* v, Real* q) = 0;
+  virtual void anchor(const AnchoredNodes<Real>& nodes, U* u, Real* v) = 0;
+
+  virtual void sum_nodes(const NodeSumTask<Real, U>& task) = 0;
+  /// `variant.damped` does not matter.
+  virtual void sum_elements(TileVariant variant, const ElementSumTask<Real, U>& task) = 0;
+  virtual void fold(const FoldTask& task) = 0;
 
  protected:
   ~FieldKernels() = default;

@@ -35,11 +35,11 @@ class MarchFan {
   BlockMarch<Real>& block(int number) { return *blocks_[index(number)]; }
   TileVariant variant(int block) const { return variants_[index(block)]; }
 
-  /// Starts on what is left of a march over all blocks, with fields(block). Nothing moves, or what has begun
-  /// ahead counts if it was begun with these loads; else all is done anew.
+  /// Starts on what is left of a march over all blocks, with fields(block). What has begun ahead counts if it
+  /// was begun with these loads; else all is done anew.
   template <class Fields>
-  void start(const StepLoads& loads, bool moves, const Fields& fields) {
-    only_near_left_ = moves && ahead_ == loads;
+  void start(const StepLoads& loads, const Fields& fields) {
+    only_near_left_ = ahead_ == loads;
     forget();
     if (!only_near_left_) join();
     int near_queue = kNearQueue;

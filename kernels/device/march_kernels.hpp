@@ -9,6 +9,7 @@
 #include "kernels/device/node_kernels.hpp"
 #include "kernels/device/patch_team.hpp"
 #include "kernels/device/search_points.hpp"
+#include "kernels/device/sum_kernels.hpp"
 
 namespace tread {
 
@@ -97,6 +98,27 @@ class KernelDevice : public Device {
     void place(const GroupValues<Real, U>& values, U* u, Real* v) override {
       device_->each(PlaceGroups<Real, U>{values, u, v});
     }
+    void take(const GroupValues<Real, U>& values, const U* u, const Real* v) override {
+      device_->each(TakeGroups<Real, U>{values, u, v});
+    }
+    void anchor(const AnchoredNodes<Real>& nodes, U* u, Real* v) override {
+      device_->each(AnchorNodes<Real, U>{nodes, u, v});
+    }
+    void sum_nodes(const NodeSumTask<Real, U>& task) override { device_->each(SumNodes<Real, U>{task}); }
+    void sum_elements(TileVariant v, const ElementSumTask<Real, U>& task) override {
+      Laws::with(v.law, [&]<template <class> class Law>() {
+        if (v.sweep == Sweep::extruded && v.finite_rotation)
+          device_->each(SumElements<Real, U, Sweep::extruded, true, Law>{task});
+        else if (v.sweep == Sweep::extruded)
+          device_->each(SumElements<Real, U, Sweep::extruded, false, Law>{task});
+        else if (v.finite_rotation)
+          device_->each(SumElements<Real, U, Sweep::revolved, true, Law>{task});
+        else
+          device_->each(SumElements<Real, U, Sweep::revolved, false, Law>{task});
+        return true;
+      });
+    }
+    void fold(const FoldTask& task) override { device_->each(FoldSums{task}); }
     void advance_lag(std::int64_t n, Real kept, Real gained, const Real* v, Real* q) override {
       device_->each(LagValues<Real>{n, {kept, gained}, v, q});
     }

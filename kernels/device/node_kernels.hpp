@@ -25,6 +25,51 @@ struct PlaceGroups {
   }
 };
 
+/// FieldKernels::take
+template <class Real, class U>
+struct TakeGroups {
+  GroupValues<Real, U> values;
+  const U* u;
+  const Real* v;
+
+  std::int64_t count() const { return kGroupOfValues * values.count; }
+  TREAD_INLINE void operator()(std::int64_t i) const {
+    const std::int64_t at = values.groups[i / kGroupOfValues] * kGroupOfValues + i % kGroupOfValues;
+    values.u[i] = u[at];
+    values.v[i] = v[at];
+  }
+};
+
+/// FieldKernels::anchor
+template <class Real, class U>
+struct AnchorNodes {
+  AnchoredNodes<Real> nodes;
+  U* u;
+  Real* v;
+
+  std::int64_t count() const { return nodes.count(); }
+  TREAD_BODY void operator()(std::int64_t i) const {
+    const int lane = static_cast<int>(i % kLanes);
+    const std::int64_t group = i / kLanes;
+    const Tile& tile = nodes.block.tile[group / nodes.block.section_nodes];
+    if (lane >= tile.stations) return;
+    const auto node = group % nodes.block.section_nodes;
+    const std::int64_t at = (nodes.block.first_group + group) * kGroupOfValues + lane;
+    Vec3 displacement;
+    Vec3 velocity;
+    for (int c = 0; c < 3; ++c) {
+      displacement[c] = u[at + c * kLanes];
+      velocity[c] = v[at + c * kLanes];
+    }
+    const Anchoring::Station station = nodes.anchoring.at(nodes.block.angle[tile.first_station + lane]);
+    nodes.anchoring.move(station, {0, nodes.y[node], nodes.radius[node]}, displacement, velocity);
+    for (int c = 0; c < 3; ++c) {
+      u[at + c * kLanes] = static_cast<U>(displacement[c]);
+      v[at + c * kLanes] = static_cast<Real>(velocity[c]);
+    }
+  }
+};
+
 /// FieldKernels::collect
 template <class Real, class U>
 struct CollectWindows {

@@ -1,31 +1,14 @@
 #include "kernels/update/body_motion.hpp"
 
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/parallel/parallel.hpp"
+#include "kernels/update/anchoring.hpp"
 
 namespace tread {
 
 namespace {
-
-/// Turn by an angle about +y: between the bases (t, y, r) of two angles, or to Cartesian axes.
-struct Turn {
-  double cosine = 1, sine = 0;
-
-  Turn() = default;
-  explicit Turn(double angle) : cosine(std::cos(angle)), sine(std::sin(angle)) {}
-  /// Returns turn(a, angle).
-  Vec3 of(const Vec3& a) const { return {cosine * a.x + sine * a.z, a.y, -sine * a.x + cosine * a.z}; }
-  /// Returns cylindrical_to_cartesian(angle, a); to_cylindrical() is its inverse.
-  Vec3 to_cartesian(const Vec3& a) const {
-    return {-cosine * a.x - sine * a.z, a.y, sine * a.x - cosine * a.z};
-  }
-  Vec3 to_cylindrical(const Vec3& a) const {
-    return {-cosine * a.x + sine * a.z, a.y, -sine * a.x - cosine * a.z};
-  }
-};
 
 /// One vector for each lane of a tile.
 struct LaneVectors {
@@ -201,51 +184,26 @@ Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame&
   });
 }
 
-void SpinningBody::anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const {
-  // The body is restrained along the axis: the frame stays there.
-  mean.displacement.y = mean.velocity.y = 0;
-  BodyFrame moved = frame;
-  moved.origin += mean.displacement;
-  moved.velocity += mean.velocity;
-  moved.angle += mean.rotation;
-  moved.spin += mean.spin;
-
-  BodyFrame before_half = frame;
-  before_half.advance(-0.5 * dt);
-  BodyFrame after_half = moved;
-  after_half.advance(-0.5 * dt);
-  const Vec3 step_half = after_half.origin - before_half.origin;
-  const Vec3 speed_change = moved.velocity - frame.velocity;
-  const Turn back(-mean.rotation);
-  const Turn back_half(before_half.angle - after_half.angle);
-
+void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame,
+                          double dt) const {
+  const Anchoring anchoring(mean, frame, dt);
   for_each_tile(*mesh_, blocks_, [&](const TileView& view, std::size_t /*tile*/) {
-    std::array<Vec3, kLanes> shift, shift_half, faster;
-    for (int lane = 0; lane < view.tile.stations; ++lane) {
-      const auto l = static_cast<std::size_t>(lane);
-      const Turn half(view.angle(lane) + before_half.angle);
-      shift[l] = Turn(view.angle(lane) + frame.angle).to_cylindrical(mean.displacement);
-      shift_half[l] = half.to_cylindrical(step_half);
-      faster[l] = half.to_cylindrical(speed_change);
-    }
+    std::array<Anchoring::Station, kLanes> stations;
+    for (int lane = 0; lane < view.tile.stations; ++lane)
+      stations[static_cast<std::size_t>(lane)] = anchoring.at(view.angle(lane));
     for (int node = 0; node < view.block.section.nodes(); ++node) {
       const Vec3 reference{0, view.block.section.p[static_cast<std::size_t>(node)], view.radius(node)};
       for (int lane = 0; lane < view.tile.stations; ++lane) {
-        const auto l = static_cast<std::size_t>(lane);
         const std::int64_t slot = view.slot(node) + lane;
-        const Vec3 displacement = u.at(slot);
-        const Vec3 velocity = w.at(slot);
-        // Absolute displacement, seen from the moved frame.
-        u.set(slot, back.of(reference + displacement - shift[l]) - reference);
-        // Absolute velocity at the half step, seen from the moved frame.
-        const Vec3 arm_half = reference + displacement - (0.5 * dt) * velocity;
-        const Vec3 absolute = velocity + spin_cross(frame.spin, arm_half);
-        w.set(slot, back_half.of(absolute - faster[l]) -
-                        spin_cross(moved.spin, back_half.of(arm_half - shift_half[l])));
+        Vec3 displacement = u.at(slot);
+        Vec3 velocity = w.at(slot);
+        anchoring.move(stations[static_cast<std::size_t>(lane)], reference, displacement, velocity);
+        u.set(slot, displacement);
+        w.set(slot, velocity);
       }
     }
   });
-  frame = moved;
+  frame = anchoring.moved();
 }
 
 }  // namespace tread

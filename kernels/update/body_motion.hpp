@@ -38,13 +38,11 @@ class SpinningBody {
   double kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
   Vec3 momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
-  /// Moves the frame onto a motion relative to it, for example the body's mean_motion(), in the plane of
-  /// rolling; along y it stays. Absolute positions at the time of u do not change, nor do absolute velocities
-  /// at the half step (`dt` [s] long) before it.
+  /// Moves the frame onto a motion relative to it, for example the body's mean_motion(). [Anchoring]
   void anchor(NodeField u, NodeField w, BodyFrame& frame, double dt) const {
     anchor(mean_motion(u, w, frame), u, w, frame, dt);
   }
-  void anchor(MeanMotion mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const;
+  void anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const;
 
  private:
   template <class Visit>

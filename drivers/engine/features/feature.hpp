@@ -23,6 +23,7 @@ struct Motion {
   ConstNodeField velocity;      ///< at the half step before [m/s]
   const BodyFrame& wheel;       ///< at the time of the displacements
   double dt;                    ///< [s]
+  WholeFields& whole;           ///< the same motion, for sums over it
 
   /// The wheel's frame at the time of the velocities.
   BodyFrame half_step_frame() const {
@@ -70,7 +71,7 @@ struct StepState {
   bool measured;           ///< energies are looked at in this step
   double axle_torque = 0;  ///< of this step, once its phase is done [N m]
 
-  Motion motion() const { return {displacement, velocity, wheel, dt}; }
+  Motion motion() const { return {displacement, velocity, wheel, dt, whole}; }
 };
 
 /// The static state, from which a run starts.
@@ -123,6 +124,9 @@ class Feature {
   /// Begins with the motion of the first instant.
   virtual void begin(const Motion& /*motion*/, const SprungStart& /*sprung*/) {}
 
+  /// Names nodes that it reads in the phases after the motion of a measured step, besides those on which it
+  /// acts.
+  virtual void watch(const StepState& /*step*/, WatchedNodes& /*nodes*/) const {}
   /// Adds stored energies and positions at the start of a step, whose force is that of the elements alone.
   virtual void begin_sample(const StepState& /*step*/, Sample& /*sample*/) {}
   /// Adds works, losses and the other values at the end of a step.

@@ -33,6 +33,16 @@ void SurfaceRecord::apply(StepPhase /*phase*/, StepState& step) {
   if (step.wheel.origin.x <= last_x_) line_.note_rolling(step.displacement, step.wheel.origin.x);
 }
 
+void SurfaceRecord::watch(const StepState& step, WatchedNodes& nodes) const {
+  if (!step.sampled) return;
+  contact_->nodes().for_each_pressed_cell([&](int station, int row) {
+    nodes.add_element(contact_->options().rail_block, surface_.grid().quad[static_cast<std::size_t>(row)],
+                      station);
+  });
+  if (step.wheel.origin.x <= last_x_)
+    for (const std::int64_t slot : line_.slots()) nodes.add(slot);
+}
+
 void SurfaceRecord::list_state(StateList& list) {
   list.add_part("fields", surface_);
   list.add_part("line", line_);

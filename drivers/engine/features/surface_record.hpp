@@ -27,6 +27,7 @@ class SurfaceRecord final : public Feature {
   std::vector<PhaseInfo> phases() const override;
   std::vector<FieldBytes> fields() const override;
   void apply(StepPhase phase, StepState& step) override;
+  void watch(const StepState& step, WatchedNodes& nodes) const override;
   void list_state(StateList& list) override;
   void settle(const StaticStart& start) override { line_.note_static(start.displacement); }
 

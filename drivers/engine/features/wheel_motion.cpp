@@ -61,27 +61,27 @@ void WheelMotion::apply(StepPhase phase, StepState& step) {
   if (phase == StepPhase::frame) {
     step.wheel.advance(step.dt);
   } else if ((step.steps + 1) % kAnchorInterval == 0) {
-    step.whole.fetch();
-    anchor({step.displacement, step.velocity, step.wheel, step.dt});
-    step.whole.changed();
+    step.whole.anchor(parts_.body, relative_to_frame(step.motion()), step.wheel, step.dt);
+    anchored(step.displacement, step.velocity, step.whole.ties_follow());
   }
 }
 
 /// At rest the wheel spins about its own displaced axis from the first instant on.
 void WheelMotion::meet(const StaticStart& start) {
-  anchor(start);
+  const MeanMotion mean = parts_.bore
+                              ? parts_.bore->motion()
+                              : parts_.body.mean_motion(start.displacement, start.velocity, start.wheel);
+  parts_.body.anchor(mean, start.displacement, start.velocity, start.wheel, start.dt);
+  anchored(start.displacement, start.velocity, false);
 }
 
-void WheelMotion::anchor(const StaticStart& at) const {
-  const MeanMotion mean = relative_to_frame({at.displacement, at.velocity, at.wheel, at.dt});
-  parts_.body.anchor(mean, at.displacement, at.velocity, at.wheel, at.dt);
+void WheelMotion::anchored(NodeField displacement, NodeField velocity, bool ties_follow) const {
   if (parts_.bore) parts_.bore->anchored();
-  if (parts_.ties) parts_.ties->follow({at.displacement, at.velocity});
+  if (parts_.ties && !ties_follow) parts_.ties->follow({displacement, velocity});
 }
 
 MeanMotion WheelMotion::relative_to_frame(const Motion& motion) const {
-  return parts_.bore ? parts_.bore->motion()
-                     : parts_.body.mean_motion(motion.displacement, motion.velocity, motion.wheel);
+  return parts_.bore ? parts_.bore->motion() : motion.whole.mean_motion(parts_.body, motion.wheel);
 }
 
 double WheelMotion::creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const {
@@ -92,8 +92,13 @@ double WheelMotion::creepage(const CreepagePoint& point, const Motion& motion, c
   return creepage_of(speed, frame.velocity.x + mean.velocity.x);
 }
 
+void WheelMotion::watch(const StepState& /*step*/, WatchedNodes& nodes) const {
+  for (const CreepagePoint& point : creepage_points_)
+    for (const std::int64_t slot : point.at.slot) nodes.add(slot);
+}
+
 void WheelMotion::begin_sample(const StepState& step, Sample& sample) {
-  const MeanMotion mean = parts_.body.mean_motion(step.displacement, step.velocity, step.wheel);
+  const MeanMotion mean = step.whole.mean_motion(parts_.body, step.wheel);
   const double height = step.wheel.origin.z + mean.displacement.z;
   sample.energy.gravity += gravity_ * parts_.body.mass() * height;
   sample.wheel_x = step.wheel.origin.x;
@@ -115,7 +120,7 @@ void WheelMotion::end_sample(const StepState& step, Sample& sample) const {
 }
 
 void WheelMotion::add_kinetic_energy(const Motion& motion, double& sum) const {
-  sum += parts_.body.kinetic_energy(motion.displacement, motion.velocity, motion.half_step_frame());
+  sum += motion.whole.kinetic_energy(parts_.body, motion.wheel, motion.dt);
 }
 
 void WheelMotion::add_momentum(const Motion& motion, Vec3& sum) const {

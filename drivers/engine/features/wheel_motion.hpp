@@ -34,6 +34,7 @@ class WheelMotion final : public Feature {
   std::vector<FieldBytes> fields() const override;
   void apply(StepPhase phase, StepState& step) override;
   void meet(const StaticStart& start) override;
+  void watch(const StepState& step, WatchedNodes& nodes) const override;
   void begin_sample(const StepState& step, Sample& sample) override;
   void end_sample(const StepState& step, Sample& sample) const override;
   void add_kinetic_energy(const Motion& motion, double& sum) const override;
@@ -47,7 +48,8 @@ class WheelMotion final : public Feature {
     double radius;  ///< [m]
   };
   void choose_creepage_points(double patch_y);
-  void anchor(const StaticStart& at) const;
+  /// What has to follow the frame does so; tied nodes may do it by themselves.
+  void anchored(NodeField displacement, NodeField velocity, bool ties_follow) const;
   /// `mean`: relative_to_frame().
   double creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const;
 

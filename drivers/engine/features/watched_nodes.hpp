@@ -1,0 +1,31 @@
+#pragma once
+// Nodes whose motion features read in a sample, besides those on which they act.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/swept_block.hpp"
+
+namespace tread {
+
+/// In whole groups of kLanes slots.
+class WatchedNodes {
+ public:
+  /// Keeps a reference.
+  explicit WatchedNodes(const Mesh& mesh);
+
+  void clear();
+  void add(std::int64_t slot);
+  /// The nodes of an element of a block.
+  void add_element(int block, int quad, int station);
+
+  /// In the order in which they were added.
+  const std::vector<std::int64_t>& groups() const { return groups_; }
+
+ private:
+  const Mesh* mesh_;
+  std::vector<std::int64_t> groups_;
+  std::vector<unsigned char> added_;  ///< by group
+};
+
+}  // namespace tread
