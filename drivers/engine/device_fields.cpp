@@ -102,6 +102,7 @@ void DeviceFields<Real, U>::set(const AlignedVector<double>& displacement,
 template <class Real, class U>
 void DeviceFields<Real, U>::changed() {
   marches_.forget();
+  if (device_contact_) device_contact_->forget();
   host_whole_ = true;
   device_whole_ = false;
   lag_step_ = 0;
@@ -198,10 +199,10 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block) {
   return fields;
 }
 
-/// Begins the next step where the tractions of this one move no nodes, in blocks of which the host moves
-/// none. It counts if no one looks at the energies or changes the fields before.
+/// Begins the next step in blocks of which the host moves no node, about the patch when the tractions of this
+/// one are there, and searches. It counts if no one changes the fields before.
 template <class Real, class U>
-void DeviceFields<Real, U>::march_ahead() {
+void DeviceFields<Real, U>::begin_next() {
   if (!has_contact() || host_ties_ || this->q()) return;
   const std::array<SurfacePart, 2> parts = contact_->near(loads_.frame, loads_.dt);
   const auto reached = [&](int block, const SurfacePart& part) {
@@ -213,6 +214,7 @@ void DeviceFields<Real, U>::march_ahead() {
       next,
       {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
       [&](int block) { return march_fields(block); });
+  device_contact_->search_ahead(now_.u.data(), now_.v.data(), {next.frame, time_ + loads_.dt, loads_.dt});
 }
 
 template <class Real, class U>
@@ -277,7 +279,7 @@ void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool
   measured_ = opening_ = measured;
   last_sums_.reset();
   energies_.reset();
-  if (!measured) march_ahead();  // it writes over the motion before
+  if (!measured) begin_next();  // it writes over the motion before
   take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
   host_whole_ = false;
@@ -312,7 +314,8 @@ void DeviceFields<Real, U>::fetch_surfaces(const BodyFrame& wheel, double dt) {
 template <class Real, class U>
 void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double dt) {
   send();
-  device_contact_->search(now_.u.data(), now_.v.data(), wheel, time, dt);
+  time_ = time;
+  device_contact_->search(now_.u.data(), now_.v.data(), {wheel, time, dt});
 }
 
 /// Samples read the points of the patch.
@@ -410,6 +413,8 @@ void DeviceFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& m
   send();
   marches_.forget();
   marches_.join();  // they read what moves
+  if (device_contact_) device_contact_->forget();
+  device_->after(kSearchQueue);
   const Anchoring anchoring(mean, wheel, dt);
   for (const int b : body.blocks())
     kernels_.anchor(sums_.anchored(marches_.block(b).at(loads_), b, anchoring), now_.u.data(), now_.v.data());

@@ -83,7 +83,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void choose_movers(const Model& model, Movers movers);
   void make_room();
   MarchFields<Real, U> march_fields(int block);
-  void march_ahead();
+  void begin_next();
   void move_primary(const StepLoads& loads);
   void tie(const StepLoads& loads);
   void start_contact();
@@ -134,6 +134,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
 
   StepLoads loads_;        ///< of the last step
+  double time_ = 0;        ///< at which it began, with contact [s]
   bool measured_ = false;  ///< likewise
   bool opening_ = false;   ///< its forces are at hand, and the sums are those of the motion before it
 

@@ -90,8 +90,8 @@ void Contact::find_static(const ContactState& state, double traction) {
   search_.find_static(state, points_);
   if (traction != 0)
     for (ContactPoint& point : points_) point.shear.along = -traction * point.pressure;
-  const auto [first, last] = search_.window();
-  nodes_.average(first, last, points_);
+  const ContactSearch::Aim& aim = search_.aimed();
+  nodes_.average(aim.first_station, aim.last_station, points_);
   totals_ = sum_up(points_, springs_, area_);
 }
 
@@ -157,8 +157,8 @@ void Contact::take_points(std::span<const ContactPoint> points) {
 
 /// Averages and sums of the points that a step has solved; those that it opened leave.
 void Contact::close_step() {
-  const auto [first, last] = search_.window();
-  nodes_.average(first, last, points_);
+  const ContactSearch::Aim& aim = search_.aimed();
+  nodes_.average(aim.first_station, aim.last_station, points_);
   std::erase_if(points_, [](const ContactPoint& point) { return point.pressure <= 0; });
   totals_ = sum_up(points_, springs_, area_);
 }

@@ -128,34 +128,44 @@ double ContactSearch::reach() const {
   return std::sqrt(2 * options_.wheel_radius * (options_.reach_gap + deepest_));
 }
 
-void ContactSearch::update_window(const BodyFrame& wheel) {
-  const SweptBlock& rail = surfaces_.rail();
-  const double wheel_x = wheel.origin.x;
+std::optional<ContactSearch::Aim> ContactSearch::aim_at(const BodyFrame& wheel, double dt) const {
   const double half = reach();
-  const auto low = surfaces_.rail_stations().find(wheel_x - half);
-  const auto high = surfaces_.rail_stations().find(wheel_x + half);
-  if (low.station < 0 || high.station < 0)
+  const auto low = surfaces_.rail_stations().find(wheel.origin.x - half);
+  const auto high = surfaces_.rail_stations().find(wheel.origin.x + half);
+  const double angle = half / options_.wheel_radius;
+  if (low.station < 0 || high.station < 0 ||
+      surfaces_.wheel_stations().find(-wheel.angle - angle).station < 0 ||
+      surfaces_.wheel_stations().find(-wheel.angle + angle).station < 0)
+    return std::nullopt;
+  Aim aim;
+  aim.first_station = low.station;
+  aim.last_station = std::min(high.station + 1, low.station + static_cast<int>(columns_.size()));
+  const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest() +
+                       surfaces_.rail_depth().steepest() + surfaces_.wheel_depth().steepest();
+  aim.closing_speed = norm(wheel.velocity) * slope + 5;
+  aim.margin = aim.closing_speed * dt;
+  return aim;
+}
+
+void ContactSearch::refuse(const BodyFrame& wheel) const {
+  const std::vector<double>& stations = surfaces_.rail().stations;
+  const double wheel_x = wheel.origin.x;
+  if (!(wheel_x - reach() >= stations.front() && wheel_x + reach() <= stations.back()))
     throw NumericalError(
         fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
                     "m); shorten motion.duration or lengthen rail.length",
-                    wheel_x, rail.stations.front(), rail.stations.back()));
-  const double angle = half / options_.wheel_radius;
-  if (surfaces_.wheel_stations().find(-wheel.angle - angle).station < 0 ||
-      surfaces_.wheel_stations().find(-wheel.angle + angle).station < 0)
-    throw NumericalError(fmt::format(
-        "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out",
-        wheel_x));
-  window_first_ = low.station;
-  window_last_ = std::min(high.station + 1, window_first_ + static_cast<int>(columns_.size()));
+                    wheel_x, stations.front(), stations.back()));
+  throw NumericalError(fmt::format(
+      "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out", wheel_x));
 }
 
-SearchBounds ContactSearch::bounds(double time) const {
-  return {0.5 * options_.reach_gap, margin_, closing_speed_, time};
+SearchBounds ContactSearch::bounds(const Aim& aim, double time) const {
+  return {0.5 * options_.reach_gap, aim.margin, aim.closing_speed, time};
 }
 
 void ContactSearch::visit_column(const Visit& visit, int station) {
   const ContactState& state = *visit.state;
-  std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+  std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - aim_.first_station)];
   column.clear();
   const SurfacePairBody<SurfaceDepths> surfaces = surfaces_.body();
   const bool dynamic = static_cast<bool>(state.velocity);
@@ -183,34 +193,31 @@ void ContactSearch::visit_column(const Visit& visit, int station) {
 
 void ContactSearch::gather(std::vector<ContactPoint>& points) const {
   points.clear();
-  for (int station = window_first_; station < window_last_; ++station) {
-    const std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - window_first_)];
+  for (int station = aim_.first_station; station < aim_.last_station; ++station) {
+    const std::vector<ContactPoint>& column =
+        columns_[static_cast<std::size_t>(station - aim_.first_station)];
     points.insert(points.end(), column.begin(), column.end());
   }
 }
 
 void ContactSearch::find_static(const ContactState& state, std::vector<ContactPoint>& points) {
-  margin_ = 0;
-  update_window(*state.wheel);
-  for (int station = window_first_; station < window_last_; ++station)
-    visit_column({&state, {}, bounds(0)}, station);
+  aim(*state.wheel, 0);
+  for (int station = aim_.first_station; station < aim_.last_station; ++station)
+    visit_column({&state, {}, bounds(aim_, 0)}, station);
   gather(points);
 }
 
 void ContactSearch::aim(const BodyFrame& wheel, double dt) {
-  update_window(wheel);
-  const double half = reach();
-  const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest() +
-                       surfaces_.rail_depth().steepest() + surfaces_.wheel_depth().steepest();
-  closing_speed_ = norm(wheel.velocity) * slope + 5;
-  margin_ = closing_speed_ * dt;
+  const std::optional<Aim> aim = aim_at(wheel, dt);
+  if (!aim) refuse(wheel);
+  aim_ = *aim;
 }
 
 void ContactSearch::find(const ContactState& state, std::span<const PointHistory> history, double time,
                          std::vector<ContactPoint>& points) {
-  const Visit visit{&state, history, bounds(time)};
-  parallel_ranges(window_last_ - window_first_, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) visit_column(visit, window_first_ + static_cast<int>(i));
+  const Visit visit{&state, history, bounds(aim_, time)};
+  parallel_ranges(aim_.last_station - aim_.first_station, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) visit_column(visit, aim_.first_station + static_cast<int>(i));
   });
   gather(points);
 }

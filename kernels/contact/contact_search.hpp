@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,14 +48,22 @@ class ContactSearch {
   /// Sets `points` to those in contact, with the pressures of statics.
   void find_static(const ContactState& state, std::vector<ContactPoint>& points);
 
-  /// Sets window and bounds of a search in a step of length dt [s]. NumericalError where the wheel leaves the
-  /// meshed surfaces.
+  /// Where and how a step searches.
+  struct Aim {
+    int first_station = 0, last_station = 0;  ///< of the window, [first, last)
+    double closing_speed = 0;                 ///< bound used for wake times [m/s]
+    double margin = 0;                        ///< gap up to which points are kept [m]
+  };
+  /// Window and bounds of a search in a step of length dt [s]; none where the wheel leaves the meshed
+  /// surfaces.
+  std::optional<Aim> aim_at(const BodyFrame& wheel, double dt) const;
+  /// Sets them. NumericalError where the wheel leaves the meshed surfaces.
   void aim(const BodyFrame& wheel, double dt);
   /// Sets `points` to those that touch or may touch before the step ends that starts at `time` [s], after
   /// aim(), with the tractions and velocities before the step. A point that carried pressure stays.
   void find(const ContactState& state, std::span<const PointHistory> history, double time,
             std::vector<ContactPoint>& points);
-  SearchBounds bounds(double time) const;
+  SearchBounds bounds(const Aim& aim, double time) const;
   SearchEnd end() const;
 
   /// Parts of the rail's and the wheel's surface that hold all nodes whose motion find() reads, and those
@@ -79,8 +88,7 @@ class ContactSearch {
   const FaceQuadrature& quadrature() const { return quadrature_; }
   /// Edges of the rail's surface that the wheel's profile can reach, [first, last).
   std::array<int, 2> edges() const { return {first_edge_, last_edge_}; }
-  /// Stations of the window found last, [first, last).
-  std::array<int, 2> window() const { return {window_first_, window_last_}; }
+  const Aim& aimed() const { return aim_; }
   std::size_t window_capacity() const { return columns_.size(); }                         ///< stations
   std::size_t capacity() const { return columns_.size() * columns_.front().capacity(); }  ///< points
   std::size_t rail_points() const { return wake_time_.size() * points_per_face(); }  ///< of the whole rail
@@ -96,7 +104,7 @@ class ContactSearch {
   };
   void choose_edges();
   void make_room();
-  void update_window(const BodyFrame& wheel);
+  [[noreturn]] void refuse(const BodyFrame& wheel) const;
   void visit_column(const Visit& visit, int station);
   void gather(std::vector<ContactPoint>& points) const;
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
@@ -111,12 +119,10 @@ class ContactSearch {
   double deepest_ = 0;               ///< depth that the searched surface has room for [m]
   std::vector<double> lateral_gap_;  ///< by edge: of the smooth surfaces where they touch elsewhere [m]
   int first_edge_ = 0, last_edge_ = 0;
-  int window_first_ = 0, window_last_ = 0;
   double touching_height_ = 0;
-  double least_radius_ = 0;                         ///< of the wheel's surface [m]
-  double longest_pitch_ = 0;                        ///< of the rail's faces [m]
-  double closing_speed_ = 0;                        ///< bound used for wake_time_ [m/s]
-  double margin_ = 0;                               ///< gap up to which points are kept [m]
+  double least_radius_ = 0;   ///< of the wheel's surface [m]
+  double longest_pitch_ = 0;  ///< of the rail's faces [m]
+  Aim aim_;
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
 };

@@ -179,9 +179,13 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(cudaGetDeviceProperties(&properties, number), "its properties");
     name_ = properties.name;
     shared_ = properties.sharedMemPerBlockOptin;
-    for (Queue& queue : queues_) {
-      check(cudaStreamCreateWithFlags(&queue.stream, cudaStreamNonBlocking), "a queue");
-      check(cudaEventCreateWithFlags(&queue.end, cudaEventDisableTiming), "a queue");
+    int last = 0;
+    int first = 0;
+    check(cudaDeviceGetStreamPriorityRange(&last, &first), "its priorities");
+    for (int i = 0; i < kQueues; ++i) {
+      const int priority = i < kFanQueue ? first : last;  // others wait for what is in the former
+      check(cudaStreamCreateWithPriority(&queues_[i].stream, cudaStreamNonBlocking, priority), "a queue");
+      check(cudaEventCreateWithFlags(&queues_[i].end, cudaEventDisableTiming), "a queue");
     }
   }
   CudaDevice(const CudaDevice&) = delete;

@@ -113,7 +113,8 @@ void DeviceContact::make_room() {
   result_ = HostArray<PatchResult>(*device_, 1);
   task_.history = room<PointHistory>(contact_->history().size());
   task_.wake_time = room<double>(contact_->searching().wake_time().size());
-  task_.candidates = {room<ContactPoint>(points), room<int>(points), room<double>(points)};
+  for (Candidates& of : candidates_)
+    of = {room<ContactPoint>(points), room<int>(points), room<double>(points)};
   task_.point = room<ContactPoint>(points);
   task_.origin = room<int>(points);
   const auto table = index(table_size(static_cast<int>(most.places)));
@@ -145,6 +146,7 @@ void DeviceContact::make_room() {
 /// Histories and record to the device.
 void DeviceContact::send() {
   if (sent_) return;
+  device_->after(kSearchQueue);
   const auto copy = [&](auto* to, const auto& from) {
     if (!from.empty()) device_->upload(to, from.data(), from.size() * sizeof(from[0]));
   };
@@ -161,30 +163,44 @@ void DeviceContact::send() {
   sent_ = true;
 }
 
-void DeviceContact::search(NodeField displacement, NodeField velocity, const BodyFrame& wheel, double time,
-                           double dt) {
-  send();
+void DeviceContact::find(NodeField displacement, NodeField velocity, const Instant& at,
+                         const ContactSearch::Aim& aim) {
   const ContactSearch& search = contact_->searching();
-  const auto [first_station, last_station] = search.window();
   const auto [first_edge, last_edge] = search.edges();
-  task_.window.first_station = first_station;
-  task_.window.stations = last_station - first_station;
+  task_.window.first_station = aim.first_station;
+  task_.window.stations = aim.last_station - aim.first_station;
   task_.window.first_edge = first_edge;
   task_.window.edges = last_edge - first_edge;
-  task_.bounds = search.bounds(time);
-  task_.dt = dt;
-  task_.wheel = wheel;
+  task_.bounds = search.bounds(aim, at.time);
+  task_.dt = at.dt;
+  task_.wheel = at.wheel;
   task_.u = displacement;
   task_.v = velocity;
+  task_.candidates = candidates_[1 - solved_];
   const Beside beside(*device_, kSearchQueue);
+  device_->after(kPatchQueue);
   device_->search(task_);
+}
+
+void DeviceContact::search(NodeField displacement, NodeField velocity, const Instant& at) {
   searched_ = true;
+  if (std::exchange(ahead_, std::nullopt) == at) return;
+  send();
+  find(displacement, velocity, at, contact_->searching().aimed());
+}
+
+void DeviceContact::search_ahead(NodeField displacement, NodeField velocity, const Instant& at) {
+  const auto aim = contact_->searching().aim_at(at.wheel, at.dt);
+  if (!aim) return;
+  find(displacement, velocity, at, *aim);
+  ahead_ = at;
 }
 
 void DeviceContact::start(NodeField displacement, NodeField velocity) {
   if (!std::exchange(searched_, false)) return;
   task_.u = displacement;
   task_.v = velocity;
+  solved_ = 1 - solved_;
   const Beside beside(*device_, kPatchQueue);
   device_->after(kSearchQueue);
   device_->resolve(task_, law_, law_state_);
@@ -199,10 +215,12 @@ void DeviceContact::resolve() {
 }
 
 void DeviceContact::fetch_points() {
-  TREAD_EXPECT(!searched_);  // the next search writes over them
+  TREAD_EXPECT(!searched_);
   const int count = result_.data()->points;
   if (count > 0) {
-    device_->gather(task_, count);
+    ContactTask solved = task_;
+    solved.candidates = candidates_[solved_];
+    device_->gather(solved, count);
     device_->download(points_.data(), task_.point, index(count) * sizeof(ContactPoint));
   }
   contact_->take_points({points_.data(), index(count)});
@@ -225,6 +243,7 @@ void DeviceContact::release() {
   const auto copy = [&](auto& to, const auto* from) {
     if (!to.empty()) device_->download(to.data(), from, to.size() * sizeof(to[0]));
   };
+  forget();
   copy(contact_->history(), task_.history);
   copy(contact_->searching().wake_time(), task_.wake_time);
   std::visit([&](auto& of) { copy(of.state, static_cast<const char*>(law_state_)); }, contact_->friction());
@@ -233,7 +252,7 @@ void DeviceContact::release() {
 
 std::int64_t DeviceContact::bytes(const Contact& contact) {
   const Sizes most(contact);
-  const std::size_t of_point = 2 * sizeof(ContactPoint) + 2 * sizeof(LinkedEntry) +
+  const std::size_t of_point = 3 * sizeof(ContactPoint) + 2 * sizeof(LinkedEntry) +
                                sizeof(TeamTile) / kLanes + 4 * sizeof(double) + 8 * sizeof(int);
   const std::size_t of_node = sizeof(PatchNode) + 4 * sizeof(double) + sizeof(int);
   const auto table = index(table_size(static_cast<int>(most.places)));

@@ -2,8 +2,10 @@
 // The contact of a run on a device: search, tractions, histories and record of the passage.
 // [docs/records/device.md]
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "kernels/contact/contact.hpp"
@@ -21,9 +23,21 @@ class DeviceContact {
   /// Copies what does not change. Keeps references. `inverse_mass`: by slot of the mesh [1/kg].
   DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass);
 
-  /// Starts to find the candidates of a step of dt [s], beside the march; fields of the device. The contact's
-  /// search is aimed.
-  void search(NodeField displacement, NodeField velocity, const BodyFrame& wheel, double time, double dt);
+  /// When a step of dt [s] searches, and where.
+  struct Instant {
+    BodyFrame wheel;
+    double time;  ///< [s]
+    double dt;
+
+    bool operator==(const Instant&) const = default;
+  };
+  /// Starts to find the candidates of a step, beside the march; fields of the device. The contact's search is
+  /// aimed. What has been found ahead counts if it was for this instant.
+  void search(NodeField displacement, NodeField velocity, const Instant& at);
+  /// Starts to find those of the step after the one whose tractions were started last; these come first.
+  void search_ahead(NodeField displacement, NodeField velocity, const Instant& at);
+  /// Fields have changed: what has been found ahead does not count.
+  void forget() { ahead_.reset(); }
   /// Starts to solve the tractions, if the step has searched.
   void start(NodeField displacement, NodeField velocity);
   /// Hands the outcome of what was started to the contact.
@@ -55,19 +69,23 @@ class DeviceContact {
   void keep_law();
   void make_room();
   void send();
+  void find(NodeField displacement, NodeField velocity, const Instant& at, const ContactSearch::Aim& aim);
 
   Device* device_;
   Contact* contact_;
   SurfaceFields* record_ = nullptr;          ///< the run's
   std::vector<std::shared_ptr<void>> kept_;  ///< arrays that task_ and law_ point to
   ContactTask task_;
+  std::array<Candidates, 2> candidates_;  ///< of the last patch, and of a search after it
+  std::size_t solved_ = 0;                ///< the former of these
   FrictionLaw law_;
   void* law_state_ = nullptr;
   std::size_t law_state_bytes_ = 0;
   HostArray<PatchResult> result_;
   HostArray<ContactPoint> points_;
   bool sent_ = false;      ///< the device holds histories and record
-  bool searched_ = false;  ///< but has not started on the tractions
+  bool searched_ = false;  ///< the step, but it has not started on the tractions
+  std::optional<Instant> ahead_;
 };
 
 }  // namespace tread

@@ -35,32 +35,27 @@ class MarchFan {
   BlockMarch<Real>& block(int number) { return *blocks_[index(number)]; }
   TileVariant variant(int block) const { return variants_[index(block)]; }
 
-  /// Starts on what is left of a march over all blocks, with fields(block). What has begun ahead counts if it
-  /// was begun with these loads; else all is done anew.
+  /// Marches over all blocks, with fields(block). What has begun ahead counts if it was begun with these
+  /// loads; else all is done anew.
   template <class Fields>
   void start(const StepLoads& loads, const Fields& fields) {
-    only_near_left_ = ahead_ == loads;
+    near_alone_ = ahead_ == loads;
     forget();
-    if (!only_near_left_) join();
-    int near_queue = kNearQueue;
-    for (int b = 0; b < blocks(); ++b)
-      if (!only_near_left_)
-        launch(fan_queue(b), b, block(b).at(loads), fields);
-      else if (reached_[index(b)].count > 0)
-        launch(near_queue++, b, block(b).in_tiles(loads, reached_[index(b)]), fields);
+    if (near_alone_) return;
+    join();
+    for (int b = 0; b < blocks(); ++b) launch(fan_queue(b), b, block(b).at(loads), fields);
   }
   /// Lets what follows in the queue in use begin after the march about the patch.
   void await_near() {
-    for (int queue = kNearQueue; queue < (only_near_left_ ? kFanQueue : kQueues); ++queue)
-      device_->after(queue);
+    for (int queue = kNearQueue; queue < (near_alone_ ? kFanQueue : kQueues); ++queue) device_->after(queue);
   }
   /// Likewise after all marches.
   void join() {
     for (int queue = kNearQueue; queue < kQueues; ++queue) device_->after(queue);
   }
 
-  /// Begins a step with these loads beyond tiles that still change, in blocks of which the host moves no
-  /// node.
+  /// Begins a step with these loads in blocks of which the host moves no node: over tiles that the tractions
+  /// reach after these, over the others at once.
   template <class Fields>
   void begin_ahead(const StepLoads& loads, const std::array<ReachedTiles, 2>& reached, const Fields& fields) {
     for (const ReachedTiles& of : reached) reached_[index(of.block)] = block(of.block).near(of.tiles);
@@ -85,14 +80,20 @@ class MarchFan {
   void launch(int queue, int number, const MarchBlock<Real>& marched, const Fields& fields) {
     if (marched.marched.count == 0) return;
     const Beside beside(*device_, queue);
+    if (queue < kFanQueue) device_->after(kPatchQueue);
     kernels_->march(variant(number), marched, fields(number));
   }
 
   template <class Fields>
   void launch_ahead(const StepLoads& loads, bool awaits_host, const Fields& fields) {
-    for (int b = 0; b < blocks(); ++b)
-      if ((awaits_host_[index(b)] != 0) == awaits_host)
-        launch(fan_queue(b), b, block(b).at(loads, block(b).beyond(reached_[index(b)])), fields);
+    int near_queue = kNearQueue;
+    for (int b = 0; b < blocks(); ++b) {
+      const MarchRuns near = reached_[index(b)];
+      const int queue = near.count > 0 ? near_queue++ : 0;
+      if ((awaits_host_[index(b)] != 0) != awaits_host) continue;
+      launch(fan_queue(b), b, block(b).at(loads, block(b).beyond(near)), fields);
+      if (near.count > 0) launch(queue, b, block(b).in_tiles(loads, near), fields);
+    }
   }
 
   static int fan_queue(int block) { return kFanQueue + block % (kQueues - kFanQueue); }
@@ -105,7 +106,7 @@ class MarchFan {
   std::vector<unsigned char> awaits_host_;  ///< by block
   std::optional<StepLoads> begun_;  ///< of the step that has begun in blocks that do not await the host
   std::optional<StepLoads> ahead_;  ///< of the step that has begun in all
-  bool only_near_left_ = false;     ///< when the last march started
+  bool near_alone_ = false;         ///< the march about the patch has queues of its own in this step
 };
 
 }  // namespace tread
