@@ -15,6 +15,9 @@ namespace tread {
 /// [m/s].
 inline constexpr double kSpareClosing = 5;
 inline constexpr int kMostIterations = 300;
+/// Iterations with momentum, with which limits of the tractions may make them go round: three times as many
+/// as are needed.
+inline constexpr int kMostWithMomentum = 60;
 inline constexpr double kTractionTolerance = 3e-7;  ///< last change of a traction / largest pressure
 /// Growth of a traction's change from which on the compliances are taken as too small.
 inline constexpr double kDivergence = 100;
@@ -29,11 +32,28 @@ TREAD_BODY Traction slip_of(const ContactPoint& point, const Vec3& velocity) {
   return {dot(velocity, point.along), dot(velocity, point.across)};
 }
 
-/// Share of the response's last change that iterations add to it, by the largest compliance [m/Pa].
-TREAD_BODY double momentum_of(const PointSprings& springs, double compliance) {
-  const double q = 1 / std::sqrt(1 + springs.penalty * compliance);
-  return (1 - q) / (1 + q);
-}
+/// Iterations by Polyak's heavy ball. [theory.md, eq. 9b']
+class HeavyBall {
+ public:
+  /// By the largest compliance [m/Pa].
+  TREAD_BODY HeavyBall(const PointSprings& springs, double compliance) {
+    const double q = 1 / std::sqrt(1 + springs.penalty * compliance);
+    const double b = (1 - q) / (1 + q);
+    weight_ = (1 + b) * (1 + b);
+    momentum_ = b * b;
+  }
+  /// The next iteration of a step of length dt [s].
+  TREAD_BODY PointIteration next(const PointSprings& springs, double dt) {
+    ++taken_;
+    if (taken_ == 1) return {springs, dt, weight_ / (1 + momentum_), 0};
+    if (taken_ > kMostWithMomentum) return {springs, dt, 1, 0};
+    return {springs, dt, weight_, momentum_};
+  }
+
+ private:
+  double weight_, momentum_;
+  int taken_ = 0;
+};
 
 /// A point in its tile.
 struct PointLane {
@@ -79,7 +99,7 @@ struct PointLane {
         respond<double>({tile.gap[lane], slip, shear, tile.friction[lane], 0}, springs, dt,
                         {dot(point.velocity_before, axis(tile.normal)), slip}, {});
     const double values[3] = {traction.pressure, traction.shear.along, traction.shear.across};
-    for (int c = 0; c < 3; ++c) tile.held[c][lane] = tile.response[c][lane] = values[c];
+    for (int c = 0; c < 3; ++c) tile.held[c][lane] = tile.before[c][lane] = values[c];
     return impulse_of(values);
   }
 

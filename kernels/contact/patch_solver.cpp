@@ -93,25 +93,24 @@ PatchSolver::Progress PatchSolver::respond(std::size_t points, const PointIterat
 }
 
 void PatchSolver::iterate(const std::vector<ContactPoint>& points, const PointSprings& springs, double dt) {
-  double momentum = 0;
   const auto begin = [&] {
     double largest = 0;
     for (const PointTile& tile : tiles_)
       for (const double compliance : tile.compliance) largest = std::max(largest, compliance);
-    momentum = momentum_of(springs, largest);
     guess(points, springs, dt);
+    return HeavyBall(springs, largest);
   };
-  begin();
+  HeavyBall ball = begin();
   double first = 0;
   for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
     sum_impulses();
-    const Progress progress = respond(points.size(), {springs, dt, iterations_ > 1 ? momentum : 0});
+    const Progress progress = respond(points.size(), ball.next(springs, dt));
     if (progress.change <= kTractionTolerance * progress.largest) break;
     if (iterations_ == 1) first = progress.change;
     if (progress.change > kDivergence * first) {
       for (PointTile& tile : tiles_)
         for (double& compliance : tile.compliance) compliance *= 2;
-      begin();
+      ball = begin();
     }
   }
 }

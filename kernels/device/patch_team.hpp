@@ -230,21 +230,20 @@ class PatchTeam {
     });
   }
 
-  /// Guesses the tractions under compliance(point). Returns the momentum of the iterations to come.
+  /// Guesses the tractions under compliance(point).
   template <class Compliance>
-  TREAD_BODY double begin(const Compliance& compliance) const {
+  TREAD_BODY HeavyBall begin(const Compliance& compliance) const {
     const LargestPair largest = team_.largest(points_, [&](int i) {
       const double own = compliance(i);
       tile(i).compliance[i % kLanes] = own;
       put(impulse_, i, vector_of(lane(i).guess(point(i), task_.springs, task_.dt)));
       return LargestPair{own, 0};
     });
-    return momentum_of(task_.springs, largest.first);
+    return {task_.springs, largest.first};
   }
 
   /// Returns the largest change and the largest pressure, the former squared.
-  TREAD_BODY LargestPair respond(double momentum) const {
-    const PointIteration iteration{task_.springs, task_.dt, momentum};
+  TREAD_BODY LargestPair respond(const PointIteration& iteration) const {
     return team_.largest(points_, [&](int i) {
       const double motion[3] = {velocity(i, 0), velocity(i, 1), velocity(i, 2)};
       double impulse[3];
@@ -256,7 +255,7 @@ class PatchTeam {
 
   /// PatchSolver::iterate
   TREAD_BODY void iterate() const {
-    double momentum = begin([&](int i) {
+    HeavyBall ball = begin([&](int i) {
       const double own = 0.5 * task_.dt * task_.dt * point(i).area * sum(i, 1);
       const double all = sum(i, 0);
       return own < all ? all : own;
@@ -264,12 +263,12 @@ class PatchTeam {
     double first = 0;
     for (int iteration = 1; iteration <= kMostIterations; ++iteration) {
       sum_impulses();
-      const LargestPair largest = respond(iteration > 1 ? momentum : 0);
+      const LargestPair largest = respond(ball.next(task_.springs, task_.dt));
       const double change = std::sqrt(largest.first);
       if (change <= kTractionTolerance * largest.second) break;
       if (iteration == 1) first = change;
       if (change > kDivergence * first)
-        momentum = begin([&](int i) { return 2 * tile(i).compliance[i % kLanes]; });
+        ball = begin([&](int i) { return 2 * tile(i).compliance[i % kLanes]; });
     }
   }
 

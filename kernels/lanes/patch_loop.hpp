@@ -37,6 +37,7 @@ struct alignas(64) PointTile {
   double friction[kLanes];
   double compliance[kLanes];
   double held[3][kLanes];      ///< traction under which an iteration sees the motion: pressure, shear [Pa]
+  double before[3][kLanes];    ///< that of the iteration before [Pa]
   double response[3][kLanes];  ///< traction of the last iteration [Pa]
   double change[kLanes];       ///< square of the difference of both [Pa2]
 };
@@ -45,7 +46,8 @@ struct alignas(64) PointTile {
 struct PointIteration {
   PointSprings springs;
   double dt;        ///< [s]
-  double momentum;  ///< share of the response's last change that `held` gets beyond the response
+  double weight;    ///< share of the response's difference from `held` that `held` gets
+  double momentum;  ///< likewise of its own last change
 };
 
 /// Velocities of the points of a tile, those of the wheel against the rail: without contact, and its changes

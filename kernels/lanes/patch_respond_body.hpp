@@ -60,7 +60,9 @@ TREAD_INLINE void respond_in(PointTile& tile, const Lane& lane, const PointItera
   for (int c = 0; c < 3; ++c) {
     const V difference = response[c] - held[c];
     change += difference * difference;
-    held[c] = response[c] + iteration.momentum * (response[c] - lane.load(tile.response[c]));
+    const V step = iteration.weight * difference + iteration.momentum * (held[c] - lane.load(tile.before[c]));
+    lane.store(tile.before[c], held[c]);
+    held[c] += step;
     lane.store(tile.held[c], held[c]);
     lane.store(tile.response[c], response[c]);
   }
