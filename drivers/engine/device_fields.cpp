@@ -19,7 +19,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       marches_(*device_),
       host_update_(model.mesh, this->inverse_mass()),
       contact_(model.contact.get()),
-      sums_(*device_, model.mesh, model.mass.data(), this->unforced()) {
+      looks_(*device_, model, this->unforced()) {
   const Mesh& mesh = model.mesh;
   Movers movers = movers_of(model);
   const std::size_t components = index(3 * mesh.slots);
@@ -35,7 +35,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
                  {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
                   internal.law(b)},
                  movers.hosted_blocks[index(b)] != 0);
-    sums_.add(elements);
+    looks_.sums().add(elements);
     const int law = this->law_state() ? elements.law() : 0;
     const std::size_t values =
         block.tiles.size() * block.section.quads.size() * kLanes * index(state_values(law));
@@ -82,8 +82,7 @@ void DeviceFields<Real, U>::choose_movers(const Model& model, Movers movers) {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::make_room() {
-  locked_ = {lock_pages(*device_, this->u()), lock_pages(*device_, this->v()),
-             lock_pages(*device_, this->f())};
+  locked_ = {lock_pages(*device_, this->u()), lock_pages(*device_, this->v())};
   packed_f_ = HostArray<Real>(*device_, host_groups_.size() * kGroupValues);
   device_f_ = DeviceArray<Real>(*device_, packed_f_.size());
   copied_.assign(group_mark_.size(), 0);
@@ -172,12 +171,6 @@ void DeviceFields<Real, U>::fetch_nodes() {
   if (this->q()) lag_.download(this->q()->values().data());
   fetch_law_state();
   host_whole_ = true;
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::fetch_law_state() {
-  for (std::size_t b = 0; b < now_.state.size(); ++b)
-    if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
 }
 
 template <class Real, class U>
@@ -276,9 +269,7 @@ void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool
     device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
   }
   finish_motion(loads);
-  measured_ = opening_ = measured;
-  last_sums_.reset();
-  energies_.reset();
+  looks_.open(loads, measured);
   if (!measured) begin_next();  // it writes over the motion before
   take_host_forces();
   if (!device_contact_) fetch_surfaces(loads.frame, loads.dt);
@@ -326,7 +317,7 @@ void DeviceFields<Real, U>::resolve(const BodyFrame& /*wheel*/, double /*dt*/) {
     marches_.go_on_ahead([&](int block) { return march_fields(block); });
   }
   device_contact_->resolve();
-  if (measured_) device_contact_->fetch_points();
+  if (looks_.measured()) device_contact_->fetch_points();
 }
 
 /// Whoever reads what is not fetched is found out.
@@ -344,45 +335,19 @@ void DeviceFields<Real, U>::spoil() {
 
 template <class Real, class U>
 void DeviceFields<Real, U>::move_rest(const StepLoads& loads, bool /*measured*/) {
-  opening_ = false;
-  last_sums_.reset();
+  looks_.close();
   host_update_.move_deferred(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
 template <class Real, class U>
-void DeviceFields<Real, U>::advance_lag(double dt) {
-  if (!this->q()) return;
-  if (host_whole_) Base::advance_lag(dt);
-  if (device_whole_) lag_step_ = dt;
-}
-
-/// Over the motion before the step while it opens, else over the present one.
-template <class Real, class U>
-const NodeSums& DeviceFields<Real, U>::sums(const BodyFrame& wheel) {
-  if (last_sums_ && last_sums_->wheel == wheel) return last_sums_->of;
-  if (!opening_) send();
-  const NodeMotions<Real, U> before{next_.u.data(), next_.v.data()};
-  const NodeMotions<Real, U> present{now_.u.data(), now_.v.data()};
-  const bool changes = measured_ && !opening_;
-  last_sums_ = {wheel, sums_.nodes(marches_, {wheel, loads_}, inverse_mass_.data(),
-                                   opening_ ? before : present, changes ? before : NodeMotions<Real, U>{})};
-  return last_sums_->of;
-}
-
-/// For sums that do not depend on the wheel's frame.
-template <class Real, class U>
-const NodeSums& DeviceFields<Real, U>::sums() {
-  if (last_sums_) return last_sums_->of;
-  BodyFrame wheel = loads_.frame;
-  if (!opening_) wheel.advance(loads_.dt);
-  return sums(wheel);
+typename DeviceLooks<Real, U>::Motions DeviceFields<Real, U>::motions() {
+  if (!looks_.opening()) send();
+  return {{now_.u.data(), now_.v.data()}, {next_.u.data(), next_.v.data()}, inverse_mass_.data()};
 }
 
 template <class Real, class U>
 const ElementSums& DeviceFields<Real, U>::energies() {
-  TREAD_EXPECT(opening_);
-  if (energies_) return *energies_;
-  energies_ = sums_.elements(marches_, [&](int b) {
+  return looks_.elements(marches_, [&](int b) {
     typename DeviceSums<Real, U>::ElementFields of;
     of.u = next_.u.data();
     of.state = now_.state[index(b)].data();
@@ -392,15 +357,6 @@ const ElementSums& DeviceFields<Real, U>::energies() {
     of.lag = lag_.data();
     return of;
   });
-  return *energies_;
-}
-
-template <class Real, class U>
-MeanMotion DeviceFields<Real, U>::mean_motion(const SpinningBody& body, const BodyFrame& wheel) {
-  if (host_whole_) return Base::mean_motion(body, wheel);
-  const NodeSums& of = sums(wheel);
-  return {(1 / body.mass()) * of.displacement, (1 / body.mass()) * of.velocity, of.rotation / body.inertia(),
-          of.spin / body.inertia()};
 }
 
 template <class Real, class U>
@@ -417,21 +373,14 @@ void DeviceFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& m
   device_->after(kSearchQueue);
   const Anchoring anchoring(mean, wheel, dt);
   for (const int b : body.blocks())
-    kernels_.anchor(sums_.anchored(marches_.block(b).at(loads_), b, anchoring), now_.u.data(), now_.v.data());
+    kernels_.anchor(looks_.sums().anchored(marches_.block(b).at(loads_), b, anchoring), now_.u.data(),
+                    now_.v.data());
   wheel = anchoring.moved();
-  last_sums_.reset();
+  looks_.forget();
   if (ties_) kernels_.follow(ties_->secondary(), now_.u.data(), now_.v.data());
   shown_.fetch(host_groups_, now_.u.data(), now_.v.data(), this->u(), this->v());
   host_moves_ = host_ties_;  // tied nodes have still to follow there
   if (!device_contact_) fetch_surfaces(wheel, dt);
-}
-
-template <class Real, class U>
-void DeviceFields<Real, U>::show(const WatchedNodes& nodes) {
-  send();
-  shown_.fetch(nodes.groups(), now_.u.data(), now_.v.data(), this->u(), this->v());
-  if (this->q()) lag_.download(this->q()->values().data());
-  fetch_law_state();
 }
 
 /// Whoever lists the state may read or restore it.

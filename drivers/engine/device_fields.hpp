@@ -13,13 +13,13 @@
 #include <span>
 #include <vector>
 
+#include "drivers/engine/device_looks.hpp"
 #include "drivers/engine/device_movers.hpp"
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/sent_groups.hpp"
 #include "drivers/engine/shown_groups.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/device_contact.hpp"
-#include "kernels/device/device_sums.hpp"
 #include "kernels/device/device_ties.hpp"
 #include "kernels/device/host_array.hpp"
 #include "kernels/device/march_fan.hpp"
@@ -37,7 +37,12 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void fetch() override;
   void changed() override;
   bool elsewhere() const override { return !host_whole_; }
-  void show(const WatchedNodes& nodes) override;
+  void show(const WatchedNodes& nodes) override {
+    send();
+    shown_.fetch(nodes.groups(), now_.u.data(), now_.v.data(), this->u(), this->v());
+    if (this->q()) lag_.download(this->q()->values().data());
+    fetch_law_state();
+  }
   bool ties_follow() const override { return ties_ && !host_whole_; }
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
@@ -46,7 +51,11 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void hold(std::span<const std::int64_t> unknowns) override {
     Base::hold(host_whole_ ? unknowns : host_held_);
   }
-  void advance_lag(double dt) override;
+  void advance_lag(double dt) override {
+    if (!this->q()) return;
+    if (host_whole_) Base::advance_lag(dt);
+    if (device_whole_) lag_step_ = dt;
+  }
 
   ElementEnergy element_energy() override {
     return host_whole_ ? Base::element_energy() : ElementEnergy{energies().stored, energies().dissipated};
@@ -63,7 +72,9 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   double half_step_excess(double dt) override {
     return host_whole_ ? Base::half_step_excess(dt) : 0.25 * sums().excess;
   }
-  MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) override;
+  MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) override {
+    return host_whole_ ? Base::mean_motion(body, wheel) : mean_of(body, sums(wheel));
+  }
   double kinetic_energy(const SpinningBody& body, const BodyFrame& wheel, double dt) override {
     return host_whole_ ? Base::kinetic_energy(body, wheel, dt) : sums(wheel).spinning_kinetic;
   }
@@ -97,9 +108,13 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void resolve(const BodyFrame& wheel, double dt) override;
   void send();
   void add_patch_groups();
-  void fetch_law_state();
-  const NodeSums& sums(const BodyFrame& wheel);
-  const NodeSums& sums();
+  void fetch_law_state() {
+    for (std::size_t b = 0; b < now_.state.size(); ++b)
+      if (now_.state[b].size() > 0) now_.state[b].download(this->law_state()->values(static_cast<int>(b)));
+  }
+  typename DeviceLooks<Real, U>::Motions motions();
+  const NodeSums& sums(const BodyFrame& wheel) { return looks_.nodes(marches_, motions(), wheel); }
+  const NodeSums& sums() { return looks_.nodes(marches_, motions()); }
   const ElementSums& energies();
   void advance_device_lag();
   void spoil();
@@ -131,21 +146,11 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   std::int64_t step_ = 0;                           ///< number of the step, from 1 on
 
   SentGroups<Real, U> sent_;           ///< the host's groups, and those that its tractions moved
-  std::array<LockedPages, 3> locked_;  ///< the host's copies of the fields
+  std::array<LockedPages, 2> locked_;  ///< the host's copies of displacement and velocity
 
-  StepLoads loads_;        ///< of the last step
-  double time_ = 0;        ///< at which it began, with contact [s]
-  bool measured_ = false;  ///< likewise
-  bool opening_ = false;   ///< its forces are at hand, and the sums are those of the motion before it
-
-  /// Sums over a motion, and the frame for which they are taken.
-  struct SumsAt {
-    BodyFrame wheel;
-    NodeSums of;
-  };
-  DeviceSums<Real, U> sums_;
-  std::optional<SumsAt> last_sums_;
-  std::optional<ElementSums> energies_;
+  StepLoads loads_;  ///< of the last step
+  double time_ = 0;  ///< at which it began, with contact [s]
+  DeviceLooks<Real, U> looks_;
   ShownGroups<Real, U> shown_;
 
   bool host_whole_ = true;     ///< the host's copies hold all values of the present

@@ -22,6 +22,12 @@ struct NodeSums {
   double rotation = 0, spin = 0;  ///< likewise, times radius [kg m2], [kg m2/s]
 };
 
+/// The mean motion of the spinning body.
+inline MeanMotion mean_of(const SpinningBody& body, const NodeSums& sums) {
+  return {(1 / body.mass()) * sums.displacement, (1 / body.mass()) * sums.velocity,
+          sums.rotation / body.inertia(), sums.spin / body.inertia()};
+}
+
 /// Sums over all elements. [ElementSum]
 struct ElementSums {
   double stored = 0, dissipated = 0, branch = 0;  ///< [J]

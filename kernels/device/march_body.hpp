@@ -357,9 +357,9 @@ class March {
   TREAD_INLINE void finish_node(const TileAt& at, int section, int lane, int host, const Real (&force)[3],
                                 NodeBefore<Real, U>& before) const {
     const std::int64_t place = at.near_place(section, lane);
-    if (host >= 0 && fields_.moved_u != nullptr) {
+    if (host >= 0) {
       for (int i = 0; i < 3; ++i) fields_.host_force[(std::int64_t{host} * 3 + i) * kLanes + lane] = force[i];
-    } else if (host == kKeeps || fields_.moved_u == nullptr) {
+    } else if (host == kKeeps) {
       for (int i = 0; i < 3; ++i) fields_.force[place + i * kLanes] = force[i];
     } else {
       Real weight[2] = {};

@@ -95,7 +95,7 @@ struct MarchFields {
   const Real* v = nullptr;             ///< velocity [m/s]
   const Real* added = nullptr;         ///< velocity or lag, times MarchBlock::damping; null: no damping
   const Real* inverse_mass = nullptr;  ///< by slot [1/kg]
-  U* moved_u = nullptr;                ///< after the step; null: nothing moves, all forces go to `force`
+  U* moved_u = nullptr;                ///< after the step
   Real* moved_v = nullptr;
   Real* force = nullptr;  ///< [N]
   /// By group of kLanes slots: where the host's groups have their forces in `host_force`; or kMoves, kKeeps,
