@@ -3,7 +3,7 @@
 // and device. [theory.md, Body frames]
 
 #include "core/body_frame.hpp"
-#include "kernels/update/body_motion.hpp"
+#include "kernels/update/mean_motion.hpp"
 #include "kernels/update/turn.hpp"
 
 namespace tread {

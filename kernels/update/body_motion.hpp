@@ -1,21 +1,14 @@
 #pragma once
-// Mean motion of a spinning body and the re-anchoring of its frame. [theory.md, Body frames]
+// Sums over a spinning body and the re-anchoring of its frame. [theory.md, Body frames]
 
 #include <vector>
 
 #include "core/body_frame.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/update/mean_motion.hpp"
 
 namespace tread {
-
-/// Mass-weighted mean motion of a body relative to its frame, Cartesian.
-struct MeanMotion {
-  Vec3 displacement;    ///< displacement of the mass centre [m]
-  Vec3 velocity;        ///< velocity relative to the frame [m/s]
-  double rotation = 0;  ///< rotation about +y [rad]
-  double spin = 0;      ///< spin about +y, relative to the frame's [rad/s]
-};
 
 class SpinningBody {
  public:
