@@ -266,7 +266,10 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
       1e-6 * static_cast<double>(elements) / spots.back().seconds, measured.repetitions,
       100 * measured.spread);
   fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
-  fmt::print("Phases run one after the other: nothing overlaps.\n");
+  fmt::print("{}\n",
+             on_device.any()
+                 ? "Work on a device overlaps: a phase holds what the processor does, and waits for, in it."
+                 : "Phases run one after the other: nothing overlaps.");
   if (on_device.any()) fmt::print("{}", on_device.text());
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());
 }

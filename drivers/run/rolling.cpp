@@ -12,6 +12,7 @@
 #include "drivers/run/fork.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -144,7 +145,8 @@ void Rolling::look() {
 
 void Rolling::notice_busy_cores() {
   const double passed = session_->progress.seconds() - started_;
-  if (noticed_busy_cores_ || passed < kNoticeAfter || !followers_.absent()) return;
+  const bool waits = !followers_.absent() || chosen_device() != nullptr;  // for other ranks, for a device
+  if (noticed_busy_cores_ || passed < kNoticeAfter || waits) return;
   const double share = (processor_seconds() - started_processor_) / (passed * threads());
   if (share >= kBusyShare) return;
   noticed_busy_cores_ = true;
