@@ -21,6 +21,12 @@ struct BodyFrame {
     origin += dt * velocity;
     angle += dt * spin;
   }
+  /// The frame at another time, `dt` later [s].
+  BodyFrame after(double dt) const {
+    BodyFrame frame = *this;
+    frame.advance(dt);
+    return frame;
+  }
 };
 
 /// Vector a turned by `angle` about +y, in components (t, y, r).

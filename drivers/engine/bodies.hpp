@@ -15,8 +15,6 @@ class Bodies final : public Feature {
   /// Keeps a reference.
   explicit Bodies(const Model& model);
 
-  /// Restrained unknowns that would move.
-
   const char* name() const override { return "bodies"; }
   std::vector<PhaseInfo> phases() const override;
   std::vector<FieldBytes> fields() const override;

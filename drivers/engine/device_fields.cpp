@@ -202,7 +202,7 @@ void DeviceFields<Real, U>::begin_next() {
     return ReachedTiles{block, tiles_of(this->mesh().blocks[index(block)], part)};
   };
   StepLoads next = loads_;
-  next.frame.advance(loads_.dt);
+  next.frame = loads_.frame.after(loads_.dt);
   marches_.begin_ahead(
       next,
       {reached(contact_->options().rail_block, parts[0]), reached(contact_->options().wheel_block, parts[1])},
@@ -311,7 +311,7 @@ void DeviceFields<Real, U>::search(const BodyFrame& wheel, double time, double d
 
 /// Samples read the points of the patch.
 template <class Real, class U>
-void DeviceFields<Real, U>::resolve(const BodyFrame& /*wheel*/, double /*dt*/) {
+void DeviceFields<Real, U>::resolve() {
   if (marches_.has_begun()) {
     send();
     marches_.go_on_ahead([&](int block) { return march_fields(block); });

@@ -105,7 +105,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void fetch_nodes();
   bool has_contact() const;
   void search(const BodyFrame& wheel, double time, double dt) override;
-  void resolve(const BodyFrame& wheel, double dt) override;
+  void resolve() override;
   void send();
   void add_patch_groups();
   void fetch_law_state() {

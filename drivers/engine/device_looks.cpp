@@ -30,9 +30,7 @@ const NodeSums& DeviceLooks<Real, U>::nodes(MarchFan<Real, U>& marches, const Mo
 template <class Real, class U>
 const NodeSums& DeviceLooks<Real, U>::nodes(MarchFan<Real, U>& marches, const Motions& of) {
   if (nodes_) return nodes_->sums;
-  BodyFrame wheel = loads_.frame;
-  if (!opening_) wheel.advance(loads_.dt);
-  return nodes(marches, of, wheel);
+  return nodes(marches, of, opening_ ? loads_.frame : loads_.frame.after(loads_.dt));
 }
 
 template class DeviceLooks<double, double>;

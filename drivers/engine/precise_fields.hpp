@@ -141,9 +141,7 @@ class PreciseFields : public NodeFields {
     return body.mean_motion(displacement_, velocity_, wheel);
   }
   double kinetic_energy(const SpinningBody& body, const BodyFrame& wheel, double dt) override {
-    BodyFrame half_frame = wheel;
-    half_frame.advance(-0.5 * dt);
-    return body.kinetic_energy(displacement_, velocity_, half_frame);
+    return body.kinetic_energy(displacement_, velocity_, wheel.after(-0.5 * dt));
   }
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override {
     this->fetch();

@@ -129,7 +129,7 @@ void Contact::require_room(const BodyFrame& wheel) const {
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(dt));
   if (steps_ != nullptr) {
-    steps_->resolve(wheel, dt);
+    steps_->resolve();
     return;
   }
   solver_.solve(points_, springs_, friction_, wheel, motion, dt);

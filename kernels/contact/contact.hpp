@@ -47,7 +47,7 @@ class ContactSteps {
  public:
   /// Contact::search() and resolve(), of the fields that live there. The contact's search is aimed.
   virtual void search(const BodyFrame& wheel, double time, double dt) = 0;
-  virtual void resolve(const BodyFrame& wheel, double dt) = 0;
+  virtual void resolve() = 0;
 
  protected:
   ContactSteps() = default;

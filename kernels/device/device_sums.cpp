@@ -66,8 +66,6 @@ void DeviceSums<Real, U>::add(const BlockElements<Real>& elements) {
 template <class Real, class U>
 NodeSums DeviceSums<Real, U>::nodes(MarchFan<Real, U>& marches, const Instant& at, const Real* inverse_mass,
                                     const NodeMotions<Real, U>& motion, const NodeMotions<Real, U>& before) {
-  BodyFrame half_frame = at.frame;
-  half_frame.advance(-0.5 * at.loads.dt);
   std::int64_t split = 0;
   std::int64_t end = 0;
   for (const Sweep sweep : {Sweep::extruded, Sweep::revolved}) {
@@ -86,7 +84,7 @@ NodeSums DeviceSums<Real, U>::nodes(MarchFan<Real, U>& marches, const Instant& a
       task.motion = motion;
       task.before = before;
       task.frame = at.frame;
-      task.half_frame = half_frame;
+      task.half_frame = at.frame.after(-0.5 * at.loads.dt);
       task.to = {parts_.data(), static_cast<std::int64_t>(parts_.size()) / node_sums};
       task.first_part = end;
       kernels_->sum_nodes(task);

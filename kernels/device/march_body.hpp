@@ -100,9 +100,8 @@ class March {
     TileAt at{block_.tile[tile], tile, 0, 0, -1, -1};
     at.group = block_.first_group + std::int64_t{tile} * block_.section_nodes;
     at.next_group = block_.first_group + std::int64_t{at.tile.next} * block_.section_nodes;
-    if (block_.row == nullptr) return at;
-    at.row = block_.row[tile];
-    if (at.tile.next >= 0) at.next_row = block_.row[at.tile.next];
+    at.row = block_.row_of(tile);
+    at.next_row = block_.row_of(at.tile.next);
     return at;
   }
 
@@ -201,8 +200,8 @@ class March {
   }
 
   TREAD_INLINE void shift(int row, int section, int lane, Real (&value)[3]) const {
-    const int entry = row < 0 ? 0 : block_.shifted[std::int64_t{row} * block_.section_nodes + section];
-    for (int i = 0; i < 3; ++i) value[i] = block_.shifts[entry > 0 ? entry : 0].shift[i][lane];
+    const LaneShifts<Real>& shift = block_.shift(row, section);
+    for (int i = 0; i < 3; ++i) value[i] = shift.shift[i][lane];
   }
 
   /// Modal amplitudes of the components, from the first one on, of the values at a quad's nodes.
@@ -250,7 +249,7 @@ class March {
   TREAD_INLINE void add_element(const TileAt& at, const MarchQuad quad, int lane, bool own) const {
     const std::int64_t place = std::int64_t{at.tile.pitch_class} * block_.quads + quad.place;
     const SweptConstants<Real>& constants = block_.constants[place];
-    if (at.row >= 0 && block_.perturbed[std::int64_t{at.row} * block_.quads + quad.place] != 0) {
+    if (block_.perturbs(at.row, quad.place)) {
       Real of_modes[3][kModes];
       shifts(at, quad, lane, of_modes);
       add_element(at, quad, place, lane, own, PerturbedElement<Real, Real>(constants, of_modes));
@@ -272,7 +271,7 @@ class March {
     } else {
       const auto& law = static_cast<const ElementLaw<Law<Real>, Real>*>(block_.laws)[place];
       const std::int64_t of_state = (std::int64_t{at.number} * block_.quads + quad.place) * kValues;
-      auto state = load_state<State, kValues>(fields_.state + of_state * kLanes + lane);
+      auto state = load_state<State, kValues, Real>(fields_.state + of_state * kLanes + lane);
       Strain<Real> rate;
       if (fields_.added != nullptr)
         amplitudes<first>(quad, lane, rates_,

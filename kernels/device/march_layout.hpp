@@ -78,6 +78,17 @@ struct MarchBlock {
   double gravity = 0;      ///< downwards, where the block spins [m/s2]
   double frame_angle = 0;  ///< of the frame of a spinning block [rad]
 
+  /// Row of a tile in the tables of moved nodes; -1: none near, or no tile.
+  constexpr int row_of(int number) const { return row == nullptr || number < 0 ? -1 : row[number]; }
+  /// True where the elements of a quad, by its place, touch moved nodes of a row.
+  constexpr bool perturbs(int of_row, std::int64_t place) const {
+    return of_row >= 0 && perturbed[std::int64_t{of_row} * quads + place] != 0;
+  }
+  /// Shifts of a section node in a row.
+  constexpr const LaneShifts<Real>& shift(int of_row, int section_node) const {
+    const int entry = of_row < 0 ? 0 : shifted[std::int64_t{of_row} * section_nodes + section_node];
+    return shifts[entry > 0 ? entry : 0];
+  }
   constexpr int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
   constexpr int teams() const { return parts * marched.count; }
 };

@@ -138,12 +138,12 @@ TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchField
   }
 }
 
-/// State of a law in a lane: its values, kLanes apart.
-template <class State, int kValues, class Real>
+/// State of a law in a lane, of values V: its values, kLanes apart.
+template <class State, int kValues, class V, class Real>
 TREAD_INLINE State load_state(const Real* from) {
   State state{};
   if constexpr (kValues > 0) {
-    Real values[kValues];
+    V values[kValues];
     for (int i = 0; i < kValues; ++i) values[i] = from[i * kLanes];
     std::memcpy(&state, values, sizeof values);
   }

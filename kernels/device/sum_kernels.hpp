@@ -2,8 +2,6 @@
 // Kernels that sum over nodes and elements, as functions of a thread's number, for every kind of device.
 // [kernels/device/sum_layout.hpp]
 
-#include <cstring>
-
 #include "kernels/device/march_node.hpp"
 #include "kernels/device/sum_layout.hpp"
 #include "kernels/element/element_body.hpp"
@@ -200,16 +198,12 @@ struct SumElements {
                               double (&sum)[element_sums]) const {
     const std::int64_t place = std::int64_t{tile.pitch_class} * task.block.quads + quad;
     const SweptConstants<Real>& constants = task.block.constants[place];
-    const int row = task.block.row == nullptr ? -1 : task.block.row[number];
-    if (row >= 0 && task.block.perturbed[std::int64_t{row} * task.block.quads + quad] != 0) {
+    if (task.block.perturbs(task.block.row_of(number), quad)) {
       U shifts[3][kModes];
       amplitudes(
           tile, number, quad, lane,
           [&](int node, int of_tile, int of_lane, int c) {
-            const int of_row = task.block.row[of_tile];
-            const int entry =
-                of_row < 0 ? 0 : task.block.shifted[std::int64_t{of_row} * task.block.section_nodes + node];
-            return static_cast<U>(task.block.shifts[entry > 0 ? entry : 0].shift[c][of_lane]);
+            return static_cast<U>(task.block.shift(task.block.row_of(of_tile), node).shift[c][of_lane]);
           },
           shifts);
       add(tile, number, quad, lane, place, PerturbedElement<U, Real>(constants, shifts), sum);
@@ -270,40 +264,23 @@ struct SumElements {
     return 0.5 * work;
   }
 
-  /// What the law stores and has dissipated, and what the hourglass stiffness stores.
+  /// Adds the energies of the law, and of the hourglass stiffness.
   template <class Element>
   TREAD_BODY void add_law_energy(const SweptConstants<Real>& constants, int tile, int quad, int lane,
                                  std::int64_t place, const Element& element, const Strain<U>& strain,
                                  double (&sum)[element_sums]) const {
-    U e[6];
-    point_strain<finite_rotation, U>(strain.g, e);
     if constexpr (kLinear) {
-      sum[sum_stored] +=
-          element.energy_in_volume(Law<Real>{constants.lambda, constants.mu}.energy(e, State{}));
+      sum[sum_stored] += linear_energy<finite_rotation>(constants, element, strain);
     } else {
-      const auto& law = static_cast<const ElementLaw<Law<Real>, Real>*>(task.block.laws)[place];
-      State state = state_at(tile, quad, lane);
-      U s[6];
-      law.law.stress(e, state, s);
-      sum[sum_stored] += element.energy_in_volume(law.volume * law.law.energy(e, state));
-      sum[sum_dissipated] += element.energy_in_volume(law.volume * law.law.dissipated(state));
-    }
-    Strain<U> force;
-    hourglass_forces(constants.hourglass, strain, force);
-    for (int i = 0; i < 3; ++i)
-      for (int m = 0; m < kHourglassModes; ++m) sum[sum_stored] += 0.5 * (strain.q[i][m] * force.q[i][m]);
-  }
-
-  TREAD_BODY State state_at(int tile, int quad, int lane) const {
-    State state{};
-    if constexpr (kValues > 0) {
-      const Real* const from =
+      const Real* const state =
           task.state + (std::int64_t{tile} * task.block.quads + quad) * kValues * kLanes + lane;
-      U values[kValues];
-      for (int i = 0; i < kValues; ++i) values[i] = from[i * kLanes];
-      std::memcpy(&state, values, sizeof values);
+      const LawEnergy<U> energy =
+          law_energy<finite_rotation>(static_cast<const ElementLaw<Law<Real>, Real>*>(task.block.laws)[place],
+                                      element, strain, load_state<State, kValues, U>(state));
+      sum[sum_stored] += energy.stored;
+      sum[sum_dissipated] += energy.dissipated;
     }
-    return state;
+    hourglass_works(constants.hourglass, strain, [&](U work) { sum[sum_stored] += 0.5 * work; });
   }
 };
 

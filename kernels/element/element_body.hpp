@@ -257,6 +257,23 @@ TREAD_INLINE void hourglass_forces(const HourglassConstants<Real>& c, const Stra
   f.q[2][2] = d[4] * z3 + u[3] * x1 + u[6] * y2 + u[8] * z2 + u[9] * y3;
 }
 
+/// Calls take(work) with twice the energies of the hourglass stiffness, by amplitude.
+template <class V, class Real, class Take>
+TREAD_INLINE void hourglass_works(const HourglassConstants<Real>& c, const Strain<V>& e, const Take& take) {
+  Strain<V> force;
+  hourglass_forces(c, e, force);
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < kHourglassModes; ++m) take(e.q[i][m] * force.q[i][m]);
+}
+
+/// Energy of the linear law's one-point stress.
+template <bool finite_rotation, class Element, class V, class Real>
+TREAD_INLINE V linear_energy(const SweptConstants<Real>& c, const Element& element, const Strain<V>& e) {
+  V strain[6];
+  point_strain<finite_rotation, Real>(e.g, strain);
+  return element.energy_in_volume(LinearElastic<Real>{c.lambda, c.mu}.energy(strain, {}));
+}
+
 /// stress_forces and hourglass_forces where component 2 alone moves and linearly: rows 0 and 1 are neither
 /// read nor written.
 template <class V, class Real>

@@ -54,4 +54,22 @@ TREAD_INLINE void law_forces(const SweptConstants<Real>& c, const ElementLaw<Law
   element.template scale_by_volume<0>(f);
 }
 
+/// Energies by a law.
+template <class V>
+struct LawEnergy {
+  V stored, dissipated;
+};
+
+/// What an element stores and has dissipated in the state that the strain leads to from `state`.
+template <bool finite_rotation, class Law, class Element, class V, class Real>
+TREAD_INLINE LawEnergy<V> law_energy(const ElementLaw<Law, Real>& at, const Element& element,
+                                     const Strain<V>& e, typename Law::template State<V> state) {
+  V strain[6];
+  V stress[6];
+  point_strain<finite_rotation, Real>(e.g, strain);
+  at.law.stress(strain, state, stress);
+  return {element.energy_in_volume(at.volume * at.law.energy(strain, state)),
+          element.energy_in_volume(at.volume * at.law.dissipated(state))};
+}
+
 }  // namespace tread

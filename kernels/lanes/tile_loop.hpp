@@ -160,31 +160,21 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
   template <class Element>
   TREAD_INLINE void add_energy(const Strain<Register>& deformation, int index, int lane,
                                const Element& element, Sums& strain, Sums& dissipated) const {
-    Register e[6];
-    point_strain<finite_rotation, Real>(deformation.g, e);
-    const auto in_element = [&](const Register& energy) {
-      return __builtin_convertvector(element.energy_in_volume(energy), Sums);
-    };
     if constexpr (kLinear) {
-      const SweptConstants<Real>& c = elements_.swept[index];
-      strain += in_element(LinearElastic<Real>{c.lambda, c.mu}.energy(e, {}));
+      strain += __builtin_convertvector(
+          linear_energy<finite_rotation>(elements_.swept[index], element, deformation), Sums);
     } else {
-      const auto& at = law(index);
-      State state = load_state(index, lane);
-      Register s[6];
-      at.law.stress(e, state, s);
-      strain += in_element(at.volume * at.law.energy(e, state));
-      dissipated += in_element(at.volume * at.law.dissipated(state));
+      const LawEnergy<Register> energy =
+          law_energy<finite_rotation>(law(index), element, deformation, load_state(index, lane));
+      strain += __builtin_convertvector(energy.stored, Sums);
+      dissipated += __builtin_convertvector(energy.dissipated, Sums);
     }
   }
 
   TREAD_INLINE void add_hourglass_energy(const Strain<Register>& deformation,
                                          const SweptConstants<Real>& constants, Sums& hourglass) const {
-    Strain<Register> force;
-    hourglass_forces(constants.hourglass, deformation, force);
-    for (int i = 0; i < 3; ++i)
-      for (int m = 0; m < kHourglassModes; ++m)
-        hourglass += 0.5 * __builtin_convertvector(deformation.q[i][m] * force.q[i][m], Sums);
+    hourglass_works(constants.hourglass, deformation,
+                    [&](const Register& work) { hourglass += 0.5 * __builtin_convertvector(work, Sums); });
   }
 
   using State = typename Law<Real>::template State<Register>;

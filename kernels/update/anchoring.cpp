@@ -10,10 +10,8 @@ Anchoring::Anchoring(MeanMotion mean, const BodyFrame& frame, double dt)
   moved_.angle += mean.rotation;
   moved_.spin += mean.spin;
 
-  BodyFrame before_half = frame;
-  before_half.advance(-0.5 * dt);
-  BodyFrame after_half = moved_;
-  after_half.advance(-0.5 * dt);
+  const BodyFrame before_half = frame.after(-0.5 * dt);
+  const BodyFrame after_half = moved_.after(-0.5 * dt);
   half_angle_ = before_half.angle;
   displacement_ = mean.displacement;
   step_half_ = after_half.origin - before_half.origin;

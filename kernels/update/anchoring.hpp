@@ -17,7 +17,7 @@ class Anchoring {
 
   const BodyFrame& moved() const { return moved_; }
 
-  /// What nodes of a station share.
+  /// Shares of the nodes of a station.
   struct Station {
     Vec3 shift, shift_half, faster;
   };

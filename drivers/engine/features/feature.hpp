@@ -26,11 +26,7 @@ struct Motion {
   WholeFields& whole;           ///< the same motion, for sums over it
 
   /// The wheel's frame at the time of the velocities.
-  BodyFrame half_step_frame() const {
-    BodyFrame frame = wheel;
-    frame.advance(-0.5 * dt);
-    return frame;
-  }
+  BodyFrame half_step_frame() const { return wheel.after(-0.5 * dt); }
 };
 
 /// Impulses of external forces on the vehicle since the start.

@@ -48,7 +48,7 @@ class WheelMotion final : public Feature {
     double radius;  ///< [m]
   };
   void choose_creepage_points(double patch_y);
-  /// What has to follow the frame does so; tied nodes may do it by themselves.
+  /// Lets bore and tied nodes follow the frame, unless the latter do so where they live.
   void anchored(NodeField displacement, NodeField velocity, bool ties_follow) const;
   /// `mean`: relative_to_frame().
   double creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const;

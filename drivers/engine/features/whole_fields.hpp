@@ -1,9 +1,6 @@
 #pragma once
 // Access to all nodes, for phases that need more than the nodes on which their features act.
 
-#include <cstdint>
-#include <vector>
-
 #include "drivers/engine/features/watched_nodes.hpp"
 #include "kernels/update/body_motion.hpp"
 
