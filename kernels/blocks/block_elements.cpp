@@ -65,6 +65,14 @@ void add_law(int law, const Material& material, double volume, AlignedVector<std
   });
 }
 
+/// A corner of the smallest quad.
+int finest_node(const Section& section) {
+  int finest = 0;
+  for (int quad = 1; quad < static_cast<int>(section.quads.size()); ++quad)
+    if (quad_area(section, quad) < quad_area(section, finest)) finest = quad;
+  return section.quads[index(finest)].front();
+}
+
 }  // namespace
 
 template <class Real>
@@ -79,6 +87,7 @@ template <class Real>
 void BlockElements<Real>::build_swept() {
   const SweptBlock& swept = block();
   plan_ = make_front_plan(swept.section);
+  origin_node_ = finest_node(swept.section);
   place_.resize(swept.section.quads.size());
   for (std::size_t place = 0; place < plan_.quads.size(); ++place)
     place_[index(plan_.quads[place].quad)] = static_cast<int>(place);
@@ -219,6 +228,7 @@ TileElements<Real> BlockElements<Real>::tile_elements(int tile, int tiles, doubl
   made_of.quads = plan_.quads.data();
   made_of.open = plan_.open.data();
   made_of.close = plan_.close.data();
+  made_of.origin_node = origin_node_;
   made_of.quad_count = static_cast<int>(plan_.quads.size());
   made_of.slots = plan_.slots;
   made_of.swept = elements.constants.data();

@@ -63,6 +63,9 @@ class BlockElements {
   }
   const std::vector<Class>& classes() const { return classes_; }
   MovedNodes moved_nodes() const { return {row_, perturbed_, shifted_, shifts_}; }
+  /// Section node whose displacement mixed precision takes out of all others, as a translation: a corner of
+  /// the smallest quad. Rounding is least near it, and matters most in small elements.
+  int origin_node() const { return origin_node_; }
   /// Number of the law in Laws.
   int law() const { return law_; }
   /// Tile whose last element ends in this tile, or -1.
@@ -110,6 +113,7 @@ class BlockElements {
   int block_;
   int law_;
   FrontPlan plan_;
+  int origin_node_ = 0;
   std::vector<int> place_;  ///< of each quad in the plan's order
   std::vector<Class> classes_;
   std::vector<int> previous_;

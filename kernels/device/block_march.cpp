@@ -27,6 +27,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
   block_.colours = cut.colours;
   block_.quads = static_cast<int>(swept_->section.quads.size());
   block_.section_nodes = swept_->section.nodes();
+  block_.origin_node = elements.origin_node();
   block_.parts = static_cast<int>(cut.parts.size());
   block_.run_tiles = std::max(1, sizes.run_tiles);
   block_.part = keep(device, cut.parts);
@@ -56,18 +57,15 @@ void BlockMarch<Real>::build_tiles(Device& device) {
 
 template <class Real>
 void BlockMarch<Real>::build_coefficients(Device& device, const BlockElements<Real>& elements) {
-  std::vector<Real> cosine;
-  std::vector<Real> sine;
+  std::vector<HalfPitch> half_pitch;
   AlignedVector<SweptConstants<Real>> constants;
   AlignedVector<std::byte> laws;
   for (const auto& of_class : elements.classes()) {
-    cosine.push_back(static_cast<Real>(of_class.cosine));
-    sine.push_back(static_cast<Real>(of_class.sine));
+    half_pitch.push_back({of_class.cosine, of_class.sine});
     constants.insert(constants.end(), of_class.constants.begin(), of_class.constants.end());
     laws.insert(laws.end(), of_class.laws.begin(), of_class.laws.end());
   }
-  block_.cosine = keep(device, cosine);
-  block_.sine = keep(device, sine);
+  block_.half_pitch = keep(device, half_pitch);
   block_.constants = keep(device, constants);
   block_.laws = keep(device, laws);
   const auto moved = elements.moved_nodes();

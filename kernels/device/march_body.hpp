@@ -144,8 +144,10 @@ class March {
       s[i] = near[i] + far[i];
       d[i] = far[i] - near[i];
     }
-    if constexpr (sweep == Sweep::revolved)
-      turn_to_middle(block_.cosine[at.tile.pitch_class], block_.sine[at.tile.pitch_class], s, d);
+    if constexpr (sweep == Sweep::revolved) {
+      const HalfPitch& half = block_.half_pitch[at.tile.pitch_class];
+      turn_to_middle(static_cast<Real>(half.cosine), static_cast<Real>(half.sine), s, d);
+    }
   }
   TREAD_INLINE void keep(const TileAt& at, const Real (&near)[3], const Real (&far)[3],
                          NodeValues<Real> to) const {
@@ -160,20 +162,16 @@ class March {
 
   TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds<Real, U>& ends) const {
     if (lane < at.tile.elements)
-      ends.template load<first>(fields_, at, section_node_[node], section_node_[0], lane);
+      ends.template load<first>(fields_, at, section_node_[node], block_.origin_node, lane);
   }
 
   TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds<Real, U>& ends) const {
     if (lane >= at.tile.elements) return;
     Real near[3];
     Real far[3];
-    U cosine = 1;
-    U sine = 0;
-    if constexpr (sweep == Sweep::revolved) {
-      cosine = block_.cosine[at.tile.pitch_class];
-      sine = block_.sine[at.tile.pitch_class];
-    }
-    ends.template displacements<sweep, first>(cosine, sine, near, far);
+    HalfPitch pitch{};
+    if constexpr (sweep == Sweep::revolved) pitch = block_.half_pitch[at.tile.pitch_class];
+    ends.template displacements<sweep, first>(pitch, near, far);
     if (fields_.added != nullptr) {
       Real near_rate[3];
       Real far_rate[3];
@@ -317,8 +315,10 @@ class March {
       s[i] = sums[i];
       d[i] = sums[3 + i];
     }
-    if constexpr (sweep == Sweep::revolved)
-      turn_to_nodes(block_.cosine[at.tile.pitch_class], block_.sine[at.tile.pitch_class], s, d);
+    if constexpr (sweep == Sweep::revolved) {
+      const HalfPitch& half = block_.half_pitch[at.tile.pitch_class];
+      turn_to_nodes(static_cast<Real>(half.cosine), static_cast<Real>(half.sine), s, d);
+    }
   }
 
   TREAD_INLINE void forces_on_far(const TileAt& at, int node, int lane, Real (&force)[3]) const {

@@ -39,6 +39,11 @@ struct MarchRuns {
   int first = 0, count = 0;
 };
 
+/// Cosine and sine of half a pitch.
+struct HalfPitch {
+  double cosine, sine;
+};
+
 /// A block; arrays by tile and by station have one entry for each, those by class one for each pitch class.
 template <class Real>
 struct MarchBlock {
@@ -46,6 +51,7 @@ struct MarchBlock {
   int closed = 0;         ///< nonzero for a full turn
   int quads = 0;          ///< of the section
   int section_nodes = 0;  ///< of the section
+  int origin_node = 0;    ///< BlockElements::origin_node
   int colours = 0;        ///< quads of one colour share no node
   int parts = 0;
   int run_tiles = 0;       ///< tiles of a run; the last one has the rest
@@ -59,12 +65,11 @@ struct MarchBlock {
   const MarchQuad* part_quads = nullptr;
   const int* first_of_colour = nullptr;  ///< [part][colour] and one more colour: among the part's quads
 
-  std::int64_t first_group = 0;  ///< of kLanes slots, among all
-  const Tile* tile = nullptr;    ///< SweptBlock::tiles
-  const Real* cosine = nullptr;  ///< by class: of half the pitch (revolved)
-  const Real* sine = nullptr;
-  const Real* radius = nullptr;   ///< by section node (revolved) [m]
-  const double* angle = nullptr;  ///< by station (revolved) [rad]
+  std::int64_t first_group = 0;           ///< of kLanes slots, among all
+  const Tile* tile = nullptr;             ///< SweptBlock::tiles
+  const HalfPitch* half_pitch = nullptr;  ///< by class (revolved)
+  const Real* radius = nullptr;           ///< by section node (revolved) [m]
+  const double* angle = nullptr;          ///< by station (revolved) [rad]
 
   const SweptConstants<Real>* constants = nullptr;  ///< [class][place]
   const void* laws = nullptr;                       ///< ElementLaw likewise, of a law that is not linear

@@ -57,17 +57,18 @@ class NodeValues {
 template <class Real, class U>
 struct NodeEnds {
   /// Where displacements are more precise than the elements, they are taken relative to a translation, that
-  /// of the part's first node, so that what all nodes share is not rounded.
+  /// of MarchBlock::origin_node, so that what all nodes share is not rounded. It is the same in all parts of
+  /// a section: what two of them add for an element is equal and opposite.
   static constexpr bool kRelative = !std::is_same_v<Real, U>;
 
   U near[3], far[3];                 ///< displacements
-  U origin[3];                       ///< of the part's first node, at the near end
+  U origin[3];                       ///< of the translation's node, at the near end
   Real near_added[3], far_added[3];  ///< MarchFields::added
 
-  /// `section_node`, `first_node`: its own, and that of the part's first node.
+  /// `section_node`, `origin_node`: its own, and that of the translation.
   template <int first>
   TREAD_INLINE void load(const MarchFields<Real, U>& fields, const TileAt& at, int section_node,
-                         int first_node, int lane) {
+                         int origin_node, int lane) {
     const std::int64_t near_at = at.near_place(section_node, lane);
     const std::int64_t far_at = at.far_place(section_node, lane);
     const bool adds = fields.added != nullptr;
@@ -78,18 +79,18 @@ struct NodeEnds {
       far_added[i] = adds ? fields.added[far_at + i * kLanes] : Real{};
     }
     if constexpr (kRelative)
-      for (int i = 0; i < 3; ++i) origin[i] = fields.u[at.near_place(first_node, lane) + i * kLanes];
+      for (int i = 0; i < 3; ++i) origin[i] = fields.u[at.near_place(origin_node, lane) + i * kLanes];
   }
 
-  /// Displacements for the elements. `c`, `s`: cosine and sine of half the pitch (revolved).
+  /// Displacements for the elements, of this pitch (revolved).
   template <Sweep sweep, int first>
-  TREAD_INLINE void displacements(U c, U s, Real (&of_near)[3], Real (&of_far)[3]) const {
+  TREAD_INLINE void displacements(const HalfPitch& pitch, Real (&of_near)[3], Real (&of_far)[3]) const {
     U far_origin[3] = {};
     if constexpr (kRelative) {
       for (int i = 0; i < 3; ++i) far_origin[i] = origin[i];
       for (int half = 0; sweep == Sweep::revolved && half < 2; ++half) {
-        const U t = c * far_origin[0] - s * far_origin[2];
-        far_origin[2] = c * far_origin[2] + s * far_origin[0];
+        const U t = pitch.cosine * far_origin[0] - pitch.sine * far_origin[2];
+        far_origin[2] = pitch.cosine * far_origin[2] + pitch.sine * far_origin[0];
         far_origin[0] = t;
       }
     }

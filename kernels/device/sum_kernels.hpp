@@ -178,9 +178,10 @@ struct SumElements {
         sums[c] = near + far;
         differences[c] = far - near;
       }
-      if constexpr (sweep == Sweep::revolved)
-        turn_to_middle(task.block.cosine[tile.pitch_class], task.block.sine[tile.pitch_class], sums,
-                       differences);
+      if constexpr (sweep == Sweep::revolved) {
+        const HalfPitch& half = task.block.half_pitch[tile.pitch_class];
+        turn_to_middle(static_cast<V>(half.cosine), static_cast<V>(half.sine), sums, differences);
+      }
       for (int c = 0; c < 3; ++c) {
         s[c][j] = sums[c];
         d[c][j] = differences[c];

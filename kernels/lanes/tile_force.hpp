@@ -73,6 +73,7 @@ struct TileElements {
   const FrontPlan::Quad* quads = nullptr;
   const FrontPlan::Node* open = nullptr;
   const FrontPlan::Node* close = nullptr;
+  int origin_node = 0;  ///< BlockElements::origin_node
   int quad_count = 0;
   int slots = 0;  ///< of the front
   const SweptConstants<Real>* swept = nullptr;

@@ -42,7 +42,7 @@ class TileFront {
   TREAD_INLINE void place_origin() {
     U at[3];
     for (int i = 0; i < 3; ++i)
-      at[i] = view_.u[(static_cast<std::ptrdiff_t>(elements_.open->node) * 3 + i) * kLanes];
+      at[i] = view_.u[(static_cast<std::ptrdiff_t>(elements_.origin_node) * 3 + i) * kLanes];
     const U c = static_cast<U>(elements_.cosine);
     const U w = static_cast<U>(elements_.sine);
     for (int station = 0; station <= kAbreast; ++station) {

@@ -1,0 +1,50 @@
+// A march over a block on an emulated device.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <span>
+
+#include "kernels/blocks/internal_force.hpp"
+#include "kernels/device/block_march.hpp"
+#include "tests/swept_samples.hpp"
+
+namespace tread {
+namespace {
+
+/// Mixed precision rounds displacements relative to a translation, which is turned from station to station.
+TEST(March, ATranslationMakesNoForceInMixedPrecision) {
+  const auto device = emulated_device({.cut = {64, 2, 1}});
+  const auto copy = [&](const auto& values) {
+    return DeviceArray<std::decay_t<decltype(values[0])>>(*device, std::span(values.data(), values.size()));
+  };
+  for (const SweptBlock& block :
+       {samples::revolved_open(), samples::revolved_closed(), samples::extruded()}) {
+    Mesh mesh;
+    mesh.add(block);
+    const BasicInternalForce<float, double> internal(mesh);
+    BlockMarch<float> march(*device, internal.elements(0), 0);
+    const auto nodes = static_cast<std::size_t>(mesh.slots);
+    const auto u = copy(samples::sample(mesh, [](const Vec3&) { return Vec3{2e-3, 1e-3, -3e-3}; }));
+    auto v = copy(AlignedVector<float>(3 * nodes, 0));
+    const auto inverse_mass = copy(AlignedVector<float>(nodes, 1));
+    const auto mark = copy(AlignedVector<int>(nodes / kLanes, kMoves));
+    DeviceArray<double> moved_u(*device, 3 * nodes);
+    MarchFields<float, double> fields;
+    fields.u = u.data();
+    fields.moved_u = moved_u.data();
+    fields.v = fields.moved_v = v.data();
+    fields.inverse_mass = inverse_mass.data();
+    fields.group_mark = mark.data();
+    StepLoads loads;
+    loads.dt = 1;
+    device->kernels<float, double>().march({.sweep = block.sweep}, march.at(loads), fields);
+    device->wait();
+    AlignedVector<float> force(3 * nodes);
+    v.download(force.data());
+    for (const float component : force) EXPECT_LT(std::abs(component), 1e-6) << block.name;
+  }
+}
+
+}  // namespace
+}  // namespace tread
