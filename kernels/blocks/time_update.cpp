@@ -29,8 +29,8 @@ StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loa
     return step;
   }
   const double spin = loads.frame.spin;
-  step.turn_c = static_cast<Real>(std::cos(2 * spin * loads.dt));
   step.turn_s = static_cast<Real>(std::sin(2 * spin * loads.dt));
+  step.turn_t = static_cast<Real>(std::tan(spin * loads.dt));
   step.spin2 = static_cast<Real>(spin * spin);
   return step;
 }

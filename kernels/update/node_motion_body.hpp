@@ -16,7 +16,7 @@ template <class Real>
 struct StepConstants {
   Real dt = 0;                  ///< time step [s]
   Real gravity = 0;             ///< gravity downwards, for extruded blocks [m/s2]
-  Real turn_c = 1, turn_s = 0;  ///< cosine and sine of the turn of the relative velocity by the Coriolis term
+  Real turn_s = 0, turn_t = 0;  ///< sine, and tangent of half, of the Coriolis term's turn of the velocity
   Real spin2 = 0;               ///< square of the frame's spin [1/s2]
 };
 
@@ -76,8 +76,8 @@ TREAD_INLINE GravityInSweep gravity_in_sweep(Real gravity, Real angle) {
 }
 
 /// Computes the motion in a spinning frame: forces, gravity and centrifugal term act half before and half
-/// after the turn of the relative velocity by the Coriolis term, which does no work. `weight`: gravity along
-/// t and r [m/s2].
+/// after the turn of the relative velocity by the Coriolis term, which does no work: three shears, because a
+/// rounded cosine next to 1 would let every velocity grow. `weight`: gravity along t and r [m/s2].
 template <class V, class U, class Real>
 TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weight)[2], Real radius,
                                 const V& inverse_mass, const V (&f)[3], U (&u)[3], V (&w)[3]) {
@@ -90,10 +90,11 @@ TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weigh
   const V a_r = product(moves, weight[1] + product(step.spin2, radius + u_r)) - product(inverse_mass, f[2]);
   const V kick_t = product(half, a_t);
   const V kick_r = product(half, a_r);
-  const V w_t = w[0] + kick_t;
   const V w_r = w[2] + kick_r;
-  w[0] = product(step.turn_c, w_t) - product(step.turn_s, w_r) + kick_t;
-  w[2] = product(step.turn_s, w_t) + product(step.turn_c, w_r) + kick_r;
+  const V w_t = w[0] + kick_t - product(step.turn_t, w_r);
+  const V turned_r = w_r + product(step.turn_s, w_t);
+  w[0] = w_t - product(step.turn_t, turned_r) + kick_t;
+  w[2] = turned_r + kick_r;
   w[1] -= product(product(step.dt, inverse_mass), f[1]);
   for (int c = 0; c < 3; ++c) u[c] += converted<U>(product(step.dt, w[c]));
 }

@@ -13,6 +13,7 @@
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/blocks/time_update.hpp"
 #include "kernels/update/body_motion.hpp"
+#include "kernels/update/node_motion_body.hpp"
 #include "tests/measured.hpp"
 #include "tests/swept_samples.hpp"
 
@@ -178,6 +179,22 @@ TEST(Spinning, RigidRotationThroughATurnLeavesNoStress) {
   EXPECT_NEAR(ring.frame.spin / spin, 1, 1e-6);
   EXPECT_NEAR(ring.frame.angle, kTurn, 1e-6);
   EXPECT_LT(largest, 1.0);
+}
+
+/// A cosine rounded to 1 would make the velocity grow by 9e-3.
+TEST(Spinning, TurnOfTheVelocityKeepsItsSizeInSinglePrecision) {
+  StepLoads loads;
+  loads.dt = 3.4e-7;
+  loads.frame.spin = 194;
+  auto step = step_constants<float>(samples::revolved_open(), loads);
+  step.spin2 = 0;
+  const float nothing[3] = {};
+  double u[3] = {};
+  float v[3] = {0.1F, 0, 0.2F};
+  for (int i = 0; i < 1000000; ++i) move_spinning(step, {nothing[0], nothing[1]}, 0.4F, 1.0F, nothing, u, v);
+  const double growth = std::hypot(v[0], v[2]) / std::hypot(0.1, 0.2) - 1;
+  measured("growth of a velocity in a million turns", growth);
+  EXPECT_LT(std::abs(growth), 1e-4);
 }
 
 TEST(Spinning, FreeRingKeepsEnergyAndMomentum) {
