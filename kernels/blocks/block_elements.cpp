@@ -201,8 +201,7 @@ bool BlockElements<Real>::perturbed(int tile, int place) const {
 }
 
 /// Two tiles that the loop takes at once lie behind one another in memory and along the sweep, the first is
-/// full, and their elements have the same shape or both their own. Which ones does not depend on the
-/// threads: displacements are rounded relative to one of the first tile's.
+/// full, and their elements have the same shape or both their own.
 template <class Real>
 void BlockElements<Real>::join_tiles() {
   const SweptBlock& swept = block();

@@ -8,6 +8,7 @@
 
 #include "core/inline.hpp"
 #include "kernels/device/march_layout.hpp"
+#include "kernels/element/element_body.hpp"
 
 namespace tread {
 
@@ -88,11 +89,7 @@ struct NodeEnds {
     U far_origin[3] = {};
     if constexpr (kRelative) {
       for (int i = 0; i < 3; ++i) far_origin[i] = origin[i];
-      for (int half = 0; sweep == Sweep::revolved && half < 2; ++half) {
-        const U t = pitch.cosine * far_origin[0] - pitch.sine * far_origin[2];
-        far_origin[2] = pitch.cosine * far_origin[2] + pitch.sine * far_origin[0];
-        far_origin[0] = t;
-      }
+      if constexpr (sweep == Sweep::revolved) turn_to_far_end(pitch.cosine, pitch.sine, far_origin);
     }
     for (int i = first; i < 3; ++i) {
       of_near[i] = static_cast<Real>(near[i] - (kRelative ? origin[i] : U{}));

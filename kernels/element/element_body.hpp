@@ -318,6 +318,16 @@ TREAD_INLINE void turn_to_middle(Real c, Real w, V (&s)[3], V (&d)[3]) {
   d[2] = d_r;
 }
 
+/// Takes a vector from the basis at an element's near end into that at its far end.
+template <class V>
+TREAD_INLINE void turn_to_far_end(V c, V w, V (&v)[3]) {
+  for (int half = 0; half < 2; ++half) {
+    const V t = c * v[0] - w * v[2];
+    v[2] = c * v[2] + w * v[0];
+    v[0] = t;
+  }
+}
+
 /// Transpose of turn_to_middle.
 template <class V, class Real>
 TREAD_INLINE void turn_to_nodes(Real c, Real w, V (&s)[3], V (&d)[3]) {

@@ -37,24 +37,26 @@ class TileFront {
   /// Displacements are taken relative to a translation, so that what all nodes share is not rounded.
   static constexpr bool kRelative = !std::is_same_v<Real, U>;
 
-  /// The translation is the displacement of one node, in the bases of all stations of the elements; where
-  /// there is no station it is zero, as displacements are.
+  /// The translation is the displacement of one section node at each station. It rises along an element by
+  /// what its far end has more than the near end's, turned into the far end's basis.
   TREAD_INLINE void place_origin() {
-    U at[3];
-    for (int i = 0; i < 3; ++i)
-      at[i] = view_.u[(static_cast<std::ptrdiff_t>(elements_.origin_node) * 3 + i) * kLanes];
-    const U c = static_cast<U>(elements_.cosine);
-    const U w = static_cast<U>(elements_.sine);
-    for (int station = 0; station <= kAbreast; ++station) {
-      for (int i = 0; i < 3; ++i) origin_[i][station] = station < count_ ? at[i] : 0;
-      if (station == count_)
-        for (int i = 0; i < 3; ++i) far_origin_[i] = at[i];
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(elements_.origin_node) * 3 * kLanes;
+    for (int i = 0; i < 3; ++i) {
+      for (int station = 0; station < kAbreast; ++station)
+        origin_[i][station] =
+            station < count_ ? view_.u[station / kLanes * view_.stride + at + i * kLanes + station % kLanes]
+                             : 0;
+      far_origin_[i] = view_.u_next[at + i * kLanes];
+    }
+    for (int station = 0; station < kAbreast; ++station) {
+      U near[3];
+      for (int i = 0; i < 3; ++i) near[i] = origin_[i][station];
       if constexpr (sweep == Sweep::revolved)
-        for (int half = 0; half < 2; ++half) {
-          const U t = c * at[0] - w * at[2];
-          at[2] = c * at[2] + w * at[0];
-          at[0] = t;
-        }
+        turn_to_far_end(static_cast<U>(elements_.cosine), static_cast<U>(elements_.sine), near);
+      for (int i = 0; i < 3; ++i) {
+        const U far = station + 1 < count_ ? origin_[i][station + 1] : far_origin_[i];
+        rise_[i][station] = station < count_ ? static_cast<Real>(far - near[i]) : 0;
+      }
     }
   }
 
@@ -120,7 +122,10 @@ class TileFront {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node.node) * 3 * kLanes;
     spread<first>(
         slot, [&](int i, int part) { return displacement(at + i * kLanes, i, part); },
-        [&](int i) { return far_displacement(at + i * kLanes, i); });
+        [&](int i) { return far_displacement(at + i * kLanes, i); },
+        [&](int i, int part, Register& far) {
+          if constexpr (kRelative) far += load<Register>(rise_[i] + part * kWidth);
+        });
     if constexpr (rated) open_rate(slot, at);
     for (int rows = 6; rows < 12; rows += 3)
       for (int value = (rows + first) * kAbreast; value < (rows + 3) * kAbreast; value += kWidth)
@@ -135,7 +140,7 @@ class TileFront {
     spread<first>(
         slot + kRateRow * kAbreast,
         [&](int i, int part) { return beta * load_part(view_.v + at + i * kLanes, part); },
-        [&](int i) { return beta * view_.v_next[at + i * kLanes]; });
+        [&](int i) { return beta * view_.v_next[at + i * kLanes]; }, stays);
   }
 
   TREAD_INLINE void open_shift(const FrontPlan::Node& node) const {
@@ -152,14 +157,17 @@ class TileFront {
           else
             return abreast(load<Half>(tile[0]->shift[i]), load<Half>(tile[1]->shift[i]));
         },
-        [&](int i) { return far.shift[i][0]; });
+        [&](int i) { return far.shift[i][0]; }, stays);
   }
+
+  /// Does not rise.
+  TREAD_INLINE static void stays(int /*component*/, int /*part*/, const Register& /*values*/) {}
 
   /// Sums and differences of a node's values at both ends of the elements, in their middle frames:
   /// near_end(component, part) at the stations, far_end(component) behind the last element; of components
-  /// from `from` on.
-  template <int from, class Near, class Far>
-  TREAD_INLINE void spread(Real* to, const Near& near_end, const Far& far_end) const {
+  /// from `from` on. `rise(component, part, values)` changes those at the far ends.
+  template <int from, class Near, class Far, class Rise>
+  TREAD_INLINE void spread(Real* to, const Near& near_end, const Far& far_end, const Rise& rise) const {
     Register s[kParts][3];
     Register d[kParts][3];
     for (int i = from; i < 3; ++i) {
@@ -176,6 +184,7 @@ class TileFront {
           next[part] = with_lane(near[part], count_ - part * kWidth, end);
       for (int part = 0; part < kParts; ++part) {
         far[part] = shift_down(next[part], next[part + 1]);
+        rise(i, part, far[part]);
         s[part][i] = near[part] + far[part];
         d[part][i] = far[part] - near[part];
       }
@@ -272,8 +281,9 @@ class TileFront {
   const TileView<Real, U>& view_;
   Real* front_;
   int count_;  ///< elements abreast
-  alignas(64) U origin_[3][kRelative ? kAbreast + 1 : 1];
+  alignas(64) U origin_[3][kRelative ? kAbreast : 1];
   U far_origin_[3];
+  alignas(64) Real rise_[3][kRelative ? kAbreast : 1];  ///< of the translation along the elements
 };
 
 }  // namespace

@@ -189,7 +189,7 @@ const std::vector<std::string> kDriven = {"scene.element_size=8 mm", "motion.dur
 TEST(PrecisionOfRuns, ForcesAndWorkAreThoseOfDouble) {
   Rolled tyre(kDriven);
   const Rolled::Run expected = tyre.run("double");
-  for (const auto& [precision, bound] : {std::pair("mixed", 2e-4), std::pair("single", 1e-3)}) {
+  for (const auto& [precision, bound] : {std::pair("mixed", 1e-5), std::pair("single", 1e-3)}) {
     const Rolled::Run found = tyre.run(precision);
     const auto compare = [&, name = precision, most = bound](const char* what, double a, double b) {
       measured(std::string(name) + ": " + what + " / double - 1", a / b - 1);
