@@ -60,7 +60,7 @@ struct LawEnergy {
   V stored, dissipated;
 };
 
-/// What an element stores and has dissipated in the state that the strain leads to from `state`.
+/// Energies of an element in the state that the strain leads to from `state`.
 template <bool finite_rotation, class Law, class Element, class V, class Real>
 TREAD_INLINE LawEnergy<V> law_energy(const ElementLaw<Law, Real>& at, const Element& element,
                                      const Strain<V>& e, typename Law::template State<V> state) {

@@ -188,10 +188,11 @@ TEST(Spinning, TurnOfTheVelocityKeepsItsSizeInSinglePrecision) {
   loads.frame.spin = 194;
   auto step = step_constants<float>(samples::revolved_open(), loads);
   step.spin2 = 0;
-  const float nothing[3] = {};
+  const float weight[2] = {};
+  const float force[3] = {};
   double u[3] = {};
   float v[3] = {0.1F, 0, 0.2F};
-  for (int i = 0; i < 1000000; ++i) move_spinning(step, {nothing[0], nothing[1]}, 0.4F, 1.0F, nothing, u, v);
+  for (int i = 0; i < 1000000; ++i) move_spinning(step, weight, 0.4F, 1.0F, force, u, v);
   const double growth = std::hypot(v[0], v[2]) / std::hypot(0.1, 0.2) - 1;
   measured("growth of a velocity in a million turns", growth);
   EXPECT_LT(std::abs(growth), 1e-4);
