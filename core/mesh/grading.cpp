@@ -63,6 +63,10 @@ std::vector<double> graded(std::span<const double> breaks, const std::function<d
   return result;
 }
 
+int element_count(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
+
 std::vector<double> evenly(double first, double last, int count) {
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(count) + 1);

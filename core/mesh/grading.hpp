@@ -31,12 +31,18 @@ struct SectionSize {
   double layer_weight(double p, double left, double right) const;
 };
 
+/// Least ratio of coarse to surface size: several fine edges on a coarse one.
+constexpr double kCoarseRatio = 1.6;
+
 /// Throws InputError if a size is not positive, MeshSizeError if the layers do not fit into `depth` [m];
 /// `name` is the body.
 void check(const SectionSize& size, double depth, const std::string& name);
 
 /// Increasing parameters that contain every break and whose spacing follows size(parameter).
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size);
+
+/// Number of elements of about `size` on `length` [m], at least `least`.
+int element_count(double length, double size, int least);
 
 /// Returns count + 1 evenly spaced values from first to last, both exact.
 std::vector<double> evenly(double first, double last, int count);

@@ -12,18 +12,8 @@ namespace tread {
 
 namespace {
 
-constexpr double kTieDepth = 24e-3;      // [m]
+constexpr double kRailTieDepth = 24e-3;  // [m]
 constexpr double kLargestColumn = 4e-3;  // largest column on the cap's surface: resolves the R13 corners [m]
-constexpr double kCoarseRatio =
-    1.6;  // least ratio of coarse to surface size: several fine edges on a coarse one
-
-int count_of(double length, double size, int least) {
-  return std::max(least, static_cast<int>(std::lround(length / size)));
-}
-
-std::vector<Point2> along(const PlaneCurve& curve, double from, double to, int count) {
-  return positions(curve, evenly(from, to, count));
-}
 
 std::vector<Point2> mirrored(std::vector<Point2> points) {
   for (Point2& point : points) point.x = -point.x;
@@ -69,11 +59,11 @@ struct CoarseTie {
 CoarseTie coarse_tie(const RailProfile& rail, const SectionSize& size) {
   CoarseTie tie;
   tie.s_end = rail.lower.first(0, rail.rounding[0],
-                               [](const CurvePoint& point) { return -kTieDepth - point.position.y; });
+                               [](const CurvePoint& point) { return -kRailTieDepth - point.position.y; });
   tie.end = rail.lower.at(tie.s_end).position.x;
-  tie.middle = count_of(rail.web_width, size.coarse, 2);
+  tie.middle = element_count(rail.web_width, size.coarse, 2);
   tie.strip = 0.95 * rail.lower.at(rail.rounding[1]).position.x;
-  tie.wing = count_of(tie.end - tie.strip, size.coarse, 1);
+  tie.wing = element_count(tie.end - tie.strip, size.coarse, 1);
   tie.x = evenly(-tie.end, -tie.strip, tie.wing);
   const auto middle = evenly(-tie.strip, tie.strip, tie.middle), right = evenly(tie.strip, tie.end, tie.wing);
   tie.x.insert(tie.x.end(), middle.begin() + 1, middle.end());
@@ -83,11 +73,11 @@ CoarseTie coarse_tie(const RailProfile& rail, const SectionSize& size) {
 
 PatchSides head_wing(const RailProfile& rail, const CoarseTie& tie, const std::vector<Point2>& strip_side) {
   const double s_head = rail.rounding[0];
-  const Point2 tie_end = {tie.end, -kTieDepth};
+  const Point2 tie_end = {tie.end, -kRailTieDepth};
   PatchSides sides;
   sides.left = strip_side;
-  sides.right = along(rail.lower, s_head, tie.s_end, static_cast<int>(strip_side.size()) - 1);
-  sides.bottom = along(rail.lower, rail.rounding[1], s_head, tie.wing);
+  sides.right = positions(rail.lower, s_head, tie.s_end, static_cast<int>(strip_side.size()) - 1);
+  sides.bottom = positions(rail.lower, rail.rounding[1], s_head, tie.wing);
   sides.top = straight(strip_side.back(), tie_end, tie.wing);
   sides.right.front() = sides.bottom.back() = corner_node(rail.lower, s_head);
   sides.right.back() = tie_end;
@@ -101,7 +91,7 @@ PatchSides foot_wing(const RailProfile& rail, const std::vector<Point2>& strip_s
   sides.left = strip_side;
   sides.right = straight(bottom, top, static_cast<int>(strip_side.size()) - 1);
   sides.bottom = straight(strip_side.front(), bottom, columns);
-  sides.top = along(rail.lower, rail.rounding[2], rail.rounding[3], columns);
+  sides.top = positions(rail.lower, rail.rounding[2], rail.rounding[3], columns);
   sides.top.back() = top;
   return sides;
 }
@@ -109,11 +99,11 @@ PatchSides foot_wing(const RailProfile& rail, const std::vector<Point2>& strip_s
 Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSize& size) {
   const double s_web_top = rail.rounding[1], s_web_bottom = rail.rounding[2];
   const Point2 web_top = rail.lower.at(s_web_top).position, web_bottom = rail.lower.at(s_web_bottom).position;
-  const Point2 tie_strip = {tie.strip, -kTieDepth}, foot_strip = {0.9 * web_bottom.x, -rail.height};
+  const Point2 tie_strip = {tie.strip, -kRailTieDepth}, foot_strip = {0.9 * web_bottom.x, -rail.height};
   const int head_rows = std::max(1, static_cast<int>((tie_strip.y - web_top.y) / size.coarse));
-  const int web_rows = count_of(web_top.y - web_bottom.y, size.coarse, 4);
-  const int foot_rows = count_of(web_bottom.y + rail.height, 1.5 * size.coarse, 2);
-  const int foot_columns = count_of(rail.rounding[3] - s_web_bottom, size.coarse, 3);
+  const int web_rows = element_count(web_top.y - web_bottom.y, size.coarse, 4);
+  const int foot_rows = element_count(web_bottom.y + rail.height, 1.5 * size.coarse, 2);
+  const int foot_columns = element_count(rail.rounding[3] - s_web_bottom, size.coarse, 3);
   const auto across = [&](Point2 right) { return straight({-right.x, right.y}, right, tie.middle); };
 
   const auto head_side = straight(web_top, tie_strip, head_rows);
@@ -124,13 +114,13 @@ Section make_base(const RailProfile& rail, const CoarseTie& tie, const SectionSi
   builder.add(fill(strip(across(web_top), across(tie_strip), head_side)));
   builder.add(fill(head));
   builder.add(fill(mirrored(head)));
-  builder.add(
-      fill(strip(across(web_bottom), across(web_top), along(rail.lower, s_web_bottom, s_web_top, web_rows))));
+  builder.add(fill(
+      strip(across(web_bottom), across(web_top), positions(rail.lower, s_web_bottom, s_web_top, web_rows))));
   builder.add(fill(strip(across(foot_strip), across(web_bottom), foot_side)));
   builder.add(fill(foot));
   builder.add(fill(mirrored(foot)));
 
-  builder.path("tie", at_height(tie.x, -kTieDepth));
+  builder.path("tie", at_height(tie.x, -kRailTieDepth));
   std::vector<Point2> line = mirrored(foot.bottom);
   const auto middle = across(foot_strip);
   line.insert(line.end(), middle.begin() + 1, middle.end());
@@ -146,7 +136,7 @@ struct CapEdges {
 
 CapEdges cap_edges(const PlaneCurve& running) {
   const double middle = running.at_x(0), sine = std::sqrt(0.5);
-  const auto below = [](const CurvePoint& point) { return -kTieDepth - point.position.y; };
+  const auto below = [](const CurvePoint& point) { return -kRailTieDepth - point.position.y; };
   const auto rising = [&](const CurvePoint& point) { return point.tangent.y - sine; };
   const auto falling = [&](const CurvePoint& point) { return -point.tangent.y - sine; };
   return {running.first(middle, 0, rising), running.first(middle, running.length(), falling),
@@ -188,14 +178,14 @@ Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSiz
   const CapEdges edges = cap_edges(running);
   const auto s = graded(breaks_on(running, edges.left, edges.right),
                         [&](double at) { return size.column(running.at(at).position.x, kLargestColumn); });
-  const auto layers = from_below(layer_depths(size, kTieDepth));
+  const auto layers = from_below(layer_depths(size, kRailTieDepth));
   const int side_edges = static_cast<int>(layers.size()) - 2;
 
   PatchSides sides;
   sides.top = positions(running, s);
-  sides.left = along(running, edges.left_tie, edges.left, side_edges);
-  sides.right = along(running, edges.right_tie, edges.right, side_edges);
-  sides.bottom = at_height(nested(below(sides.top, tie.end), tie.x, "rail head"), -kTieDepth);
+  sides.left = positions(running, edges.left_tie, edges.left, side_edges);
+  sides.right = positions(running, edges.right_tie, edges.right, side_edges);
+  sides.bottom = at_height(nested(below(sides.top, tie.end), tie.x, "rail head"), -kRailTieDepth);
   collapse_upper_corners(sides);
   std::vector<double> weight;
   for (const Point2& point : sides.top)
@@ -211,13 +201,13 @@ Section make_cap(const RailProfile& rail, const CoarseTie& tie, const SectionSiz
 }  // namespace
 
 RailSections make_rail_sections(const RailProfile& profile, double inclination, const SectionSize& wanted) {
-  check(wanted, kTieDepth, "rail");
+  check(wanted, kRailTieDepth, "rail");
   SectionSize size = wanted;
   size.coarse = std::max(size.coarse, kCoarseRatio * size.surface);
   if (!(std::abs(inclination) <= 0.2))
     throw InputError(fmt::format("rail inclination {} is outside -0.2 ... 0.2 (1:40 is 0.025)", inclination));
   const CoarseTie tie = coarse_tie(profile, size);
-  RailSections sections = {make_cap(profile, tie, size), make_base(profile, tie, size), kTieDepth};
+  RailSections sections = {make_cap(profile, tie, size), make_base(profile, tie, size), kRailTieDepth};
   for (Section* section : {&sections.cap, &sections.base}) rotate(*section, std::atan(inclination));
   validate(sections.cap, "rail head");
   validate(sections.base, "rail base");

@@ -33,6 +33,10 @@ std::vector<Point2> positions(const PlaneCurve& curve, std::span<const double> p
   return points;
 }
 
+std::vector<Point2> positions(const PlaneCurve& curve, double from, double to, int count) {
+  return positions(curve, evenly(from, to, count));
+}
+
 std::vector<Point2> straight(Point2 first, Point2 last, int count) {
   std::vector<Point2> points;
   points.reserve(static_cast<std::size_t>(count) + 1);

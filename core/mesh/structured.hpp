@@ -17,6 +17,8 @@ namespace tread {
 /// Breaks for graded() on a curve: the parameters `from`, every joint between, `to`.
 std::vector<double> breaks_on(const PlaneCurve& curve, double from, double to);
 std::vector<Point2> positions(const PlaneCurve& curve, std::span<const double> parameters);
+/// Positions at count + 1 evenly spaced parameters.
+std::vector<Point2> positions(const PlaneCurve& curve, double from, double to, int count);
 std::vector<Point2> straight(Point2 first, Point2 last, int count);
 std::vector<Point2> at_height(std::span<const double> x, double y);
 

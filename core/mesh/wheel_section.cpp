@@ -12,7 +12,7 @@ namespace tread {
 
 namespace {
 
-constexpr double kTieDepth = 23e-3;  // depth of the tread tie below the nominal rolling circle [m]
+constexpr double kTreadTieDepth = 23e-3;  // depth of the tread tie below the nominal rolling circle [m]
 constexpr double kRimDepth = 65e-3;  // depth of the inner rim radius below the nominal rolling circle [m]
 constexpr double kRimSlant = 5e-3;   // reduction of the rim's thickness at its faces [m]
 constexpr double kFlare = 8e-3;      // widening of the web at rim and hub, each side [m]
@@ -27,16 +27,7 @@ constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd =
 constexpr double kFlangeSize = 4.2e-3;  // size on the flange and its root [m]: two elements on half the R14
 constexpr double kFlangeRatio = 1.8;    // least ratio of the flange's size to the surface size: the flange
                                         // costs no time step
-constexpr double kCoarseRatio = 1.6;    // least ratio of coarse to surface size
 constexpr double kAxleRatio = 2.3;      // ratio of axle to disc size
-
-int count_of(double length, double size, int least) {
-  return std::max(least, static_cast<int>(std::lround(length / size)));
-}
-
-std::vector<Point2> along(const PlaneCurve& curve, double from, double to, int count) {
-  return positions(curve, evenly(from, to, count));
-}
 
 /// Breaks for graded() on a curve without the joints that would leave an element shorter than about a third
 /// of `size` [m] at an end.
@@ -91,7 +82,7 @@ Flange find_flange(const PlaneCurve& profile) {
 /// Wanted bottom position below a point of the tread. Columns lean outward under the flange's root.
 double below(const Point2& top, const Point2& root) {
   constexpr double reach = 20e-3;
-  const double lean = 0.35 * (root.y + kTieDepth);
+  const double lean = 0.35 * (root.y + kTreadTieDepth);
   return top.x - lean * std::clamp(1 - (top.x - root.x) / reach, 0.0, 1.0);
 }
 
@@ -107,7 +98,8 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
 
   const auto tread = graded(wide_breaks(profile, flange.root, profile.length(), kFlangeSize), column);
   const Point2 root = profile.at(flange.root).position;
-  const Point2 low_left = {profile.start().x, -kTieDepth}, low_right = {profile.end().x, -kTieDepth};
+  const Point2 low_left = {profile.start().x, -kTreadTieDepth},
+               low_right = {profile.end().x, -kTreadTieDepth};
   PlaneCurve outline(low_left);
   outline.line_to(profile.start()).append(profile);
   const double start = norm(profile.start() - low_left);  // start of the profile on the outline
@@ -115,10 +107,10 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
     return point.position.y - root.y + 1e-12;
   });
 
-  const auto layers = from_below(layer_depths(size, kTieDepth));
+  const auto layers = from_below(layer_depths(size, kTreadTieDepth));
   const int rows = static_cast<int>(layers.size()) - 1;
   PatchSides ring;
-  ring.left = along(outline, 0, join, rows);
+  ring.left = positions(outline, 0, join, rows);
   ring.right = straight(low_right, profile.end(), rows);
 
   SectionBuilder builder;
@@ -132,7 +124,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
     sides.top = positions(profile, surface);
     sides.right = positions(profile, front);
     std::reverse(sides.right.begin(), sides.right.end());
-    sides.left = along(outline, join, start + flange.tip_back, static_cast<int>(front.size()) - 1);
+    sides.left = positions(outline, join, start + flange.tip_back, static_cast<int>(front.size()) - 1);
     collapse_upper_corners(sides);
     const int columns = static_cast<int>(sides.top.size()) - 1;
     sides.bottom = straight(ring.left.back(), root, columns);
@@ -148,7 +140,7 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
     wanted.push_back(flange.present ? below(point, root) : point.x);
   }
   append(surface, tread);
-  ring.bottom = at_height(nested(wanted, coarse, "wheel tread"), -kTieDepth);
+  ring.bottom = at_height(nested(wanted, coarse, "wheel tread"), -kTreadTieDepth);
   std::vector<double> weight;
   for (const Point2& point : ring.top)
     weight.push_back(point.x < root.x ? 0 : size.layer_weight(point.x, root.x, low_right.x));
@@ -168,18 +160,19 @@ struct DiscLines {
 /// Left wing, flared web about `middle` and right wing over |x| <= half.
 std::vector<double> winged(double half, double middle, double web_half, int web, double size) {
   const double left = middle - web_half, right = middle + web_half;
-  auto line = evenly(-half, left, count_of(left + half, size, 1));
+  auto line = evenly(-half, left, element_count(left + half, size, 1));
   append(line, evenly(left, right, web));
-  append(line, evenly(right, half, count_of(half - right, size, 1)));
+  append(line, evenly(right, half, element_count(half - right, size, 1)));
   return line;
 }
 
 DiscLines disc_lines(double rim_width, const WheelShape& shape, const SectionSize& size) {
   const double web_end = shape.web_thickness / 2 + kFlare;
   DiscLines lines;
-  lines.web = count_of(shape.web_thickness, size.coarse, 2);
+  lines.web = element_count(shape.web_thickness, size.coarse, 2);
   lines.rim = winged(rim_width / 2, shape.web_line(1).p, web_end, lines.web, size.coarse);
-  lines.axle_hub = evenly(-kHubLength / 2, kHubLength / 2, count_of(kHubLength, kAxleRatio * size.coarse, 3));
+  lines.axle_hub =
+      evenly(-kHubLength / 2, kHubLength / 2, element_count(kHubLength, kAxleRatio * size.coarse, 3));
   lines.hub = winged(kHubLength / 2, shape.web_line(0).p, web_end, lines.web, size.coarse);
   return lines;
 }
@@ -224,7 +217,7 @@ Patch plate(double x0, double x1, int columns, std::span<const double> r, int fi
 void add_brake_rings(SectionBuilder& builder, const WebRows& rows, const WheelShape& shape, double coarse) {
   const double face = shape.web_thickness / 2, inside = face + kBrakeGap,
                outside = inside + shape.brake_ring_thickness;
-  const int columns = count_of(shape.brake_ring_thickness, 1.5 * coarse, 1);
+  const int columns = element_count(shape.brake_ring_thickness, 1.5 * coarse, 1);
   builder.add(plate(face, inside, 1, rows.r, rows.bolts_first, rows.bolts_last));
   builder.add(plate(-inside, -face, 1, rows.r, rows.bolts_first, rows.bolts_last));
   builder.add(plate(inside, outside, columns, rows.r, rows.ring_first, rows.ring_last));
@@ -233,7 +226,7 @@ void add_brake_rings(SectionBuilder& builder, const WebRows& rows, const WheelSh
 
 /// Disc in (y relative to the web's middle plane, r).
 Section make_disc(const DiscLines& lines, const WheelShape& shape, const SectionSize& size) {
-  const double tie = shape.diameter / 2 - kTieDepth, rim = shape.diameter / 2 - kRimDepth;
+  const double tie = shape.diameter / 2 - kTreadTieDepth, rim = shape.diameter / 2 - kRimDepth;
   const double web_end = shape.web_thickness / 2 + kFlare;
 
   PatchSides rim_sides;
@@ -245,7 +238,7 @@ Section make_disc(const DiscLines& lines, const WheelShape& shape, const Section
         (x > rim_middle ? lines.rim.back() - rim_middle : rim_middle - lines.rim.front()) - web_end;
     rim_sides.bottom.push_back({x, rim + kRimSlant * std::max(0.0, beside / wing)});
   }
-  const int rim_count = count_of(tie - rim, size.coarse, 2);
+  const int rim_count = element_count(tie - rim, size.coarse, 2);
   rim_sides.left = straight(rim_sides.bottom.front(), rim_sides.top.front(), rim_count);
   rim_sides.right = straight(rim_sides.bottom.back(), rim_sides.top.back(), rim_count);
 
@@ -265,7 +258,7 @@ Section make_disc(const DiscLines& lines, const WheelShape& shape, const Section
   PatchSides hub;
   hub.bottom = at_height(nested(lines.hub, lines.axle_hub, "wheel hub"), kHubTieRadius);
   hub.top = at_height(lines.hub, kHubOuterRadius);
-  const int hub_count = count_of(kHubOuterRadius - kHubTieRadius, size.coarse, 1);
+  const int hub_count = element_count(kHubOuterRadius - kHubTieRadius, size.coarse, 1);
   hub.left = straight(hub.bottom.front(), hub.top.front(), hub_count);
   hub.right = straight(hub.bottom.back(), hub.top.back(), hub_count);
 
@@ -291,7 +284,7 @@ std::vector<Point2> axle_outline(double hub_centre, std::span<const double> axle
   const auto extend = [&](std::span<const Point2> corners) {
     for (std::size_t k = 1; k < corners.size(); ++k) {
       const auto part =
-          straight(corners[k - 1], corners[k], count_of(corners[k].x - corners[k - 1].x, size, 1));
+          straight(corners[k - 1], corners[k], element_count(corners[k].x - corners[k - 1].x, size, 1));
       line.insert(line.end(), part.begin() + 1, part.end());
     }
   };
@@ -305,7 +298,7 @@ std::vector<Point2> axle_outline(double hub_centre, std::span<const double> axle
 /// Axle with the core of the hub in (y_wheel, r).
 Section make_axle(const DiscLines& lines, double hub_centre, const WheelShape& shape, double size) {
   const double bore = shape.axle_bore / 2;
-  const int rows = count_of(kSeatRadius - bore, size, 2);
+  const int rows = element_count(kSeatRadius - bore, size, 2);
   PatchSides body;
   body.top = axle_outline(hub_centre, lines.axle_hub, size);
   for (const Point2& point : body.top) body.bottom.push_back({point.x, bore});
@@ -317,7 +310,7 @@ Section make_axle(const DiscLines& lines, double hub_centre, const WheelShape& s
     core.bottom.push_back({hub_centre + x, kSeatRadius});
     core.top.push_back({hub_centre + x, kHubTieRadius});
   }
-  const int core_rows = count_of(kHubTieRadius - kSeatRadius, size, 1);
+  const int core_rows = element_count(kHubTieRadius - kSeatRadius, size, 1);
   core.left = straight(core.bottom.front(), core.top.front(), core_rows);
   core.right = straight(core.bottom.back(), core.top.back(), core_rows);
 
@@ -337,7 +330,7 @@ Section make_axle(const DiscLines& lines, double hub_centre, const WheelShape& s
 
 WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape& shape,
                                   const SectionSize& wanted) {
-  check(wanted, kTieDepth, "wheel");
+  check(wanted, kTreadTieDepth, "wheel");
   shape.check();
   SectionSize size = wanted;
   size.coarse = std::max(size.coarse, kCoarseRatio * size.surface);
@@ -357,7 +350,7 @@ WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape&
 
   WheelSections sections = {make_tread(profile.surface, tie, size), make_disc(lines, shape, size),
                             make_axle(lines, middle, shape, kAxleRatio * size.coarse),
-                            shape.diameter / 2 - kTieDepth, kHubTieRadius};
+                            shape.diameter / 2 - kTreadTieDepth, kHubTieRadius};
   translate(sections.tread, {-shape.lateral_offset, shape.diameter / 2});
   translate(sections.disc, {middle - shape.lateral_offset, 0});
   translate(sections.axle, {-shape.lateral_offset, 0});

@@ -24,17 +24,18 @@ void print_version(bool json) {
   const std::vector<const char*> sets = InternalForce::instruction_sets();
   const std::vector<std::string> cards = gpus();
   const std::string library = rank_library();
+  const ProgramBuild build = program_build();
   if (!json) {
     fmt::print(
         "{}\ncompiler          {}, {}\ninstruction sets  {}\npackages          {}\ndevices           cpu, "
         "emulated, {}\nranks             {}\n",
-        program_name(), TREAD_COMPILER, TREAD_BUILD, fmt::join(sets, ", "), TREAD_PACKAGES,
+        program_name(), build.compiler, build.type, fmt::join(sets, ", "), build.packages,
         cards.empty() ? "no gpu: " + why_no_gpu() : fmt::format("gpu: {}", fmt::join(cards, ", ")),
         library.empty() ? "one alone: built without MPI" : "mpirun, " + library);
     return;
   }
   Json packages = Json::object();
-  std::string_view rest = TREAD_PACKAGES;
+  std::string_view rest = build.packages;
   while (!rest.empty()) {
     const std::string_view package = rest.substr(0, rest.find(", "));
     rest.remove_prefix(std::min(rest.size(), package.size() + 2));
@@ -43,8 +44,8 @@ void print_version(bool json) {
   }
   fmt::print("{}", json_text({{"version", program_version()},
                               {"commit", program_commit()},
-                              {"compiler", TREAD_COMPILER},
-                              {"build", TREAD_BUILD},
+                              {"compiler", build.compiler},
+                              {"build", build.type},
                               {"instruction_sets", sets},
                               {"packages", packages},
                               {"gpus", cards},

@@ -1,6 +1,5 @@
 #include "kernels/blocks/element_matrices.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -42,17 +41,8 @@ ElementStiffness element_stiffness(const BlockElements<Real>& elements, const El
 
 template <class Real>
 double element_frequency(const BlockElements<Real>& elements, const ElementPlace& at) {
-  const ElementStiffness k = element_stiffness(elements, at);
-  const ElementGeometry shape = elements.geometry(at);
   const double density = elements.block().material(at.quad, at.pitch_class).density;
-  Eigen::Matrix<double, 24, 24> pencil;
-  for (int row = 0; row < 24; ++row)
-    for (int column = 0; column < 24; ++column)
-      pencil(row, column) =
-          k[index(row)][index(column)] /
-          (density * std::sqrt(shape.nodal_volume[index(row / 3)] * shape.nodal_volume[index(column / 3)]));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solver(pencil, Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues()(23));
+  return largest_frequency(element_stiffness(elements, at), elements.geometry(at).nodal_volume, density);
 }
 
 template <class Real>

@@ -1,15 +1,10 @@
 #pragma once
 // Mass, stiffness and natural frequencies of single elements, by the linear law.
 
-#include <array>
-
 #include "kernels/blocks/block_elements.hpp"
+#include "kernels/element/element_frequency.hpp"
 
 namespace tread {
-
-/// Rows and columns [3 node + component]: element nodes as in kernels/element/element.hpp, components in the
-/// nodes' local bases. [N/m]
-using ElementStiffness = std::array<std::array<double, 24>, 24>;
 
 /// The element of a block with the largest natural frequency.
 struct ElementFrequency {
@@ -18,6 +13,7 @@ struct ElementFrequency {
   int station = -1;  ///< where the element starts
 };
 
+/// Components in the nodes' local bases.
 template <class Real>
 ElementStiffness element_stiffness(const BlockElements<Real>& elements, const ElementPlace& at);
 

@@ -5,14 +5,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/index.hpp"
 #include "kernels/element/element.hpp"
+#include "kernels/element/element_frequency.hpp"
 
 namespace tread {
 
 namespace {
 
 using Matrix83 = Eigen::Matrix<double, 8, 3>;
-using Matrix24 = Eigen::Matrix<double, 24, 24>;
 
 /// Columns xi, eta, zeta of the nodes.
 Matrix83 corners() {
@@ -132,7 +133,7 @@ HexahedronCoefficients hexahedron_coefficients(const HexahedronShape& shape) {
   for (int node = 0; node < 8; ++node)
     for (int i = 0; i < 3; ++i)
       for (int alpha = 0; alpha < 4; ++alpha) amplitude(3 * alpha + i, 3 * node + i) = gamma(node, alpha);
-  const Matrix24 k =
+  const Eigen::Matrix<double, 24, 24> k =
       amplitude.transpose() * hourglass_stiffness(to_matrix(shape.reference), shape.material) * amplitude;
 
   HexahedronCoefficients result;
@@ -156,20 +157,14 @@ double hexahedron_frequency(const HexahedronShape& shape) {
   HexahedronShape linear = shape;
   linear.finite_rotation = false;
   const HexahedronCoefficients c = hexahedron_coefficients(linear);
-  const std::array<double, 8> volume = element_geometry(shape.nodes).nodal_volume;
-  Matrix24 pencil;
+  ElementStiffness stiffness;
   for (int column = 0; column < 24; ++column) {
     std::array<Vec3, 8> u;
-    u[static_cast<std::size_t>(column / 3)][column % 3] = 1;
+    u[index(column / 3)][column % 3] = 1;
     const std::array<Vec3, 8> force = element_force(linear, c, u);
-    for (int row = 0; row < 24; ++row)
-      pencil(row, column) =
-          force[static_cast<std::size_t>(row / 3)][row % 3] /
-          (shape.material.density * std::sqrt(volume[static_cast<std::size_t>(row / 3)] *
-                                              volume[static_cast<std::size_t>(column / 3)]));
+    for (int row = 0; row < 24; ++row) stiffness[index(row)][index(column)] = force[index(row / 3)][row % 3];
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix24> solver(pencil, Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues()(23));
+  return largest_frequency(stiffness, element_geometry(shape.nodes).nodal_volume, shape.material.density);
 }
 
 GeneralForce::GeneralForce(std::vector<Element> elements) : elements_(std::move(elements)) {

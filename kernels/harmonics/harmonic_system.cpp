@@ -1,10 +1,11 @@
 #include "kernels/harmonics/harmonic_system.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "kernels/solver/symmetric_modes.hpp"
 
 namespace tread {
 
@@ -42,11 +43,12 @@ HarmonicRitz::HarmonicRitz(const HarmonicSystem& system, const std::vector<doubl
     }
     length = std::sqrt(std::max(0.0, next.dot(system.mass * next)));
   }
-  const Eigen::MatrixXd square = projected.topLeftCorner(count, count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square.selfadjointView<Eigen::Upper>());
-  decay = solver.eigenvalues();
-  const Eigen::VectorXd excited = first * solver.eigenvectors().row(0).transpose();
-  shapes = basis.leftCols(count) * solver.eigenvectors();
+  const Eigen::MatrixXd square = projected.topLeftCorner(count, count).selfadjointView<Eigen::Upper>();
+  const SymmetricModes modes = symmetric_modes({square.data(), square.data() + square.size()}, index(count));
+  decay = Eigen::Map<const Eigen::VectorXd>(modes.values.data(), count);
+  const Eigen::Map<const Eigen::MatrixXd> turned(modes.vectors.data(), count, count);
+  const Eigen::VectorXd excited = first * turned.row(0).transpose();
+  shapes = basis.leftCols(count) * turned;
   weight = (shapes.transpose() * load).cwiseProduct(excited);
 }
 
