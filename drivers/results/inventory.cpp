@@ -17,9 +17,11 @@ namespace {
 /// Program, libraries, histories and report, as measured on scenes whose fields are small.
 constexpr std::int64_t kProgramBytes = 25'000'000;
 
-/// Matrix and factor of the static solver's coarse level, an aggregate: measured on runs, 16 to 22 kB.
-/// [docs/records/findings.md, 3. Meshes beyond the memory]
-constexpr std::int64_t kAggregateBytes = 19'000;
+/// Matrix and factor of the static solver's coarse level, an aggregate, and what the factorisation needs
+/// beside them: measured on runs, 9 to 12 and 13 to 19 kB. [docs/records/findings.md, 3. Meshes beyond the
+/// memory]
+constexpr std::int64_t kAggregateBytes = 10'500;
+constexpr std::int64_t kFactorisationBytes = 15'000;
 
 /// Displacement, velocity in single precision and the branches' lag, until the frame is written; grid,
 /// arrays, file and its image.
@@ -30,6 +32,14 @@ std::int64_t frame_memory(const Model& model) {
   const auto laws = static_cast<std::int64_t>(sizeof(double)) * law_state_values(model.mesh);
   return 3 * model.mesh.slots * static_cast<std::int64_t>(component) + laws + bytes.mesh +
          kTimes * bytes.frame;
+}
+
+/// The coarse level is factorised and then used by conjugate gradients, in turn.
+std::int64_t solver_memory(const Mesh& mesh) {
+  const std::int64_t aggregates = aggregate_count(mesh);
+  const double vector = static_cast<double>(3 * mesh.slots) * sizeof(double);
+  return static_cast<std::int64_t>(kSolverVectors * vector) + kAggregateBytes * aggregates +
+         std::max(static_cast<std::int64_t>(kIterationVectors * vector), kFactorisationBytes * aggregates);
 }
 
 std::vector<std::string> names(const std::vector<RunField>& fields) {
@@ -84,9 +94,7 @@ std::vector<FieldBytes> all_fields(const Model& model) {
   if (model.scene.motion) list.push_back({RunField::checkpoint, checkpoint_memory(features)});
   if (model.scene.motion && model.scene.output.frames > 0)
     list.push_back({RunField::frames, frame_memory(model)});
-  const double vector = static_cast<double>(3 * model.mesh.slots) * sizeof(double);
-  list.push_back({RunField::solver, static_cast<std::int64_t>(kSolverVectors * vector) +
-                                        kAggregateBytes * aggregate_count(model.mesh)});
+  list.push_back({RunField::solver, solver_memory(model.mesh)});
   return list;
 }
 

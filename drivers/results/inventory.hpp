@@ -11,9 +11,11 @@
 
 namespace tread {
 
-/// Vector fields of the static solver beside the displacement: the residual, two of conjugate gradients, one
-/// and a half of the preconditioner; two thirds for aggregates, as measured on runs.
-inline constexpr double kSolverVectors = 4.5 + 0.7;
+/// Vector fields of the static solver beside the displacement: the residual, one and a half of the
+/// preconditioner.
+inline constexpr double kSolverVectors = 2.5;
+/// Those of conjugate gradients, while they iterate.
+inline constexpr double kIterationVectors = 2;
 
 /// An array or record that lives in memory during a run.
 struct FieldRow {

@@ -11,7 +11,8 @@
 namespace tread {
 
 std::int64_t least_bytes(const MeshCount& count) {
-  constexpr double kVectors = 1 + kSolverVectors;  // the displacement and those of the static solver
+  constexpr double kVectors =
+      1 + kSolverVectors + kIterationVectors;  // the displacement and the static solver's
   return static_cast<std::int64_t>(kVectors * 3 * sizeof(double) * static_cast<double>(count.nodes));
 }
 
