@@ -21,8 +21,11 @@ ROWS = (
 
 
 def read(folder):
-    with open(os.path.join(folder, "histories.csv"), encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    try:
+        with open(os.path.join(folder, "histories.csv"), encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    except OSError as error:
+        sys.exit(f"{error.filename}: {error.strerror}: name the folder of a run")
 
 
 if len(sys.argv) < 3:

@@ -29,14 +29,14 @@ double to_number(const toml::node& node, bool ratio) {
   return *value;
 }
 
-double to_quantity(const Quantity& quantity, const toml::node& node) {
-  if (const auto* text = node.as_string()) return parse_quantity(text->get(), quantity);
+double to_quantity(const Quantity& quantity, const toml::node& node, std::string_view unit = {}) {
+  if (const auto* text = node.as_string()) return parse_quantity(text->get(), quantity, unit);
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value || !std::isfinite(*value)) {
-    throw InputError(fmt::format("got {}; {}", describe_node(node), expectation(quantity, "1")));
+    throw InputError(fmt::format("got {}; {}", describe_node(node), expectation(quantity, "1", unit)));
   }
   const std::string number = fmt::format("{}", *value);
-  throw InputError(fmt::format("{} has no unit; {}", number, expectation(quantity, number)));
+  throw InputError(fmt::format("{} has no unit; {}", number, expectation(quantity, number, unit)));
 }
 
 int to_integer(const toml::node& node) {
@@ -105,7 +105,7 @@ bool to_boolean(const toml::node& node) {
 
 void read_value(const Key& key, const toml::node& node, const fs::path& folder, const Field& field) {
   const auto real = [&] {
-    return key.kind == Kind::quantity ? to_quantity(*key.quantity, node)
+    return key.kind == Kind::quantity ? to_quantity(*key.quantity, node, key.unit)
                                       : to_number(node, key.kind == Kind::ratio);
   };
   if (const auto* number = std::get_if<double*>(&field)) **number = real();

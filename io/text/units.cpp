@@ -195,23 +195,23 @@ double parse_ratio(std::string_view text) {
   return parse_number(text.substr(0, colon)) / denominator;
 }
 
-double parse_quantity(std::string_view text, const Quantity& expected) {
+double parse_quantity(std::string_view text, const Quantity& expected, std::string_view unit) {
   std::string_view rest = trimmed(text);
   std::string number = "1";
-  Unit unit;
+  Unit stated;
   try {
     number = take_number(rest);
     rest = trimmed(rest);
     if (rest.empty()) throw InputError(fmt::format("\"{}\" has no unit", text));
     if (rest.front() == ',') throw InputError(fmt::format("\"{}\" has a decimal comma, not a point", text));
-    unit = parse_unit(rest);
-    if (unit.dimension != expected.dimension) {
-      throw InputError(fmt::format("\"{}\" is {}", text, dimension_name(unit.dimension)));
+    stated = parse_unit(rest);
+    if (stated.dimension != expected.dimension) {
+      throw InputError(fmt::format("\"{}\" is {}", text, dimension_name(stated.dimension)));
     }
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}; {}", error.what(), expectation(expected, number)));
+    throw InputError(fmt::format("{}; {}", error.what(), expectation(expected, number, unit)));
   }
-  return in_si(number, unit);
+  return in_si(number, stated);
 }
 
 double parse_option(std::string_view option, std::string_view text, const Quantity& expected) {
@@ -222,9 +222,9 @@ double parse_option(std::string_view option, std::string_view text, const Quanti
   }
 }
 
-std::string expectation(const Quantity& expected, const std::string& number) {
+std::string expectation(const Quantity& expected, const std::string& number, std::string_view unit) {
   return fmt::format("expected {}, such as \"{} {}\" (units: {})", dimension_name(expected.dimension), number,
-                     expected.si, expected.accepted);
+                     unit.empty() ? expected.si : unit, expected.accepted);
 }
 
 std::string format_quantity(double si, const std::string& unit) {

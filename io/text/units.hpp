@@ -62,14 +62,15 @@ double parse_number(std::string_view text, const Unit& unit);
 double parse_ratio(std::string_view text);
 
 /// "0.14 mm" in SI. Throws InputError when the number or the unit is malformed, or the unit measures
-/// something else.
-double parse_quantity(std::string_view text, const Quantity& expected);
+/// something else; the message then shows the number in `unit`, by default the SI unit.
+double parse_quantity(std::string_view text, const Quantity& expected, std::string_view unit = {});
 
 /// The same for the value of a command line's option, which the message names.
 double parse_option(std::string_view option, std::string_view text, const Quantity& expected);
 
-/// `expected a length, such as "15.2 m" (units: m, cm, ...)`, for messages; `number` is the user's.
-std::string expectation(const Quantity& expected, const std::string& number);
+/// `expected a length, such as "15.2 m" (units: m, cm, ...)`, for messages; `number` is the user's. Without
+/// `unit`, the SI unit.
+std::string expectation(const Quantity& expected, const std::string& number, std::string_view unit = {});
 
 /// The value `si` written in `unit` with six digits, "0.14 mm".
 std::string format_quantity(double si, const std::string& unit);

@@ -370,7 +370,7 @@ TEST(SceneErrors, AMisspeltTableIsNotAlsoReportedAsMissing) {
 
 TEST(SceneErrors, Overrides) {
   EXPECT_EQ(error_of(kBase, {"motion.speed=250"}),
-            "--set: motion.speed: \"250\" has no unit; expected a speed, such as \"250 m/s\" (units: m/s, "
+            "--set: motion.speed: \"250\" has no unit; expected a speed, such as \"250 km/h\" (units: m/s, "
             "mm/s, km/h)");
   expect_part(error_of(kBase, {"motion.speed"}), "--set: \"motion.speed\" is not of the form key=value");
   expect_part(error_of(kBase, {"=3"}), "is not of the form key=value");
