@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 
 namespace tread {
@@ -37,6 +39,11 @@ ElasticPair Scene::elastic_pair() const {
 SupportSpec Scene::support(int fastening) const {
   for (const auto& [name, support] : supports)
     if (support.fastening == fastening + 1) return support;
+  if (fastenings) {
+    const auto listed =
+        std::ranges::lower_bound(fastenings->listed, fastening + 1, {}, &SupportSpec::fastening);
+    if (listed != fastenings->listed.end() && listed->fastening == fastening + 1) return *listed;
+  }
   return {.fastening = fastening + 1};
 }
 

@@ -73,6 +73,19 @@ struct FootHold {
   double damping = 0;         ///< elastic: of one fastening, to the ground [N s/m]
 };
 
+/// [support.NAME], or a row of the file `fastenings.supports`: one fastening, and the sleeper under it, that
+/// differs from the others
+struct SupportSpec {
+  int fastening = 1;     ///< counted along x from 1
+  double shift = 0;      ///< of fastening and sleeper along x [m]
+  double stiffness = 1;  ///< of the fastening, vertical, over that of the others [-]
+  double damping = 1;    ///< likewise [-]
+  double bed = 1;        ///< stiffness and damping of the sleeper's bed over those of the others [-]
+  bool holds = true;     ///< the rail's foot along and across, as the others do
+
+  bool operator==(const SupportSpec&) const = default;
+};
+
 /// [fastenings]
 struct FasteningSpec {
   int count = 24;
@@ -89,6 +102,8 @@ struct FasteningSpec {
   /// Where "held" acts: "pad", all of the foot over the pad, or "springs", the foot's nodes nearest to the
   /// spring-dampers.
   std::string held_at = "pad";
+  std::string supports = "alike";   ///< or a file of those that differ, a row each
+  std::vector<SupportSpec> listed;  ///< its rows, in ascending order of the fastenings
 
   /// Distance of a column from the middle of its fastening [m].
   double column_offset(int column) const { return pad_length * ((column + 0.5) / columns - 0.5); }
@@ -120,16 +135,6 @@ struct SleeperSpec {
   double offset = -0.1;               ///< y of the half's middle from the rail's centre line [m]
   double stiffness = 50e6;            ///< of the bed under the half, vertical [N/m]
   double damping = 50e3;              ///< of the bed under the half, vertical [N s/m]
-};
-
-/// [support.NAME]: one fastening, and the sleeper under it, that differs from the others
-struct SupportSpec {
-  int fastening = 1;     ///< counted along x from 1
-  double shift = 0;      ///< of fastening and sleeper along x [m]
-  double stiffness = 1;  ///< of the fastening, vertical, over that of the others [-]
-  double damping = 1;    ///< likewise [-]
-  double bed = 1;        ///< stiffness and damping of the sleeper's bed over those of the others [-]
-  bool holds = true;     ///< the rail's foot along and across, as the others do
 };
 
 /// [vehicle]
@@ -358,6 +363,8 @@ struct Scene {
 
   /// The support of a fastening, counted from 0, as [support.NAME] states it; unaltered where none does.
   SupportSpec support(int fastening) const;
+  /// All fastenings are alike.
+  bool alike_supports() const { return supports.empty() && (!fastenings || fastenings->listed.empty()); }
   /// x of the middle of a fastening, counted from 0, negative before the rail [m]. With [rail], [fastenings].
   double fastening_x(int fastening) const;
 

@@ -204,7 +204,7 @@ Chapter preload_chapter(const Run& run) {
   }
   if (scene.rail && scene.rail->support == "fastenings" && run.model.contact) {
     std::string remark;
-    if (scene.rail->profile == "CN60" && scene.fastenings && !scene.sleepers && scene.supports.empty()) {
+    if (scene.rail->profile == "CN60" && scene.fastenings && !scene.sleepers && scene.alike_supports()) {
       // I of CN60: 3217 cm4.
       const double foundation = scene.fastenings->stiffness / scene.fastenings->spacing;
       const double lambda = std::pow(foundation / (4 * scene.rail_material().youngs_modulus * 3217e-8), 0.25);

@@ -110,6 +110,10 @@ bool same_friction_table(const Scene& a, const Scene& b) {
           a.contact->friction_at_x == b.contact->friction_at_x);
 }
 
+bool same_listed_supports(const Scene& a, const Scene& b) {
+  return !a.fastenings || !b.fastenings || a.fastenings->listed == b.fastenings->listed;
+}
+
 /// Moved nodes are another mesh.
 std::vector<std::string> mesh_differences(const ResolvedScene& there, const ResolvedScene& here) {
   const auto by_nodes = [](const Scene& scene) {
@@ -130,6 +134,8 @@ void require_same_start(const std::string& from, const ResolvedScene& there, con
   for (std::string& text : mesh_differences(there, here)) texts.push_back(std::move(text));
   if (!same_friction_table(there.scene, here.scene))
     texts.emplace_back("contact.friction_file (other values)");
+  if (!same_listed_supports(there.scene, here.scene))
+    texts.emplace_back("fastenings.supports (other values)");
   if (!same_profiles(there.scene, here.scene)) texts.emplace_back("a file of a profile (other values)");
   if (texts.empty()) return;
   throw InputError(

@@ -235,6 +235,11 @@ void add_fastenings(Keys& keys) {
              at(&Scene::fastenings, &FasteningSpec::held_at), {"pad", "springs"},
              "Held part of the foot: all of it over the pad, or the nodes nearest to the spring-dampers, "
              "which give way the more the finer the mesh"));
+  keys.push_back(or_file(choice(
+      "fastenings.supports", {Effect::mesh}, at(&Scene::fastenings, &FasteningSpec::supports), {"alike"},
+      "File of supports that differ, a row each, after a line such as `# fastening [-]  "
+      "shift [mm]  stiffness [-]`; columns are the keys of `[support.NAME]`, `holds` as 1 "
+      "or 0")));
 }
 
 void add_slab(Keys& keys) {

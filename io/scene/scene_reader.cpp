@@ -18,6 +18,7 @@
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/setting.hpp"
+#include "io/scene/support_file.hpp"
 #include "io/scene/surface_file.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/scene/toml_text.hpp"
@@ -251,6 +252,10 @@ class SceneBuilder {
     if (scene_.contact && scene_.contact->friction_law == "table")
       read_columns("contact.friction_file", {.needs_units = true, .increasing = true, .pure_second = true},
                    scene_.contact->friction_x, scene_.contact->friction_at_x);
+    if (scene_.fastenings)
+      read_file_of("fastenings.supports", [&](const std::string& text, const std::string& name) {
+        scene_.fastenings->listed = parse_supports(text, name, problems_);
+      });
     if (scene_.corrugation && scene_.corrugation->kind == "table")
       read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
                    scene_.corrugation->table_depth);

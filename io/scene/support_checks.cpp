@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 
 #include "io/scene/key.hpp"
@@ -43,47 +44,82 @@ void check_sleepers(const SleeperSpec& sleepers, const FasteningSpec& fastenings
           fmt::format("the pad does not lie on the sleeper, y = {:.4g} m to {:.4g} m", inner, outer));
 }
 
+/// A support that differs, and where the scene says so.
+struct AlteredSupport {
+  SupportSpec support;
+  std::string table;  ///< "support.NAME"; empty: a row of the file
+
+  /// The keys of these members.
+  std::vector<std::string> keys(std::initializer_list<const char*> members) const {
+    if (table.empty()) return {"fastenings.supports"};
+    std::vector<std::string> list;
+    for (const char* member : members) list.push_back(*member == 0 ? table : table + "." + member);
+    return list;
+  }
+  std::string place() const { return table.empty() ? "the file of fastenings.supports" : "[" + table + "]"; }
+  /// Begins a message: the keys of a file do not say which row it is.
+  std::string subject() const {
+    return table.empty() ? fmt::format("fastening {}: ", support.fastening) : "";
+  }
+};
+
+std::vector<AlteredSupport> altered_supports(const Scene& scene) {
+  std::vector<AlteredSupport> list;
+  for (const auto& [name, support] : scene.supports)
+    list.push_back({support, std::string(kSupportTables) + name});
+  for (const SupportSpec& support : scene.fastenings->listed) list.push_back({support, ""});
+  return list;
+}
+
 /// The place of a shifted support between its neighbours and on the rail.
-void check_shift(const Scene& scene, const std::string& table, int fastening, Require require) {
+void check_shift(const Scene& scene, const AlteredSupport& altered, Require require) {
   const FasteningSpec& f = *scene.fastenings;
+  const int fastening = altered.support.fastening - 1;
   const double length = scene.sleepers ? std::max(f.pad_length, scene.sleepers->width) : f.pad_length;
   const double at = scene.fastening_x(fastening);
   const double left = -scene.rail->origin;
-  const std::vector<std::string> keys = {table + ".shift", table};
+  const std::vector<std::string> keys = altered.keys({"shift", ""});
   const auto apart = [&](int before, int after) {
     return before < 0 || after >= f.count ||
            scene.fastening_x(after) - scene.fastening_x(before) >= length - kLengthTolerance;
   };
   require(apart(fastening - 1, fastening) && apart(fastening, fastening + 1), keys,
-          fmt::format("at x = {:.6g} m it overlaps its neighbour; state a smaller shift", at));
+          fmt::format("{}at x = {:.6g} m it overlaps its neighbour; state a smaller shift", altered.subject(),
+                      at));
   require(at - 0.5 * f.pad_length >= left - kLengthTolerance &&
               at + 0.5 * f.pad_length <= left + scene.rail->length + kLengthTolerance,
-          keys, fmt::format("at x = {:.6g} m its pad reaches beyond the rail; state a smaller shift", at));
+          keys,
+          fmt::format("{}at x = {:.6g} m its pad reaches beyond the rail; state a smaller shift",
+                      altered.subject(), at));
 }
 
 void check_altered(const Scene& scene, Require require) {
   const FasteningSpec& f = *scene.fastenings;
-  std::map<int, std::string> altered;
-  for (const auto& [name, support] : scene.supports) {
-    const std::string table = std::string(kSupportTables) + name;
-    const int fastening = support.fastening - 1;
-    require(fastening < f.count, {table + ".fastening", "fastenings.count"},
+  const std::vector<AlteredSupport> all = altered_supports(scene);
+  std::map<int, std::string> known;
+  for (const AlteredSupport& altered : all) {
+    const SupportSpec& support = altered.support;
+    std::vector<std::string> counted = altered.keys({"fastening"});
+    counted.emplace_back("fastenings.count");
+    require(support.fastening <= f.count, counted,
             fmt::format("there is no fastening {}: they count {}", support.fastening, f.count));
-    const auto [known, fresh] = altered.emplace(fastening, name);
-    require(fresh, {table + ".fastening"},
-            fmt::format("[{}{}] alters fastening {} too; state both in one table", kSupportTables,
-                        known->second, support.fastening));
-    if (fastening >= f.count || !fresh) continue;
-    if (support.shift != 0) check_shift(scene, table, fastening, require);
-    require(!scene.sleepers || support.stiffness > 0 || support.bed > 0,
-            {table + ".stiffness", table + ".bed"},
-            "nothing carries its sleeper; state a share above 0 for the fastening or for the bed");
+    const auto [first, fresh] = known.emplace(support.fastening, altered.place());
+    require(
+        fresh, altered.keys({"fastening"}),
+        fmt::format("{} alters fastening {} too; state both in one place", first->second, support.fastening));
+    if (support.fastening > f.count || !fresh) continue;
+    if (support.shift != 0) check_shift(scene, altered, require);
+    require(scene.sleepers || !altered.table.empty() || support.bed == 1, altered.keys({}),
+            fmt::format("{}there is no bed without [sleepers]; leave out the column", altered.subject()));
+    require(!scene.sleepers || support.stiffness > 0 || support.bed > 0, altered.keys({"stiffness", "bed"}),
+            altered.subject() +
+                "nothing carries its sleeper; state a share above 0 for the fastening or for the bed");
   }
   const auto left = [&](auto property) {
-    return f.count > std::count_if(scene.supports.begin(), scene.supports.end(),
-                                   [&](const auto& named) { return !property(named.second); });
+    return f.count > std::ranges::count_if(
+                         all, [&](const AlteredSupport& altered) { return !property(altered.support); });
   };
-  const std::vector<std::string> keys = {"support", "fastenings.count"};
+  const std::vector<std::string> keys = {"support", "fastenings.supports", "fastenings.count"};
   require(left([](const SupportSpec& s) { return s.stiffness > 0 && s.bed > 0; }), keys,
           "nothing carries the rail: every support is broken or hangs");
   require(left([](const SupportSpec& s) { return s.holds; }), keys,

@@ -32,16 +32,6 @@ std::vector<std::string> bracketed(const std::string& line) {
   return found;
 }
 
-std::vector<std::string> cells(std::string line) {
-  for (char& c : line) {
-    if (c == ',' || c == ';') c = ' ';
-  }
-  std::istringstream stream(line);
-  std::vector<std::string> found;
-  for (std::string cell; stream >> cell;) found.push_back(cell);
-  return found;
-}
-
 /// A unit of one of these quantities.
 Unit unit_of(const std::string& text, const std::vector<Quantity>& quantities) {
   const Unit unit = parse_unit(text);
@@ -82,7 +72,7 @@ class TableParser {
       state_units(units);
       return;
     }
-    const std::vector<std::string> row = cells(line.substr(0, line.find('#')));
+    const std::vector<std::string> row = table_cells(line);
     if (!row.empty()) add_row(row);
   }
 
@@ -175,6 +165,17 @@ std::string missing_point(const GridColumns& grid, std::size_t rows, double x, d
 }
 
 }  // namespace
+
+std::vector<std::string> table_cells(const std::string& line) {
+  std::string text = line.substr(0, line.find('#'));
+  for (char& c : text) {
+    if (c == ',' || c == ';') c = ' ';
+  }
+  std::istringstream stream(text);
+  std::vector<std::string> found;
+  for (std::string cell; stream >> cell;) found.push_back(cell);
+  return found;
+}
 
 std::string read_table_text(const std::filesystem::path& path) {
   return read_text_file(path, kLargestTable);

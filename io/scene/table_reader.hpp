@@ -38,6 +38,9 @@ struct GridColumns {
   std::vector<double> z;  ///< z[j * x.size() + i] belongs to (x[i], y[j]) [m]
 };
 
+/// The cells of a line of such a file, between blanks, commas or semicolons, up to a '#'.
+std::vector<std::string> table_cells(const std::string& line);
+
 /// The text of such a file. Throws InputError.
 std::string read_table_text(const std::filesystem::path& path);
 

@@ -205,6 +205,7 @@ Scene resolve(const std::string& name, const Overrides& more) {
   SceneSource source{name, base.text, "/nowhere"};
   source.files = {{"/nowhere/depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.02\n100 0\n"},
                   {"/nowhere/other_depth.txt", "# x [mm]  d [mm]\n0 0\n50 0.03\n100 0\n"},
+                  {"/nowhere/supports.txt", "# fastening [-]  shift [mm]  stiffness [-]\n2 20 0.7\n"},
                   {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
                   {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"},
                   {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
@@ -381,6 +382,7 @@ const std::vector<Change>& changes() {
       {"fastenings.across_stiffness", "30 MN/m", "elastic track"},
       {"fastenings.across_damping", "210 kN s/m", "elastic track"},
       {"fastenings.held_at", "springs"},
+      {"fastenings.supports", "supports.txt", "ballasted"},
       {"slab.pitch", "0.5 m"},
       {"slab.gap", "80 mm"},
       {"slab.first_gap", "0.1 m"},

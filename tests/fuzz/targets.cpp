@@ -23,6 +23,7 @@
 #include "io/mesh/imported_mesh.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "io/scene/support_file.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
@@ -107,6 +108,8 @@ void read_table(const std::string& bytes) {
   std::vector<Problem> problems;
   const GridColumns grid = parse_grid(bytes, "map.csv", problems);
   require(!problems.empty() || grid.z.size() == grid.x.size() * grid.y.size(), "points of a map");
+  for (const SupportSpec& support : parse_supports(bytes, "supports.txt", problems))
+    require(support.fastening >= 1 && support.stiffness >= 0 && support.bed >= 0, "shares of a support");
 }
 
 /// In every format, as wheel and as rail.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "tests/program.hpp"
+#include "tests/temporary_folder.hpp"
 #include "tests/tyre_scene.hpp"
 
 namespace tread {
@@ -205,6 +208,61 @@ TEST(SupportKeys, AreCheckedAgainstTheFastenings) {
   says({"support.one.holds=false", "support.a.fastening=1", "support.a.holds=false", "support.b.fastening=3",
         "support.b.holds=false"},
        "nothing holds the rail's foot");
+}
+
+/// Name of a file with this text.
+std::string support_file(const std::string& text) {
+  static const samples::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path / "supports.txt";
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+TEST(SupportFile, IsTheSameAsTables) {
+  const std::vector<std::string> tables = {
+      "support.a.fastening=1", "support.a.shift=20 mm", "support.a.stiffness=0.5", "support.b.fastening=3",
+      "support.b.damping=2",   "support.b.holds=false", "support.b.bed=0.25"};
+  const Scene by_tables = samples::tyre_scene(ballasted(tables));
+  const Scene by_file = samples::tyre_scene(ballasted(
+      {"fastenings.supports=" + support_file("# measured [in May]\n"
+                                             "# fastening [-], shift [mm], stiffness [-], damping [-], "
+                                             "bed [-], holds [-]\n"
+                                             "3; 0; 1; 2; 0.25; 0 # hangs\n1 20 0.5 1 1 1\n")}));
+  EXPECT_FALSE(by_file.alike_supports());
+  for (int i = -2; i < by_file.fastenings->count; ++i) {
+    EXPECT_EQ(by_file.support(i), by_tables.support(i)) << i;
+    EXPECT_EQ(by_file.fastening_x(i), by_tables.fastening_x(i)) << i;
+  }
+}
+
+TEST(SupportFile, NamesWhatIsWrong) {
+  const auto says = [](const std::string& text, const std::string& expected,
+                       const std::vector<std::string>& more = {}) {
+    std::vector<std::string> keys = more;
+    keys.push_back("fastenings.supports=" + support_file(text));
+    try {
+      samples::tyre_scene(ballasted(keys));
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+    }
+  };
+  says("1 0.5\n", ":1: the columns have no names");
+  says("", "expected a row of numbers");
+  says("# fastening [-]  stiffnes [-]\n1 1\n",
+       "the column \"stiffnes\" is unknown; choose from: fastening, shift");
+  says("# fastening [-]  bed [-]  bed [-]\n1 1 1\n", "the column bed stands twice");
+  says("# fastening [-]  bed [N/m]\n1 1\n", "[N/m] is not [-]");
+  says("# fastening [-]  shift [kg]\n1 1\n", "expected a length");
+  says("# fastening [-]  bed [-]\n1 1\n2 1 1\n", ":3: expected 2 numbers, found 3 columns");
+  says("# fastening [-]  bed [-]\n1 -1\n", ":2: bed = -1 is not a number from 0 to 1000");
+  says("# fastening [-]  bed [-]\n1.5 1\n", "fastening = 1.5 is not a whole number from 1");
+  says("# fastening [-]  holds [-]\n1 0.5\n", "holds = 0.5 is not a whole number from 0 to 1");
+  says("# fastening [-]  bed [-]\n1 1\n1 2\n", "fastening 1 stands twice");
+  says("# fastening [-]  bed [-]\n7 1\n", "there is no fastening 7: they count 3");
+  says("# fastening [-]  shift [m]\n2 0.5\n", "fastening 2: at x = ");
+  says("# fastening [-]  bed [-]\n2 0\n", "alters fastening 2 too", {"support.one.fastening=2"});
+  says("# fastening [-]  bed [-]\n1 0\n2 0\n3 0\n", "nothing carries the rail");
 }
 
 TEST(SleeperKeys, AreCheckedAgainstTheFastenings) {
