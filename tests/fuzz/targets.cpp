@@ -229,7 +229,9 @@ std::vector<std::string> scene_seeds() {
 
 std::vector<std::string> table_seeds() {
   return {"# x [m]  d [mm]\n0 0\n0.01 0.02\n0.02, 0\n", "1;2\n3;4\n5;-6e-1 # end\n",
-          "# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n"};
+          "# x [mm], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n",
+          "# fastening [-]  shift [mm]  stiffness [-]  damping [-]  bed [-]  holds [-]\n3 5 1 1 0.5 1\n1 0 0 "
+          "0 1 0\n"};
 }
 
 /// A wheel with a flange and a rail's head, in the formats.
