@@ -125,6 +125,15 @@ TEST_F(MadeUpRun, ForcesAreComparedWithTheStaticLoadAndWithOneAnother) {
   EXPECT_NEAR(*difference, 0, 1e-9);
 }
 
+TEST_F(MadeUpRun, LostContactCountsFromTheFirstTroughOn) {
+  // Zero for 7 mm in the first trough, before the evaluated stretch, and behind the corrugation.
+  write_histories([](double x) { return (x > 2.4305 && x < 2.4375) || x > 2.97 ? 0.0 : kLoad; }, constant(0));
+  const FinishedRun d = run(corrugated());
+  EXPECT_NEAR(way_without_contact(d, history_over_way(d, "vertical_force", "N")), 7e-3, 1e-9);
+  write_histories(wave(0), constant(0));
+  EXPECT_EQ(way_without_contact(d, history_over_way(d, "vertical_force", "N")), 0);
+}
+
 TEST_F(MadeUpRun, AFigureBecomesColumns) {
   write_histories(wave(0), constant(1e3));
   const FinishedRun d = run(corrugated());

@@ -126,6 +126,15 @@ std::optional<double> residual_oscillation(const FinishedRun& run, double x) {
   return most / load;
 }
 
+double way_without_contact(const FinishedRun& run, const CurvePoints& force) {
+  const Corrugation corrugation = run.corrugation();
+  double way = 0;
+  for (std::size_t i = 1; i + 1 < force.x.size(); ++i)
+    if (force.y[i] <= 0 && force.x[i] > corrugation.first() && force.x[i] < corrugation.last())
+      way += 0.5 * (force.x[i + 1] - force.x[i - 1]);
+  return way;
+}
+
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time) {
   const CurvePoints one = history_over_time(a, "vertical_force", "N");
   const CurvePoints other = history_over_time(b, "vertical_force", "N");

@@ -42,6 +42,9 @@ std::optional<double> longitudinal_delay(const FinishedRun& run, double steady_f
 /// Largest difference of F_N from the static load behind x [m], over that load [-].
 std::optional<double> residual_oscillation(const FinishedRun& run, double x);
 
+/// Way between both ends of the corrugation, evaluated or not, on which a curve of F_N is zero [m].
+double way_without_contact(const FinishedRun& run, const CurvePoints& force);
+
 /// Largest difference of the runs' F_N from `time` [s] on, over the static load [-].
 std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRun& b, double time);
 

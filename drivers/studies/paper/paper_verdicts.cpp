@@ -202,12 +202,19 @@ Judgement multibody_overestimates(const PassageRuns& runs) {
   const FinishedRun* run = runs.find(worst);
   if (!passed(run)) return missing("80 mm, 0.18 mm at 500 km/h");
   const MultibodyResult cheap = run_multibody(multibody_model(run->scene, BeamTheory::euler), {});
+  CurvePoints cheap_force;
+  for (const MultibodySample& sample : cheap.samples) {
+    cheap_force.x.push_back(sample.x);
+    cheap_force.y.push_back(sample.force);
+  }
   const double high = run->number("vertical_force_N.max").value_or(0);
-  const double low = std::max(0.0, run->number("vertical_force_N.min").value_or(0));
-  return {of_parts({cheap.force.max > high, cheap.force.min <= 0, low > 0}),
+  const double lost = way_without_contact(*run, history_over_way(*run, "vertical_force", "N"));
+  const double cheap_lost = way_without_contact(*run, cheap_force);
+  return {of_parts({cheap.force.max > high, cheap_lost > 0, lost == 0}),
           fmt::format(
-              "largest and smallest F_N {:.1f} and {:.1f} kN, by the multi-body approach {:.1f} and {:.1f}",
-              1e-3 * high, 1e-3 * low, 1e-3 * cheap.force.max, 1e-3 * cheap.force.min)};
+              "largest F_N {:.1f} kN, without contact over {:.0f} mm of the corrugation; by the multi-body "
+              "approach {:.1f} kN and {:.0f} mm",
+              1e-3 * high, 1e3 * lost, 1e-3 * cheap.force.max, 1e3 * cheap_lost)};
 }
 
 /// Premise of the paper's theory: the response to a corrugation is larger at crests and grows with depth.
@@ -269,7 +276,8 @@ const std::vector<Conclusion>& paper_conclusions() {
        "speed at 250 or 300 km/h",
        worst_wave_and_speed},
       {6, "The multi-body approach overestimates the interaction",
-       "at 500 km/h and 0.18 mm its F_N is larger and it loses contact, the transient model does not",
+       "at 500 km/h and 0.18 mm its F_N is larger and it loses contact over the corrugation, the transient "
+       "model does not",
        multibody_overestimates},
       {7, "The response to a corrugation works against its growth, so that it stabilises",
        "frictional work and Von Mises stress are larger at crests than at troughs; work's range grows with "
