@@ -49,7 +49,7 @@ struct AlteredSupport {
   SupportSpec support;
   std::string table;  ///< "support.NAME"; empty: a row of the file
 
-  /// The keys of these members.
+  /// The keys of these members; "" stands for the table itself.
   std::vector<std::string> keys(std::initializer_list<const char*> members) const {
     if (table.empty()) return {"fastenings.supports"};
     std::vector<std::string> list;
