@@ -93,13 +93,13 @@ TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
 }
 
 TEST_F(Commands, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
-  constexpr std::int64_t kNeeded = 250'000'000'000;  // [B]
+  constexpr std::int64_t kNeeded = 220'000'000'000;  // [B]
   if (machine_memory() > kNeeded) GTEST_SKIP() << "this machine could hold the mesh";
   for (const char* command : {"check ", "mesh "}) {
     const Outcome outcome =
         call(command + scene("sphere-on-block.toml") + " --set 'scene.element_size=0.05 mm'");
     EXPECT_EQ(outcome.code, 4);
-    EXPECT_TRUE(has(outcome.errors, "elements, which need at least 252")) << outcome.errors;
+    EXPECT_TRUE(has(outcome.errors, "elements, which need at least 223")) << outcome.errors;
     EXPECT_TRUE(has(outcome.errors, "raise scene.element_size")) << outcome.errors;
   }
 }
