@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <sstream>
+#include <variant>
 
 #include "core/error.hpp"
+#include "io/scene/schema.hpp"
 #include "io/scene/table_reader.hpp"
 #include "io/text/text.hpp"
 #include "io/text/units.hpp"
@@ -16,25 +17,39 @@ namespace tread {
 
 namespace {
 
-/// A column that a file may have; only shifts have a unit.
-struct SupportColumn {
-  const char* name;
-  double least, most;
+const std::string kRow = "row";  ///< name of a table that stands for a row
+const std::string kRowTable = std::string(kSupportTables) + kRow + ".";
+const std::string kCounted = "fastening";
+
+/// The keys of a support's table: columns that a file may have.
+std::vector<Key> column_keys() {
+  TableNames names;
+  names.supports = {kRow};
+  std::vector<Key> keys = scene_keys(names);
+  std::erase_if(keys, [](const Key& key) { return !key.locate || !key.path.starts_with(kRowTable); });
+  return keys;
+}
+
+std::string column_name(const Key& key) {
+  return key.path.substr(kRowTable.size());
+}
+
+/// A number of a file as the value of the key.
+struct ColumnRules {
   bool whole;  ///< whole numbers alone
-  void (*set)(SupportSpec& support, double value);
+  Bounds range;
 };
 
-constexpr const char* kCounted = "fastening";
-constexpr const char* kShifted = "shift";
+ColumnRules rules_of(const Key& key) {
+  if (key.kind == Kind::boolean) return {true, {0, 1}};
+  return {key.kind == Kind::integer, key.range};
+}
 
-const std::vector<SupportColumn> kSupportColumns = {
-    {kCounted, 1, 10000, true, [](SupportSpec& s, double value) { s.fastening = static_cast<int>(value); }},
-    {kShifted, -10, 10, false, [](SupportSpec& s, double value) { s.shift = value; }},
-    {"stiffness", 0, 1000, false, [](SupportSpec& s, double value) { s.stiffness = value; }},
-    {"damping", 0, 1000, false, [](SupportSpec& s, double value) { s.damping = value; }},
-    {"bed", 0, 1000, false, [](SupportSpec& s, double value) { s.bed = value; }},
-    {"holds", 0, 1, true, [](SupportSpec& s, double value) { s.holds = value != 0; }},
-};
+void set(const Field& field, double value) {
+  if (const auto* number = std::get_if<double*>(&field)) **number = value;
+  if (const auto* number = std::get_if<int*>(&field)) **number = static_cast<int>(value);
+  if (const auto* truth = std::get_if<bool*>(&field)) **truth = value != 0;
+}
 
 /// Names before units in brackets.
 struct NamedUnit {
@@ -70,51 +85,60 @@ class SupportParser {
   std::vector<SupportSpec> supports;
 
  private:
+  struct Column {
+    const Key* key;
+    Unit unit;
+  };
+
   void add_column(const NamedUnit& stated) {
-    const auto known = std::ranges::find(kSupportColumns, stated.name, &SupportColumn::name);
-    std::vector<std::string> names;
-    for (const SupportColumn& column : kSupportColumns) names.emplace_back(column.name);
-    if (known == kSupportColumns.end())
+    const auto key = std::ranges::find(keys_, stated.name, column_name);
+    if (key == keys_.end()) {
+      std::vector<std::string> names;
+      for (const Key& known : keys_) names.push_back(column_name(known));
       throw InputError(
           fmt::format("the column \"{}\" is unknown; choose from: {}", stated.name, fmt::join(names, ", ")));
-    if (std::ranges::find(columns_, &*known) != columns_.end())
+    }
+    if (std::ranges::find(columns_, &*key, &Column::key) != columns_.end())
       throw InputError(fmt::format("the column {} stands twice", stated.name));
-    const bool pure = stated.name != kShifted;
-    if (pure && stated.unit != "-")
+    columns_.push_back({&*key, unit_of(*key, stated)});
+  }
+
+  static Unit unit_of(const Key& key, const NamedUnit& stated) {
+    if (!key.quantity) {
+      if (stated.unit == "-") return {};
       throw InputError(fmt::format("{} [{}]: [{}] is not [-], the unit of a pure number", stated.name,
                                    stated.unit, stated.unit));
-    if (!pure) {
-      shift_unit_ = parse_unit(stated.unit);
-      if (shift_unit_.dimension != kLength.dimension)
-        throw InputError(
-            fmt::format("shift [{}]: expected a length (units: {})", stated.unit, kLength.accepted));
     }
-    columns_.push_back(&*known);
+    const Unit unit = parse_unit(stated.unit);
+    if (unit.dimension == key.quantity->dimension) return unit;
+    throw InputError(fmt::format("{} [{}]: expected a {} (units: {})", stated.name, stated.unit,
+                                 key.quantity->name, key.quantity->accepted));
   }
 
   void add_row(const std::vector<std::string>& row) {
     if (columns_.empty())
       throw InputError(
           "the columns have no names: put a line such as \"# fastening [-]  shift [mm]  stiffness [-]\" "
-          "before "
-          "the numbers");
+          "before the numbers");
     if (row.size() != columns_.size())
       throw InputError(fmt::format("expected {} numbers, found {} columns", columns_.size(), row.size()));
-    SupportSpec support;
+    Scene scene;
+    scene.supports[kRow] = {};
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const SupportColumn& column = *columns_[i];
-      const double value = column.name == kShifted ? parse_number(row[i], shift_unit_) : parse_number(row[i]);
-      if (value < column.least || value > column.most || (column.whole && value != std::floor(value)))
-        throw InputError(fmt::format("{} = {} is not {} from {:g} to {:g}{}", column.name, row[i],
-                                     column.whole ? "a whole number" : "a number", column.least, column.most,
-                                     column.name == kShifted ? " m" : ""));
-      column.set(support, value);
+      const auto& [key, unit] = columns_[i];
+      const double value = parse_number(row[i], unit);
+      const auto [whole, range] = rules_of(*key);
+      if (!range.contains(value) || (whole && value != std::floor(value)))
+        throw InputError(fmt::format("{} = {} is not {} from {:g} to {:g}{}", column_name(*key), row[i],
+                                     whole ? "a whole number" : "a number", range.low, range.high,
+                                     key->quantity ? fmt::format(" {}", key->quantity->si) : ""));
+      set(key->locate(scene), value);
     }
-    supports.push_back(support);
+    supports.push_back(scene.supports[kRow]);
   }
 
-  std::vector<const SupportColumn*> columns_;
-  Unit shift_unit_;
+  const std::vector<Key> keys_ = column_keys();
+  std::vector<Column> columns_;
 };
 
 }  // namespace
@@ -122,21 +146,12 @@ class SupportParser {
 std::vector<SupportSpec> parse_supports(const std::string& content, const std::filesystem::path& path,
                                         std::vector<Problem>& problems) {
   SupportParser parser;
-  std::istringstream text(content);
-  const std::size_t known_problems = problems.size();
-  int number = 0;
-  for (std::string line; std::getline(text, line);) {
-    ++number;
-    try {
-      parser.read_line(line);
-    } catch (const InputError& error) {
-      problems.push_back({path.string(), number, 0, "", error.what()});
-    }
-  }
+  const bool sound = read_table_lines(
+      content, path, [&](const std::string& line) { parser.read_line(line); }, problems);
   const auto report = [&](const std::string& message) {
     problems.push_back({path.string(), 0, 0, "", message});
   };
-  if (problems.size() == known_problems && parser.supports.empty()) report("expected a row of numbers");
+  if (sound && parser.supports.empty()) report("expected a row of numbers");
   std::ranges::sort(parser.supports, {}, &SupportSpec::fastening);
   const auto twice = std::ranges::adjacent_find(parser.supports, {}, &SupportSpec::fastening);
   if (twice != parser.supports.end()) report(fmt::format("fastening {} stands twice", twice->fastening));

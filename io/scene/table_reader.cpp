@@ -128,24 +128,16 @@ class TableParser {
 };
 
 /// Reads all lines; false where one is bad or there are fewer than `least` rows.
-bool parse_lines(TableParser& parser, const std::string& content, const std::filesystem::path& path,
-                 std::size_t least, std::vector<Problem>& problems) {
-  std::istringstream text(content);
-  const std::size_t known_problems = problems.size();
-  int number = 0;
-  for (std::string line; std::getline(text, line);) {
-    ++number;
-    try {
-      parser.read_line(line);
-    } catch (const InputError& error) {
-      problems.push_back({path.string(), number, 0, "", error.what()});
-    }
-  }
-  if (problems.size() == known_problems && parser.rows.size() < least)
-    problems.push_back({path.string(), 0, 0, "",
-                        least == 2 ? "expected at least two rows of numbers"
-                                   : fmt::format("expected at least {} rows of numbers", least)});
-  return problems.size() == known_problems;
+bool parse_rows(TableParser& parser, const std::string& content, const std::filesystem::path& path,
+                std::size_t least, std::vector<Problem>& problems) {
+  if (!read_table_lines(
+          content, path, [&](const std::string& line) { parser.read_line(line); }, problems))
+    return false;
+  if (parser.rows.size() >= least) return true;
+  problems.push_back({path.string(), 0, 0, "",
+                      least == 2 ? "expected at least two rows of numbers"
+                                 : fmt::format("expected at least {} rows of numbers", least)});
+  return false;
 }
 
 /// The values of a column, each once, increasing.
@@ -177,6 +169,22 @@ std::vector<std::string> table_cells(const std::string& line) {
   return found;
 }
 
+bool read_table_lines(const std::string& content, const std::filesystem::path& path,
+                      FunctionRef<void(const std::string& line)> read, std::vector<Problem>& problems) {
+  std::istringstream text(content);
+  const std::size_t known_problems = problems.size();
+  int number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++number;
+    try {
+      read(line);
+    } catch (const InputError& error) {
+      problems.push_back({path.string(), number, 0, "", error.what()});
+    }
+  }
+  return problems.size() == known_problems;
+}
+
 std::string read_table_text(const std::filesystem::path& path) {
   return read_text_file(path, kLargestTable);
 }
@@ -184,7 +192,7 @@ std::string read_table_text(const std::filesystem::path& path) {
 TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,
                              const TableRules& rules, std::vector<Problem>& problems) {
   TableParser parser(rules, 2);
-  parse_lines(parser, content, path, 2, problems);
+  parse_rows(parser, content, path, 2, problems);
   TwoColumns table;
   for (const auto& row : parser.rows) {
     table.first.push_back(row[0]);
@@ -198,7 +206,7 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
 GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
                        std::vector<Problem>& problems) {
   TableParser parser({.needs_units = true}, 3);
-  if (!parse_lines(parser, content, path, 4, problems)) return {};
+  if (!parse_rows(parser, content, path, 4, problems)) return {};
   std::vector<std::vector<double>>& rows = parser.rows;
   GridColumns grid{distinct(rows, 0), distinct(rows, 1), {}};
   const auto report = [&](const std::string& message) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/function_ref.hpp"
 #include "io/scene/problems.hpp"
 #include "io/text/units.hpp"
 
@@ -40,6 +41,11 @@ struct GridColumns {
 
 /// The cells of a line of such a file, between blanks, commas or semicolons, up to a '#'.
 std::vector<std::string> table_cells(const std::string& line);
+
+/// Calls read(line) for every line of such a file. The InputErrors that it throws are added to `problems`
+/// with the number of the line; returns false if there was one.
+bool read_table_lines(const std::string& content, const std::filesystem::path& path,
+                      FunctionRef<void(const std::string& line)> read, std::vector<Problem>& problems);
 
 /// The text of such a file. Throws InputError.
 std::string read_table_text(const std::filesystem::path& path);

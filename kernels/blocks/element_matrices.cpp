@@ -1,7 +1,7 @@
 #include "kernels/blocks/element_matrices.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <optional>
 #include <set>
 #include <vector>

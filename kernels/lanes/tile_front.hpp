@@ -38,7 +38,7 @@ class TileFront {
   static constexpr bool kRelative = !std::is_same_v<Real, U>;
 
   /// The translation is the displacement of one section node at each station. It rises along an element by
-  /// what its far end has more than the near end's, turned into the far end's basis.
+  /// the difference of that at the far end from that at the near end, turned into the far end's basis.
   TREAD_INLINE void place_origin() {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(elements_.origin_node) * 3 * kLanes;
     for (int i = 0; i < 3; ++i) {
@@ -283,7 +283,7 @@ class TileFront {
   int count_;  ///< elements abreast
   alignas(64) U origin_[3][kRelative ? kAbreast : 1];
   U far_origin_[3];
-  alignas(64) Real rise_[3][kRelative ? kAbreast : 1];  ///< of the translation along the elements
+  alignas(64) Real rise_[3][kRelative ? kAbreast : 1];  ///< rise of the translation along the elements
 };
 
 }  // namespace

@@ -160,6 +160,15 @@ std::optional<double> creepage_ratio(const FinishedRun& run, const char* column)
   return most / steady;
 }
 
+CurvePoints force_over_way(const MultibodyResult& result) {
+  CurvePoints force;
+  for (const MultibodySample& sample : result.samples) {
+    force.x.push_back(sample.x);
+    force.y.push_back(sample.force);
+  }
+  return force;
+}
+
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit) {
   return read_curve(run, {.y = {column, unit}});
 }

@@ -52,6 +52,9 @@ std::optional<double> vertical_difference(const FinishedRun& a, const FinishedRu
 /// summary [-]; nullopt if the run has not come to a crest.
 std::optional<double> creepage_ratio(const FinishedRun& run, const char* column);
 
+/// F_N of the multi-body approach over the way, SI.
+CurvePoints force_over_way(const MultibodyResult& result);
+
 /// Curves of the histories and of the axis, SI.
 CurvePoints history_over_way(const FinishedRun& run, const char* column, const char* unit);
 CurvePoints history_over_time(const FinishedRun& run, const char* column, const char* unit);

@@ -23,12 +23,9 @@ namespace {
 
 Series multibody_force(const FinishedRun& run) {
   const MultibodyResult result = run_multibody(multibody_model(run.scene, BeamTheory::euler), {});
-  Series series{"F_N, multi-body approach", {}, {}, Stroke::dashed};
-  for (const MultibodySample& s : result.samples) {
-    series.x.push_back(s.x);
-    series.y.push_back(1e-3 * s.force);
-  }
-  return series;
+  CurvePoints force = force_over_way(result);
+  for (double& value : force.y) value *= 1e-3;
+  return {"F_N, multi-body approach", std::move(force.x), std::move(force.y), Stroke::dashed};
 }
 
 /// Puts the curves of all panels into the first; the later ones are dashed.

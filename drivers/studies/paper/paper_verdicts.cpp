@@ -202,14 +202,9 @@ Judgement multibody_overestimates(const PassageRuns& runs) {
   const FinishedRun* run = runs.find(worst);
   if (!passed(run)) return missing("80 mm, 0.18 mm at 500 km/h");
   const MultibodyResult cheap = run_multibody(multibody_model(run->scene, BeamTheory::euler), {});
-  CurvePoints cheap_force;
-  for (const MultibodySample& sample : cheap.samples) {
-    cheap_force.x.push_back(sample.x);
-    cheap_force.y.push_back(sample.force);
-  }
   const double high = run->number("vertical_force_N.max").value_or(0);
   const double lost = way_without_contact(*run, history_over_way(*run, "vertical_force", "N"));
-  const double cheap_lost = way_without_contact(*run, cheap_force);
+  const double cheap_lost = way_without_contact(*run, force_over_way(cheap));
   return {of_parts({cheap.force.max > high, cheap_lost > 0, lost == 0}),
           fmt::format(
               "largest F_N {:.1f} kN, without contact over {:.0f} mm of the corrugation; by the multi-body "
