@@ -2,6 +2,7 @@
 // The fields of a run in one precision, moved by the processor. [drivers/engine/node_fields.hpp]
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -150,10 +151,17 @@ class PreciseFields : public NodeFields {
   }
 
   bool finite() const override {
-    const auto all = [](const auto& field) {
-      return std::all_of(field.begin(), field.end(), [](auto value) { return std::isfinite(value); });
+    std::atomic<bool> finite = true;
+    const auto look_at = [&](const auto& field) {
+      parallel_ranges(std::ssize(field), [&](std::int64_t first, std::int64_t last) {
+        bool all = true;
+        for (std::int64_t i = first; i < last; ++i) all &= std::isfinite(field[index(i)]);
+        if (!all) finite = false;
+      });
     };
-    return all(u_) && all(v_);
+    look_at(u_);
+    look_at(v_);
+    return finite;
   }
 
   void list_state(StateList& list) override {

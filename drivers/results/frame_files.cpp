@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "io/files/output_file.hpp"
@@ -53,20 +54,23 @@ void append(std::vector<float>& values, const Vec3& vector) {
 }
 
 template <class Real>
-Vec3 local_vector(const AlignedVector<Real>& field, std::int64_t slot) {
+Vec3 local_vector(const FieldCopy<Real>& field, std::int64_t slot) {
   Vec3 value;
   for (int i = 0; i < 3; ++i) value[i] = static_cast<double>(field[static_cast<std::size_t>(dof(slot, i))]);
   return value;
 }
 
-template <class Real>
-void copy_field(ConstNodeField from, std::int64_t slots, AlignedVector<Real>& to) {
-  to.resize(static_cast<std::size_t>(3 * slots));
-  std::int64_t i = 0;
-  for (Real& value : to) value = static_cast<Real>(from[i++]);
-}
-
 }  // namespace
+
+template <class Real>
+void FieldCopy<Real>::take(ConstNodeField from, std::int64_t slots) {
+  const std::int64_t n = 3 * slots;
+  values_ = std::make_unique_for_overwrite<Real[]>(static_cast<std::size_t>(n));
+  parallel_ranges(n, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+      values_[static_cast<std::size_t>(i)] = static_cast<Real>(from[i]);
+  });
+}
 
 std::vector<Placement> resting_places(const Model& model) {
   std::vector<Placement> places(model.mesh.blocks.size());
@@ -130,9 +134,9 @@ void FrameFiles::copy(const Simulation& simulation) {
   at_.steps = simulation.steps();
   at_.time = simulation.time();
   const std::int64_t slots = model_->mesh.slots;
-  copy_field(simulation.displacement(), slots, at_.displacement);
-  copy_field(simulation.velocity(), slots, at_.velocity);
-  if (const ConstNodeField lag = simulation.fields().lag()) copy_field(lag, slots, at_.lag);
+  at_.displacement.take(simulation.displacement(), slots);
+  at_.velocity.take(simulation.velocity(), slots);
+  if (const ConstNodeField lag = simulation.fields().lag()) at_.lag.take(lag, slots);
   if (const ConstLawState laws = simulation.fields().laws()) {
     if (!at_.laws) at_.laws.emplace(model_->mesh);
     at_.laws->copy(laws);
@@ -249,7 +253,7 @@ std::vector<VtkArray> FrameFiles::contact_arrays() const {
 VtkArray FrameFiles::von_mises_stress() const {
   VtkArray array{"von Mises stress [Pa]", "Pa", "at the element's centre", 1, true, {}};
   array.values.reserve(grid_.cells.size());
-  const ConstNodeField lag = at_.lag.empty() ? nullptr : at_.lag.data();
+  const ConstNodeField lag = at_.lag.data();
   const ConstLawState laws = at_.laws ? ConstLawState(*at_.laws) : nullptr;
   for (const VtkGrid::Cell& cell : grid_.cells)
     array.values.push_back(static_cast<float>(von_mises(

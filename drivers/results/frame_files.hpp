@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,19 @@ namespace tread {
 /// Steps after which a run of `steps` steps writes one of `count` frames, evenly spaced: the first after the
 /// first step, the last at the end. A run of few steps has fewer.
 std::vector<std::int64_t> frame_steps(int count, std::int64_t steps);
+
+/// Values of all nodes, which all threads copy.
+template <class Real>
+class FieldCopy {
+ public:
+  void take(ConstNodeField from, std::int64_t slots);
+  /// Null without values.
+  const Real* data() const { return values_.get(); }
+  const Real& operator[](std::size_t i) const { return values_[i]; }
+
+ private:
+  std::unique_ptr<Real[]> values_;
+};
 
 class FrameFiles {
  public:
@@ -44,9 +58,9 @@ class FrameFiles {
   struct Instant {
     std::int64_t steps = 0;
     double time = 0;  ///< [s]
-    AlignedVector<double> displacement;
-    AlignedVector<float> velocity;
-    AlignedVector<double> lag;  ///< empty without Maxwell branches
+    FieldCopy<double> displacement;
+    FieldCopy<float> velocity;
+    FieldCopy<double> lag;  ///< empty without Maxwell branches
     std::optional<LawState<double>> laws;
     BodyFrame wheel;
     PatchNodes patch;  ///< empty without contact
