@@ -24,7 +24,7 @@ class MarchedBlock {
       : device_(&device),
         mesh_(mesh_of(variant, elements)),
         internal_(mesh_),
-        march_(device, internal_.elements(0), variant.damped ? kDampedBeta : 0),
+        march_(device, internal_.elements(0), variant.damped ? kDampedBeta : 0, {}),
         u_(copy(made_up_field<U>(mesh_, 1e-5))),
         v_(copy(made_up_field<Real>(mesh_, 0.1))),
         moved_u_(device, u_.size()),

@@ -31,10 +31,9 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
     const BlockElements<Real>& elements = this->internal().elements(b);
     const SweptBlock& block = mesh.blocks[index(b)];
     const auto& internal = this->internal();
-    marches_.add(std::make_unique<BlockMarch<Real>>(*device_, elements, internal.damping(b)),
+    marches_.add(std::make_unique<BlockMarch<Real>>(*device_, elements, internal.damping(b), movers.marks),
                  {block.sweep, internal.damping(b) != 0, internal.finite_rotation(b), block.vertical_only,
-                  internal.law(b)},
-                 movers.hosted_blocks[index(b)] != 0);
+                  internal.law(b)});
     looks_.sums().add(elements);
     const int law = this->law_state() ? elements.law() : 0;
     const std::size_t values =
@@ -192,8 +191,8 @@ MarchFields<Real, U> DeviceFields<Real, U>::march_fields(int block) {
   return fields;
 }
 
-/// Begins the next step in blocks of which the host moves no node, about the patch when the tractions of this
-/// one are there, and searches. It counts if no one changes the fields before.
+/// Begins the next step by teams that do not await the host, about the patch when the tractions of this one
+/// are there, and searches. It counts if no one changes the fields before.
 template <class Real, class U>
 void DeviceFields<Real, U>::begin_next() {
   if (!has_contact() || host_ties_ || this->q()) return;
@@ -247,6 +246,7 @@ template <class Real, class U>
 void DeviceFields<Real, U>::begin_motion(const StepLoads& loads) {
   marches_.start(loads, [&](int block) { return march_fields(block); });
   if (!tied_surfaces_) start_contact();
+  start_host_forces();
   marches_.join();
 }
 
@@ -264,10 +264,6 @@ template <class Real, class U>
 void DeviceFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool measured) {
   send();
   begin_motion(loads);
-  if (packed_f_.size() > 0) {
-    const Beside beside(*device_, kCopyQueue);
-    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
-  }
   finish_motion(loads);
   looks_.open(loads, measured);
   if (!measured) begin_next();  // it writes over the motion before

@@ -49,7 +49,8 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void move_rest(const StepLoads& loads, bool measured) override;
   /// The device holds those of its own as they move.
   void hold(std::span<const std::int64_t> unknowns) override {
-    Base::hold(host_whole_ ? unknowns : host_held_);
+    if (host_whole_) return Base::hold(unknowns);
+    for (const std::int64_t unknown : host_held_) this->u()[index(unknown)] = this->v()[index(unknown)] = 0;
   }
   void advance_lag(double dt) override {
     if (!this->q()) return;
@@ -99,6 +100,14 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void tie(const StepLoads& loads);
   void start_contact();
   void begin_motion(const StepLoads& loads);
+  /// The host needs not wait for the march about the patch, which waits for the tractions.
+  void start_host_forces() {
+    if (packed_f_.size() == 0) return;
+    device_->use(kCopyQueue);
+    marches_.await_forces();
+    device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
+    device_->use(kMainQueue);
+  }
   void finish_motion(const StepLoads& loads);
   void take_host_forces();
   void fetch_surfaces(const BodyFrame& wheel, double dt);

@@ -59,11 +59,6 @@ Movers movers_of(const Model& model) {
                                               : kMoves);
     if (host[group] != 0) movers.hosted.push_back(static_cast<std::int64_t>(group));
   }
-  for (const SweptBlock& block : model.mesh.blocks) {
-    const auto first = host.begin() + block.base / kLanes;
-    movers.hosted_blocks.push_back(std::count(first, first + block.slots() / kLanes, 0) <
-                                   block.slots() / kLanes);
-  }
   movers.tied_surfaces = meet(surfaces, tied);
   movers.contact = model.contact && DeviceContact::knows(*model.contact) && !meet(host, surfaces);
   choose_holders(model, movers);

@@ -11,11 +11,10 @@ namespace tread {
 
 /// Movers of the groups of kLanes slots, and unknowns that stay zero by who holds them.
 struct Movers {
-  std::vector<int> marks;                    ///< MarchFields::group_mark
-  std::vector<std::int64_t> hosted;          ///< the host's groups, ascending
-  std::vector<unsigned char> hosted_blocks;  ///< by block: the host moves nodes of it
-  bool contact = false;                      ///< contact runs on the device
-  bool tied_surfaces = false;                ///< surfaces in contact have tied nodes
+  std::vector<int> marks;            ///< MarchFields::group_mark
+  std::vector<std::int64_t> hosted;  ///< the host's groups, ascending
+  bool contact = false;              ///< contact runs on the device
+  bool tied_surfaces = false;        ///< surfaces in contact have tied nodes
 
   std::vector<unsigned char> held;       ///< MarchFields::held
   std::vector<std::int64_t> held_ties;   ///< unknowns of tied nodes

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include "core/index.hpp"
 
@@ -19,7 +21,8 @@ const T* BlockMarch<Real>::keep(Device& device, const std::vector<T, Allocator>&
 }
 
 template <class Real>
-BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements, double damping)
+BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements, double damping,
+                             std::span<const int> marks)
     : swept_(&elements.block()) {
   const MarchCut sizes = device.cut();
   const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes);
@@ -42,6 +45,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
   block_.damping = static_cast<Real>(damping);
   build_tiles(device);
   build_coefficients(device, elements);
+  find_awaiting(device, cut, marks);
 }
 
 template <class Real>
@@ -76,24 +80,96 @@ void BlockMarch<Real>::build_coefficients(Device& device, const BlockElements<Re
   block_.shifts = keep(device, moved.shifts);
 }
 
+/// A run reads a tile before and a tile after its own, and the translation's node too [NodeEnds].
 template <class Real>
-const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads, MarchRuns runs) {
-  block_.marched = runs;
+bool BlockMarch<Real>::touches_host(const SectionCut& cut, const MarchPart& part, int run,
+                                    std::span<const int> marks) const {
+  if (marks.empty()) return false;
+  const int first = run * block_.run_tiles - 1;
+  const int last = std::min((run + 1) * block_.run_tiles, block_.tiles);
+  for (int t = first; t <= last; ++t) {
+    if (block_.closed == 0 && (t < 0 || t == block_.tiles)) continue;
+    const int tile = (t + block_.tiles) % block_.tiles;
+    const std::int64_t group = block_.first_group + std::int64_t{tile} * block_.section_nodes;
+    if (std::is_same_v<Real, float> && marks[index(group + block_.origin_node)] >= 0) return true;
+    for (int node = 0; node < part.nodes; ++node)
+      if (marks[index(group + cut.nodes[index(part.first_node + node)])] >= 0) return true;
+  }
+  return false;
+}
+
+template <class Real>
+void BlockMarch<Real>::find_awaiting(Device& device, const SectionCut& cut, std::span<const int> marks) {
+  std::vector<int> awaiting;
+  std::vector<int> others;
+  awaits_host_.assign(index(block_.runs()), 0);
+  for (int run = 0; run < block_.runs(); ++run)
+    for (int part = 0; part < block_.parts; ++part) {
+      if (!touches_host(cut, cut.parts[index(part)], run, marks)) {
+        others.push_back(run * block_.parts + part);
+        continue;
+      }
+      awaits_host_[index(run)] = 1;
+      const MarchRuns tiles = as_tiles({run, 1});
+      for (int tile = tiles.first; tile < tiles.first + tiles.count; ++tile)
+        awaiting.push_back(tile * block_.parts + part);
+    }
+  awaiting_ = DeviceArray<int>(device, std::span<const int>(awaiting));
+  if (!awaiting.empty()) others_ = DeviceArray<int>(device, std::span<const int>(others));
+}
+
+template <class Real>
+bool BlockMarch<Real>::awaits_host(MarchRuns runs) const {
+  for (int i = 0; i < runs.count; ++i)
+    if (awaits_host_[index((runs.first + i) % block_.runs())] != 0) return true;
+  return false;
+}
+
+template <class Real>
+const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads) {
+  block_.marched = {0, block_.runs()};
   block_.step = step_constants<Real>(*swept_, loads);
   block_.gravity = loads.gravity;
   block_.frame_angle = loads.frame.angle;
   return block_;
 }
 
+/// The last run of the block may have fewer tiles.
+template <class Real>
+MarchRuns BlockMarch<Real>::as_tiles(MarchRuns runs) const {
+  const int missing = block_.runs() * block_.run_tiles - block_.tiles;
+  const bool last = runs.first + runs.count >= block_.runs();
+  return {runs.first * block_.run_tiles, runs.count * block_.run_tiles - (last ? missing : 0)};
+}
+
 template <class Real>
 MarchBlock<Real> BlockMarch<Real>::in_tiles(const StepLoads& loads, MarchRuns runs) {
-  MarchBlock<Real> block = at(loads, runs);
+  MarchBlock<Real> block = at(loads);
   block.run_tiles = 1;
-  block.marched.first = runs.first * block_.run_tiles;
-  block.marched.count = runs.count * block_.run_tiles;
-  // The last run of the block may have fewer tiles.
-  if (runs.first + runs.count >= block_.runs())
-    block.marched.count -= block_.runs() * block_.run_tiles - block_.tiles;
+  block.marched = runs.count > 0 ? as_tiles(runs) : MarchRuns{};
+  return block;
+}
+
+template <class Real>
+MarchBlock<Real> BlockMarch<Real>::awaiting(const StepLoads& loads, MarchRuns near) {
+  MarchBlock<Real> block = in_tiles(loads, near);
+  block.left_out = std::exchange(block.marched, {});
+  block.list = awaiting_.data();
+  block.listed = static_cast<int>(awaiting_.size());
+  return block;
+}
+
+template <class Real>
+MarchBlock<Real> BlockMarch<Real>::beyond(const StepLoads& loads, MarchRuns near) {
+  MarchBlock<Real> block = at(loads);
+  if (!awaits_host()) {
+    block.marched = {(near.first + near.count) % block_.runs(), block_.runs() - near.count};
+    return block;
+  }
+  block.marched = {};
+  block.left_out = near;
+  block.list = others_.data();
+  block.listed = static_cast<int>(others_.size());
   return block;
 }
 

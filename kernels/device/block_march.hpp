@@ -2,6 +2,7 @@
 // A block of the mesh in the memory of a device, cut for its teams.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "kernels/blocks/block_elements.hpp"
@@ -13,20 +14,21 @@ namespace tread {
 template <class Real>
 class BlockMarch {
  public:
-  /// Copies everything. `damping`: factor of the velocity [s] or of the lag [-].
-  BlockMarch(Device& device, const BlockElements<Real>& elements, double damping);
+  /// Copies everything. `damping`: factor of the velocity [s] or of the lag [-]. `marks`: those of all groups
+  /// of kLanes slots [MarchFields::group_mark], or none; teams that read a node of the host await it.
+  BlockMarch(Device& device, const BlockElements<Real>& elements, double damping, std::span<const int> marks);
 
   /// Data of a march in a step with these loads, over all runs.
-  const MarchBlock<Real>& at(const StepLoads& loads) { return at(loads, runs()); }
-  const MarchBlock<Real>& at(const StepLoads& loads, MarchRuns runs);
-  /// The same by runs of one tile: more teams, which end sooner but do more work.
-  MarchBlock<Real> in_tiles(const StepLoads& loads, MarchRuns runs);
-  MarchRuns runs() const { return {0, block_.runs()}; }
-  /// Runs that read or write a stretch of tiles, which may pass the end of a full turn, and the others.
+  const MarchBlock<Real>& at(const StepLoads& loads);
+  /// Runs that read or write a stretch of tiles, which may pass the end of a full turn.
   MarchRuns near(TileSpan tiles) const;
-  MarchRuns beyond(MarchRuns near) const {
-    return {(near.first + near.count) % block_.runs(), block_.runs() - near.count};
-  }
+  /// By runs of one tile: more teams, which end sooner but do more work.
+  MarchBlock<Real> in_tiles(const StepLoads& loads, MarchRuns runs);
+  /// Over other runs, by teams that await the host, run by run of one tile, and by all others.
+  MarchBlock<Real> awaiting(const StepLoads& loads, MarchRuns near);
+  MarchBlock<Real> beyond(const StepLoads& loads, MarchRuns near);
+  bool awaits_host() const { return awaiting_.size() > 0; }
+  bool awaits_host(MarchRuns runs) const;
 
  private:
   /// Copies values to the device.
@@ -34,9 +36,15 @@ class BlockMarch {
   const T* keep(Device& device, const std::vector<T, Allocator>& values);
   void build_tiles(Device& device);
   void build_coefficients(Device& device, const BlockElements<Real>& elements);
+  void find_awaiting(Device& device, const SectionCut& cut, std::span<const int> marks);
+  bool touches_host(const SectionCut& cut, const MarchPart& part, int run, std::span<const int> marks) const;
+  MarchRuns as_tiles(MarchRuns runs) const;
 
   const SweptBlock* swept_;
   MarchBlock<Real> block_;
+  DeviceArray<int> awaiting_;                ///< teams of one tile each
+  DeviceArray<int> others_;                  ///< teams of whole runs
+  std::vector<unsigned char> awaits_host_;   ///< by run
   std::vector<std::shared_ptr<void>> kept_;  ///< arrays that block_ points to
 };
 

@@ -39,25 +39,20 @@ struct FaceWindow {
   }
 };
 
-/// Integration points of the window, before the patch is made of them.
+/// Integration points of the window, and the patch that is made of them.
 struct Candidates {
   ContactPoint* point = nullptr;
   int* kept = nullptr;    ///< nonzero for those of the patch
   double* gap = nullptr;  ///< [m]
+  int* origin = nullptr;  ///< by point of the patch: candidate
 };
 
 /// Points of the patch, where the search left them.
 struct PatchPoints {
   ContactPoint* candidate = nullptr;
-  const int* origin = nullptr;  ///< by point: candidate
+  const int* origin = nullptr;  ///< Candidates::origin
 
   TREAD_BODY ContactPoint& operator[](int i) const { return candidate[origin[i]]; }
-};
-
-/// A point's weights in one body. Its size lets threads of consecutive entries read from different banks.
-struct LinkedEntry {
-  PatchWeights weights;
-  int point;
 };
 
 struct PatchNode {
@@ -66,20 +61,17 @@ struct PatchNode {
   int of_wheel;
 };
 
-/// Between the cells' nodes, and between the cells' sums: odd or 3 more than a multiple of 16, for the banks.
-inline constexpr int kCellStride = kCellNodes + 1;
-inline constexpr int kSumStride = 3 * kCellNodes + 3;
-
-/// Nodes and cells of the patch. A cell: points that the same 16 nodes of a body carry. [PatchCells]
+/// Nodes and cells of the patch. A cell: points that the same 16 nodes of a body carry. An entry: the rail's
+/// support of every point, then the wheel's. [PatchCells]
 struct PatchLinks {
-  LinkedEntry* entry = nullptr;    ///< cell by cell: the rail's and the wheel's support of every point
-  int* place = nullptr;            ///< among these, of the rail's support of every point, then of the wheel's
-  int* first_entry = nullptr;      ///< by cell and one more
-  int* cell_node = nullptr;        ///< kCellStride by cell: places of the nodes' vectors
+  int* cell = nullptr;             ///< by entry
+  int* first_entry = nullptr;      ///< by cell and one more, into entry
+  int* entry = nullptr;            ///< cell by cell
+  int* cell_node = nullptr;        ///< kCellNodes by cell
   PatchNode* node = nullptr;       ///< by node
   double* inverse_mass = nullptr;  ///< by node [1/kg]
   int* first_term = nullptr;       ///< by node and one more, into term
-  int* term = nullptr;             ///< by node: places in the cells' sums
+  int* term = nullptr;             ///< by node: places in cell_node
   // While cells and nodes are found: a table of keys, and lists.
   int* known = nullptr;   ///< by place in the table: key
   int* first = nullptr;   ///< by place in the table: first item of the key
@@ -96,8 +88,20 @@ struct TeamTile : PointTile {
   double free[3][kLanes];  ///< velocity without contact, Cartesian [m/s]
 };
 
-/// Values that record and result take of a point. Its size is that of an odd number of doubles, for the
-/// banks.
+/// A point's support in one body. Its size lets threads of consecutive points read from different banks.
+struct TeamSupport {
+  PatchWeights weights;
+  int node[kCellNodes];
+  double mobility;  ///< sum over the nodes of the square of the weight times the inverse mass [1/kg]
+};
+
+/// A point in the sum of a node.
+struct NodeItem {
+  double weight;  ///< of the node in the point, times its inverse mass [1/kg]
+  int point;
+};
+
+/// Values that record and result take of a point.
 struct PointOutcome {
   static constexpr int kSums = 5;
   double pressure;         ///< [Pa]
@@ -107,12 +111,32 @@ struct PointOutcome {
   double sum[kSums];       ///< force on the rail [N], work of friction and of damping [J]
 };
 
-/// Vectors of the solution, three components each. [PatchSolver]
+/// Parts of the sum of a node, taken by threads of their own, and the room for them.
+inline constexpr int kNodeParts = 8;
+inline constexpr int kPartStride = 3 * kNodeParts + 1;  ///< odd, for the banks
+/// Parts of the sums over all points.
+inline constexpr int kPatchParts = 32;
+/// Teams of a patch at most.
+inline constexpr int kMostTeams = 16;
+
+struct PatchCounts {
+  int points, nodes;
+  int at_the_end;  ///< points under pressure at the end of the searched surface
+};
+
+/// What the solution reads, and its arrays where the memory of the teams is too small. [PatchSolution]
 struct PatchVectors {
+  TeamSupport* support = nullptr;  ///< 2 by point: of the rail, of the wheel
+  NodeItem* item = nullptr;        ///< node by node
+  int* first_item = nullptr;       ///< by node and one more
+  int* item_of_term = nullptr;     ///< by place in PatchLinks::term
+  double* impulse = nullptr;       ///< 3 by point
+  double* change = nullptr;        ///< 3 by node
+  double* part = nullptr;          ///< kPartStride by node
+  double* sum = nullptr;           ///< 6 by point
   TeamTile* tile = nullptr;
-  double* impulse = nullptr;   ///< by point
-  double* change = nullptr;    ///< by node
-  double* cell_sum = nullptr;  ///< kSumStride by cell; or 6 by point
+  PointOutcome* outcome = nullptr;  ///< by point
+  double* total = nullptr;          ///< PointOutcome::kSums by part of the points
 };
 
 /// Largest stresses and frictional work of a passage, [station][row]. [SurfaceFields]
@@ -153,9 +177,9 @@ struct ContactTask {
   PointHistory* history = nullptr;  ///< by integration point of the whole rail
   double* wake_time = nullptr;      ///< by face of the whole rail [s]
   Candidates candidates;
-  int* origin = nullptr;          ///< by point of the patch: candidate
   ContactPoint* point = nullptr;  ///< of the patch, for the host
   PatchLinks links;
+  PatchCounts* counts = nullptr;
   PatchVectors vectors;
   RecordView record;
   PatchResult* result = nullptr;

@@ -1,4 +1,5 @@
-// The device of NVIDIA's cards: the only source that knows CUDA. HIP would be one more file like it.
+// The device of NVIDIA's cards: with its teams, the only source that knows CUDA. HIP would be one more like
+// it.
 
 #include <array>
 #include <cstddef>
@@ -6,6 +7,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "kernels/device/cuda_spared.hpp"
+#include "kernels/device/cuda_teams.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_kernels.hpp"
 
@@ -14,10 +17,8 @@ namespace tread {
 namespace {
 
 constexpr int kThreads = MarchCut{}.threads;
-constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
-constexpr int kPatchThreads = 512;  ///< of the one team of a patch
-constexpr unsigned kAll = ~0U;      ///< lanes of a warp
-constexpr int kWarp = 32;
+constexpr int kSparedProcessors = 8;  ///< that queues of far marches leave free: a cluster of teams
+constexpr int kSearchThreads = 32;    ///< few, so that all multiprocessors search
 
 /// ResourceError where a call failed.
 void check(cudaError_t status, const char* what) {
@@ -29,117 +30,6 @@ void check(cudaError_t status, const char* what) {
 std::string mebibytes(std::size_t bytes) {
   return std::to_string(bytes >> 20) + " MiB";
 }
-
-extern __shared__ double shared_memory[];
-
-class CudaTeam {
- public:
-  __device__ int block() const { return static_cast<int>(blockIdx.x); }
-  template <class T>
-  __device__ T* share(std::size_t n) const {
-    T* const first = reinterpret_cast<T*>(reinterpret_cast<char*>(shared_memory) + used_);
-    used_ += n * sizeof(T);
-    return first;
-  }
-  template <class Body>
-  __device__ void for_each(int n, const Body& body) const {
-    for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
-    __syncthreads();
-  }
-
- protected:
-  mutable std::size_t used_ = 0;
-};
-
-/// Largest of the values of a warp's lanes, which are zero or more: then their bits have their order.
-__device__ double largest_of_warp(double value) {
-  const auto high = static_cast<unsigned>(__double2hiint(value));
-  const unsigned most = __reduce_max_sync(kAll, high);
-  const unsigned low = high == most ? static_cast<unsigned>(__double2loint(value)) : 0U;
-  return __hiloint2double(static_cast<int>(most), static_cast<int>(__reduce_max_sync(kAll, low)));
-}
-
-/// kernels/device/patch_arena.hpp
-class CudaPatchTeam : public CudaTeam {
- public:
-  __device__ explicit CudaPatchTeam(unsigned bytes)
-      : bytes_(bytes), largest_(share<LargestPair>(2 * kWarp)), sums_(share<int>(kWarp)) {}
-
-  struct Spare {
-    std::byte* first;
-    std::size_t bytes;
-    __device__ std::byte* data() const { return first; }
-    __device__ std::size_t size() const { return bytes; }
-  };
-  __device__ Spare spare() const {
-    return {reinterpret_cast<std::byte*>(shared_memory) + used_, bytes_ - used_};
-  }
-  template <class T>
-  __device__ T* near(T* pointer) const {
-    const std::size_t place = __cvta_generic_to_shared(pointer) - __cvta_generic_to_shared(shared_memory);
-    return reinterpret_cast<T*>(reinterpret_cast<std::byte*>(shared_memory) + place);
-  }
-  __device__ void least(int* at, int value) const { atomicMin(at, value); }
-  __device__ int add(int* at, int value) const { return atomicAdd(at, value); }
-  __device__ int claim(int* at, int value) const {
-    const int before = atomicCAS(at, 0, value);
-    return before == 0 ? value : before;
-  }
-
-  /// Each warp takes a run of values, kWarp of them at a time.
-  template <class Value, class Take>
-  __device__ int number(int n, const Value& value, const Take& take) const {
-    const int length = (n + kPatchThreads - 1) / kPatchThreads * kWarp;
-    const int begin = warp() * length;
-    const int end = begin + length < n ? begin + length : n;
-    int own = 0;
-    for (int i = begin + lane(); i < end; i += kWarp) own += value(i);
-    own = __reduce_add_sync(kAll, own);
-    if (lane() == 0) sums_[warp()] = own;
-    __syncthreads();
-    const int other = lane() < kWarps ? sums_[lane()] : 0;
-    const int all = __reduce_add_sync(kAll, other);
-    int before = __reduce_add_sync(kAll, lane() < warp() ? other : 0);
-    for (int first = begin; first < end; first += kWarp) {
-      const int i = first + lane();
-      const int one = i < end ? value(i) : 0;
-      int sum = one;
-      for (int step = 1; step < kWarp; step *= 2) {
-        const int lower = __shfl_up_sync(kAll, sum, static_cast<unsigned>(step));
-        if (lane() >= step) sum += lower;
-      }
-      if (i < end) take(i, before + sum - one);
-      before += __shfl_sync(kAll, sum, kWarp - 1);
-    }
-    __syncthreads();
-    return all;
-  }
-
-  /// Places of the warps' largest values change from call to call: no one waits until all have read them.
-  template <class Values>
-  __device__ LargestPair largest(int n, const Values& values) const {
-    LargestPair most{0, 0};
-    for (int i = static_cast<int>(threadIdx.x); i < n; i += kPatchThreads) raise(most, values(i));
-    LargestPair* const of_warps = largest_ + turn_ * kWarp;
-    turn_ = 1 - turn_;
-    const LargestPair of_warp{largest_of_warp(most.first), largest_of_warp(most.second)};
-    if (lane() == 0) of_warps[warp()] = of_warp;
-    __syncthreads();
-    const LargestPair other = lane() < kWarps ? of_warps[lane()] : LargestPair{0, 0};
-    return {largest_of_warp(other.first), largest_of_warp(other.second)};
-  }
-
- private:
-  static constexpr int kWarps = kPatchThreads / kWarp;
-
-  __device__ static int lane() { return static_cast<int>(threadIdx.x) % kWarp; }
-  __device__ static int warp() { return static_cast<int>(threadIdx.x) / kWarp; }
-
-  unsigned bytes_;
-  LargestPair* largest_;
-  int* sums_;
-  mutable int turn_ = 0;
-};
 
 /// Teams that a multiprocessor has registers for. Plastic elements need more than linear ones.
 template <class Real, bool linear>
@@ -163,28 +53,28 @@ __global__ void each_kernel(std::int64_t n, const __grid_constant__ Body body) {
   if (i < n) body(i);
 }
 
-template <class Law>
-__global__ void __launch_bounds__(kPatchThreads)
-    patch_kernel(const __grid_constant__ ContactTask task, const __grid_constant__ Law law,
-                 typename Law::State* state, unsigned shared) {
-  CudaPatchTeam team(shared);
-  PatchTeam<Law, CudaPatchTeam>(team, task, law, state).run();
+template <class Body>
+__global__ void __launch_bounds__(kPatchThreads, Body::kNeedsMemory ? 1 : 2)
+    patch_kernel(const __grid_constant__ Body body, unsigned shared) {
+  body(CudaTeams(shared));
 }
 
 class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
-  explicit CudaDevice(int number) {
-    check(cudaSetDevice(number), "opening it");
+  explicit CudaDevice(int number) : spared_(opened(number), kSparedProcessors) {
     cudaDeviceProp properties{};
     check(cudaGetDeviceProperties(&properties, number), "its properties");
     name_ = properties.name;
     shared_ = properties.sharedMemPerBlockOptin;
+    patch_teams_ = properties.major >= 9 ? kPatchTeams : 1;
     int last = 0;
     int first = 0;
     check(cudaDeviceGetStreamPriorityRange(&last, &first), "its priorities");
     for (int i = 0; i < kQueues; ++i) {
-      const int priority = i < kFanQueue ? first : last;  // others wait for what is in the former
-      check(cudaStreamCreateWithPriority(&queues_[i].stream, cudaStreamNonBlocking, priority), "a queue");
+      // Others wait for what is in the former.
+      const int priority = i < kHostQueue ? first : i < kFanQueue ? (first + last) / 2 : last;
+      if (i < kHostQueue || !spared_.make_queue(&queues_[i].stream, priority))
+        check(cudaStreamCreateWithPriority(&queues_[i].stream, cudaStreamNonBlocking, priority), "a queue");
       check(cudaEventCreateWithFlags(&queues_[i].end, cudaEventDisableTiming), "a queue");
     }
   }
@@ -231,10 +121,18 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
  private:
   friend KernelDevice<CudaDevice>;
 
+  static int opened(int number) {
+    check(cudaSetDevice(number), "opening it");
+    check(cudaFree(nullptr), "opening it");
+    return number;
+  }
+
   struct Queue {
     cudaStream_t stream = nullptr;
-    cudaEvent_t end = nullptr;  ///< of what the queue held when it was marked last
-    bool marked = false;        ///< the queue holds nothing after that
+    cudaEvent_t end = nullptr;           ///< of what the queue held when it was marked last
+    bool marked = false;                 ///< the queue holds nothing after that
+    int marks = 0;                       ///< how often it was marked
+    std::array<int, kQueues> awaited{};  ///< by queue: its mark that this one has waited for
   };
 
   /// The queue in use, which gets something.
@@ -245,7 +143,11 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   void let_wait(int waiting, int queue) override {
     Queue& of = queues_[queue];
-    if (!std::exchange(of.marked, true)) check(cudaEventRecord(of.end, of.stream), "the end of a queue");
+    if (!std::exchange(of.marked, true)) {
+      check(cudaEventRecord(of.end, of.stream), "the end of a queue");
+      ++of.marks;
+    }
+    if (std::exchange(queues_[waiting].awaited[queue], of.marks) == of.marks) return;
     queues_[waiting].marked = false;
     check(cudaStreamWaitEvent(queues_[waiting].stream, of.end, 0), "a queue after another");
   }
@@ -265,14 +167,23 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(cudaGetLastError(), "values of nodes");
   }
 
-  template <class Law>
-  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
-    const auto kernel = patch_kernel<Law>;
-    check(
-        cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared_)),
-        "shared memory");
-    kernel<<<1, kPatchThreads, shared_, stream()>>>(task, law, state, static_cast<unsigned>(shared_));
-    check(cudaGetLastError(), "patch");
+  template <class Body>
+  void patch_any(const Body& body) {
+    const auto kernel = patch_kernel<Body>;
+    const std::size_t shared = Body::kNeedsMemory ? shared_ : CudaTeams::kOwnBytes;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
+          "shared memory");
+    cudaLaunchAttribute cluster{};
+    cluster.id = cudaLaunchAttributeClusterDimension;
+    cluster.val.clusterDim = {static_cast<unsigned>(patch_teams_), 1, 1};
+    cudaLaunchConfig_t launch{};
+    launch.gridDim = dim3(static_cast<unsigned>(patch_teams_));
+    launch.blockDim = dim3(kPatchThreads);
+    launch.dynamicSmemBytes = shared;
+    launch.stream = stream();
+    launch.attrs = &cluster;
+    launch.numAttrs = patch_teams_ > 1 ? 1 : 0;
+    check(cudaLaunchKernelEx(&launch, kernel, body, static_cast<unsigned>(shared)), "patch");
   }
 
   template <class Real, class U>
@@ -304,6 +215,8 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   std::string name_;
   std::size_t shared_ = 0;
+  int patch_teams_ = 1;
+  SparedProcessors spared_;
   std::array<Queue, kQueues> queues_;
 };
 

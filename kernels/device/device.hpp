@@ -30,9 +30,12 @@ inline constexpr int kMainQueue = 0;
 inline constexpr int kSearchQueue = 1;  ///< of the contact's search
 inline constexpr int kCopyQueue = 2;    ///< of copies to the host
 inline constexpr int kPatchQueue = 3;   ///< of the contact's tractions
-inline constexpr int kNearQueue = 4;    ///< this one and the next: of marches about the patch
-inline constexpr int kFanQueue = 6;     ///< this one and all after it: of other marches
-inline constexpr int kQueues = 14;
+inline constexpr int kRecordQueue = 4;  ///< of their outcome
+inline constexpr int kNearQueue = 5;    ///< this one and the next: of marches about the patch
+inline constexpr int kHostQueue =
+    7;  ///< this one and all up to the next: of other marches that the host awaits
+inline constexpr int kFanQueue = 11;  ///< this one and all after it: of the rest
+inline constexpr int kQueues = 17;
 
 class Device {
  public:
@@ -92,9 +95,13 @@ class Device {
 
   /// Finds the candidates of a step. [SearchPoints]
   virtual void search(const ContactTask& task) = 0;
-  /// Makes the patch of them and solves its tractions; `state`: of the law, by integration point. The law's
-  /// arrays lie on the device. [PatchTeam]
+  /// Makes the patch of them. [PatchFinder]
+  virtual void find_patch(const ContactTask& task) = 0;
+  /// Solves its tractions; `state`: of the law, by integration point. The law's arrays lie on the device.
+  /// [PatchSolution]
   virtual void resolve(const ContactTask& task, const FrictionLaw& law, void* state) = 0;
+  /// Adds its outcome to the record, and sums it up. [RecordPatch]
+  virtual void record(const ContactTask& task) = 0;
   /// Copies its points to task.point.
   virtual void gather(const ContactTask& task, int points) = 0;
 
@@ -188,7 +195,8 @@ struct Emulation {
   /// with an even one marches begin at once, before the tractions beside them.
   std::uint64_t order = 0;
   bool spoils_copies = false;      ///< Device::spoils_copies
-  std::size_t shared = 200 << 10;  ///< memory that the team of a patch shares [B]
+  int teams = 4;                   ///< of a patch, kMostTeams at most
+  std::size_t shared = 200 << 10;  ///< memory of each of them, a multiple of 64 [B]
 };
 std::unique_ptr<Device> emulated_device(const Emulation& emulation = {});
 

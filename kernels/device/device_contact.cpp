@@ -13,20 +13,18 @@ namespace tread {
 
 /// Largest numbers of a step.
 struct DeviceContact::Sizes {
-  std::size_t candidates, faces, cells, places, nodes, sums;
+  std::size_t candidates, faces, places, nodes;
 
   explicit Sizes(const Contact& contact) {
     const ContactSearch& search = contact.searching();
     const auto [first, last] = search.edges();
     faces = search.window_capacity() * index(last - first);
     candidates = faces * index(search.quadrature().size());
-    cells = faces + candidates;  // a point has a wheel's cell of its own at most
-    places = kCellNodes * cells;
+    places = kCellNodes * (faces + candidates);  // a point has a wheel's cell of its own at most
     const SurfacePair& surfaces = search.surfaces();
     nodes = index(surfaces.rail().station_count()) * index(surfaces.rail_profile().edges() + 1) +
             index(surfaces.wheel().station_count()) * index(surfaces.wheel_profile().edges() + 1);
     nodes = std::min(nodes, places);
-    sums = std::max(kSumStride * cells, 6 * candidates);
   }
 };
 
@@ -114,14 +112,14 @@ void DeviceContact::make_room() {
   task_.history = room<PointHistory>(contact_->history().size());
   task_.wake_time = room<double>(contact_->searching().wake_time().size());
   for (Candidates& of : candidates_)
-    of = {room<ContactPoint>(points), room<int>(points), room<double>(points)};
+    of = {room<ContactPoint>(points), room<int>(points), room<double>(points), room<int>(points)};
   task_.point = room<ContactPoint>(points);
-  task_.origin = room<int>(points);
   const auto table = index(table_size(static_cast<int>(most.places)));
-  task_.links = {room<LinkedEntry>(2 * points),
-                 room<int>(2 * points),
-                 room<int>(2 * points + 1),
-                 room<int>(kCellStride * most.cells),
+  const std::size_t entries = 2 * points;
+  task_.links = {room<int>(entries),
+                 room<int>(entries + 1),
+                 room<int>(entries),
+                 room<int>(most.places),
                  room<PatchNode>(most.nodes),
                  room<double>(most.nodes),
                  room<int>(most.nodes + 1),
@@ -130,12 +128,25 @@ void DeviceContact::make_room() {
                  room<int>(table),
                  room<int>(table),
                  room<int>(most.places),
-                 room<int>(2 * points),
+                 room<int>(entries),
                  room<int>(most.places),
                  room<int>(most.places),
                  room<int>(most.places)};
-  task_.vectors = {room<TeamTile>(points / kLanes + 1), room<double>(3 * points),
-                   room<double>(3 * most.nodes), room<double>(most.sums)};
+  task_.counts = room<PatchCounts>(1);
+  // The runs of teams may be longer by one point or node each.
+  const std::size_t points_of_teams = points + kMostTeams;
+  const std::size_t nodes_of_teams = most.nodes + kMostTeams;
+  task_.vectors = {room<TeamSupport>(2 * points),
+                   room<NodeItem>(kCellNodes * entries),
+                   room<int>(most.nodes + 1),
+                   room<int>(most.places),
+                   room<double>(3 * points),
+                   room<double>(3 * most.nodes),
+                   room<double>(kPartStride * nodes_of_teams),
+                   room<double>(6 * points_of_teams),
+                   room<TeamTile>(points_of_teams / kLanes + kMostTeams),
+                   room<PointOutcome>(points),
+                   room<double>(kPatchParts * PointOutcome::kSums)};
   const SurfaceGrid& grid = contact_->nodes().grid();
   task_.record = {room<double>(grid.nodes()), room<double>(grid.nodes()), room<double>(grid.nodes()),
                   keep(grid.length),          keep(grid.width),           grid.rows(),
@@ -180,6 +191,8 @@ void DeviceContact::find(NodeField displacement, NodeField velocity, const Insta
   const Beside beside(*device_, kSearchQueue);
   device_->after(kPatchQueue);
   device_->search(task_);
+  device_->after(kRecordQueue);
+  device_->find_patch(task_);
 }
 
 void DeviceContact::search(NodeField displacement, NodeField velocity, const Instant& at) {
@@ -201,14 +214,19 @@ void DeviceContact::start(NodeField displacement, NodeField velocity) {
   task_.u = displacement;
   task_.v = velocity;
   solved_ = 1 - solved_;
-  const Beside beside(*device_, kPatchQueue);
-  device_->after(kSearchQueue);
-  device_->resolve(task_, law_, law_state_);
+  {
+    const Beside beside(*device_, kPatchQueue);
+    device_->after(kSearchQueue);
+    device_->resolve(task_, law_, law_state_);
+  }
+  const Beside beside(*device_, kRecordQueue);
+  device_->after(kPatchQueue);
+  device_->record(task_);
   device_->start_download(result_.data(), task_.result, sizeof(PatchResult));
 }
 
 void DeviceContact::resolve() {
-  device_->finish(kPatchQueue);
+  device_->finish(kRecordQueue);
   const PatchResult& result = *result_.data();
   contact_->take({result.force_on_rail, result.frictional_work, result.damping_work});
   if (result.at_the_end != 0) fetch_points();
@@ -252,13 +270,13 @@ void DeviceContact::release() {
 
 std::int64_t DeviceContact::bytes(const Contact& contact) {
   const Sizes most(contact);
-  const std::size_t of_point = 3 * sizeof(ContactPoint) + 2 * sizeof(LinkedEntry) +
-                               sizeof(TeamTile) / kLanes + 4 * sizeof(double) + 8 * sizeof(int);
-  const std::size_t of_node = sizeof(PatchNode) + 4 * sizeof(double) + sizeof(int);
+  const std::size_t of_point = 3 * sizeof(ContactPoint) + sizeof(TeamTile) / kLanes +
+                               2 * sizeof(TeamSupport) + 2 * kCellNodes * sizeof(NodeItem) +
+                               sizeof(PointOutcome) + 11 * sizeof(double) + 11 * sizeof(int);
+  const std::size_t of_node = sizeof(PatchNode) + (4 + 3 * kNodeParts) * sizeof(double) + 2 * sizeof(int);
   const auto table = index(table_size(static_cast<int>(most.places)));
-  const std::size_t ints = 3 * table + 5 * most.places + kCellStride * most.cells;
-  return static_cast<std::int64_t>(most.candidates * of_point + most.nodes * of_node + ints * sizeof(int) +
-                                   most.sums * sizeof(double)) +
+  const std::size_t ints = 3 * table + 7 * most.places;
+  return static_cast<std::int64_t>(most.candidates * of_point + most.nodes * of_node + ints * sizeof(int)) +
          contact.bytes();
 }
 

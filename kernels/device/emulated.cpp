@@ -84,24 +84,52 @@ class EmulatedTeam {
     memory_ = memory_.subspan(n * sizeof(T));
     return first;
   }
-  std::span<std::byte> spare() const { return memory_; }
-  template <class T>
-  T* near(T* pointer) const {
-    return pointer;
-  }
-  /// One thread at a time changes what all share.
-  void least(int* at, int value) const { *at = std::min(*at, value); }
-  int add(int* at, int value) const { return std::exchange(*at, *at + value); }
-  int claim(int* at, int value) const { return *at = *at == 0 ? value : *at; }
   template <class Body>
   void for_each(int n, const Body& body) const {
     const Order order(n, seed_);
     for (int i = 0; i < n; ++i) body(static_cast<int>(order(i)));
   }
+
+ private:
+  int block_;
+  std::uint64_t seed_;
+  mutable std::span<std::byte> memory_;
+};
+
+/// kernels/device/patch_room.hpp: one thread at a time changes what all share.
+class EmulatedTeams {
+ public:
+  EmulatedTeams(int teams, std::uint64_t seed, std::span<std::byte> memory)
+      : teams_(teams), seed_(seed), memory_(memory) {}
+
+  int teams() const { return teams_; }
+  int team() const { return team_; }
+  int run(int n) const { return (n + teams_ - 1) / teams_; }
+  template <int width = 1, class Body>
+  void for_each(int n, const Body& body) const {
+    for_teams([&] {
+      const int first = width * std::min(n, team_ * run(n));
+      const int count = width * std::min(n, (team_ + 1) * run(n)) - first;
+      const Order order(count, seed_);
+      for (int i = 0; i < count; ++i) body(first + static_cast<int>(order(i)));
+    });
+  }
+  template <int width = 1, class Body>
+  void for_own(int n, const Body& body) const {
+    for_each<width>(n, body);
+  }
+  template <class First, class Body>
+  void for_lists(int n, const First& first, const Body& body) const {
+    for_teams([&] {
+      const int end = first(std::min(n, (team_ + 1) * run(n)));
+      for (int i = first(std::min(n, team_ * run(n))); i < end; ++i) body(i);
+    });
+  }
   template <class Value, class Take>
   int number(int n, const Value& value, const Take& take) const {
     int before = 0;
     for (int i = 0; i < n; ++i) {
+      team_ = i / run(n);
       const int own = value(i);
       take(i, before);
       before += own;
@@ -114,11 +142,44 @@ class EmulatedTeam {
     for_each(n, [&](int i) { raise(most, values(i)); });
     return most;
   }
+  std::span<std::byte> memory() const {
+    return memory_.first(memory_.size() / static_cast<std::size_t>(teams_));
+  }
+  template <class T>
+  T* here(T* pointer) const {
+    return of(team_, pointer);
+  }
+  template <class T>
+  T* near(T* pointer) const {
+    return here(pointer);
+  }
+  template <class T>
+  void tell(T* pointer, T value) const {
+    for (int team = 0; team < teams_; ++team) *of(team, pointer) = value;
+  }
+  void least(int* at, int value) const { *at = std::min(*at, value); }
+  int add(int* at, int value) const { return std::exchange(*at, *at + value); }
+  int claim(int* at, int value) const { return *at = *at == 0 ? value : *at; }
 
  private:
-  int block_;
+  template <class Body>
+  void for_teams(const Body& body) const {
+    const Order order(teams_, seed_);
+    for (int i = 0; i < teams_; ++i) {
+      team_ = static_cast<int>(order(i));
+      body();
+    }
+  }
+  template <class T>
+  T* of(int team, T* pointer) const {
+    return reinterpret_cast<T*>(reinterpret_cast<std::byte*>(pointer) +
+                                static_cast<std::size_t>(team) * memory().size());
+  }
+
+  int teams_;
   std::uint64_t seed_;
-  mutable std::span<std::byte> memory_;
+  std::span<std::byte> memory_;
+  mutable int team_ = 0;
 };
 
 class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
@@ -161,7 +222,7 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
       return;
     }
     queues_.add(used(), task);
-    if (emulation_.order % 2 == 0 && used() >= kFanQueue) queues_.run(used());
+    if (emulation_.order % 2 == 0 && used() >= kHostQueue) queues_.run(used());
   }
 
   template <class Body>
@@ -174,14 +235,12 @@ class EmulatedDevice final : public KernelDevice<EmulatedDevice> {
     });
   }
 
-  template <class Law>
-  void patch_any(const ContactTask& task, const Law& law, typename Law::State* state) {
-    start([=, seed = emulation_.order, shared = emulation_.shared] {
-      using Patch = PatchTeam<Law, EmulatedTeam>;
+  template <class Body>
+  void patch_any(const Body& body) {
+    start([body, seed = emulation_.order, shared = emulation_.shared, teams = emulation_.teams] {
       thread_local AlignedVector<std::byte> memory;
-      memory.resize(shared);
-      const EmulatedTeam team(0, seed, memory);
-      Patch(team, task, law, state).run();
+      memory.resize(static_cast<std::size_t>(teams) * shared);
+      body(EmulatedTeams(teams, seed, memory));
     });
   }
 

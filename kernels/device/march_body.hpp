@@ -26,8 +26,8 @@ class March {
       : team_(team),
         block_(block),
         fields_(fields),
-        run_((block.marched.first + team.block() / block.parts) % block.runs()),
-        part_number_(team.block() % block.parts),
+        run_(block.run_of(team.block())),
+        part_number_(block.part_of(team.block())),
         part_(block.part[part_number_]) {
     values_ = team.template share<Real>(kNodeValues * part_.nodes);
     if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeValues * part_.nodes);
@@ -52,6 +52,7 @@ class March {
   }
 
   TREAD_INLINE void run() {
+    if (block_.leaves_out(run_)) return;
     first_tile_ = run_ * block_.run_tiles;
     const int end =
         first_tile_ + block_.run_tiles < block_.tiles ? first_tile_ + block_.run_tiles : block_.tiles;

@@ -23,12 +23,10 @@ class MarchFan {
  public:
   explicit MarchFan(Device& device) : device_(&device), kernels_(&device.kernels<Real, U>()) {}
 
-  /// `awaits_host`: the host moves nodes of the block.
-  void add(std::unique_ptr<BlockMarch<Real>> block, TileVariant variant, bool awaits_host) {
+  void add(std::unique_ptr<BlockMarch<Real>> block, TileVariant variant) {
     blocks_.push_back(std::move(block));
     variants_.push_back(variant);
     reached_.emplace_back();
-    awaits_host_.push_back(awaits_host ? 1 : 0);
   }
 
   int blocks() const { return static_cast<int>(blocks_.size()); }
@@ -47,25 +45,38 @@ class MarchFan {
   }
   /// Lets what follows in the queue in use begin after the march about the patch.
   void await_near() {
-    for (int queue = kNearQueue; queue < (near_alone_ ? kFanQueue : kQueues); ++queue) device_->after(queue);
+    for (int queue = kNearQueue; queue < (near_alone_ ? kHostQueue : kQueues); ++queue) device_->after(queue);
+  }
+  /// Likewise after all that gives forces on the host's nodes.
+  void await_forces() {
+    for (int b = 0; b < blocks(); ++b) {
+      if (!block(b).awaits_host()) continue;
+      device_->after(near_alone_ ? host_queue(b) : fan_queue(b));
+      if (!near_alone_ || !near_awaits_host(b)) continue;
+      for (int queue = kNearQueue; queue < kHostQueue; ++queue) device_->after(queue);
+    }
   }
   /// Likewise after all marches.
   void join() {
     for (int queue = kNearQueue; queue < kQueues; ++queue) device_->after(queue);
   }
 
-  /// Begins a step with these loads in blocks of which the host moves no node: over tiles that the tractions
+  /// Begins a step with these loads by the teams that do not await the host: over tiles that the tractions
   /// reach after these, over the others at once.
   template <class Fields>
   void begin_ahead(const StepLoads& loads, const std::array<ReachedTiles, 2>& reached, const Fields& fields) {
     for (const ReachedTiles& of : reached) reached_[index(of.block)] = block(of.block).near(of.tiles);
-    launch_ahead(loads, false, fields);
+    for (int b = 0; b < blocks(); ++b)
+      launch(fan_queue(b), b, block(b).beyond(loads, reached_[index(b)]), fields);
+    launch_near(loads, false, fields);
     begun_ = loads;
   }
-  /// Begins it in the others, when the host has moved its nodes.
+  /// Begins it by the others, when the host has moved its nodes.
   template <class Fields>
   void go_on_ahead(const Fields& fields) {
-    launch_ahead(*begun_, true, fields);
+    for (int b = 0; b < blocks(); ++b)
+      launch(host_queue(b), b, block(b).awaiting(*begun_, reached_[index(b)]), fields);
+    launch_near(*begun_, true, fields);
     ahead_ = begun_;
   }
   bool has_begun() const { return begun_.has_value(); }
@@ -78,34 +89,34 @@ class MarchFan {
  private:
   template <class Fields>
   void launch(int queue, int number, const MarchBlock<Real>& marched, const Fields& fields) {
-    if (marched.marched.count == 0) return;
+    if (marched.teams() == 0) return;
     const Beside beside(*device_, queue);
-    if (queue < kFanQueue) device_->after(kPatchQueue);
+    if (queue < kHostQueue) device_->after(kPatchQueue);
     kernels_->march(variant(number), marched, fields(number));
   }
 
+  bool near_awaits_host(int b) const { return blocks_[index(b)]->awaits_host(reached_[index(b)]); }
   template <class Fields>
-  void launch_ahead(const StepLoads& loads, bool awaits_host, const Fields& fields) {
-    int near_queue = kNearQueue;
+  void launch_near(const StepLoads& loads, bool awaits_host, const Fields& fields) {
+    int queue = kNearQueue;
     for (int b = 0; b < blocks(); ++b) {
       const MarchRuns near = reached_[index(b)];
-      const int queue = near.count > 0 ? near_queue++ : 0;
-      if ((awaits_host_[index(b)] != 0) != awaits_host) continue;
-      launch(fan_queue(b), b, block(b).at(loads, block(b).beyond(near)), fields);
-      if (near.count > 0) launch(queue, b, block(b).in_tiles(loads, near), fields);
+      if (near.count == 0) continue;
+      if (near_awaits_host(b) == awaits_host) launch(queue, b, block(b).in_tiles(loads, near), fields);
+      ++queue;
     }
   }
 
+  static int host_queue(int block) { return kHostQueue + block % (kFanQueue - kHostQueue); }
   static int fan_queue(int block) { return kFanQueue + block % (kQueues - kFanQueue); }
 
   Device* device_;
   FieldKernels<Real, U>* kernels_;
   std::vector<std::unique_ptr<BlockMarch<Real>>> blocks_;
   std::vector<TileVariant> variants_;
-  std::vector<MarchRuns> reached_;          ///< by block; none: the tractions do not reach it
-  std::vector<unsigned char> awaits_host_;  ///< by block
-  std::optional<StepLoads> begun_;  ///< of the step that has begun in blocks that do not await the host
-  std::optional<StepLoads> ahead_;  ///< of the step that has begun in all
+  std::vector<MarchRuns> reached_;  ///< by block; none: the tractions do not reach it
+  std::optional<StepLoads> begun_;  ///< of the step that has begun by teams that do not await the host
+  std::optional<StepLoads> ahead_;  ///< of the step that has begun by all
   bool near_alone_ = false;         ///< the march about the patch has queues of its own in this step
 };
 

@@ -7,7 +7,9 @@
 #include "kernels/device/device.hpp"
 #include "kernels/device/march_body.hpp"
 #include "kernels/device/node_kernels.hpp"
-#include "kernels/device/patch_team.hpp"
+#include "kernels/device/patch_finder.hpp"
+#include "kernels/device/patch_record.hpp"
+#include "kernels/device/patch_solution.hpp"
 #include "kernels/device/search_points.hpp"
 #include "kernels/device/sum_kernels.hpp"
 
@@ -39,8 +41,8 @@ void with_march(TileVariant v, const Launch& launch) {
   });
 }
 
-/// A device of which `Own` has march_any and patch_any, and each(body), which calls body(0) ...
-/// body(body.count() - 1).
+/// A device of which `Own` has march_any, patch_any(body), which calls body(teams), and each(body), which
+/// calls body(0) ... body(body.count() - 1).
 template <class Own>
 class KernelDevice : public Device {
  public:
@@ -51,16 +53,25 @@ class KernelDevice : public Device {
       });
     });
   }
+  void find_patch(const ContactTask& task) override {
+    this->count_launch();
+    own().patch_any(FindPatch{task});
+  }
   void resolve(const ContactTask& task, const FrictionLaw& law, void* state) override {
     this->count_launch();
     std::visit(
         [&](const auto& of) {
-          own().patch_any(task, of, static_cast<typename std::decay_t<decltype(of)>::State*>(state));
+          using Law = std::decay_t<decltype(of)>;
+          own().patch_any(SolvePatch<Law>{task, of, static_cast<typename Law::State*>(state)});
         },
         law);
   }
+  void record(const ContactTask& task) override {
+    each(RecordPatch{task});
+    each(SumPatch{task});
+  }
   void gather(const ContactTask& task, int points) override {
-    each(GatherPoints{{task.candidates.point, task.origin}, task.point, points});
+    each(GatherPoints{{task.candidates.point, task.candidates.origin}, task.point, points});
   }
   void triad(std::int64_t n, double* a, const double* b, const double* c) override {
     each(Triad{n, a, b, c});

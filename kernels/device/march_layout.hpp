@@ -54,11 +54,14 @@ struct MarchBlock {
   int origin_node = 0;    ///< BlockElements::origin_node
   int colours = 0;        ///< quads of one colour share no node
   int parts = 0;
-  int run_tiles = 0;       ///< tiles of a run; the last one has the rest
-  MarchRuns marched;       ///< of the runs, in this march
-  int most_nodes = 0;      ///< of a part
-  int most_own_nodes = 0;  ///< of a part
-  int most_quads = 0;      ///< of a part
+  int run_tiles = 0;          ///< tiles of a run; the last one has the rest
+  MarchRuns marched;          ///< of the runs, in this march
+  const int* list = nullptr;  ///< its teams instead, numbered run by run, part by part
+  int listed = 0;             ///< number of these
+  MarchRuns left_out;         ///< runs of the list that another march takes
+  int most_nodes = 0;         ///< of a part
+  int most_own_nodes = 0;     ///< of a part
+  int most_quads = 0;         ///< of a part
 
   const MarchPart* part = nullptr;
   const int* part_nodes = nullptr;  ///< section nodes
@@ -95,7 +98,14 @@ struct MarchBlock {
     return shifts[entry > 0 ? entry : 0];
   }
   constexpr int runs() const { return (tiles + run_tiles - 1) / run_tiles; }
-  constexpr int teams() const { return parts * marched.count; }
+  constexpr int teams() const { return list != nullptr ? listed : parts * marched.count; }
+  constexpr int part_of(int team) const { return list != nullptr ? list[team] % parts : team % parts; }
+  constexpr int run_of(int team) const {
+    return list != nullptr ? list[team] / parts : (marched.first + team / parts) % runs();
+  }
+  constexpr bool leaves_out(int run) const {
+    return (run - left_out.first + runs()) % runs() < left_out.count;
+  }
 };
 
 /// Groups that move with their elements; tied ones, whose forces stay in MarchFields::force; those that move

@@ -23,7 +23,7 @@ TEST(March, ATranslationMakesNoForceInMixedPrecision) {
     Mesh mesh;
     mesh.add(block);
     const BasicInternalForce<float, double> internal(mesh);
-    BlockMarch<float> march(*device, internal.elements(0), 0);
+    BlockMarch<float> march(*device, internal.elements(0), 0, {});
     const auto nodes = static_cast<std::size_t>(mesh.slots);
     const auto u = copy(samples::sample(mesh, [](const Vec3&) { return Vec3{2e-3, 1e-3, -3e-3}; }));
     auto v = copy(AlignedVector<float>(3 * nodes, 0));

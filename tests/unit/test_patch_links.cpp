@@ -6,11 +6,9 @@
 #include <cstddef>
 #include <numeric>
 #include <random>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "core/aligned.hpp"
 #include "kernels/contact/patch_cells.hpp"
 #include "kernels/device/patch_links.hpp"
 
@@ -86,20 +84,18 @@ std::vector<ContactPoint> made_up_points() {
 /// Room for the links of some points.
 struct Room {
   explicit Room(std::size_t points)
-      : ints(13, std::vector<int>(4 * kCellStride * 2 * points)),
-        entry(2 * points),
+      : ints(14, std::vector<int>(4 * kCellNodes * 2 * points)),
         node(index(kSlots)),
         inverse_mass(index(kSlots)) {}
 
   PatchLinks links() {
-    return {entry.data(),   ints[0].data(),      ints[1].data(),  ints[2].data(),
-            node.data(),    inverse_mass.data(), ints[3].data(),  ints[4].data(),
-            ints[5].data(), ints[6].data(),      ints[7].data(),  ints[8].data(),
-            ints[9].data(), ints[10].data(),     ints[11].data(), ints[12].data()};
+    return {ints[0].data(),  ints[1].data(),      ints[2].data(),  ints[3].data(),
+            node.data(),     inverse_mass.data(), ints[4].data(),  ints[5].data(),
+            ints[6].data(),  ints[7].data(),      ints[8].data(),  ints[9].data(),
+            ints[10].data(), ints[11].data(),     ints[12].data(), ints[13].data()};
   }
 
   std::vector<std::vector<int>> ints;
-  std::vector<LinkedEntry> entry;
   std::vector<PatchNode> node;
   std::vector<double> inverse_mass;
 };
@@ -120,35 +116,34 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
   std::vector<PatchVector> sums(cells.nodes().size());
   cells.to_nodes(numbers, sums);
 
-  for (const bool backwards : {false, true})
-    for (const std::size_t shared : {std::size_t{0}, std::size_t{30000}, std::size_t{1} << 20}) {
-      Room room(points.size());
-      const PatchLinks of_room = room.links();
-      AlignedVector<std::byte> memory(shared);
-      const Team team(backwards);
-      LinkedPatch<Team> patch(team, PatchArena(std::span<std::byte>(memory)), of_room);
-      patch.link({points.data(), origin.data()}, count, inverse_mass.data());
-      const PatchLinks& links = patch.links();
-      ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
-      for (int n = 0; n < patch.nodes(); ++n) {
-        const PatchCells::Node& node = cells.nodes()[index(n)];
-        EXPECT_EQ(links.node[n].slot, node.slot);
-        EXPECT_EQ(links.node[n].of_wheel != 0, node.of_wheel);
-        EXPECT_EQ(links.node[n].cosine, node.cosine);
-        EXPECT_EQ(links.node[n].sine, node.sine);
-        EXPECT_EQ(links.inverse_mass[n], node.inverse_mass);
-        double sum = 0;
-        for (int t = links.first_term[n]; t < links.first_term[n + 1]; ++t) {
-          EXPECT_TRUE(t == links.first_term[n] || links.term[t - 1] < links.term[t]);
-          const int cell = links.term[t] / kSumStride;
-          EXPECT_EQ(links.cell_node[cell * kCellStride + links.term[t] % kSumStride / 3], 3 * n);
-          for (int e = links.first_entry[cell]; e < links.first_entry[cell + 1]; ++e)
-            sum += 0.0625 * (links.entry[e].point + 1);
+  for (const bool backwards : {false, true}) {
+    Room room(points.size());
+    const Team team(backwards);
+    LinkedPatch<Team> patch(team, room.links());
+    patch.link({points.data(), origin.data()}, count, inverse_mass.data());
+    const PatchLinks& links = patch.links();
+    ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
+    for (int n = 0; n < patch.nodes(); ++n) {
+      const PatchCells::Node& node = cells.nodes()[index(n)];
+      EXPECT_EQ(links.node[n].slot, node.slot);
+      EXPECT_EQ(links.node[n].of_wheel != 0, node.of_wheel);
+      EXPECT_EQ(links.node[n].cosine, node.cosine);
+      EXPECT_EQ(links.node[n].sine, node.sine);
+      EXPECT_EQ(links.inverse_mass[n], node.inverse_mass);
+      double sum = 0;
+      for (int t = links.first_term[n]; t < links.first_term[n + 1]; ++t) {
+        EXPECT_TRUE(t == links.first_term[n] || links.term[t - 1] < links.term[t]);
+        EXPECT_EQ(links.cell_node[links.term[t]], n);
+        const int cell = links.term[t] / kCellNodes;
+        for (int e = links.first_entry[cell]; e < links.first_entry[cell + 1]; ++e) {
+          EXPECT_EQ(links.cell[links.entry[e]], cell);
+          sum += 0.0625 * (links.entry[e] % count + 1);
         }
-        EXPECT_DOUBLE_EQ(sum * node.inverse_mass, sums[index(n)].value[0]);
       }
-      for (int e = 0; e < 2 * count; ++e) EXPECT_EQ(links.entry[links.place[e]].point, e % count);
+      EXPECT_DOUBLE_EQ(sum * node.inverse_mass, sums[index(n)].value[0]);
     }
+    EXPECT_EQ(links.first_entry[patch.cells()], 2 * count);
+  }
 }
 
 }  // namespace
