@@ -32,9 +32,8 @@ inline constexpr int kCopyQueue = 2;    ///< of copies to the host
 inline constexpr int kPatchQueue = 3;   ///< of the contact's tractions
 inline constexpr int kRecordQueue = 4;  ///< of their outcome
 inline constexpr int kNearQueue = 5;    ///< this one and the next: of marches about the patch
-inline constexpr int kHostQueue =
-    7;  ///< this one and all up to the next: of other marches that the host awaits
-inline constexpr int kFanQueue = 11;  ///< this one and all after it: of the rest
+inline constexpr int kHostQueue = 7;    ///< this one and the next three: of other marches that await the host
+inline constexpr int kFanQueue = 11;    ///< this one and all after it: of the rest
 inline constexpr int kQueues = 17;
 
 class Device {

@@ -3,9 +3,11 @@
 //
 // They have
 //   teams(), team()            how many there are; which one a body is called by
-//   for_each<width>(n, body)   body(0) ... body(n width - 1), of which each team takes a run of
-//                              run(n) width; ends when all teams have ended
+//   run(n)                     number of n items of which each team takes a run; the last ones may be shorter
+//   for_each<width>(n, body)   body(0) ... body(n width - 1), run(n) width of them by a team; ends when all
+//                              teams have ended
 //   for_own<width>(n, body)    the same; each team goes on when itself has ended
+//   for_lists(n, first, body)  likewise body(first(i)) ... body(first(i + 1) - 1) for each of the n items i
 //   number(n, value, take)     take(i, sum of the ints value(0) ... value(i - 1)); returns the sum of all
 //   largest(n, values)         largest of both of values(i), or zero
 //   memory()                   data() and size() of the memory of a team that its threads share [B]
