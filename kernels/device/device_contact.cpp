@@ -56,6 +56,7 @@ DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact,
   task_.surfaces.kind = surfaces.kind();
   task_.surfaces.depths = {corrugation()};
   std::vector<FaceQuadrature::Point> quadrature;
+  quadrature.reserve(index(search.quadrature().size()));
   for (int k = 0; k < search.quadrature().size(); ++k) quadrature.push_back(search.quadrature().point(k));
   task_.quadrature = keep(quadrature);
   task_.springs = contact.springs_of_points();
