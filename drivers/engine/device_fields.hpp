@@ -47,7 +47,7 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void move_rest(const StepLoads& loads, bool measured) override;
-  /// The device holds those of its own as they move.
+  /// The device holds those of its own as they move. The host's are so few that waking threads takes longer.
   void hold(std::span<const std::int64_t> unknowns) override {
     if (host_whole_) return Base::hold(unknowns);
     for (const std::int64_t unknown : host_held_) this->u()[index(unknown)] = this->v()[index(unknown)] = 0;
@@ -103,10 +103,9 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   /// The host needs not wait for the march about the patch, which waits for the tractions.
   void start_host_forces() {
     if (packed_f_.size() == 0) return;
-    device_->use(kCopyQueue);
+    const Beside beside(*device_, kCopyQueue);
     marches_.await_forces();
     device_->start_download(packed_f_.data(), device_f_.data(), packed_f_.size() * sizeof(Real));
-    device_->use(kMainQueue);
   }
   void finish_motion(const StepLoads& loads);
   void take_host_forces();

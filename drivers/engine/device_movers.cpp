@@ -1,6 +1,5 @@
 #include "drivers/engine/device_movers.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "drivers/engine/featured_nodes.hpp"

@@ -124,7 +124,7 @@ struct PatchCounts {
   int at_the_end;  ///< points under pressure at the end of the searched surface
 };
 
-/// What the solution reads, and its arrays where the memory of the teams is too small. [PatchSolution]
+/// Input of the solution, and its arrays where the memory of the teams is too small. [PatchSolution]
 struct PatchVectors {
   TeamSupport* support = nullptr;  ///< 2 by point: of the rail, of the wheel
   NodeItem* item = nullptr;        ///< node by node

@@ -17,8 +17,7 @@ namespace tread {
 namespace {
 
 constexpr int kThreads = MarchCut{}.threads;
-constexpr int kSparedProcessors = 8;  ///< that queues of far marches leave free: a cluster of teams
-constexpr int kSearchThreads = 32;    ///< few, so that all multiprocessors search
+constexpr int kSearchThreads = 32;  ///< few, so that all multiprocessors search
 
 /// ResourceError where a call failed.
 void check(cudaError_t status, const char* what) {
@@ -61,7 +60,7 @@ __global__ void __launch_bounds__(kPatchThreads, Body::kNeedsMemory ? 1 : 2)
 
 class CudaDevice final : public KernelDevice<CudaDevice> {
  public:
-  explicit CudaDevice(int number) : spared_(opened(number), kSparedProcessors) {
+  explicit CudaDevice(int number) : spared_(opened(number), kPatchTeams) {
     cudaDeviceProp properties{};
     check(cudaGetDeviceProperties(&properties, number), "its properties");
     name_ = properties.name;

@@ -51,7 +51,7 @@ class CudaTeams {
   static constexpr int kWarps = kPatchThreads / kWarp;
   static_assert(kMostTeams <= kWarp);
 
-  /// What the warps of all teams tell each other.
+  /// Values that the warps of all teams tell each other.
   struct alignas(PatchRoom::kLine) Board {
     LargestPair largest[2][kMostTeams * kWarps];
     int sums[kMostTeams * kWarps];
@@ -165,7 +165,7 @@ class CudaTeams {
   __device__ static int thread() { return static_cast<int>(threadIdx.x); }
   __device__ static int lane() { return thread() % kWarp; }
   __device__ static int warp() { return thread() / kWarp; }
-  /// Of the own warp among those of all teams.
+  /// Number of the own warp among those of all teams.
   __device__ int place() const { return team() * kWarps + warp(); }
   __device__ static Board& board() { return *reinterpret_cast<Board*>(shared_memory); }
   __device__ int begin_of(int n) const { return min(n, team() * run(n)); }

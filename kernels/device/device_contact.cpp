@@ -273,8 +273,8 @@ std::int64_t DeviceContact::bytes(const Contact& contact) {
   const Sizes most(contact);
   const std::size_t of_point = 3 * sizeof(ContactPoint) + sizeof(TeamTile) / kLanes +
                                2 * sizeof(TeamSupport) + 2 * kCellNodes * sizeof(NodeItem) +
-                               sizeof(PointOutcome) + 11 * sizeof(double) + 11 * sizeof(int);
-  const std::size_t of_node = sizeof(PatchNode) + (4 + 3 * kNodeParts) * sizeof(double) + 2 * sizeof(int);
+                               sizeof(PointOutcome) + 11 * sizeof(double) + 12 * sizeof(int);
+  const std::size_t of_node = sizeof(PatchNode) + (4 + kPartStride) * sizeof(double) + 2 * sizeof(int);
   const auto table = index(table_size(static_cast<int>(most.places)));
   const std::size_t ints = 3 * table + 7 * most.places;
   return static_cast<std::int64_t>(most.candidates * of_point + most.nodes * of_node + ints * sizeof(int)) +

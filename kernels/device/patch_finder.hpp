@@ -16,7 +16,7 @@ class PatchFinder {
   TREAD_BODY void run() {
     number_points();
     if (points_ > 0) {
-      links_.link(points(), points_, task_.inverse_mass);
+      links_.link({task_.candidates.point, task_.candidates.origin}, points_, task_.inverse_mass);
       fill_supports();
       list_items();
     }
@@ -24,11 +24,6 @@ class PatchFinder {
   }
 
  private:
-  TREAD_BODY PatchPoints points() const { return {task_.candidates.point, task_.candidates.origin}; }
-  TREAD_BODY const SurfaceSupport& support(int entry) const {
-    return entry < points_ ? points()[entry].rail : points()[entry - points_].wheel;
-  }
-
   /// Numbers the candidates that were kept, in their order.
   TREAD_BODY void number_points() {
     const FaceWindow& window = task_.window;
@@ -46,9 +41,8 @@ class PatchFinder {
   TREAD_BODY void fill_supports() const {
     const PatchLinks& l = links_.links();
     teams_.for_each(2 * points_, [&](int entry) {
-      const int body = entry / points_;
-      const SurfaceSupport& of = support(entry);
-      TeamSupport& to = task_.vectors.support[2 * (entry - body * points_) + body];
+      const SurfaceSupport& of = links_.support(entry);
+      TeamSupport& to = task_.vectors.support[2 * links_.point_of(entry) + entry / points_];
       const int* const node = l.cell_node + kCellNodes * l.cell[entry];
       for (std::size_t k = 0; k < 4; ++k) {
         to.weights.along[k] = of.along[k];
@@ -94,8 +88,8 @@ class PatchFinder {
     NodeItem* to = task_.vectors.item + task_.vectors.item_of_term[term];
     for (int e = l.first_entry[cell]; e < l.first_entry[cell + 1]; ++e, ++to) {
       const int entry = l.entry[e];
-      const double weight = support(entry).weight(static_cast<std::size_t>(place % kCellNodes));
-      *to = {weight * inverse_mass, entry < points_ ? entry : entry - points_};
+      const double weight = links_.support(entry).weight(static_cast<std::size_t>(place % kCellNodes));
+      *to = {weight * inverse_mass, links_.point_of(entry)};
     }
   }
 

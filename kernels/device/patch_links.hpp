@@ -25,6 +25,12 @@ class LinkedPatch {
   TREAD_BODY int cells() const { return cells_; }
   TREAD_BODY int nodes() const { return nodes_; }
   TREAD_BODY const PatchLinks& links() const { return l_; }
+  /// Point and support of an entry.
+  TREAD_BODY int point_of(int entry) const { return entry < count_ ? entry : entry - count_; }
+  TREAD_BODY const SurfaceSupport& support(int entry) const {
+    const ContactPoint& point = points_[point_of(entry)];
+    return entry < count_ ? point.rail : point.wheel;
+  }
 
   /// Finds cells and nodes of the points. `inverse_mass`: by slot [1/kg].
   TREAD_BODY void link(const PatchPoints& points, int count, const double* inverse_mass) {
@@ -37,10 +43,6 @@ class LinkedPatch {
   }
 
  private:
-  TREAD_BODY const SurfaceSupport& support(int entry) const {
-    return entry < count_ ? points_[entry].rail : points_[entry - count_].wheel;
-  }
-
   /// Numbers the different keys, above zero, of `count` items by their first item: name(number, item).
   /// l_.mark: the key's place in the table l_.number. Returns how many there are.
   template <class Key, class Name>

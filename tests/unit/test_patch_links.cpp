@@ -143,6 +143,9 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
       EXPECT_DOUBLE_EQ(sum * node.inverse_mass, sums[index(n)].value[0]);
     }
     EXPECT_EQ(links.first_entry[patch.cells()], 2 * count);
+    std::vector<int> entries(links.entry, links.entry + 2 * count);
+    std::sort(entries.begin(), entries.end());
+    for (int e = 0; e < 2 * count; ++e) EXPECT_EQ(entries[index(e)], e);  // each is listed once
   }
 }
 
