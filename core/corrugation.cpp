@@ -94,12 +94,6 @@ Corrugation Corrugation::rough(const Random& random, double start, double length
   return {places(length, random.shortest), random_depths(random, length), start, centre, width};
 }
 
-double Corrugation::depth(double x, double y) const {
-  if (!map_) return view().depth(x, y);
-  if (x <= first_ || x >= last_ || std::abs(y - centre_) >= width_) return 0;
-  return map_->at(x - map_start_, y).depth;
-}
-
 std::optional<double> first_difference(const Corrugation& a, const Corrugation& b, double end,
                                        double tolerance) {
   constexpr double kStep = 5e-5;  // [m]

@@ -18,6 +18,7 @@ struct CorrugationView {
   double wavelength, wave_depth;  ///< of a sine, where there is no curve [m]
   double first, last, centre, width;
   MonotoneCubicView curve;
+  PlacedDepth map;  ///< in place of profile and parabola, where it has rows
 
   TREAD_BODY double profile(double x) const {
     if (x <= first || x >= last) return 0;
@@ -30,6 +31,7 @@ struct CorrugationView {
   TREAD_BODY double depth(double x, double y) const {
     const double across = (y - centre) / width;
     if (x <= first || x >= last || std::abs(across) >= 1) return 0;
+    if (map.shape.rows > 0) return map.shape.at(x - map.at, y).depth;
     return profile(x) * (1 - across * across);
   }
 };
@@ -68,13 +70,14 @@ class Corrugation {
   static Corrugation rough(const Random& random, double start, double length, double centre, double width);
 
   /// Depth at a place, positive downwards [m].
-  double depth(double x, double y) const;
-  /// The corrugation as plain data, unless it is mapped().
+  double depth(double x, double y) const { return view().depth(x, y); }
+  /// The corrugation as plain data, while this object lives.
   CorrugationView view() const {
-    return {sine_.wavelength, sine_.depth, first_, last_, centre_, width_, curve_.view()};
+    return {
+        sine_.wavelength, sine_.depth, first_,        last_,
+        centre_,          width_,      curve_.view(), {map_ ? map_->view() : DepthShapeView(), map_start_}};
   }
 
-  bool mapped() const { return map_ != nullptr; }
   bool smooth() const { return !(last_ > first_); }
   double first() const { return first_; }        ///< [m]
   double last() const { return last_; }          ///< [m]

@@ -22,12 +22,4 @@ MonotoneCubic::MonotoneCubic(std::vector<double> x, std::vector<double> y)
     steepest_ = std::max(steepest_, 2 * std::abs(y_[i] - y_[i - 1]) / (x_[i] - x_[i - 1]));
 }
 
-double MonotoneCubic::slope(double x) const {
-  const auto i = static_cast<std::size_t>(view().piece(x));
-  const double h = x_[i + 1] - x_[i];
-  const double s = (x - x_[i]) / h;
-  const double r = 1 - s;
-  return 6 * s * r * (y_[i + 1] - y_[i]) / h + slope_[i] * r * (1 - 3 * s) + slope_[i + 1] * s * (3 * s - 2);
-}
-
 }  // namespace tread

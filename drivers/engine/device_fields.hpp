@@ -3,7 +3,7 @@
 //
 // The device moves every node but those on which connectors and loads act, and restrains and ties them. The
 // others are the host's: the device hands it their forces, the host moves them and hands their motion back.
-// Contact with surfaces that the device does not know runs on the host, with copies of both about the patch.
+// Contact with surfaces of which the host moves nodes runs on the host, with copies of both about the patch.
 // The views of NodeFields show the host's copies.
 
 #include <array>

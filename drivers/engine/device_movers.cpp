@@ -59,7 +59,7 @@ Movers movers_of(const Model& model) {
     if (host[group] != 0) movers.hosted.push_back(static_cast<std::int64_t>(group));
   }
   movers.tied_surfaces = meet(surfaces, tied);
-  movers.contact = model.contact && DeviceContact::knows(*model.contact) && !meet(host, surfaces);
+  movers.contact = model.contact && !meet(host, surfaces);
   choose_holders(model, movers);
   return movers;
 }

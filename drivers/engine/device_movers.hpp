@@ -22,7 +22,7 @@ struct Movers {
 };
 
 /// Ties between nodes on which connectors act, or contact, are the host's, and contact with surfaces on which
-/// the host moves a node, or that the device does not know.
+/// the host moves a node.
 Movers movers_of(const Model& model);
 
 /// Needs of a model on a device.

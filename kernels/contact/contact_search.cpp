@@ -167,7 +167,7 @@ void ContactSearch::visit_column(const Visit& visit, int station) {
   const ContactState& state = *visit.state;
   std::vector<ContactPoint>& column = columns_[static_cast<std::size_t>(station - aim_.first_station)];
   column.clear();
-  const SurfacePairBody<SurfaceDepths> surfaces = surfaces_.body();
+  const SurfacePairBody surfaces = surfaces_.body();
   const bool dynamic = static_cast<bool>(state.velocity);
   for (int edge = first_edge_; edge < last_edge_; ++edge) {
     const std::int64_t face = face_index(station, edge);

@@ -41,11 +41,10 @@ struct SearchEnd {
 /// Sets place, bases, history and velocity of a point of a face, and its gap [m]. Returns false if it is left
 /// out: it does not touch before the step ends, and carried no pressure `before`. Without velocities
 /// (statics) the history stays zero.
-template <class Depths, class State>
-TREAD_BODY bool find_point(const SurfacePairBody<Depths>& surfaces, const State& state,
-                           const SearchBounds& bounds, const std::array<int, 2>& face,
-                           const FaceQuadrature::Point& at, const PointHistory& before, ContactPoint& point,
-                           double& gap) {
+template <class State>
+TREAD_BODY bool find_point(const SurfacePairBody& surfaces, const State& state, const SearchBounds& bounds,
+                           const std::array<int, 2>& face, const FaceQuadrature::Point& at,
+                           const PointHistory& before, ContactPoint& point, double& gap) {
   surfaces.place(state, face, at.along, at.across, at.weight, point);
   gap = surfaces.find_gap(state, bounds.far, point);
   // A point that carried pressure stays until a step in which it carries none has released its energy.

@@ -16,11 +16,11 @@ SurfacePair::SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, Surfac
       rail_stations_(rail),
       wheel_stations_(wheel) {}
 
-SurfacePairBody<SurfaceDepths> SurfacePair::body() const {
+SurfacePairBody SurfacePair::body() const {
   return {{rail_stations_.line(), rail_profile_.view(), rail_->section.p.data(), rail_->section.q.data()},
           {wheel_stations_.line(), wheel_profile_.view(), wheel_->section.p.data(), wheel_->section.q.data()},
           kind_,
-          SurfaceDepths(*this)};
+          depths()};
 }
 
 }  // namespace tread

@@ -13,21 +13,6 @@
 
 namespace tread {
 
-class SurfacePair;
-
-/// Depths of both surfaces, of every kind; on the processor alone.
-class SurfaceDepths {
- public:
-  explicit SurfaceDepths(const SurfacePair& surfaces) : surfaces_(&surfaces) {}
-  double rail(double x, double y) const;
-  bool wheel_smooth() const;
-  SurfaceDepth wheel(double angle, double y) const;
-  double wheel_radius() const;
-
- private:
-  const SurfacePair* surfaces_;
-};
-
 /// An extruded rail's surface under a revolved wheel's.
 class SurfacePair {
  public:
@@ -38,7 +23,9 @@ class SurfacePair {
   void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
 
   /// The same as plain data, as long as this object stays where it is.
-  SurfacePairBody<SurfaceDepths> body() const;
+  SurfacePairBody body() const;
+  /// Depths as plain data, likewise.
+  SurfaceDepths depths() const { return {corrugation_.view(), rail_depth_.view(), wheel_depth_.view()}; }
 
   const SweptBlock& rail() const { return *rail_; }
   const SweptBlock& wheel() const { return *wheel_; }
@@ -46,10 +33,7 @@ class SurfacePair {
   const RunningSurface& rail_depth() const { return rail_depth_; }
   const RunningSurface& wheel_depth() const { return wheel_depth_; }
   /// Depth of the rail's surface at a place [m].
-  double depth_at(double x, double y) const {
-    const double depth = corrugation_.depth(x, y);
-    return rail_depth_.smooth() ? depth : depth + rail_depth_.at(x, y).depth;
-  }
+  double depth_at(double x, double y) const { return depths().rail(x, y); }
   const SurfaceProfile& rail_profile() const { return rail_profile_; }
   const SurfaceProfile& wheel_profile() const { return wheel_profile_; }
   const StationFinder& rail_stations() const { return rail_stations_; }
@@ -67,18 +51,5 @@ class SurfacePair {
   StationFinder rail_stations_;
   StationFinder wheel_stations_;
 };
-
-inline double SurfaceDepths::rail(double x, double y) const {
-  return surfaces_->depth_at(x, y);
-}
-inline bool SurfaceDepths::wheel_smooth() const {
-  return surfaces_->wheel_depth().smooth();
-}
-inline SurfaceDepth SurfaceDepths::wheel(double angle, double y) const {
-  return surfaces_->wheel_depth().around(angle, y);
-}
-inline double SurfaceDepths::wheel_radius() const {
-  return surfaces_->wheel_depth().radius();
-}
 
 }  // namespace tread

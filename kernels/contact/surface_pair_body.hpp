@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/corrugation.hpp"
 #include "core/running_surface.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_state.hpp"
@@ -31,16 +32,24 @@ struct SurfaceSide {
   }
 };
 
-/// An extruded rail's surface under a revolved wheel's. Depths has
-///   rail(x, y)              depth of the rail's surface [m]
-///   wheel_smooth()          true if the wheel's surface has no depth
-///   wheel(angle, y)         SurfaceDepth of the wheel's surface
-///   wheel_radius()          that its places along it are counted with [m]
-template <class Depths>
+/// Depths of both surfaces.
+struct SurfaceDepths {
+  CorrugationView corrugation;
+  RunningSurfaceView rail_depth;  ///< besides the corrugation
+  RunningSurfaceView wheel_depth;
+
+  /// Depth of the rail's surface at a place [m].
+  TREAD_BODY double rail(double x, double y) const {
+    const double depth = corrugation.depth(x, y);
+    return rail_depth.smooth() ? depth : depth + rail_depth.at(x, y).depth;
+  }
+};
+
+/// An extruded rail's surface under a revolved wheel's.
 struct SurfacePairBody {
   SurfaceSide rail_side, wheel_side;
   SurfaceKind kind;
-  Depths depths;
+  SurfaceDepths depths;
 
   /// Sets nodes, weights, place, face and area of a point on a rail face; `along` and `across` on [0, 1],
   /// `share` of the face.
@@ -150,7 +159,8 @@ struct SurfacePairBody {
     if (kind == SurfaceKind::exact) return value;
     const double across = wheel_side.p[node];
     value += {0, across, wheel_side.q[node]};
-    if (!depths.wheel_smooth()) value.z -= depths.wheel(wheel_side.stations.stations[station], across).depth;
+    if (!depths.wheel_depth.smooth())
+      value.z -= depths.wheel_depth.around(wheel_side.stations.stations[station], across).depth;
     return value;
   }
 
@@ -172,11 +182,11 @@ struct SurfacePairBody {
       out.point = {0, p.p, p.q};
       out.across = {0, p.dp, p.dq};
     }
-    if (exact && !depths.wheel_smooth()) {
+    if (exact && !depths.wheel_depth.smooth()) {
       const double angle = stations.stations[cell.station] + cell.distance;
-      const SurfaceDepth depth = depths.wheel(angle, p.p);
+      const SurfaceDepth depth = depths.wheel_depth.around(angle, p.p);
       out.point.z -= depth.depth;
-      out.side.z += depth.along * depths.wheel_radius() * cell.pitch;
+      out.side.z += depth.along * depths.wheel_depth.radius * cell.pitch;
       out.across.z -= depth.across * p.dp;
     }
     for (std::size_t i = 0; i < 4; ++i) {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "core/body_frame.hpp"
-#include "core/corrugation.hpp"
 #include "core/mesh/node_field.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/friction/point_response.hpp"
@@ -14,16 +13,6 @@
 #include "kernels/lanes/patch_loop.hpp"
 
 namespace tread {
-
-/// A corrugated rail under a smooth wheel.
-struct CorrugatedDepths {
-  CorrugationView corrugation;
-
-  TREAD_BODY double rail(double x, double y) const { return corrugation.depth(x, y); }
-  TREAD_BODY bool wheel_smooth() const { return true; }
-  TREAD_BODY SurfaceDepth wheel(double /*angle*/, double /*y*/) const { return {}; }
-  TREAD_BODY double wheel_radius() const { return 0; }
-};
 
 /// Rail faces about the wheel: stations [first_station, first_station + stations), edges likewise.
 struct FaceWindow {
@@ -160,7 +149,7 @@ struct PatchResult {
 };
 
 struct ContactTask {
-  SurfacePairBody<CorrugatedDepths> surfaces;
+  SurfacePairBody surfaces;
   const FaceQuadrature::Point* quadrature = nullptr;
   PointSprings springs;
   SearchEnd end;

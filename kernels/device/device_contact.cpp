@@ -28,10 +28,30 @@ struct DeviceContact::Sizes {
   }
 };
 
-bool DeviceContact::knows(const Contact& contact) {
-  return contact.surfaces().rail_depth().smooth() && contact.surfaces().wheel_depth().smooth() &&
-         !contact.corrugation().mapped();
+namespace {
+
+std::int64_t bytes_of(const MonotoneCubicView& line) {
+  return 3 * line.places * static_cast<std::int64_t>(sizeof(double));
 }
+
+std::int64_t bytes_of(const PlacedDepth& depth) {
+  std::int64_t sum = depth.shape.rows * static_cast<std::int64_t>(sizeof(MonotoneCubicView) + sizeof(double));
+  for (int row = 0; row < depth.shape.rows; ++row) sum += bytes_of(depth.shape.line[row]);
+  return sum;
+}
+
+std::int64_t bytes_of(const RunningSurfaceView& surface) {
+  std::int64_t sum = surface.shapes * static_cast<std::int64_t>(sizeof(PlacedDepth));
+  for (int i = 0; i < surface.shapes; ++i) sum += bytes_of(surface.shape[i]);
+  return sum;
+}
+
+std::int64_t bytes_of(const SurfaceDepths& depths) {
+  return bytes_of(depths.corrugation.curve) + bytes_of(depths.corrugation.map) + bytes_of(depths.rail_depth) +
+         bytes_of(depths.wheel_depth);
+}
+
+}  // namespace
 
 template <class T>
 T* DeviceContact::room(std::size_t count) {
@@ -54,7 +74,7 @@ DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact,
   task_.surfaces.rail_side = side(surfaces.rail(), surfaces.rail_profile(), surfaces.rail_stations());
   task_.surfaces.wheel_side = side(surfaces.wheel(), surfaces.wheel_profile(), surfaces.wheel_stations());
   task_.surfaces.kind = surfaces.kind();
-  task_.surfaces.depths = {corrugation()};
+  task_.surfaces.depths = depths(contact.surfaces().depths());
   std::vector<FaceQuadrature::Point> quadrature;
   quadrature.reserve(index(search.quadrature().size()));
   for (int k = 0; k < search.quadrature().size(); ++k) quadrature.push_back(search.quadrature().point(k));
@@ -81,13 +101,36 @@ SurfaceSide DeviceContact::side(const SweptBlock& block, const SurfaceProfile& p
   return side;
 }
 
-CorrugationView DeviceContact::corrugation() {
-  CorrugationView view = contact_->corrugation().view();
-  const auto places = index(view.curve.places);
-  view.curve.x = keep(std::span(view.curve.x, places));
-  view.curve.y = keep(std::span(view.curve.y, places));
-  view.curve.slope = keep(std::span(view.curve.slope, places));
+MonotoneCubicView DeviceContact::line(MonotoneCubicView view) {
+  const auto places = index(view.places);
+  view.x = keep(std::span(view.x, places));
+  view.y = keep(std::span(view.y, places));
+  view.slope = keep(std::span(view.slope, places));
   return view;
+}
+
+PlacedDepth DeviceContact::placed(PlacedDepth depth) {
+  DepthShapeView& shape = depth.shape;
+  std::vector<MonotoneCubicView> lines;
+  for (int row = 0; row < shape.rows; ++row) lines.push_back(line(shape.line[row]));
+  shape.line = keep(lines);
+  shape.y = keep(std::span(shape.y, index(shape.rows)));
+  return depth;
+}
+
+RunningSurfaceView DeviceContact::surface(RunningSurfaceView view) {
+  std::vector<PlacedDepth> shapes;
+  for (int i = 0; i < view.shapes; ++i) shapes.push_back(placed(view.shape[i]));
+  view.shape = keep(shapes);
+  return view;
+}
+
+SurfaceDepths DeviceContact::depths(SurfaceDepths depths) {
+  depths.corrugation.curve = line(depths.corrugation.curve);
+  depths.corrugation.map = placed(depths.corrugation.map);
+  depths.rail_depth = surface(depths.rail_depth);
+  depths.wheel_depth = surface(depths.wheel_depth);
+  return depths;
 }
 
 /// Room for the law's states, and copies of its table.
@@ -278,7 +321,7 @@ std::int64_t DeviceContact::bytes(const Contact& contact) {
   const auto table = index(table_size(static_cast<int>(most.places)));
   const std::size_t ints = 3 * table + 7 * most.places;
   return static_cast<std::int64_t>(most.candidates * of_point + most.nodes * of_node + ints * sizeof(int)) +
-         contact.bytes();
+         contact.bytes() + bytes_of(contact.surfaces().depths());
 }
 
 }  // namespace tread

@@ -17,9 +17,6 @@ namespace tread {
 
 class DeviceContact {
  public:
-  /// False where the surfaces have depths that a device does not know: a mapped corrugation, or others.
-  static bool knows(const Contact& contact);
-
   /// Copies what does not change. Keeps references. `inverse_mass`: by slot of the mesh [1/kg].
   DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass);
 
@@ -65,7 +62,10 @@ class DeviceContact {
     return keep(std::span<const T>(values.data(), values.size()));
   }
   SurfaceSide side(const SweptBlock& block, const SurfaceProfile& profile, const StationFinder& stations);
-  CorrugationView corrugation();
+  MonotoneCubicView line(MonotoneCubicView view);
+  PlacedDepth placed(PlacedDepth depth);
+  RunningSurfaceView surface(RunningSurfaceView view);
+  SurfaceDepths depths(SurfaceDepths depths);
   void keep_law();
   void make_room();
   void send();

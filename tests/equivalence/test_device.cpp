@@ -74,9 +74,32 @@ TEST(Device, MovedNodesAndFacets) {
                       precision);
 }
 
-TEST(Device, FlatOnTheWheel) {
-  expect_same_steps(tyre({"surface.flat.kind=flat", "surface.flat.at=10 mm", "surface.flat.length=30 mm"}),
-                    300, "mixed");
+TEST(Device, DepthsOfEveryKind) {
+  std::vector<std::string> overrides = {
+      "surface.flat.kind=flat",          "surface.flat.at=10 mm",        "surface.flat.length=30 mm",
+      "surface.round.kind=polygon",      "surface.round.order=40",       "surface.round.at=0 mm",
+      "surface.round.depth=0.02 mm",     "surface.weld.kind=dip",        "surface.weld.at=2 mm",
+      "surface.weld.length=80 mm",       "surface.weld.depth=0.05 mm",   "surface.joint.kind=dip",
+      "surface.joint.shape=pointed",     "surface.joint.at=5 mm",        "surface.joint.length=60 mm",
+      "surface.joint.depth=0.05 mm",     "surface.squat.kind=dent",      "surface.squat.at=4 mm",
+      "surface.squat.length=20 mm",      "surface.squat.width=10 mm",    "surface.squat.depth=0.02 mm",
+      "surface.ripple.kind=waves",       "surface.ripple.at=-10 mm",     "surface.ripple.length=40 mm",
+      "surface.ripple.wavelength=20 mm", "surface.ripple.depth=0.005 mm"};
+  for (const char* precision : kPrecisions) expect_same_steps(tyre(overrides), 300, precision);
+}
+
+TEST(Device, MeasuredDepths) {
+  const samples::TemporaryFolder folder;
+  const std::string map = (folder.path / "map.txt").string();
+  std::ofstream(map) << "# x [mm]  y [mm]  d [um]\n"
+                        "-20 -5 0\n0 -5 30\n30 -5 0\n-20 2 0\n0 2 60\n30 2 10\n-20 9 0\n0 9 20\n30 9 0\n";
+  const std::string wheel = (folder.path / "wheel.txt").string();
+  std::ofstream(wheel) << "# angle [deg]  d [um]\n0 0\n90 20\n180 -10\n270 5\n";
+  expect_same_steps(tyre({"surface.squat.kind=map", "surface.squat.at=4 mm", "surface.squat.file=" + map,
+                          "surface.round.kind=profile", "surface.round.on=wheel", "surface.round.at=0 mm",
+                          "surface.round.file=" + wheel, "corrugation.kind=map", "corrugation.file=" + map,
+                          "corrugation.start=25 mm", "corrugation.apply=gap"}),
+                    600, "mixed");
 }
 
 TEST(Device, MaxwellBranches) {
@@ -142,6 +165,13 @@ TEST(Device, AStepCopiesFewValues) {
   // A kernel for each of 6 blocks, another about the patch for two, and for three by teams that await the
   // host; three of ties, restraints of tied nodes; host, search, patch, tractions, two of their outcome.
   EXPECT_EQ(after.launches - before.launches, 21);
+}
+
+/// The host moves the struck nodes of the running surface, so that contact runs there too.
+TEST(Device, HammerBesideAWheel) {
+  const auto scene = tyre({"hammer.position=40 mm", "hammer.force=5 kN", "hammer.duration=0.05 ms"});
+  EXPECT_FALSE(movers_of(Case(scene("double")).model()).contact);
+  for (const char* precision : {"double", "mixed"}) expect_same_steps(scene, 300, precision);
 }
 
 TEST(Device, HammerOnARailOnFastenings) {

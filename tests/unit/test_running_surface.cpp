@@ -70,7 +70,7 @@ TEST(RunningSurface, WheelReturnsAfterATurn) {
   const double turn = 2 * std::numbers::pi * kRadius;
   for (double x = -1; x < 2; x += 0.0317) {
     EXPECT_NEAR(wheel.at(x, 0).depth, wheel.at(x + 3 * turn, 0).depth, 1e-15);
-    EXPECT_NEAR(wheel.at(x, 0).depth, wheel.around(-x / kRadius, 0).depth, 1e-15);
+    EXPECT_NEAR(wheel.at(x, 0).depth, wheel.view().around(-x / kRadius, 0).depth, 1e-15);
   }
   EXPECT_NEAR(wheel.at(0.7, 0).depth, 1e-3 + wheel.at(0.7 - turn / 7, 0).depth, 1e-15);
 }
