@@ -75,43 +75,33 @@ Found find_state(const Place& place, const Progress& progress) {
                   place.folder.string(), place.time ? fmt::format(" up to {:g} ms", 1e3 * *place.time) : ""));
 }
 
-/// "motion.speed (300 km/h there, 250 km/h here)" for each value whose effects `counts` and that differs.
+/// Text of the file that a value names; empty if it names none.
+std::string file_text(const ResolvedScene& scene, const std::string& value) {
+  const auto found = scene.source.files.find(value);
+  return found == scene.source.files.end() ? "" : found->second;
+}
+
+/// "motion.speed (300 km/h there, 250 km/h here)" for each value whose effects `counts` and that differs, or
+/// whose file does.
 template <class Counts>
 std::vector<std::string> differences(const ResolvedScene& there, const ResolvedScene& here,
                                      const Counts& counts) {
-  std::map<std::string, std::array<std::string, 2>> values;  // of each key, as shown
-  std::map<std::string, std::array<std::string, 2>> exact;
+  std::map<std::string, std::array<const Entry*, 2>> values;  // by key; null: absent
   for (std::size_t side = 0; side < 2; ++side)
-    for (const Entry& entry : (side == 0 ? there : here).entries) {
-      if (!counts(find_key(entry.path)->effects)) continue;
-      values[entry.path][side] = entry.shown;
-      exact[entry.path][side] = entry.value + " " + entry.unit;
-    }
+    for (const Entry& entry : (side == 0 ? there : here).entries)
+      if (counts(find_key(entry.path)->effects)) values[entry.path][side] = &entry;
   std::vector<std::string> texts;
-  for (const auto& [path, shown] : values) {
-    if (exact[path][0] == exact[path][1]) continue;
-    const auto text = [](const std::string& value) { return value.empty() ? "absent" : value; };
-    texts.push_back(fmt::format("{} ({} there, {} here)", path, text(shown[0]), text(shown[1])));
+  for (const auto& [path, entry] : values) {
+    const auto shown = [](const Entry* of) {
+      return of == nullptr || of->shown.empty() ? std::string("absent") : of->shown;
+    };
+    const bool both = entry[0] != nullptr && entry[1] != nullptr;
+    if (!both || entry[0]->value != entry[1]->value || entry[0]->unit != entry[1]->unit)
+      texts.push_back(fmt::format("{} ({} there, {} here)", path, shown(entry[0]), shown(entry[1])));
+    else if (file_text(there, entry[0]->value) != file_text(here, entry[1]->value))
+      texts.push_back(fmt::format("{} (another content of {})", path, shown(entry[1])));
   }
   return texts;
-}
-
-bool same_profiles(const Scene& a, const Scene& b) {
-  const auto same = [](const auto& one, const auto& other) {
-    return one.has_value() == other.has_value() &&
-           (!one || (one->profile_y == other->profile_y && one->profile_z == other->profile_z));
-  };
-  return same(a.wheel, b.wheel) && same(a.rail, b.rail);
-}
-
-bool same_friction_table(const Scene& a, const Scene& b) {
-  return !a.contact || !b.contact ||
-         (a.contact->friction_x == b.contact->friction_x &&
-          a.contact->friction_at_x == b.contact->friction_at_x);
-}
-
-bool same_listed_supports(const Scene& a, const Scene& b) {
-  return !a.fastenings || !b.fastenings || a.fastenings->listed == b.fastenings->listed;
 }
 
 /// Moved nodes are another mesh.
@@ -122,8 +112,6 @@ std::vector<std::string> mesh_differences(const ResolvedScene& there, const Reso
   if (!by_nodes(there.scene) && !by_nodes(here.scene)) return {};
   std::vector<std::string> texts =
       differences(there, here, [](Effects effects) { return effects.has(Effect::surface); });
-  if (texts.empty() && there.scene.corrugation->table_depth != here.scene.corrugation->table_depth)
-    texts.emplace_back("corrugation.file (other depths)");
   if (!texts.empty()) texts.emplace_back("which state corrugation.apply = \"gap\" in both would allow");
   return texts;
 }
@@ -132,11 +120,6 @@ void require_same_start(const std::string& from, const ResolvedScene& there, con
   std::vector<std::string> texts =
       differences(there, here, [](Effects effects) { return effects.on_smooth_motion(); });
   for (std::string& text : mesh_differences(there, here)) texts.push_back(std::move(text));
-  if (!same_friction_table(there.scene, here.scene))
-    texts.emplace_back("contact.friction_file (other values)");
-  if (!same_listed_supports(there.scene, here.scene))
-    texts.emplace_back("fastenings.supports (other values)");
-  if (!same_profiles(there.scene, here.scene)) texts.emplace_back("a file of a profile (other values)");
   if (texts.empty()) return;
   throw InputError(
       fmt::format("--from {}: the scenes differ in what the state there depends on: {}; a fork may have "

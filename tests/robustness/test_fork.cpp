@@ -139,5 +139,16 @@ TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
       "state forks.at");
 }
 
+/// Names of files that stay the same hide what changed in them.
+TEST_F(Fork, OtherContentsOfFilesAreRefusedByName) {
+  const fs::path rail = root_ / "rail.txt";
+  std::ofstream(rail) << "# x [mm]  d [um]\n0 0\n20 3\n40 0\n";
+  write_scene("dip.toml", "[surface.dip]\nkind = \"profile\"\nat = \"20 mm\"\nfile = \"rail.txt\"\n");
+  ASSERT_EQ(call(run("dip.toml", root_ / "dip", "--set stop.steps=1000")), 4) << errors();
+  std::ofstream(rail) << "# x [mm]  d [um]\n0 0\n20 4\n40 0\n";
+  expect_refused(from("dip.toml", "dip"),
+                 fmt::format("surface.dip.file (another content of {})", rail.string()));
+}
+
 }  // namespace
 }  // namespace tread
