@@ -57,4 +57,10 @@ std::string Scene::material_names() const {
   return names.empty() ? "none" : names;
 }
 
+std::vector<ZoneSpec> Scene::all_zones() const {
+  std::vector<ZoneSpec> all = {solution_zone()};
+  for (const auto& [name, zone] : zones) all.push_back(zone);
+  return all;
+}
+
 }  // namespace tread

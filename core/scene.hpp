@@ -31,6 +31,9 @@ struct WheelSpec {
   double web_offset =
       0;                ///< of the web at the rim to the field side of the web at the hub [m] (half_wheelset)
   double web_wave = 0;  ///< of an S-shaped web to either side [m] (half_wheelset)
+  std::string web_file;        ///< outline of the web, in its place; empty: none (half_wheelset)
+  std::vector<double> web_y;   ///< of the file, to the field side of the nominal rolling circle [m]
+  std::vector<double> web_r;   ///< of the file, from the axis [m]
   double axle_bore = 0.060;    ///< bore of the hollow axle [m] (half_wheelset)
   double crown_radius = 0.43;  ///< lateral radius of the profile "arc" [m] (tyre)
   double width = 0.060;        ///< width of the ring [m] (tyre)
@@ -289,6 +292,14 @@ struct ForkSpec {
   std::optional<double> at;
 };
 
+/// [zone.NAME]
+struct ZoneSpec {
+  double start = 0;     ///< [m]
+  double length = 0.1;  ///< [m]
+
+  double end() const { return start + length; }  ///< [m]
+};
+
 /// [probe.NAME]: a point of a body whose motion or stress the histories hold
 struct ProbeSpec {
   std::string body = "rail";        ///< "rail", "wheel" (a point that turns with the wheel) or "axle_box"
@@ -322,13 +333,14 @@ struct StopSpec {
 
 struct Scene {
   std::string title;
-  std::string quality = "draft";       ///< "draft", "standard" or "paper"
-  std::string precision = "double";    ///< of nodal fields and elements: "double", "mixed" or "single"
-  double zone_start = 2.4;             ///< solution zone [m]
-  double zone_length = 0.6;            ///< [m]
-  double gravity = 9.81;               ///< [m/s2]
-  bool plane_strain = false;           ///< nothing moves across: a slice of wide bodies
-  std::optional<double> element_size;  ///< overrides the quality's contact element size [m]
+  std::string quality = "draft";     ///< "draft", "standard" or "paper"
+  std::string precision = "double";  ///< of nodal fields and elements: "double", "mixed" or "single"
+  double zone_start = 2.4;           ///< solution zone [m]
+  double zone_length = 0.6;          ///< [m]
+  std::map<std::string, ZoneSpec, std::less<>> zones;  ///< other finely divided parts of the rail, by name
+  double gravity = 9.81;                               ///< [m/s2]
+  bool plane_strain = false;                           ///< nothing moves across: a slice of wide bodies
+  std::optional<double> element_size;                  ///< overrides the quality's contact element size [m]
 
   std::map<std::string, Material, std::less<>> materials;  ///< by Material::name
 
@@ -367,6 +379,10 @@ struct Scene {
   bool alike_supports() const { return supports.empty() && (!fastenings || fastenings->listed.empty()); }
   /// x of the middle of a fastening, counted from 0, negative before the rail [m]. With [rail], [fastenings].
   double fastening_x(int fastening) const;
+
+  ZoneSpec solution_zone() const { return {zone_start, zone_length}; }
+  /// The solution zone, then the others.
+  std::vector<ZoneSpec> all_zones() const;
 
   /// x of the wheel at t = 0 and in the static state [m].
   double start_x() const { return motion && motion->run_up ? zone_start - *motion->run_up : 0; }

@@ -99,6 +99,10 @@ std::vector<double> layer_depths(const SectionSize& size, double depth) {
   return depths;
 }
 
+void append(std::vector<double>& line, std::span<const double> more) {
+  line.insert(line.end(), more.begin() + 1, more.end());
+}
+
 std::vector<double> from_below(std::span<const double> depths) {
   std::vector<double> result;
   for (auto depth = depths.rbegin(); depth != depths.rend(); ++depth)

@@ -51,6 +51,9 @@ std::vector<double> evenly(double first, double last, int count);
 /// size.coarse.
 std::vector<double> layer_depths(const SectionSize& size, double depth);
 
+/// Appends all values but the first, which is the last of `line`.
+void append(std::vector<double>& line, std::span<const double> more);
+
 /// Converts depths to fractions of the height above the deepest, from 0 to 1.
 std::vector<double> from_below(std::span<const double> depths);
 

@@ -7,27 +7,18 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/mesh/wheel_disc.hpp"
 
 namespace tread {
 
 namespace {
 
-constexpr double kTreadTieDepth = 23e-3;  // depth of the tread tie below the nominal rolling circle [m]
-constexpr double kRimDepth = 65e-3;  // depth of the inner rim radius below the nominal rolling circle [m]
-constexpr double kRimSlant = 5e-3;   // reduction of the rim's thickness at its faces [m]
-constexpr double kFlare = 8e-3;      // widening of the web at rim and hub, each side [m]
-constexpr double kFlareLength = 25e-3;
-constexpr double kBrakeOuterDepth = 110e-3;  // depth of the brake ring below the nominal rolling circle [m]
-constexpr double kBrakeInnerRadius = 175e-3;
-constexpr double kBrakeGap = 10e-3;  // gap between web and brake ring, bridged at the bolt circle [m]
-constexpr double kHubOuterRadius = 145e-3, kHubTieRadius = 127e-3, kSeatRadius = 95e-3, kHubLength = 178e-3;
-constexpr double kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
+constexpr double kSeatRadius = 95e-3, kAxleRadius = 87.5e-3, kJournalRadius = 65e-3;
 constexpr double kTrackCentre = -746.5e-3, kJournalCentre = 253.5e-3, kAxleEnd = 343.5e-3;  // y_wheel [m]
 
 constexpr double kFlangeSize = 4.2e-3;  // size on the flange and its root [m]: two elements on half the R14
 constexpr double kFlangeRatio = 1.8;    // least ratio of the flange's size to the surface size: the flange
                                         // costs no time step
-constexpr double kAxleRatio = 2.3;      // ratio of axle to disc size
 
 /// Breaks for graded() on a curve without the joints that would leave an element shorter than about a third
 /// of `size` [m] at an end.
@@ -38,10 +29,6 @@ std::vector<double> wide_breaks(const PlaneCurve& curve, double from, double to,
     if (s - from > least && to - s > least) result.push_back(s);
   result.push_back(to);
   return result;
-}
-
-void append(std::vector<double>& line, std::span<const double> more) {
-  line.insert(line.end(), more.begin() + 1, more.end());
 }
 
 /// Parameters on the profile: the two upper corners of the flange's patch and its foot in the root.
@@ -150,126 +137,6 @@ Section make_tread(const PlaneCurve& profile, std::span<const double> coarse, co
   return builder.take();
 }
 
-/// Axial lines of the disc, relative to the web's middle plane.
-struct DiscLines {
-  std::vector<double> rim, hub;  // tie nodes, left to right
-  std::vector<double> axle_hub;  // tie nodes of the axle
-  int web = 0;                   // number of columns through the web
-};
-
-/// Left wing, flared web about `middle` and right wing over |x| <= half.
-std::vector<double> winged(double half, double middle, double web_half, int web, double size) {
-  const double left = middle - web_half, right = middle + web_half;
-  auto line = evenly(-half, left, element_count(left + half, size, 1));
-  append(line, evenly(left, right, web));
-  append(line, evenly(right, half, element_count(half - right, size, 1)));
-  return line;
-}
-
-DiscLines disc_lines(double rim_width, const WheelShape& shape, const SectionSize& size) {
-  const double web_end = shape.web_thickness / 2 + kFlare;
-  DiscLines lines;
-  lines.web = element_count(shape.web_thickness, size.coarse, 2);
-  lines.rim = winged(rim_width / 2, shape.web_line(1).p, web_end, lines.web, size.coarse);
-  lines.axle_hub =
-      evenly(-kHubLength / 2, kHubLength / 2, element_count(kHubLength, kAxleRatio * size.coarse, 3));
-  lines.hub = winged(kHubLength / 2, shape.web_line(0).p, web_end, lines.web, size.coarse);
-  return lines;
-}
-
-/// Radii of the web's rows, and the rows at which brake ring and bolt circle begin and end.
-struct WebRows {
-  std::vector<double> r;
-  int ring_first = 0, ring_last = 0, bolts_first = 0, bolts_last = 0;
-};
-
-WebRows web_rows(const WheelShape& shape, const SectionSize& size) {
-  const double outer = shape.diameter / 2 - kBrakeOuterDepth, inner = kBrakeInnerRadius;
-  const double height = outer - inner;
-  std::vector<double> breaks = {kHubOuterRadius, shape.diameter / 2 - kRimDepth};
-  if (shape.brake_ring_thickness > 0)
-    breaks = {breaks[0], inner, inner + height / 3, outer - height / 3, outer, breaks[1]};
-  WebRows rows;
-  rows.r = graded(breaks, [&](double) { return size.coarse; });
-  const auto row = [&](std::size_t k) {
-    return static_cast<int>(std::find(rows.r.begin(), rows.r.end(), breaks[k]) - rows.r.begin());
-  };
-  if (shape.brake_ring_thickness > 0) {
-    rows.ring_first = row(1);
-    rows.bolts_first = row(2);
-    rows.bolts_last = row(3);
-    rows.ring_last = row(4);
-  }
-  return rows;
-}
-
-/// Rectangular patch from x0 to x1 with the rows r[first] ... r[last].
-Patch plate(double x0, double x1, int columns, std::span<const double> r, int first, int last) {
-  const auto x = evenly(x0, x1, columns);
-  Patch patch(columns, last - first);
-  for (int row = first; row <= last; ++row)
-    for (int i = 0; i <= columns; ++i)
-      patch.at(i, row - first) = {x[static_cast<std::size_t>(i)], r[static_cast<std::size_t>(row)]};
-  return patch;
-}
-
-/// Two ring plates that stand off the web and are joined to it over the middle third of their height.
-void add_brake_rings(SectionBuilder& builder, const WebRows& rows, const WheelShape& shape, double coarse) {
-  const double face = shape.web_thickness / 2, inside = face + kBrakeGap,
-               outside = inside + shape.brake_ring_thickness;
-  const int columns = element_count(shape.brake_ring_thickness, 1.5 * coarse, 1);
-  builder.add(plate(face, inside, 1, rows.r, rows.bolts_first, rows.bolts_last));
-  builder.add(plate(-inside, -face, 1, rows.r, rows.bolts_first, rows.bolts_last));
-  builder.add(plate(inside, outside, columns, rows.r, rows.ring_first, rows.ring_last));
-  builder.add(plate(-outside, -inside, columns, rows.r, rows.ring_first, rows.ring_last));
-}
-
-/// Disc in (y relative to the web's middle plane, r).
-Section make_disc(const DiscLines& lines, const WheelShape& shape, const SectionSize& size) {
-  const double tie = shape.diameter / 2 - kTreadTieDepth, rim = shape.diameter / 2 - kRimDepth;
-  const double web_end = shape.web_thickness / 2 + kFlare;
-
-  PatchSides rim_sides;
-  rim_sides.top = at_height(lines.rim, tie);
-  const double rim_middle = shape.web_line(1).p;
-  for (const double x : lines.rim) {
-    const double beside = std::abs(x - rim_middle) - web_end;
-    const double wing =
-        (x > rim_middle ? lines.rim.back() - rim_middle : rim_middle - lines.rim.front()) - web_end;
-    rim_sides.bottom.push_back({x, rim + kRimSlant * std::max(0.0, beside / wing)});
-  }
-  const int rim_count = element_count(tie - rim, size.coarse, 2);
-  rim_sides.left = straight(rim_sides.bottom.front(), rim_sides.top.front(), rim_count);
-  rim_sides.right = straight(rim_sides.bottom.back(), rim_sides.top.back(), rim_count);
-
-  const WebRows rows = web_rows(shape, size);
-  PatchSides web;
-  for (const double r : rows.r) {
-    const double reach = std::max(0.0, 1 - std::min(r - kHubOuterRadius, rim - r) / kFlareLength);
-    const WebLine line = shape.web_line((r - kHubOuterRadius) / (rim - kHubOuterRadius));
-    const double lean = std::hypot(1, line.slope / (rim - kHubOuterRadius));
-    const double half = lean * shape.web_thickness / 2 + kFlare * reach * reach;
-    web.left.push_back({line.p - half, r});
-    web.right.push_back({line.p + half, r});
-  }
-  web.bottom = straight(web.left.front(), web.right.front(), lines.web);
-  web.top = straight(web.left.back(), web.right.back(), lines.web);
-
-  PatchSides hub;
-  hub.bottom = at_height(nested(lines.hub, lines.axle_hub, "wheel hub"), kHubTieRadius);
-  hub.top = at_height(lines.hub, kHubOuterRadius);
-  const int hub_count = element_count(kHubOuterRadius - kHubTieRadius, size.coarse, 1);
-  hub.left = straight(hub.bottom.front(), hub.top.front(), hub_count);
-  hub.right = straight(hub.bottom.back(), hub.top.back(), hub_count);
-
-  SectionBuilder builder;
-  for (const PatchSides* sides : {&rim_sides, &web, &hub}) builder.add(fill(*sides));
-  if (shape.brake_ring_thickness > 0) add_brake_rings(builder, rows, shape, size.coarse);
-  builder.path("tie_outer", rim_sides.top);
-  builder.path("tie_inner", hub.bottom);
-  return builder.take();
-}
-
 /// Outer surface of the axle without the hub core, y in wheel coordinates.
 std::vector<Point2> axle_outline(double hub_centre, std::span<const double> axle_hub, double size) {
   const double left = hub_centre - kHubLength / 2, right = hub_centre + kHubLength / 2;
@@ -344,11 +211,12 @@ WheelSections make_wheel_sections(const WheelProfile& profile, const WheelShape&
                     "narrow profiles)",
                     left * 1e3, right * 1e3));
   const double middle = 0.5 * (left + right);
-  const DiscLines lines = disc_lines(right - left, shape, size);
+  const Web web(shape, middle);
+  const DiscLines lines = disc_lines(right - left, shape, web, size);
   std::vector<double> tie = lines.rim;
   for (double& x : tie) x += middle;
 
-  WheelSections sections = {make_tread(profile.surface, tie, size), make_disc(lines, shape, size),
+  WheelSections sections = {make_tread(profile.surface, tie, size), make_disc(lines, shape, web, size),
                             make_axle(lines, middle, shape, kAxleRatio * size.coarse),
                             shape.diameter / 2 - kTreadTieDepth, kHubTieRadius};
   translate(sections.tread, {-shape.lateral_offset, shape.diameter / 2});

@@ -1,10 +1,11 @@
+#include "core/mesh/wheel_shape.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/mesh/wheel_section.hpp"
 
 namespace tread {
 

@@ -102,13 +102,13 @@ void Model::build_rail() {
   if (rail.profile == "box") {
     const int evenly = static_cast<int>(std::lround(rail.length / sizes.contact));
     const std::vector<Segment> segments =
-        scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes).fine
+        scene.wheel ? plan_rail(length, run_span(scene), zone_spans(scene), sizes).fine
                     : std::vector<Segment>{{evenly, rail.length / evenly, 0}};
     index.rail_cap = add(make_swept_block("rail", Sweep::extruded, box_rail_section(scene, sizes), {material},
                                           length.first, segments));
     return;
   }
-  const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_span(scene), sizes)
+  const NestedSegments plan = scene.wheel ? plan_rail(length, run_span(scene), zone_spans(scene), sizes)
                                           : plan_even_rail(length, sizes);
   RailSections sections = rail_sections(scene, sizes);
   index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
@@ -166,17 +166,18 @@ void Model::build_wheel() {
   const auto from_start = [&](Span span) {
     return Span{span.first - scene.start_x(), span.last - scene.start_x()};
   };
-  const Span zone = from_start(zone_span(scene));
+  std::vector<Span> zones = zone_spans(scene);
+  for (Span& zone : zones) zone = from_start(zone);
   if (scene.wheel->shape == "tyre") {
     const std::optional<double>& overhang = scene.wheel->overhang;
     const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
-    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zone, *overhang, sizes)
-                                    : plan_tyre(wheel_radius(), from_start(run_span(scene)), zone, sizes);
+    const WheelPlan plan = overhang ? plan_tyre_part(wheel_radius(), {0, run}, zones, *overhang, sizes)
+                                    : plan_tyre(wheel_radius(), from_start(run_span(scene)), zones, sizes);
     index.tread = add(make_swept_block("tyre", Sweep::revolved, tyre_section(scene, sizes), {material},
                                        plan.start, plan.tread));
     return;
   }
-  const WheelPlan plan = plan_wheel(wheel_radius(), zone, sizes);
+  const WheelPlan plan = plan_wheel(wheel_radius(), zones, sizes);
   SizedWheel sized = wheel_sections(scene, sizes, plan);
   WheelSections& sections = sized.sections;
   web_thickness = sized.web_thickness;

@@ -151,6 +151,7 @@ class WheelBuilder {
     shape.axle_bore = scene.wheel->axle_bore;
     shape.web_offset = scene.wheel->web_offset;
     shape.web_wave = scene.wheel->web_wave;
+    if (!scene.wheel->web_r.empty()) shape.web_outline.emplace(scene.wheel->web_y, scene.wheel->web_r);
   }
 
   WheelShape shape;
@@ -224,17 +225,22 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   WheelBuilder builder(scene, sizes, plan);
   WheelShape& shape = builder.shape;
   if (wheel.web_thickness) shape.web_thickness = *wheel.web_thickness;
+  if (shape.web_outline) shape.web_thickness = shape.web_outline->least_thickness();
   if (wheel.brake_rings) {
     size_by_mass(builder, {&WheelShape::brake_ring_thickness, "brake rings", kThinnestRing, kThickestRing},
                  wheel.mass);
-  } else if (!wheel.web_thickness) {
+  } else if (!wheel.web_thickness && !shape.web_outline) {
     size_by_mass(builder, {&WheelShape::web_thickness, "a web", kThinnestWeb, kThickestWeb}, wheel.mass);
   } else if (const double mass = builder.mass(); std::abs(mass / wheel.mass - 1) > kSameMass) {
+    const auto [web, others] =
+        shape.web_outline
+            ? std::pair<std::string, const char*>("wheel.web_file", "")
+            : std::pair(fmt::format("wheel.web_thickness = {:.4g} mm", 1e3 * shape.web_thickness),
+                        ", leave wheel.web_thickness out and the web is sized by the mass, or state "
+                        "wheel.brake_rings = true and two plates make up the rest");
     throw InputError(fmt::format(
-        "wheel.web_thickness = {:.4g} mm makes a half wheelset of {:.1f} kg, wheel.mass = {:.1f} "
-        "kg; state wheel.mass = \"{:.1f} kg\", leave wheel.web_thickness out and the web is sized "
-        "by the mass, or state wheel.brake_rings = true and two plates make up the rest",
-        1e3 * *wheel.web_thickness, mass, wheel.mass, mass));
+        "{} makes a half wheelset of {:.1f} kg, wheel.mass = {:.1f} kg; state wheel.mass = \"{:.1f} kg\"{}",
+        web, mass, wheel.mass, mass, others));
   }
   return {builder.sections(), shape.web_thickness, shape.brake_ring_thickness};
 }

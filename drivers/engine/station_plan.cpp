@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/travel.hpp"
 
@@ -41,11 +42,29 @@ Span run_span(const Scene& scene) {
           std::max(travel.last, start + run + kMargin) + reach};
 }
 
+namespace {
+
+/// Half a patch [m].
+double zone_margin(const Scene& scene) {
+  return scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
+}
+
+}  // namespace
+
 Span zone_span(const Scene& scene) {
-  const double margin = scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
-  const Span zone{scene.zone_start - margin, scene.zone_start + scene.zone_length + margin};
+  const double margin = zone_margin(scene);
+  const ZoneSpec stated = scene.solution_zone();
+  const Span zone{stated.start - margin, stated.end() + margin};
   const bool elsewhere = !scene.motion && (zone.first > 0 || zone.last < 0);
   return elsewhere ? run_span(scene) : zone;
+}
+
+std::vector<Span> zone_spans(const Scene& scene) {
+  const double margin = zone_margin(scene);
+  std::vector<Span> zones = {zone_span(scene)};
+  for (const auto& [name, zone] : scene.zones) zones.push_back({zone.start - margin, zone.end() + margin});
+  std::sort(zones.begin(), zones.end(), [](const Span& a, const Span& b) { return a.first < b.first; });
+  return zones;
 }
 
 namespace {
@@ -102,30 +121,56 @@ void absorb_slivers(Span& zone, const Span& run, double shortest) {
   if (run.last - zone.last < shortest) zone.last = run.last;
 }
 
+/// The zones that are not empty, those nearer to each other than `gap` [m] in one.
+std::vector<Span> joined(const std::vector<Span>& zones, double gap) {
+  std::vector<Span> apart;
+  for (const Span& zone : zones) {
+    if (zone.empty()) continue;
+    if (!apart.empty() && zone.first - apart.back().last < gap)
+      apart.back().last = std::max(apart.back().last, zone.last);
+    else
+      apart.push_back(zone);
+  }
+  return apart;
+}
+
+/// The parts of the zones within `run`, without slivers, further apart than `gap` [m]. Without any, an empty
+/// zone at the end of the run.
+std::vector<Span> zones_within(const Span& run, std::vector<Span> zones, double gap, double shortest) {
+  for (Span& zone : zones) {
+    zone = {std::max(zone.first, run.first), std::min(zone.last, run.last)};
+    absorb_slivers(zone, run, shortest);
+  }
+  zones = joined(zones, gap);
+  if (zones.empty()) zones.push_back({run.last, run.last});
+  return zones;
+}
+
 }  // namespace
 
-NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes) {
+NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, const MeshSizes& sizes) {
   run.first = std::max(run.first, rail.first);
   run.last = std::min(run.last, rail.last);
-  zone.first = std::max(zone.first, run.first);
-  zone.last = std::min(zone.last, run.last);
-  if (zone.empty()) zone = {run.last, run.last};
   const double coarse = sizes.contact * sizes.coarse_ratio;
-  absorb_slivers(zone, run, 0.5 * coarse);
+  const double shortest = 0.5 * coarse;
   const int approach = approach_parts(sizes);
-  Span step{zone.first - 2 * kStepLength, zone.last + 2 * kStepLength};
-  step = {std::max(step.first, run.first), std::min(step.last, run.last)};
-  absorb_slivers(step, run, 0.5 * coarse);
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
   std::reverse(before.begin(), before.end());
   for (const Segment& s : before) append(plan, s.elements, s.pitch, 1);
-  append_uniform(plan, {run.first, step.first}, coarse, approach);
-  append_uniform(plan, {step.first, zone.first}, coarse, step_parts(sizes));
-  append_uniform(plan, zone, coarse, sizes.coarse_ratio);
-  append_uniform(plan, {zone.last, step.last}, coarse, step_parts(sizes));
-  append_uniform(plan, {step.last, run.last}, coarse, approach);
+  double at = run.first;
+  for (const Span& zone : zones_within(run, zones, 4 * kStepLength + shortest, shortest)) {
+    Span step{std::max(zone.first - 2 * kStepLength, run.first),
+              std::min(zone.last + 2 * kStepLength, run.last)};
+    absorb_slivers(step, run, shortest);
+    append_uniform(plan, {at, step.first}, coarse, approach);
+    append_uniform(plan, {step.first, zone.first}, coarse, step_parts(sizes));
+    append_uniform(plan, zone, coarse, sizes.coarse_ratio);
+    append_uniform(plan, {zone.last, step.last}, coarse, step_parts(sizes));
+    at = step.last;
+  }
+  append_uniform(plan, {at, run.last}, coarse, approach);
   for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far))
     append(plan, s.elements, s.pitch, 1);
   return plan;
@@ -137,7 +182,7 @@ NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes) {
   return plan;
 }
 
-WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
+WheelPlan plan_wheel(double radius, const std::vector<Span>& zones, const MeshSizes& sizes) {
   constexpr double turn = 2 * std::numbers::pi;
   // Whole axle elements around, each of axle_ratio disc elements of coarse_ratio tread elements.
   const int axle =
@@ -145,31 +190,48 @@ WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes) {
   const int disc = axle * sizes.axle_ratio;
   const double pitch = turn / disc;
   const auto elements = [&](double length) { return static_cast<int>(std::ceil(length / (radius * pitch))); };
-  if (!zone.empty()) zone = {zone.first - kStepLength, zone.last + kStepLength};
-  const int fine = zone.empty() ? 0 : std::min(disc, elements(zone.last - zone.first));
-  const int step = fine > 0 ? std::min((disc - fine) / 2, elements(2 * kStepLength)) : 0;
 
   WheelPlan plan;
-  plan.start = zone.empty() ? 0 : -zone.last / radius;
+  std::vector<int> parts(static_cast<std::size_t>(disc), approach_parts(sizes));  // of each disc element
+  const auto refine = [&](int first, int count, int wanted) {
+    for (int i = first; i < first + std::min(count, disc); ++i) {
+      int& of = parts[static_cast<std::size_t>((i % disc + disc) % disc)];
+      of = std::max(of, wanted);
+    }
+  };
+  double start = 0;  // of the first element, backwards along the rail [m]
+  bool started = false;
+  for (const Span& zone : zones) {
+    if (zone.empty()) continue;
+    const Span widened{zone.first - kStepLength, zone.last + kStepLength};
+    if (!std::exchange(started, true)) start = widened.last;
+    const auto first = static_cast<int>(std::floor((start - widened.last) / (radius * pitch)));
+    const int whole = elements(start - widened.first) - first;
+    const int step = elements(2 * kStepLength);
+    refine(first - step, whole + 2 * step, step_parts(sizes));
+    refine(first, whole, sizes.coarse_ratio);
+  }
+  plan.start = -start / radius;
   plan.axle.push_back({axle, turn / axle, 0});
   plan.disc.push_back({disc, pitch, 0});
-  const auto tread = [&](int count, int parts) {
-    if (count > 0) plan.tread.push_back({count * parts, pitch / parts, 0});
-  };
-  tread(fine, sizes.coarse_ratio);
-  tread(step, step_parts(sizes));
-  tread(disc - fine - 2 * step, approach_parts(sizes));
-  tread(step, step_parts(sizes));
+  for (std::size_t i = 0; i < parts.size();) {
+    const auto other = std::find_if(parts.begin() + static_cast<std::ptrdiff_t>(i), parts.end(),
+                                    [&](int count) { return count != parts[i]; });
+    const auto next = static_cast<std::size_t>(other - parts.begin());
+    plan.tread.push_back({static_cast<int>(next - i) * parts[i], pitch / parts[i], 0});
+    i = next;
+  }
   return plan;
 }
 
-WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) {
+WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const MeshSizes& sizes) {
   const double turn = 2 * std::numbers::pi * radius;
-  if (zone.empty()) zone = {0, 0};
-  run = {std::min(run.first, zone.first), std::max(run.last, zone.last)};
   const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
+  zones = joined(zones, 0.5 * pitch);
+  if (zones.empty()) zones.push_back({0, 0});
+  run = {std::min(run.first, zones.front().first), std::max(run.last, zones.back().last)};
 
-  // Lengths on the rolling circle, from the end of the zone backwards.
+  // Lengths on the rolling circle, from the end of the last zone backwards.
   NestedSegments lengths;
   std::vector<Segment>& segments = lengths.fine;
   double left = turn;
@@ -178,9 +240,14 @@ WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) 
     append_uniform(lengths, {0, length}, size, 1);
     left -= std::max(length, 0.0);
   };
-  evenly(zone.last - zone.first, sizes.contact);
-  const double behind = std::min(zone.first - run.first, left);
-  const double ahead = std::min(run.last - zone.last, left - behind);
+  double at = zones.back().last;
+  for (auto zone = zones.rbegin(); zone != zones.rend(); ++zone) {
+    evenly(at - zone->last, pitch);
+    evenly(zone->last - zone->first, sizes.contact);
+    at = zone->first;
+  }
+  const double behind = std::min(at - run.first, left);
+  const double ahead = std::min(run.last - zones.back().last, left - behind);
   evenly(behind, pitch);
   const double rest = left - ahead;
   if (rest > 1e-9) {
@@ -192,27 +259,31 @@ WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes) 
   evenly(ahead, pitch);
 
   WheelPlan plan;
-  plan.start = -zone.last / radius;
+  plan.start = -zones.back().last / radius;
   for (const Segment& s : segments) plan.tread.push_back({s.elements, s.pitch / radius, 0});
   return plan;
 }
 
-WheelPlan plan_tyre_part(double radius, Span run, Span zone, double overhang, const MeshSizes& sizes) {
+WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones, double overhang,
+                         const MeshSizes& sizes) {
   const Span all{run.first - overhang, run.last + overhang};
   run = {std::max(all.first, run.first - patch_reach(radius)),
          std::min(all.last, run.last + patch_reach(radius))};
-  zone = {std::max(zone.first, run.first), std::min(zone.last, run.last)};
-  if (zone.empty()) zone = {run.last, run.last};
   const double pitch = sizes.contact * sizes.coarse_ratio / approach_parts(sizes);
-  absorb_slivers(zone, run, 0.5 * pitch);
+  const double shortest = 0.5 * pitch;
+  const std::vector<Span> within = zones_within(run, zones, shortest, shortest);
   // From the end backwards.
   NestedSegments lengths;
   std::vector<Segment>& segments = lengths.fine;
   auto ahead = graded(all.last - run.last, pitch, 2 * sizes.section);
   segments.insert(segments.end(), ahead.rbegin(), ahead.rend());
-  append_uniform(lengths, {zone.last, run.last}, pitch, 1);
-  append_uniform(lengths, zone, sizes.contact, 1);
-  append_uniform(lengths, {run.first, zone.first}, pitch, 1);
+  double at = run.last;
+  for (auto zone = within.rbegin(); zone != within.rend(); ++zone) {
+    append_uniform(lengths, {zone->last, at}, pitch, 1);
+    append_uniform(lengths, *zone, sizes.contact, 1);
+    at = zone->first;
+  }
+  append_uniform(lengths, {run.first, at}, pitch, 1);
   const auto behind = graded(run.first - all.first, pitch, 2 * sizes.section);
   segments.insert(segments.end(), behind.begin(), behind.end());
 

@@ -38,15 +38,18 @@ Span run_span(const Scene& scene);
 /// touch where it stands elsewhere.
 Span zone_span(const Scene& scene);
 
+/// zone_span() and those of the tables [zone.NAME], in order.
+std::vector<Span> zone_spans(const Scene& scene);
+
 /// Segments of the fine block and of the coarse block tied to it; they cover the same length and nest.
 struct NestedSegments {
   std::vector<Segment> fine;
   std::vector<Segment> coarse;
 };
 
-/// Along the rail: h in `zone`, a step to the approach pitch on both sides, that pitch in the rest of `run`,
-/// growing to the far pitch outside of it.
-NestedSegments plan_rail(Span rail, Span run, Span zone, const MeshSizes& sizes);
+/// Along the rail: h in the zones, a step to the approach pitch on both sides, that pitch in the rest of
+/// `run`, growing to the far pitch outside of it. Zones are in order.
+NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, const MeshSizes& sizes);
 
 /// Along a rail without a wheel: one pitch, that of the tied coarse blocks. Waves run along all of it.
 NestedSegments plan_even_rail(Span rail, const MeshSizes& sizes);
@@ -59,16 +62,18 @@ struct WheelPlan {
   std::vector<Segment> axle;
 };
 
-/// h over the arc that meets `zone`, a step to the approach pitch on both sides, that pitch over the rest of
-/// the turn.
-WheelPlan plan_wheel(double radius, Span zone, const MeshSizes& sizes);
+/// h over the arcs that meet the zones, a step to the approach pitch on both sides, that pitch over the rest
+/// of the turn.
+WheelPlan plan_wheel(double radius, const std::vector<Span>& zones, const MeshSizes& sizes);
 
-/// Around a tyre, nothing tied to it: h over the arc that meets `zone`, approach pitch over what meets the
-/// rest of `run`, growing to twice the coarse quads' size over the rest of the turn.
-WheelPlan plan_tyre(double radius, Span run, Span zone, const MeshSizes& sizes);
+/// Around a tyre, nothing tied to it: h over the arcs that meet the zones, which lie within a turn, approach
+/// pitch over what meets the rest of `run`, growing to twice the coarse quads' size over the rest of the
+/// turn.
+WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const MeshSizes& sizes);
 
 /// Around the part of a tyre that rolls over `run`, and `overhang` [m] of tread before and behind it.
-WheelPlan plan_tyre_part(double radius, Span run, Span zone, double overhang, const MeshSizes& sizes);
+WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones, double overhang,
+                         const MeshSizes& sizes);
 
 /// Half length of the stretch of track that a wheel in contact can touch [m].
 double patch_reach(double wheel_radius);

@@ -45,7 +45,8 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.index.wheel(), blocks);
     if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
-      wheel.remark = fmt::format("with a web of {:.2f} mm", 1e3 * model.web_thickness);
+      wheel.remark = fmt::format("with a web of {:.2f} mm{}", 1e3 * model.web_thickness,
+                                 model.scene.wheel->web_file.empty() ? "" : " where it is thinnest");
       if (model.brake_ring_thickness > 0)
         wheel.remark += fmt::format(" and two brake rings of {:.2f} mm", 1e3 * model.brake_ring_thickness);
     }

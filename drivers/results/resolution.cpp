@@ -46,7 +46,7 @@ std::string place_warning(const Scene& scene) {
     return way_warning(scene, "the corrugation", {corrugation.first(), corrugation.last()},
                        corrugation.last(), "values over it are incomplete");
   }
-  return way_warning(scene, "the solution zone", {scene.zone_start, scene.zone_start + scene.zone_length},
+  return way_warning(scene, "the solution zone", {scene.zone_start, scene.solution_zone().end()},
                      scene.zone_start, "the run leaves no stresses");
 }
 
@@ -119,7 +119,7 @@ std::optional<double> shortest_length(const SurfaceSpec& spec, double radius) {
 
 std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   const Scene& scene = model.scene;
-  const Span zone{scene.zone_start, scene.zone_start + scene.zone_length};
+  const std::vector<ZoneSpec> zones = scene.all_zones();
   const bool is_short = spec.kind == "dent" || spec.kind == "flat" || spec.kind == "dip";
   if (is_short && !spec.on_wheel()) {
     const DepthBounds bounds = shape_of(scene, spec)->bounds();
@@ -131,14 +131,18 @@ std::string surface_warning(const Model& model, const std::string& name, const S
   if (is_short && scene.motion) {
     const std::vector<Span> places = places_of(scene, spec, run_span(scene));
     const auto outside = [&](const Span& place) {
-      return place.last < zone.first || place.first > zone.last;
+      return std::all_of(zones.begin(), zones.end(), [&](const ZoneSpec& zone) {
+        return place.last < zone.start || place.first > zone.end();
+      });
     };
     if (!places.empty() && std::all_of(places.begin(), places.end(), outside))
       return fmt::format(
           "surface.{} meets the rail at x = {:.6g} to {:.6g} m, outside the solution zone, {:.6g} to {:.6g} "
           "m: the "
-          "elements there are too coarse for it; change surface.{}.at or solution_zone.start",
-          name, places.front().first, places.front().last, zone.first, zone.last, name);
+          "elements there are too coarse for it; change surface.{}.at or solution_zone.start, or add a table "
+          "[zone.{}] with start and length",
+          name, places.front().first, places.front().last, zones.front().start, zones.front().end(), name,
+          name);
   }
   const std::optional<double> length = shortest_length(spec, model.wheel_radius());
   return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";

@@ -20,6 +20,7 @@ std::string Condition::alternatives() const {
 
 void TableNames::add(std::string_view table) {
   if (table.starts_with(kMaterialTables)) materials.emplace_back(table.substr(kMaterialTables.size()));
+  if (table.starts_with(kZoneTables)) zones.emplace_back(table.substr(kZoneTables.size()));
   if (table.starts_with(kSupportTables)) supports.emplace_back(table.substr(kSupportTables.size()));
   if (table.starts_with(kSurfaceTables)) surfaces.emplace_back(table.substr(kSurfaceTables.size()));
   if (table.starts_with(kProbeTables)) probes.emplace_back(table.substr(kProbeTables.size()));

@@ -98,9 +98,13 @@ inline constexpr std::string_view kSurfaceTables = "surface.";
 /// Begins the path of every table of a support that differs: "support.broken".
 inline constexpr std::string_view kSupportTables = "support.";
 
+/// Begins the path of every table of a finely divided part of the rail: "zone.weld".
+inline constexpr std::string_view kZoneTables = "zone.";
+
 /// Names that a scene gives to its own tables.
 struct TableNames {
   std::vector<std::string> materials;
+  std::vector<std::string> zones;
   std::vector<std::string> supports;
   std::vector<std::string> surfaces;
   std::vector<std::string> probes;

@@ -50,6 +50,16 @@ void add_general(Keys& keys) {
                                    "m", above(0, 1000), "Length of the finely divided rail")));
 }
 
+void add_zone(Keys& keys, const std::string& name) {
+  const std::string table = std::string(kZoneTables) + name;
+  keys.push_back(with_table(
+      "wheel", required(quantity(table + ".start", {Effect::mesh}, at(&Scene::zones, name, &ZoneSpec::start),
+                                 kLength, "m", from(-1000, 1000), "x where the part begins"))));
+  keys.push_back(with_table(
+      "wheel", quantity(table + ".length", {Effect::mesh}, at(&Scene::zones, name, &ZoneSpec::length),
+                        kLength, "m", above(0, 1000), "Length of the part")));
+}
+
 /// The key that leaves the table out: it affects what the table's own keys, among `keys`, affect together.
 Key presence_of(const SceneTable& table, const Keys& keys) {
   Effects effects = {};
@@ -83,6 +93,7 @@ SceneTable always(std::string name, std::string description) {
 Keys make_keys(const TableNames& names) {
   Keys keys;
   add_general(keys);
+  for (const std::string& name : names.zones) add_zone(keys, name);
   for (const std::string& name : names.materials) add_material(keys, name);
   add_wheel(keys);
   add_rail(keys);
@@ -124,13 +135,20 @@ struct NamedTables {
   }
 };
 
-constexpr std::array<NamedTables, 4> kNamedTables = {
+constexpr std::array<NamedTables, 5> kNamedTables = {
     {{kMaterialTables, add_material,
       "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
       "`slab.material`.",
       [](Scene& scene, const std::string& name) { scene.materials[name] = {.name = name}; },
       [](Scene& scene, const std::string& name) { scene.materials.erase(name); },
       [](const Scene& scene, const std::string& name) { return scene.materials.contains(name); }},
+     {kZoneTables, add_zone,
+      "Another finely divided part of the rail, for a weld or a squat away from the solution zone. The wheel "
+      "is finely divided where it meets the part. Figures and stresses of the report stay those of the "
+      "solution zone.",
+      [](Scene& scene, const std::string& name) { scene.zones[name] = {}; },
+      [](Scene& scene, const std::string& name) { scene.zones.erase(name); },
+      [](const Scene& scene, const std::string& name) { return scene.zones.contains(name); }},
      {kSupportTables, add_support,
       "A fastening, with the sleeper under it, that differs from the others: a broken clip, a loose pad, a "
       "hanging or displaced sleeper.",
@@ -169,6 +187,7 @@ void add_named(std::vector<SceneTable>& tables, std::string_view prefix,
 std::vector<SceneTable> make_tables(const TableNames& names) {
   std::vector<SceneTable> tables = {always("scene", "Title, base and fineness of the scene."),
                                     always("solution_zone", "The finely divided part of the rail.")};
+  add_named(tables, kZoneTables, names.zones);
   add_named(tables, kMaterialTables, names.materials);
   const std::vector<SceneTable> others = {
       component("wheel", &Scene::wheel, "The flexible wheelset, or a simpler body that rolls."),

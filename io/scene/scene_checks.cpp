@@ -12,6 +12,8 @@
 #include "core/travel.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
+#include "io/scene/wheel_checks.hpp"
+#include "io/scene/zone_checks.hpp"
 
 namespace tread {
 
@@ -29,11 +31,13 @@ class Checker {
     check_components();
     check_materials();
     if (scene_.contact) check_friction(*scene_.contact);
-    if (scene_.wheel) check_wheel(*scene_.wheel);
-    if (scene_.rail) check_rail(*scene_.rail);
-    check_supports(scene_, [this](bool condition, std::vector<std::string> keys, std::string message) {
+    const auto others = [this](bool condition, std::vector<std::string> keys, std::string message) {
       require(condition, std::move(keys), std::move(message));
-    });
+    };
+    check_wheel(scene_, others);
+    if (scene_.rail) check_rail(*scene_.rail);
+    check_zones(scene_, others);
+    check_supports(scene_, others);
     if (scene_.motion) check_motion(*scene_.motion);
     if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
     for (const auto& [name, surface] : scene_.surfaces)
@@ -174,35 +178,6 @@ class Checker {
                         contact.friction_fast, contact.friction));
   }
 
-  void check_wheel(const WheelSpec& wheel) {
-    const bool arc = wheel.profile == "arc" || wheel.profile == "cylinder";
-    if (wheel.shape == "tyre") {
-      require(arc, {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
-      require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
-              "the ring is thicker than the wheel's radius");
-      require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
-              {"wheel.width", "wheel.crown_radius", "wheel.profile"},
-              "the ring is wider than the arc of its profile");
-      const bool guided = wheel.bore == "guided";
-      require(!guided || !scene_.vehicle, {"wheel.bore", "vehicle"},
-              "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
-      require(
-          !wheel.overhang || scene_.gravity == 0, {"wheel.overhang", "scene.gravity"},
-          "a part of a ring is not balanced about its axle; state scene.gravity = 0, or leave the overhang "
-          "out");
-      const double run = scene_.motion ? scene_.motion->speed * scene_.motion->duration : 0;
-      require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
-              {"wheel.overhang", "motion.duration"},
-              "the wheel rolls on most of its ring; leave the overhang out");
-    } else {
-      require(!arc, {"wheel.profile", "wheel.shape"}, "a half wheelset has the profile LMA, S1002 or a file");
-      require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),
-              {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
-              "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "
-              "wheel.web_offset and wheel.web_wave");
-    }
-  }
-
   void check_rail(const RailSpec& rail) {
     require(rail.head_material.empty() || rail.profile != "box", {"rail.head_material", "rail.profile"},
             "a box has no head; state rail.material");
@@ -221,12 +196,6 @@ class Checker {
     if (!scene_.wheel) return;
     const double left = -rail.origin;
     const double right = rail.length - rail.origin;
-    const double zone_end = scene_.zone_start + scene_.zone_length;
-    require(scene_.zone_start >= left - kLengthTolerance && zone_end <= right + kLengthTolerance,
-            {"solution_zone.start", "solution_zone.length", "rail.length", "rail.origin"},
-            fmt::format(
-                "the solution zone, x = {:.6g} m to {:.6g} m, is not inside the track, {:.6g} m to {:.6g} m",
-                scene_.zone_start, zone_end, left, right));
     require(scene_.start_x() - left >= kRailEndMargin, {"motion.run_up", "rail.origin"},
             fmt::format("the wheel starts at x = {:.6g} m; the rail lets it start from {:.6g} m on",
                         scene_.start_x(), left + kRailEndMargin));
@@ -328,11 +297,11 @@ class Checker {
     const std::string extent = fmt::format("the corrugation, x = {:.6g} m to {:.6g} m,", first, last);
     std::vector<std::string> keys{"corrugation.start", table ? "corrugation.file" : "corrugation.length"};
     const bool on_rail = inside(-rail.origin, rail.length - rail.origin);
-    const double zone_end = scene_.zone_start + scene_.zone_length;
-    require(!on_rail || inside(scene_.zone_start, zone_end),
+    const ZoneSpec zone = scene_.solution_zone();
+    require(!on_rail || inside(zone.start, zone.end()),
             {keys[0], keys[1], "solution_zone.start", "solution_zone.length"},
-            fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, scene_.zone_start,
-                        zone_end));
+            fmt::format("{} is not inside the solution zone, {:.6g} m to {:.6g} m", extent, zone.start,
+                        zone.end()));
     require(on_rail, {keys[0], keys[1], "rail.length", "rail.origin"},
             fmt::format("{} is not on the rail, {:.6g} m to {:.6g} m", extent, -rail.origin,
                         rail.length - rail.origin));

@@ -256,14 +256,12 @@ class SceneBuilder {
       read_file_of("fastenings.supports", [&](const std::string& text, const std::string& name) {
         scene_.fastenings->listed = parse_supports(text, name, problems_);
       });
-    if (scene_.corrugation && scene_.corrugation->kind == "table")
-      read_columns("corrugation.file", {.needs_units = true, .increasing = true}, scene_.corrugation->table_x,
-                   scene_.corrugation->table_depth);
-    if (scene_.corrugation && scene_.corrugation->kind == "map") {
+    if (scene_.corrugation) {
       const auto read = [&](const std::string& text, const std::string& name) {
         set_depths(text, name, *scene_.corrugation, problems_);
       };
-      read_file_of("corrugation.file", read, read_map_text);
+      read_file_of("corrugation.file", read,
+                   scene_.corrugation->kind == "map" ? read_map_text : read_table_text);
     }
     const double wheel_radius = scene_.wheel ? 0.5 * scene_.wheel->diameter : 0;
     for (auto& [table, surface] : scene_.surfaces) {
@@ -273,7 +271,10 @@ class SceneBuilder {
       read_file_of(std::string(kSurfaceTables) + table + ".file", read,
                    surface.kind == "map" ? read_map_text : read_table_text);
     }
-    if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
+    if (scene_.wheel) {
+      read_profile("wheel.profile", *scene_.wheel);
+      read_columns("wheel.web_file", {.needs_units = true}, scene_.wheel->web_y, scene_.wheel->web_r);
+    }
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
   }
 
@@ -298,8 +299,7 @@ class SceneBuilder {
     });
   }
 
-  /// Calls `read` with text, which `load` takes from the disk, and name of the file that the key names; what
-  /// it reports is a problem of the key.
+  /// Calls `read` with text and name of the file that the key names; what it reports is a problem of the key.
   void read_file_of(const std::string& path,
                     const std::function<void(const std::string&, const std::string&)>& read,
                     std::string (*load)(const fs::path&) = read_table_text) {

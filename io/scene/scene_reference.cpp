@@ -123,7 +123,7 @@ std::string library_section(const LibraryEntry& entry) {
 }  // namespace
 
 std::string scene_reference() {
-  const TableNames any_name = {{"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}};
+  const TableNames any_name = {{"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}};
   const std::vector<SceneTable> tables = scene_tables(any_name);
   const std::vector<Key> keys = scene_keys(any_name);
   Scene everything;

@@ -25,7 +25,7 @@ const std::vector<std::string>& usual_materials() {
 namespace {
 
 TableNames usual_names() {
-  return {usual_materials(), {}, {}, {}};
+  return {usual_materials(), {}, {}, {}, {}};
 }
 
 }  // namespace
@@ -37,6 +37,7 @@ std::vector<Key> scene_keys(const TableNames& names) {
 std::vector<Key> scene_keys(const Scene& scene) {
   TableNames names;
   for (const auto& [name, material] : scene.materials) names.materials.push_back(name);
+  for (const auto& [name, zone] : scene.zones) names.zones.push_back(name);
   for (const auto& [name, support] : scene.supports) names.supports.push_back(name);
   for (const auto& [name, surface] : scene.surfaces) names.surfaces.push_back(name);
   for (const auto& [name, probe] : scene.probes) names.probes.push_back(name);
@@ -76,7 +77,7 @@ std::optional<SceneTable> table_of(std::string_view path) {
 bool is_table(std::string_view path) {
   const std::string_view named = keys::named_table_of(path);
   if (!named.empty()) return path == named;
-  for (const std::string_view kind : {kSupportTables, kSurfaceTables, kProbeTables})
+  for (const std::string_view kind : {kZoneTables, kSupportTables, kSurfaceTables, kProbeTables})
     if (kind == std::string(path) + ".") return true;
   const auto below = [&](const Key& key) { return key.path != path && starts_with_table(key.path, path); };
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);

@@ -66,6 +66,12 @@ std::string read_map_text(const std::filesystem::path& path) {
 
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
                 std::vector<Problem>& problems) {
+  if (corrugation.kind != "map") {
+    TwoColumns columns = parse_two_columns(text, name, {.needs_units = true, .increasing = true}, problems);
+    corrugation.table_x = std::move(columns.first);
+    corrugation.table_depth = std::move(columns.second);
+    return;
+  }
   GridColumns grid = parse_grid(text, name, problems);
   corrugation.table_x = std::move(grid.x);
   corrugation.map_y = std::move(grid.y);

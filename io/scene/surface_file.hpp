@@ -15,7 +15,8 @@ namespace tread {
 /// its unit (without it: m). Throws InputError.
 std::string read_map_text(const std::filesystem::path& path);
 
-/// Takes the depths of a corrugation's map from a file's text. Every bad line is added to `problems`.
+/// Takes the depths of a corrugation, of a table or a map, from a file's text. Every bad line is added to
+/// `problems`.
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
                 std::vector<Problem>& problems);
 

@@ -58,8 +58,8 @@ constexpr std::array kPurposes = {
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
             "the rail's section is the same along the track; tables [support.NAME] alter single supports"},
     Purpose{{"wheelset", "axle", "brake_discs", "web"},
-            "the wheelset is a flexible half; wheel.web_thickness, web_offset, web_wave and brake_rings "
-            "shape it"},
+            "the wheelset is a flexible half; wheel.web_thickness, web_offset, web_wave, web_file and "
+            "brake_rings shape it"},
     Purpose{{"wear", "growth"}, "`tread develop` wears the rail, with the keys of [wear]"},
     Purpose{{"crack", "cracks", "fatigue", "residual_stress"},
             "there are no cracks; surface.h5 and the frames hold the stresses for a criterion of your own"},
@@ -79,8 +79,9 @@ constexpr std::array kPurposes = {
 };
 
 /// Names that a scene gives to its tables, by the start of their paths.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOwnNames = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kOwnNames = {
     {{kMaterialTables, "a material's name"},
+     {kZoneTables, "a zone's name"},
      {kSupportTables, "a support's name"},
      {kSurfaceTables, "the name of a surface's depth"},
      {kProbeTables, "a probe's name"}}};

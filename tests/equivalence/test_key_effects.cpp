@@ -162,6 +162,7 @@ const BaseScene& base_scene(const std::string& name) {
       {"measured depths",
        {kTrack, {"surface.shape.kind=profile", "surface.shape.at=-20 mm", "surface.shape.file=depth.txt"}}},
       {"probed", {kTrack, {"probe.midspan.quantity=motion"}}},
+      {"zoned", {kTrack, {"zone.weld.start=-0.1 m"}}},
       {"wheelset",
        {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
         {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
@@ -208,6 +209,8 @@ Scene resolve(const std::string& name, const Overrides& more) {
                   {"/nowhere/supports.txt", "# fastening [-]  shift [mm]  stiffness [-]\n2 20 0.7\n"},
                   {"/nowhere/friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.4\n"},
                   {"/nowhere/other_friction.txt", "# x [mm]  f [-]\n-20 0.1\n20 0.3\n"},
+                  {"/nowhere/web.txt",
+                   "# y [mm]  r [mm]\n-40 145\n-30 165\n-30 340\n-40 365\n35 365\n25 340\n25 165\n35 145\n"},
                   {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
                   {"/nowhere/head.txt", worn_columns(built_in_rail("CN60").running, -35, 35)}};
   return resolve_scene(source, overrides).scene;
@@ -316,6 +319,8 @@ const std::vector<Change>& changes() {
       {"scene.plane_strain", "true"},
       {"solution_zone.start", "-20 mm"},
       {"solution_zone.length", "220 mm"},
+      {"zone.weld.start", "-0.13 m", "zoned"},
+      {"zone.weld.length", "0.05 m", "zoned"},
       {"material.steel.youngs_modulus", "206 GPa"},
       {"material.steel.poissons_ratio", "0.29"},
       {"material.steel.density", "7800 kg/m3", "wheelset"},
@@ -341,6 +346,7 @@ const std::vector<Change>& changes() {
       {"wheel.brake_rings", "true", "wheelset"},
       {"wheel.web_offset", "10 mm", "wheelset"},
       {"wheel.web_wave", "8 mm", "wheelset"},
+      {"wheel.web_file", "web.txt", "wheelset", {"wheel.mass=556.2 kg"}},
       {"wheel.axle_bore", "58 mm", "wheelset"},
       {"wheel.crown_radius", "0.31 m"},
       {"wheel.width", "62 mm"},
@@ -556,7 +562,7 @@ INSTANTIATE_TEST_SUITE_P(Tables, KeysOf, testing::ValuesIn(tables()),
                          [](const auto& table) { return table.param; });
 
 TEST(KeyEffects, EveryKeyIsChanged) {
-  for (const Key& key : scene_keys(TableNames{{"steel"}, {"odd"}, {"shape"}, {"midspan"}})) {
+  for (const Key& key : scene_keys(TableNames{{"steel"}, {"weld"}, {"odd"}, {"shape"}, {"midspan"}})) {
     const auto is_of_key = [&](const Change& change) { return change.key == key.path; };
     const auto count = std::count_if(changes().begin(), changes().end(), is_of_key);
     EXPECT_EQ(count, key.kind == Kind::directive ? 0 : 1) << key.path;

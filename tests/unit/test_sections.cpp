@@ -328,6 +328,107 @@ TEST(WheelSection, WebLeavesHubAndRimRadially) {
   EXPECT_GT(shape.web_line(0.3).p, 0);  // to the field side near the hub
 }
 
+/// Points (y, r) around a web, in wheel coordinates [m].
+struct WebPoints {
+  std::vector<double> y, r;
+
+  /// From faces about `middle`(r) at distances of `half`(r), both in the disc's middle plane [m].
+  template <class Middle, class Half>
+  WebPoints(double hub, double rim, const Middle& middle, const Half& half) {
+    const double plane = 0.5 * (lma().surface.start().x + lma().surface.end().x);
+    constexpr int kPoints = 60;
+    for (const int side : {-1, 1})
+      for (int i = 0; i <= kPoints; ++i) {
+        const double share = static_cast<double>(side < 0 ? i : kPoints - i) / kPoints;
+        r.push_back(hub + share * (rim - hub));
+        y.push_back(plane + middle(r.back()) + side * half(r.back()));
+      }
+  }
+  WebOutline outline() const { return {y, r}; }
+};
+
+TEST(WheelSection, OutlineOfAWebIsTheSameWeb) {
+  WheelShape stated;
+  stated.web_thickness = 28 * mm;
+  stated.web_offset = 20 * mm;
+  const double hub = 145 * mm, rim = 365 * mm;
+  const auto share = [&](double r) { return (r - hub) / (rim - hub); };
+  const WebPoints points(
+      hub, rim, [&](double r) { return stated.web_line(share(r)).p; },
+      [&](double r) {
+        const double reach = std::max(0.0, 1 - std::min(r - hub, rim - r) / 0.025);
+        return 14 * mm * std::hypot(1, stated.web_line(share(r)).slope / (rim - hub)) +
+               8 * mm * reach * reach;
+      });
+  WheelShape drawn;
+  drawn.web_outline = points.outline();
+  EXPECT_NEAR(drawn.web_outline->least_thickness(), 28 * mm, 0.05 * mm);
+  const SectionSize size = size_of(2.2, 13);
+  const Section a = make_wheel_sections(lma(), stated, size).disc;
+  const Section b = make_wheel_sections(lma(), drawn, size).disc;
+  ASSERT_EQ(a.quads, b.quads);
+  for (std::size_t i = 0; i < a.p.size(); ++i) EXPECT_NEAR(a.p[i], b.p[i], 0.02 * mm) << i;
+
+  // The way round and the point to begin with do not matter, nor does a last point like the first.
+  WebPoints turned = points;
+  std::reverse(turned.y.begin(), turned.y.end());
+  std::reverse(turned.r.begin(), turned.r.end());
+  turned.y.push_back(turned.y.front());
+  turned.r.push_back(turned.r.front());
+  drawn.web_outline = turned.outline();
+  EXPECT_EQ(make_wheel_sections(lma(), drawn, size).disc.p, b.p);
+}
+
+TEST(WheelSection, DrawnWebsAreWellShapedAndNested) {
+  for (const double coarse : {9.0, 13.0, 18.0})
+    for (const double hub : {140.0, 150.0, 200.0})
+      for (const double thin : {12.0, 20.0, 40.0})
+        for (const double wave : {-20.0, 0.0, 20.0}) {
+          SCOPED_TRACE(testing::Message() << coarse << ", hub " << hub << ", thin " << thin << ", " << wave);
+          const double rim = 370;
+          const WebPoints points(
+              hub * mm, rim * mm,
+              [&](double r) { return wave * mm * std::sin(3.1 * (r / mm - hub) / (rim - hub)); },
+              [&](double r) {
+                const double share = (r / mm - hub) / (rim - hub);
+                return mm * (0.5 * thin + 15 * (2 * share - 1) * (2 * share - 1));
+              });
+          WheelShape shape;
+          shape.web_outline = points.outline();
+          const WheelSections wheel = make_wheel_sections(lma(), shape, size_of(2.2, coarse));
+          EXPECT_GT(worst_quality(wheel.disc), 0.3);
+          expect_nested(wheel.tread, wheel.tread.paths.at("tie"), wheel.disc,
+                        wheel.disc.paths.at("tie_outer"));
+          expect_nested(wheel.disc, wheel.disc.paths.at("tie_inner"), wheel.axle, wheel.axle.paths.at("tie"));
+        }
+}
+
+TEST(WheelSection, OutlinesThatAreNoWebAreRefused) {
+  const auto refused = [](const std::vector<double>& y, const std::vector<double>& r, const char* reason) {
+    try {
+      WheelShape shape;
+      shape.web_outline.emplace(y, r);
+      make_wheel_sections(lma(), shape, size_of(2.2, 13));
+      ADD_FAILURE() << reason;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  };
+  refused({0, 0.03, 0.03, 0}, {0.15, 0.15, 0.36, 0.36}, "point 2 at r = 150 mm");
+  refused({0, 0, 0, 0.03, 0.03}, {0.15, 0.14, 0.36, 0.36, 0.15}, "point 2 at r = 140 mm");
+  refused({0, 0, 0.03, 0.03, 0.03}, {0.15, 0.36, 0.36, 0.2, 0.21}, "point 5 at r = 210 mm");
+  refused({0, 0}, {0.15, 0.36}, "at least two points");
+  refused({}, {}, "at least two points");
+  refused({0, 0, 0, 0}, {0.15, 0.2, 0.3, 0.36}, "point 4 at r = 360 mm");
+  refused({0, 0, 0.03, 0.03}, {0.15, 0.36, 0.35, 0.15}, "at the rim");
+  refused({0, 0, 0.03, 0.03}, {0.15, 0.36, 0.36, 0.16}, "at the hub");
+  refused({0, 0, 0.03, -0.03}, {0.15, 0.36, 0.36, 0.15}, "faces of the web meet");
+  refused({0, 0, 0.03, 0.03}, {0.13, 0.36, 0.36, 0.13}, "hub's radius of 130.0 mm");
+  refused({0, 0, 0.03, 0.03}, {0.15, 0.41, 0.41, 0.15}, "rim's radius of 410.0 mm");
+  refused({0, 0, 0.2, 0.2}, {0.15, 0.36, 0.36, 0.15}, "least thickness is 200.0 mm");
+  refused({0.09, 0, 0.03, 0.12}, {0.15, 0.36, 0.36, 0.15}, "ends at the hub");
+}
+
 TEST(WheelSection, FlangeLeavesTheStepToThePitch) {
   for (const double surface : {1.1, 2.2, 3.0, 4.0, 4.5, 5.0, 5.5, 6.0, 8.0}) {
     const Section tread = make_wheel_sections(lma(), {}, size_of(surface, 13)).tread;

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "drivers/engine/station_plan.hpp"
@@ -21,9 +24,76 @@ TEST(StationPlan, HasNoSliverWhereverTheRunEnds) {
   const Span zone{0.1, 0.4};
   for (double end = 0.02; end < 0.6; end += 0.37e-3) {
     const Span run{-0.04, end};
-    EXPECT_GE(shortest(plan_rail({-0.5, 1}, run, zone, sizes).fine), 0.45 * sizes.contact) << end;
-    EXPECT_GE(0.43 * shortest(plan_tyre_part(0.43, run, zone, 0.05, sizes).tread), 0.45 * sizes.contact)
+    EXPECT_GE(shortest(plan_rail({-0.5, 1}, run, {zone}, sizes).fine), 0.45 * sizes.contact) << end;
+    EXPECT_GE(0.43 * shortest(plan_tyre_part(0.43, run, {zone}, 0.05, sizes).tread), 0.45 * sizes.contact)
         << end;
+  }
+}
+
+/// Largest pitch that meets [first, last] of the stations from `start` on.
+double largest_pitch(double start, const std::vector<Segment>& segments, double first, double last) {
+  double largest = 0;
+  double at = start;
+  for (const Segment& s : segments) {
+    const double end = at + s.elements * s.pitch;
+    if (at < last - 1e-9 && end > first + 1e-9) largest = std::max(largest, s.pitch);
+    at = end;
+  }
+  return largest;
+}
+
+double length_of(const std::vector<Segment>& segments) {
+  double sum = 0;
+  for (const Segment& s : segments) sum += s.elements * s.pitch;
+  return sum;
+}
+
+/// Rail and wheel are fine where they meet in every zone, coarser between, and nest.
+TEST(StationPlan, IsFineInEveryZone) {
+  constexpr double kRadius = 0.43;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const Span rail{-1, 12};
+  const Span run{-0.04, 9};
+  for (const MeshSizes& sizes : {MeshSizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3},
+                                 MeshSizes{1.1e-3, 25e-3, 8e-3, 40e-3, 3, 6, 4, 16e-3}})
+    for (const double other : {0.2, 1.05, 1.31, 4.0, 8.93}) {
+      SCOPED_TRACE(other);
+      std::vector<Span> zones = {{0.6, 1}, {other, other + 0.13}};
+      if (zones[1].first < zones[0].first) std::swap(zones[0], zones[1]);
+      const NestedSegments plan = plan_rail(rail, run, zones, sizes);
+      EXPECT_NEAR(length_of(plan.fine), 13, 1e-9);
+      EXPECT_NEAR(length_of(plan.coarse), 13, 1e-9);
+      EXPECT_GE(shortest(plan.fine), 0.45 * sizes.contact);
+      const WheelPlan wheel = plan_wheel(kRadius, zones, sizes);
+      EXPECT_NEAR(length_of(wheel.tread), kTurn, 1e-9);
+      EXPECT_NEAR(length_of(wheel.disc), kTurn, 1e-9);
+      for (const Span& zone : zones) {
+        const double end = std::min(zone.last, run.last);
+        EXPECT_LE(largest_pitch(rail.first, plan.fine, zone.first, end), 1.001 * sizes.contact);
+        // x meets the wheel at the angle -x / R, which returns after a turn.
+        const double from = std::fmod(-end / kRadius - wheel.start + 40 * kTurn, kTurn);
+        const double to = from + (end - zone.first) / kRadius;
+        double largest = largest_pitch(0, wheel.tread, from, std::min(to, kTurn));
+        if (to > kTurn) largest = std::max(largest, largest_pitch(0, wheel.tread, 0, to - kTurn));
+        EXPECT_LE(kRadius * largest, 1.01 * sizes.contact);
+      }
+      EXPECT_GT(largest_pitch(rail.first, plan.fine, 2, 3), 1.5 * sizes.contact);
+    }
+}
+
+TEST(StationPlan, ATyreIsFineInEveryZone) {
+  constexpr double kRadius = 0.43;
+  const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
+  const std::vector<Span> zones = {{0.05, 0.1}, {0.1005, 0.15}, {0.4, 0.5}};
+  const Span run{0, 0.8};
+  for (const WheelPlan& plan :
+       {plan_tyre(kRadius, run, zones, sizes), plan_tyre_part(kRadius, run, zones, 0.05, sizes)}) {
+    for (const Span& zone : zones)
+      EXPECT_LE(kRadius * largest_pitch(plan.start, plan.tread, -zone.last / kRadius, -zone.first / kRadius),
+                1.001 * sizes.contact);
+    EXPECT_GE(kRadius * shortest(plan.tread), 0.45 * sizes.contact);
+    EXPECT_GT(kRadius * largest_pitch(plan.start, plan.tread, -0.3 / kRadius, -0.25 / kRadius),
+              1.5 * sizes.contact);
   }
 }
 

@@ -1,0 +1,68 @@
+#include "io/scene/wheel_checks.hpp"
+
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/mesh/web_outline.hpp"
+
+namespace tread {
+
+namespace {
+
+bool has_arc(const WheelSpec& wheel) {
+  return wheel.profile == "arc" || wheel.profile == "cylinder";
+}
+
+void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
+  require(has_arc(wheel), {"wheel.profile", "wheel.shape"}, "a tyre has the profile arc or cylinder");
+  require(wheel.thickness < wheel.diameter / 2, {"wheel.thickness", "wheel.diameter"},
+          "the ring is thicker than the wheel's radius");
+  require(wheel.profile != "arc" || wheel.width < 2 * wheel.crown_radius,
+          {"wheel.width", "wheel.crown_radius", "wheel.profile"},
+          "the ring is wider than the arc of its profile");
+  const bool guided = wheel.bore == "guided";
+  require(!guided || !scene.vehicle, {"wheel.bore", "vehicle"},
+          "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
+  require(!wheel.overhang || scene.gravity == 0, {"wheel.overhang", "scene.gravity"},
+          "a part of a ring is not balanced about its axle; state scene.gravity = 0, or leave the overhang "
+          "out");
+  const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
+  require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
+          {"wheel.overhang", "motion.duration"},
+          "the wheel rolls on most of its ring; leave the overhang out");
+}
+
+void check_web_file(const WheelSpec& wheel, Require require) {
+  require(
+      !wheel.web_thickness && !wheel.brake_rings && wheel.web_offset == 0 && wheel.web_wave == 0,
+      {"wheel.web_thickness", "wheel.brake_rings", "wheel.web_offset", "wheel.web_wave", "wheel.web_file"},
+      "wheel.web_file holds the whole web; leave out wheel.web_thickness, web_offset, web_wave and "
+      "brake_rings");
+  try {
+    if (!wheel.web_r.empty()) WebOutline(wheel.web_y, wheel.web_r);
+  } catch (const InputError& error) {
+    require(false, {"wheel.web_file"}, error.what());
+  }
+}
+
+void check_half_wheelset(const WheelSpec& wheel, Require require) {
+  require(!has_arc(wheel), {"wheel.profile", "wheel.shape"},
+          "a half wheelset has the profile LMA, S1002 or a file");
+  require(!wheel.brake_rings || (wheel.web_offset == 0 && wheel.web_wave == 0),
+          {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
+          "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "
+          "wheel.web_offset and wheel.web_wave");
+  if (!wheel.web_file.empty()) check_web_file(wheel, require);
+}
+
+}  // namespace
+
+void check_wheel(const Scene& scene, Require require) {
+  if (!scene.wheel) return;
+  if (scene.wheel->shape == "tyre")
+    check_tyre(scene, *scene.wheel, require);
+  else
+    check_half_wheelset(*scene.wheel, require);
+}
+
+}  // namespace tread
