@@ -31,7 +31,7 @@ struct WheelSpec {
   double web_offset =
       0;                ///< of the web at the rim to the field side of the web at the hub [m] (half_wheelset)
   double web_wave = 0;  ///< of an S-shaped web to either side [m] (half_wheelset)
-  std::string web_file;        ///< outline of the web, in its place; empty: none (half_wheelset)
+  std::string web = "stated";  ///< by the keys above, or a file of its outline (half_wheelset)
   std::vector<double> web_y;   ///< of the file, to the field side of the nominal rolling circle [m]
   std::vector<double> web_r;   ///< of the file, from the axis [m]
   double axle_bore = 0.060;    ///< bore of the hollow axle [m] (half_wheelset)

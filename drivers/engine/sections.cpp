@@ -234,7 +234,7 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   } else if (const double mass = builder.mass(); std::abs(mass / wheel.mass - 1) > kSameMass) {
     const auto [web, others] =
         shape.web_outline
-            ? std::pair<std::string, const char*>("wheel.web_file", "")
+            ? std::pair<std::string, const char*>("the file of wheel.web", "")
             : std::pair(fmt::format("wheel.web_thickness = {:.4g} mm", 1e3 * shape.web_thickness),
                         ", leave wheel.web_thickness out and the web is sized by the mass, or state "
                         "wheel.brake_rings = true and two plates make up the rest");

@@ -46,7 +46,7 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
       wheel.remark = fmt::format("with a web of {:.2f} mm{}", 1e3 * model.web_thickness,
-                                 model.scene.wheel->web_file.empty() ? "" : " where it is thinnest");
+                                 model.scene.wheel->web == "stated" ? "" : " where it is thinnest");
       if (model.brake_ring_thickness > 0)
         wheel.remark += fmt::format(" and two brake rings of {:.2f} mm", 1e3 * model.brake_ring_thickness);
     }

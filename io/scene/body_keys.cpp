@@ -110,12 +110,11 @@ void add_wheel(Keys& keys) {
       quantity("wheel.web_wave", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_wave), kLength, "mm",
                {-kMostWave, kMostWave},
                "Largest way of an S-shaped web to either side; positive: to the field side near the hub")));
-  keys.push_back(half_wheelset(
-      file("wheel.web_file", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web_file),
-           "Outline of the web in place of thickness, offset and wave: two columns after a line such as "
-           "`# y [mm]  r [mm]`, from the hub along one face to the rim and back along the other; y to the "
-           "field side "
-           "of the nominal rolling circle, r from the axis")));
+  keys.push_back(half_wheelset(or_file(choice(
+      "wheel.web", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::web), {"stated"},
+      "The web by thickness, offset and wave, or by a file of its outline: two columns after a line such as "
+      "`# y [mm]  r [mm]`, points from the hub along one face to the rim and back along the other; y to the "
+      "field side of the nominal rolling circle, r from the axis"))));
   keys.push_back(
       half_wheelset(flag("wheel.brake_rings", {Effect::mesh}, at(&Scene::wheel, &WheelSpec::brake_rings),
                          "Two ring plates on the web, bolted along a circle, as thick as the mass needs")));

@@ -273,7 +273,7 @@ class SceneBuilder {
     }
     if (scene_.wheel) {
       read_profile("wheel.profile", *scene_.wheel);
-      read_columns("wheel.web_file", {.needs_units = true}, scene_.wheel->web_y, scene_.wheel->web_r);
+      read_columns("wheel.web", {.needs_units = true}, scene_.wheel->web_y, scene_.wheel->web_r);
     }
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
   }

@@ -58,7 +58,7 @@ constexpr std::array kPurposes = {
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
             "the rail's section is the same along the track; tables [support.NAME] alter single supports"},
     Purpose{{"wheelset", "axle", "brake_discs", "web"},
-            "the wheelset is a flexible half; wheel.web_thickness, web_offset, web_wave, web_file and "
+            "the wheelset is a flexible half; wheel.web_thickness, web_offset, web_wave, web and "
             "brake_rings shape it"},
     Purpose{{"wear", "growth"}, "`tread develop` wears the rail, with the keys of [wear]"},
     Purpose{{"crack", "cracks", "fatigue", "residual_stress"},

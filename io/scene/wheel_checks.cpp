@@ -35,13 +35,13 @@ void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
 void check_web_file(const WheelSpec& wheel, Require require) {
   require(
       !wheel.web_thickness && !wheel.brake_rings && wheel.web_offset == 0 && wheel.web_wave == 0,
-      {"wheel.web_thickness", "wheel.brake_rings", "wheel.web_offset", "wheel.web_wave", "wheel.web_file"},
-      "wheel.web_file holds the whole web; leave out wheel.web_thickness, web_offset, web_wave and "
+      {"wheel.web_thickness", "wheel.brake_rings", "wheel.web_offset", "wheel.web_wave", "wheel.web"},
+      "the file of wheel.web holds the whole web; leave out wheel.web_thickness, web_offset, web_wave and "
       "brake_rings");
   try {
     if (!wheel.web_r.empty()) WebOutline(wheel.web_y, wheel.web_r);
   } catch (const InputError& error) {
-    require(false, {"wheel.web_file"}, error.what());
+    require(false, {"wheel.web"}, error.what());
   }
 }
 
@@ -52,7 +52,7 @@ void check_half_wheelset(const WheelSpec& wheel, Require require) {
           {"wheel.brake_rings", "wheel.web_offset", "wheel.web_wave"},
           "brake rings are bolted to a straight web; state wheel.brake_rings = false, or leave out "
           "wheel.web_offset and wheel.web_wave");
-  if (!wheel.web_file.empty()) check_web_file(wheel, require);
+  if (wheel.web != "stated") check_web_file(wheel, require);
 }
 
 }  // namespace

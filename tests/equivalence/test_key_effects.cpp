@@ -346,7 +346,7 @@ const std::vector<Change>& changes() {
       {"wheel.brake_rings", "true", "wheelset"},
       {"wheel.web_offset", "10 mm", "wheelset"},
       {"wheel.web_wave", "8 mm", "wheelset"},
-      {"wheel.web_file", "web.txt", "wheelset", {"wheel.mass=556.2 kg"}},
+      {"wheel.web", "web.txt", "wheelset", {"wheel.mass=556.2 kg"}},
       {"wheel.axle_bore", "58 mm", "wheelset"},
       {"wheel.crown_radius", "0.31 m"},
       {"wheel.width", "62 mm"},
