@@ -36,11 +36,13 @@ WebOutline::WebOutline(const std::vector<double>& y, const std::vector<double>& 
   std::vector<double> back(radius.rbegin(), radius.rend() - static_cast<std::ptrdiff_t>(up));
   const std::size_t down = growing(back);
   if (up < 2 || down < 2 || down < back.size()) {
-    const std::size_t fault = up < 2 || back.empty() ? up : up + back.size() - down;
+    const double top = *std::max_element(radius.begin(), radius.end());
+    const bool before_the_rim = up < 2 || back.empty() || radius[up - 1] < top - kSameRadius;
+    const std::size_t fault = std::min(before_the_rim ? up : up + back.size() - down, radius.size() - 1);
     throw InputError(fmt::format(
         "point {} at r = {:g} mm: r has to grow from the hub to the rim along one face, and to fall "
         "along the other; leave out points of hub and rim",
-        std::min(fault, radius.size() - 1) + 1, 1e3 * radius[std::min(fault, radius.size() - 1)]));
+        fault + 1, 1e3 * radius[fault]));
   }
   const auto same = [](const char* end, double a, double b) {
     if (std::abs(a - b) > kSameRadius)

@@ -417,6 +417,7 @@ TEST(WheelSection, OutlinesThatAreNoWebAreRefused) {
   refused({0, 0.03, 0.03, 0}, {0.15, 0.15, 0.36, 0.36}, "point 2 at r = 150 mm");
   refused({0, 0, 0, 0.03, 0.03}, {0.15, 0.14, 0.36, 0.36, 0.15}, "point 2 at r = 140 mm");
   refused({0, 0, 0.03, 0.03, 0.03}, {0.15, 0.36, 0.36, 0.2, 0.21}, "point 5 at r = 210 mm");
+  refused({0, 0, 0, 0.03, 0.03}, {0.15, 0.2, 0.14, 0.36, 0.15}, "point 3 at r = 140 mm");
   refused({0, 0}, {0.15, 0.36}, "at least two points");
   refused({}, {}, "at least two points");
   refused({0, 0, 0, 0}, {0.15, 0.2, 0.3, 0.36}, "point 4 at r = 360 mm");
