@@ -112,6 +112,7 @@ MonotoneCubicView DeviceContact::line(MonotoneCubicView view) {
 PlacedDepth DeviceContact::placed(PlacedDepth depth) {
   DepthShapeView& shape = depth.shape;
   std::vector<MonotoneCubicView> lines;
+  lines.reserve(index(shape.rows));
   for (int row = 0; row < shape.rows; ++row) lines.push_back(line(shape.line[row]));
   shape.line = keep(lines);
   shape.y = keep(std::span(shape.y, index(shape.rows)));
@@ -120,6 +121,7 @@ PlacedDepth DeviceContact::placed(PlacedDepth depth) {
 
 RunningSurfaceView DeviceContact::surface(RunningSurfaceView view) {
   std::vector<PlacedDepth> shapes;
+  shapes.reserve(index(view.shapes));
   for (int i = 0; i < view.shapes; ++i) shapes.push_back(placed(view.shape[i]));
   view.shape = keep(shapes);
   return view;
