@@ -17,6 +17,7 @@ runs=(
   'surface_depths --set "element_size=0.7 mm"'
   'profiles_in_contact --set "element_size=2.2 mm"'
   'profiles_in_contact --set "element_size=1.6 mm"'
+  'profiles_in_contact --set "element_size=0.55 mm" --set "last=1 mm"'
   'contact_filter'
   'cattaneo_mindlin'
   'cattaneo_mindlin --set "element_size=2.2 mm"'
