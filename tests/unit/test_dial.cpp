@@ -193,6 +193,13 @@ TEST(DialReport, EveryQuantityHasAPanel) {
   EXPECT_FALSE(samples::has(svg, "nan"));
 }
 
+TEST(DialReport, CellsOfATableInPerCentAreNumbers) {
+  const Table errors = error_table(table());
+  EXPECT_EQ(errors.rows[0][3], "20");
+  for (const std::vector<std::string>& row : errors.rows)
+    for (const std::string& cell : row) EXPECT_EQ(cell.find('%'), std::string::npos) << cell;
+}
+
 TEST(DialReport, EveryTableHasItsTitleInMarkdown) {
   DialOutcome outcome{table(), {}, {}, DialCost::minutes};
   const std::string text = dial_markdown(outcome);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPercent = 100;
 
-std::string percent_text(const std::optional<double>& share) {
+std::string percent_cell(const std::optional<double>& share) {
   constexpr int kDigits = 2;
   return share ? readable(kPercent * *share, kDigits) : "–";
 }
@@ -53,7 +53,7 @@ Table titled(std::string title, Table table) {
 
 std::vector<Table> error_tables(const DialTable& table) {
   const auto means = [](const CurveDifference& d) {
-    return percent_text(d.mean) + " / " + percent_text(d.range);
+    return percent_cell(d.mean) + " / " + percent_cell(d.range);
   };
   return {
       titled("Error [%]", error_table(table)),
@@ -98,7 +98,7 @@ Chapter effect_chapter(const DialTable& effects) {
 }  // namespace
 
 Table error_table(const DialTable& table) {
-  return quantity_table(table, [](const CurveDifference& d) { return percent_text(d.error); });
+  return quantity_table(table, [](const CurveDifference& d) { return percent_cell(d.error); });
 }
 
 Table shift_table(const DialTable& table) {
