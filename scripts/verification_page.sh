@@ -37,6 +37,8 @@ runs=(
   'rail_on_fastenings'
   'rail_waves'
   'fastening_passing'
+  'fastening_passing --set over_pad=0'
+  'fastening_passing --set held=0'
   'wheelset_settling'
   'wheelset_modes'
   'wheel_receptance'

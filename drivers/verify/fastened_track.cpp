@@ -24,7 +24,8 @@ std::vector<VerifyInput> track_inputs() {
       {"bed_damping", &kViscousDamping, "kN s/m", 50e3, {0, 1e9}, "the bed's damping under a half sleeper"},
       {"sleeper_modulus", &kStress, "GPa", 35e9, {1e9, 1e14}, "Young's modulus of the sleepers"},
       {"held", nullptr, "", 1, {0, 1}, "1: the foot is held along x, 0: it moves freely"},
-      {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"}};
+      {"over_pad", nullptr, "", 1, {0, 1}, "1: it is held all over the pad, 0: at the spring-dampers"},
+      {"columns", nullptr, "", 3, {1, 20}, "spring-dampers along the pad"}};
 }
 
 std::string track_text(const VerifyInputs& inputs, double element_size) {
@@ -52,10 +53,12 @@ stiffness = "{k} N/m"
 damping = "{c} N s/m"
 along = "{along}"
 held_at = "{held_at}"
+columns = {columns}
 {sleepers})",
       fmt::arg("sleepers", sleepers), fmt::arg("h", element_size), fmt::arg("k", inputs["stiffness"]),
       fmt::arg("c", inputs["damping"]), fmt::arg("spacing", inputs["spacing"]),
       fmt::arg("along", inputs["held"] > 0 ? "held" : "free"),
+      fmt::arg("columns", static_cast<int>(std::lround(inputs["columns"]))),
       fmt::arg("held_at", inputs["over_pad"] > 0 ? "pad" : "springs"),
       fmt::arg("count", 1 + static_cast<int>(std::floor((kRail - 2 * kFirst) / inputs["spacing"] + 1e-9))));
 }
