@@ -26,8 +26,8 @@ void check_outline(const Web& web, double rim_width, double tread_tie) {
   constexpr double kRoom = 8e-3;  // beside and beyond the web's ends [m]
   const auto refuse = [](double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most))
-      throw InputError(fmt::format("wheel.web: {} {:.1f} mm; it has to be from {:.1f} to {:.1f} mm",
-                                   what, 1e3 * value, 1e3 * least, 1e3 * most));
+      throw InputError(fmt::format("wheel.web: {} {:.1f} mm; it has to be from {:.1f} to {:.1f} mm", what,
+                                   1e3 * value, 1e3 * least, 1e3 * most));
   };
   refuse(web.hub(), kHubTieRadius + kRoom, kMostHub, "the web begins at the hub's radius of");
   refuse(web.rim(), web.hub() + kLeastHeight, tread_tie - kRoom, "the web ends at the rim's radius of");
