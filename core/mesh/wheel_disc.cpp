@@ -22,7 +22,7 @@ constexpr double kHubOuterRadius = 145e-3;
 constexpr double kMostHub = 250e-3, kLeastHeight = 60e-3;  // of a web from a file [m]
 
 /// InputError for an outline that does not fit between hub and rim.
-void check_outline(const Web& web, double rim_width, double tread_tie) {
+void check_outline(const WheelShape& shape, const Web& web, double rim_width) {
   constexpr double kRoom = 8e-3;  // beside and beyond the web's ends [m]
   const auto refuse = [](double value, double least, double most, const char* what) {
     if (!(value >= least && value <= most))
@@ -30,8 +30,9 @@ void check_outline(const Web& web, double rim_width, double tread_tie) {
                                    1e3 * value, 1e3 * least, 1e3 * most));
   };
   refuse(web.hub(), kHubTieRadius + kRoom, kMostHub, "the web begins at the hub's radius of");
-  refuse(web.rim(), web.hub() + kLeastHeight, tread_tie - kRoom, "the web ends at the rim's radius of");
-  refuse(web.thickness(), kThinnestWeb, kThickestWeb, "the web's least thickness is");
+  refuse(web.rim(), web.hub() + kLeastHeight, shape.diameter / 2 - kTreadTieDepth - kRoom,
+         "the web ends at the rim's radius of");
+  refuse(shape.thinnest_web(), kThinnestWeb, kThickestWeb, "the web's least thickness is");
   const auto within = [&](const Web::Faces& faces, double half, const char* what) {
     refuse(std::abs(faces.middle) + faces.half, 0, half - kRoom, what);
   };
@@ -103,10 +104,6 @@ Web::Web(const WheelShape& shape, double middle)
       hub_(shape.web_outline ? shape.web_outline->hub() : kHubOuterRadius),
       rim_(shape.web_outline ? shape.web_outline->rim() : shape.diameter / 2 - kRimDepth) {}
 
-double Web::thickness() const {
-  return shape_->web_outline ? shape_->web_outline->least_thickness() : shape_->web_thickness;
-}
-
 Web::Faces Web::at(double r) const {
   if (shape_->web_outline) {
     const auto [gauge, field] = shape_->web_outline->at(r);
@@ -119,9 +116,9 @@ Web::Faces Web::at(double r) const {
 }
 
 DiscLines disc_lines(double rim_width, const WheelShape& shape, const Web& web, const SectionSize& size) {
-  if (shape.web_outline) check_outline(web, rim_width, shape.diameter / 2 - kTreadTieDepth);
+  if (shape.web_outline) check_outline(shape, web, rim_width);
   DiscLines lines;
-  lines.web = element_count(web.thickness(), size.coarse, 2);
+  lines.web = element_count(shape.thinnest_web(), size.coarse, 2);
   lines.rim = winged(rim_width / 2, web.at(web.rim()), lines.web, size.coarse);
   lines.axle_hub =
       evenly(-kHubLength / 2, kHubLength / 2, element_count(kHubLength, kAxleRatio * size.coarse, 3));

@@ -21,7 +21,6 @@ class Web {
 
   double hub() const { return hub_; }  ///< radius [m]
   double rim() const { return rim_; }  ///< radius [m]
-  double thickness() const;            ///< the least [m]
 
   struct Faces {
     double middle, half;  ///< middle between both, half of their distance [m]

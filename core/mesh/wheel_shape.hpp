@@ -33,6 +33,8 @@ struct WheelShape {
   /// Middle line of the web: it leaves hub and rim radially; offset (3 s^2 - 2 s^3 - 1/2) and the S
   /// sin(2 pi s) sin(pi s), `web_wave` at its largest.
   WebLine web_line(double share) const;
+  /// Least thickness of the web [m].
+  double thinnest_web() const { return web_outline ? web_outline->least_thickness() : web_thickness; }
   /// InputError for a shape that does not fit.
   void check() const;
 };

@@ -225,7 +225,6 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   WheelBuilder builder(scene, sizes, plan);
   WheelShape& shape = builder.shape;
   if (wheel.web_thickness) shape.web_thickness = *wheel.web_thickness;
-  if (shape.web_outline) shape.web_thickness = shape.web_outline->least_thickness();
   if (wheel.brake_rings) {
     size_by_mass(builder, {&WheelShape::brake_ring_thickness, "brake rings", kThinnestRing, kThickestRing},
                  wheel.mass);
@@ -242,7 +241,7 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
         "{} makes a half wheelset of {:.1f} kg, wheel.mass = {:.1f} kg; state wheel.mass = \"{:.1f} kg\"{}",
         web, mass, wheel.mass, mass, others));
   }
-  return {builder.sections(), shape.web_thickness, shape.brake_ring_thickness};
+  return {builder.sections(), shape.thinnest_web(), shape.brake_ring_thickness};
 }
 
 Corrugation corrugation_of(const CorrugationSpec& spec, double centre) {

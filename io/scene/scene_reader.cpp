@@ -271,10 +271,10 @@ class SceneBuilder {
       read_file_of(std::string(kSurfaceTables) + table + ".file", read,
                    surface.kind == "map" ? read_map_text : read_table_text);
     }
-    if (scene_.wheel) {
-      read_profile("wheel.profile", *scene_.wheel);
-      read_columns("wheel.web", {.needs_units = true}, scene_.wheel->web_y, scene_.wheel->web_r);
-    }
+    if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
+    if (scene_.wheel)
+      read_columns("wheel.web", {.needs_units = true, .example = "r [mm]"}, scene_.wheel->web_y,
+                   scene_.wheel->web_r);
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
   }
 

@@ -427,6 +427,7 @@ TEST(WheelSection, OutlinesThatAreNoWebAreRefused) {
   refused({0, 0, 0.03, 0.03}, {0.13, 0.36, 0.36, 0.13}, "hub's radius of 130.0 mm");
   refused({0, 0, 0.03, 0.03}, {0.15, 0.41, 0.41, 0.15}, "rim's radius of 410.0 mm");
   refused({0, 0, 0.2, 0.2}, {0.15, 0.36, 0.36, 0.15}, "least thickness is 200.0 mm");
+  refused({0, 0, 0.006, 0.006}, {0.15, 0.36, 0.36, 0.15}, "least thickness is 6.0 mm");
   refused({0.09, 0, 0.03, 0.12}, {0.15, 0.36, 0.36, 0.15}, "ends at the hub");
 }
 
