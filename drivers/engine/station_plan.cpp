@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <ranges>
-#include <utility>
 
 #include "core/travel.hpp"
 
@@ -122,6 +121,11 @@ void absorb_slivers(Span& zone, const Span& run, double shortest) {
   if (run.last - zone.last < shortest) zone.last = run.last;
 }
 
+/// Least distance of zones that both have their steps [m].
+double least_gap(const MeshSizes& sizes) {
+  return 4 * kStepLength + 0.5 * sizes.contact * sizes.coarse_ratio;
+}
+
 /// The zones that are not empty, those nearer to each other than `gap` [m] in one.
 std::vector<Span> joined(const std::vector<Span>& zones, double gap) {
   std::vector<Span> apart;
@@ -161,7 +165,7 @@ NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, co
   std::reverse(before.begin(), before.end());
   for (const Segment& s : before) append(plan, s.elements, s.pitch, 1);
   double at = run.first;
-  for (const Span& zone : zones_within(run, zones, 4 * kStepLength + shortest, shortest)) {
+  for (const Span& zone : zones_within(run, zones, least_gap(sizes), shortest)) {
     Span step{std::max(zone.first - 2 * kStepLength, run.first),
               std::min(zone.last + 2 * kStepLength, run.last)};
     absorb_slivers(step, run, shortest);
@@ -200,12 +204,11 @@ WheelPlan plan_wheel(double radius, const std::vector<Span>& zones, const MeshSi
       of = std::max(of, wanted);
     }
   };
-  double start = 0;  // of the first element, backwards along the rail [m]
-  bool started = false;
-  for (const Span& zone : zones) {
-    if (zone.empty()) continue;
+  const std::vector<Span> fine = joined(zones, least_gap(sizes));
+  // Place of the first element's end on the rail; the others lie behind it [m].
+  const double start = fine.empty() ? 0 : fine.front().last + kStepLength;
+  for (const Span& zone : fine) {
     const Span widened{zone.first - kStepLength, zone.last + kStepLength};
-    if (!std::exchange(started, true)) start = widened.last;
     const auto first = static_cast<int>(std::floor((start - widened.last) / (radius * pitch)));
     const int whole = elements(start - widened.first) - first;
     const int step = elements(2 * kStepLength);
