@@ -135,39 +135,53 @@ struct NamedTables {
   }
 };
 
+template <auto Map>
+void add_to(Scene& scene, const std::string& name) {
+  (scene.*Map)[name] = {};
+}
+
+void add_material_to(Scene& scene, const std::string& name) {
+  scene.materials[name] = {.name = name};
+}
+
+/// Tables that are entries of a map of the scene.
+template <auto Map>
+constexpr NamedTables entries_of(std::string_view prefix, void (*add_keys)(Keys&, const std::string& name),
+                                 const char* description,
+                                 void (*create)(Scene&, const std::string& name) = add_to<Map>) {
+  return {prefix,
+          add_keys,
+          description,
+          create,
+          [](Scene& scene, const std::string& name) { (scene.*Map).erase(name); },
+          [](const Scene& scene, const std::string& name) { return (scene.*Map).contains(name); }};
+}
+
 constexpr std::array<NamedTables, 5> kNamedTables = {
-    {{kMaterialTables, add_material,
-      "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
-      "`slab.material`.",
-      [](Scene& scene, const std::string& name) { scene.materials[name] = {.name = name}; },
-      [](Scene& scene, const std::string& name) { scene.materials.erase(name); },
-      [](const Scene& scene, const std::string& name) { return scene.materials.contains(name); }},
-     {kZoneTables, add_zone,
-      "Another finely divided part of the rail, for a weld or a squat away from the solution zone. The wheel "
-      "is finely divided where it meets the part. Figures and stresses of the report stay those of the "
-      "solution zone.",
-      [](Scene& scene, const std::string& name) { scene.zones[name] = {}; },
-      [](Scene& scene, const std::string& name) { scene.zones.erase(name); },
-      [](const Scene& scene, const std::string& name) { return scene.zones.contains(name); }},
-     {kSupportTables, add_support,
-      "A fastening, with the sleeper under it, that differs from the others: a broken clip, a loose pad, a "
-      "hanging or displaced sleeper.",
-      [](Scene& scene, const std::string& name) { scene.supports[name] = {}; },
-      [](Scene& scene, const std::string& name) { scene.supports.erase(name); },
-      [](const Scene& scene, const std::string& name) { return scene.supports.contains(name); }},
-     {kSurfaceTables, add_surface,
-      "Depth on the running surface of rail or wheel, added to the contact gap. Depths of all such tables "
-      "and of [corrugation] are summed.\nA place on the wheel is where it meets the rail in free rolling, "
-      "once a turn.",
-      [](Scene& scene, const std::string& name) { scene.surfaces[name] = {}; },
-      [](Scene& scene, const std::string& name) { scene.surfaces.erase(name); },
-      [](const Scene& scene, const std::string& name) { return scene.surfaces.contains(name); }},
-     {kProbeTables, add_probe,
-      "A point of a body whose motion or stress the histories hold, in columns that begin with the "
-      "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.",
-      [](Scene& scene, const std::string& name) { scene.probes[name] = {}; },
-      [](Scene& scene, const std::string& name) { scene.probes.erase(name); },
-      [](const Scene& scene, const std::string& name) { return scene.probes.contains(name); }}}};
+    entries_of<&Scene::materials>(
+        kMaterialTables, add_material,
+        "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
+        "`slab.material`.",
+        add_material_to),
+    entries_of<&Scene::zones>(
+        kZoneTables, add_zone,
+        "Another finely divided part of the rail, for a weld or a squat away from the solution zone.\nThe "
+        "wheel "
+        "is finely divided where it meets the part.\nFigures and stresses of the report stay those of the "
+        "solution zone."),
+    entries_of<&Scene::supports>(
+        kSupportTables, add_support,
+        "A fastening, with the sleeper under it, that differs from the others: a broken clip, a loose pad, a "
+        "hanging or displaced sleeper."),
+    entries_of<&Scene::surfaces>(
+        kSurfaceTables, add_surface,
+        "Depth on the running surface of rail or wheel, added to the contact gap. Depths of all such tables "
+        "and of [corrugation] are summed.\nA place on the wheel is where it meets the rail in free rolling, "
+        "once a turn."),
+    entries_of<&Scene::probes>(
+        kProbeTables, add_probe,
+        "A point of a body whose motion or stress the histories hold, in columns that begin with the "
+        "probe's name.\nAccelerations are means over the interval between two samples, without aliasing.")};
 
 /// The kind of the table; null for tables that no scene names.
 const NamedTables* kind_of(std::string_view table) {
