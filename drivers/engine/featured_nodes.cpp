@@ -37,14 +37,6 @@ std::vector<std::int64_t> surface_slots(const Model& model) {
   return slots;
 }
 
-std::vector<std::int64_t> loaded_and_read_slots(const Model& model) {
-  std::vector<std::int64_t> slots = model.loaded_slots();
-  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
-  const std::vector<std::int64_t> surfaces = surface_slots(model);
-  slots.insert(slots.end(), surfaces.begin(), surfaces.end());
-  return slots;
-}
-
 std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
   std::vector<unsigned char> marks(index(mesh.slots / kLanes), 0);
   for (const std::int64_t slot : slots) marks[index(slot / kLanes)] = 1;

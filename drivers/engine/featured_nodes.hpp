@@ -17,8 +17,6 @@ inline constexpr int kGroupValues = 3 * kLanes;  ///< values of a group in a vec
 std::vector<std::int64_t> connected_slots(const Model& model);
 /// Nodes of both contact surfaces; none without contact.
 std::vector<std::int64_t> surface_slots(const Model& model);
-/// Those, tied nodes and contact surfaces. A restraint sets values to zero wherever they are.
-std::vector<std::int64_t> loaded_and_read_slots(const Model& model);
 
 /// Marks of the groups of a mesh that hold one of these slots.
 std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots);

@@ -13,9 +13,9 @@ template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
     : Base(model), ranks_(std::move(ranks)), own_(index(ranks_->rank())) {
   cut(model.mesh);
-  choose_groups(model);
   join_tiles();
-  place_packed();
+  shared_.emplace(model, movers(), ranks_->rank());
+  share();
 }
 
 /// Fields are contiguous in the order of blocks and tiles, and so is a stretch of them.
@@ -45,19 +45,6 @@ void RankFields<Real, U>::cut(const Mesh& mesh) {
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::choose_groups(const Model& model) {
-  const std::vector<std::int64_t> slots = loaded_and_read_slots(model);
-  this->update().defer(slots);
-  const std::vector<unsigned char> marks = groups_of(model.mesh, slots);
-  for (std::int64_t group = 0; group < std::ssize(marks); ++group)
-    if (marks[index(group)] != 0) groups_.push_back(group);
-  for (const std::int64_t value : first_value_) {
-    const auto at = std::lower_bound(groups_.begin(), groups_.end(), value / kGroupValues);
-    first_group_.push_back(at - groups_.begin());
-  }
-}
-
-template <class Real, class U>
 int RankFields<Real, U>::rank_of(std::size_t tile) const {
   const auto holds = [tile](const TileStretch& stretch) { return stretch.holds(tile); };
   return static_cast<int>(std::find_if(stretches_.begin(), stretches_.end(), holds) - stretches_.begin());
@@ -66,7 +53,6 @@ int RankFields<Real, U>::rank_of(std::size_t tile) const {
 template <class Real, class U>
 void RankFields<Real, U>::join_tiles() {
   const Mesh& mesh = this->mesh();
-  std::vector<std::int64_t> kept;
   std::size_t before = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); before += mesh.blocks[b++].tiles.size()) {
     const SweptBlock& block = mesh.blocks[b];
@@ -80,21 +66,60 @@ void RankFields<Real, U>::join_tiles() {
       if (joint.near == joint.far) continue;
       joint.nodes = block.section.nodes();
       joint.slot = block.base + next * joint.nodes * kLanes;
-      for (std::int64_t node = 0; node < joint.nodes; ++node) {
-        if (joint.near == ranks_->rank()) kept.push_back(joint.slot + node * kLanes);
-        if (std::binary_search(groups_.begin(), groups_.end(), joint.slot / kLanes + node))
-          for (int c = 0; c < 3; ++c) joint.featured.push_back(3 * node + c);
-      }
       joints_.push_back(std::move(joint));
     }
   }
-  this->update().defer(kept);
+}
+
+template <class Real, class U>
+std::vector<GroupMovers> RankFields<Real, U>::movers() const {
+  std::vector<GroupMovers> movers(index(first_value_.back() / kGroupValues));
+  for (std::size_t rank = 0; rank < stretches_.size(); ++rank)
+    for (std::int64_t group = first_value_[rank] / kGroupValues;
+         group < first_value_[rank + 1] / kGroupValues; ++group)
+      movers[index(group)].rank = static_cast<int>(rank);
+  for (const Joint& joint : joints_)
+    for (std::int64_t node = 0; node < joint.nodes; ++node)
+      movers[index(joint.slot / kLanes + node)].beside = joint.near;
+  return movers;
+}
+
+/// While all values are at hand, chooses the nodes that all ranks move, for some steps.
+template <class Real, class U>
+void RankFields<Real, U>::follow_patch(const StepLoads& loads) {
+  constexpr int kSteps = 70;  // energies are looked at more often, and all values are at hand then
+  shared_->follow(loads.frame, kSteps * loads.dt);
+  steps_left_ = kSteps;
+  share();
+}
+
+/// Takes over the choice of shared groups. No more of them than at first, so nothing is allocated.
+template <class Real, class U>
+void RankFields<Real, U>::share() {
+  const std::vector<unsigned char>& marks = shared_->shared();
+  this->update().defer_only(shared_->deferred());
+  groups_.clear();
+  first_group_.clear();
+  for (std::int64_t group = 0; group < std::ssize(marks); ++group)
+    if (marks[index(group)] != 0) groups_.push_back(group);
+  for (const std::int64_t value : first_value_) {
+    const auto at = std::lower_bound(groups_.begin(), groups_.end(), value / kGroupValues);
+    first_group_.push_back(at - groups_.begin());
+  }
+  for (Joint& joint : joints_) {
+    joint.shared.clear();
+    for (std::int64_t node = 0; node < joint.nodes; ++node)
+      for (int c = 0; marks[index(joint.slot / kLanes + node)] != 0 && c < 3; ++c)
+        joint.shared.push_back(3 * node + c);
+  }
+  place_packed();
 }
 
 /// Forces that a rank sends lie together: those of its groups, then those at joints.
 template <class Real, class U>
 void RankFields<Real, U>::place_packed() {
   std::int64_t place = 0;
+  first_packed_.clear();
   for (std::size_t rank = 0; rank < stretches_.size(); ++rank) {
     first_packed_.push_back(place);
     place += (first_group_[rank + 1] - first_group_[rank]) * kGroupValues;
@@ -154,7 +179,7 @@ void RankFields<Real, U>::join_forces(const Joint& joint) {
   else if (joint.near == ranks_->rank())
     for (std::int64_t i = 0; i < 3 * joint.nodes; ++i) f[i * kLanes] = others[i] + element[i];
   else
-    for (const std::int64_t i : joint.featured) f[i * kLanes] += element[i];
+    for (const std::int64_t i : joint.shared) f[i * kLanes] += element[i];
 }
 
 template <class Real, class U>
@@ -183,6 +208,9 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
     Base::internal_force_and_move(loads, true);
     return;
   }
+  if (steps_left_ == 0) fetch();
+  if (whole_) follow_patch(loads);
+  --steps_left_;
   this->internal().move(stretches_[own_], this->update(), loads, this->force_fields());
   pack();
   ranks_->gather(packed_.data(), first_packed_);

@@ -1,16 +1,18 @@
 #pragma once
 // The fields of a run whose steps several processes share. [docs/records/ranks.md]
 //
-// Each rank computes the elements of a stretch of tiles and moves the nodes on which they alone act. Nodes
-// that features touch are everyone's: each rank gets their forces and moves them in the same way. Those where
-// two stretches meet belong to both ranks. One exchange of forces a step makes all of them. The views
-// of NodeFields hold them, the rank's own nodes and, after fetch(), all.
+// Each rank computes the elements of a stretch of tiles and moves their nodes. Nodes that features touch on
+// several ranks are everyone's: each rank gets their forces and moves them in the same way (SharedGroups).
+// Those where two stretches meet belong to both ranks. One exchange of forces a step makes all of them. The
+// views of NodeFields hold them, the rank's own nodes and, after fetch(), all.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
 #include "drivers/engine/precise_fields.hpp"
+#include "drivers/engine/shared_groups.hpp"
 
 namespace tread {
 
@@ -22,6 +24,7 @@ class RankFields final : public PreciseFields<Real, U> {
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
   void changed() override { whole_ = true; }
+  const TieItems* tie_items() const override { return whole_ ? nullptr : &shared_->tie_items(); }
 
   /// In measured steps all ranks compute all elements, so that all fields stay whole until the next step.
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
@@ -40,12 +43,14 @@ class RankFields final : public PreciseFields<Real, U> {
     /// Places in packed_ of the force of the element and of those of all others on the station: [section
     /// node][3].
     std::int64_t element_force = 0, other_force = 0;
-    std::vector<std::int64_t> featured;  ///< those of the values whose nodes features touch
+    std::vector<std::int64_t> shared;  ///< those of the values whose nodes all ranks move
   };
 
   void cut(const Mesh& mesh);
-  void choose_groups(const Model& model);
   void join_tiles();
+  std::vector<GroupMovers> movers() const;
+  void follow_patch(const StepLoads& loads);
+  void share();
   int rank_of(std::size_t tile) const;
   void place_packed();
   Real* packed_groups(std::size_t rank);
@@ -60,7 +65,9 @@ class RankFields final : public PreciseFields<Real, U> {
   std::vector<std::int64_t> first_value_;               ///< by rank, and the end, in vector fields
   std::vector<std::vector<std::int64_t>> first_state_;  ///< by block the same in the state of its law
 
-  std::vector<std::int64_t> groups_;        ///< groups of featured nodes, ascending
+  std::optional<SharedGroups> shared_;
+  int steps_left_ = 0;                      ///< that the patch stays among the shared groups
+  std::vector<std::int64_t> groups_;        ///< shared groups, ascending
   std::vector<std::int64_t> first_group_;   ///< by rank, and the end, in groups_
   std::vector<Joint> joints_;               ///< in the order of their tiles
   std::vector<std::int64_t> first_packed_;  ///< by rank, and the end, in packed_

@@ -61,6 +61,18 @@ void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
     TREAD_EXPECT(slot >= 0 && slot < mesh_.slots);
     deferred_[index(slot / kLanes)] = 1;
   }
+  list_deferred();
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::defer_only(std::span<const unsigned char> groups) {
+  TREAD_EXPECT(groups.size() == deferred_.size());
+  std::copy(groups.begin(), groups.end(), deferred_.begin());
+  list_deferred();
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::list_deferred() {
   deferred_nodes_.clear();
   first_deferred_.assign(1, 0);
   with_deferred_.clear();

@@ -50,6 +50,9 @@ class BasicTimeUpdate {
 
   /// These nodes get forces besides those of the elements.
   void defer(const std::vector<std::int64_t>& slots);
+  /// Those of marked groups do, and no others. `groups`: by slot / kLanes. Allocates nothing where no more
+  /// are marked than before.
+  void defer_only(std::span<const unsigned char> groups);
 
   /// Motion of the nodes of a tile.
   TileMotion<Real, U> motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const;
@@ -73,6 +76,7 @@ class BasicTimeUpdate {
   };
   void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
             const unsigned char* whole) const;
+  void list_deferred();
   void move_nodes(std::size_t item, std::span<const int> nodes, const StepLoads& loads,
                   const BasicUpdateFields<Real, U>& fields) const;
   std::span<const int> deferred_nodes(std::size_t item) const;

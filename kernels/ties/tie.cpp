@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/index.hpp"
@@ -205,10 +206,12 @@ void add_items(TieSums& sums, const LinkedLine& line, const SweptBlock& own, con
     sums.items.push_back({place(own, tile.first_station), sums.stations.size(), static_cast<int>(most),
                           line.first_other, static_cast<int>(sums.others.size() - line.first_other),
                           line.first_node, static_cast<int>(sums.nodes.size() - line.first_node)});
+    const auto any = std::find_if(begin, begin + tile.stations, [](const auto& of) { return !of.empty(); });
     for (std::size_t k = 0; k < most; ++k) {
       StationLink& link = sums.stations.emplace_back();
-      std::fill_n(link.at, kLanes, place(other, 0));  // lanes without a share: any place will do
+      std::fill_n(link.at, kLanes, place(other, any->front().station));  // lanes without a share read it too
       for (int lane = 0; lane < tile.stations; ++lane) {
+        if (!begin[lane].empty()) link.at[lane] = place(other, begin[lane].front().station);
         if (k >= begin[lane].size()) continue;
         const StationShare& share = begin[lane][k];
         link.at[lane] = place(other, share.station);
@@ -245,11 +248,13 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
         }
 }
 
-/// Replaces the fields' values by the sums, or adds the sums to them.
-void sum_up(const TieSums& sums, bool add, std::initializer_list<NodeField> fields) {
-  parallel_ranges(static_cast<std::int64_t>(sums.items.size()), [&](std::int64_t first, std::int64_t last) {
+/// Replaces the fields' values by the sums, or adds the sums to them. `some`: indices of items, null for all.
+void sum_up(const TieSums& sums, const std::vector<std::size_t>* some, bool add,
+            std::initializer_list<NodeField> fields) {
+  const std::int64_t count = some != nullptr ? std::ssize(*some) : std::ssize(sums.items);
+  parallel_ranges(count, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) {
-      const TieSums::Item& item = sums.items[index(i)];
+      const TieSums::Item& item = sums.items[some != nullptr ? (*some)[index(i)] : index(i)];
       TieTile tile;
       tile.own = item.own;
       tile.stations = sums.stations.data() + item.first_station;
@@ -354,12 +359,28 @@ std::int64_t Ties::bytes() const {
   return static_cast<std::int64_t>(sum);
 }
 
-void Ties::follow(std::initializer_list<NodeField> fields) const {
-  sum_up(to_secondary_, false, fields);
+TieItems Ties::items_in(const std::vector<unsigned char>& groups) const {
+  const auto marked = [&](const TieSums& sums) {
+    std::vector<std::size_t> items;
+    for (std::size_t i = 0; i < sums.items.size(); ++i) {
+      const TieSums::Item& item = sums.items[i];
+      const auto nodes = std::span(sums.nodes).subspan(item.first_node, index(item.node_count));
+      if (std::any_of(nodes.begin(), nodes.end(), [&](const LinkedNode& node) {
+            return groups[index(slot_of(item.own) / kLanes + node.node)] != 0;
+          }))
+        items.push_back(i);
+    }
+    return items;
+  };
+  return {marked(to_secondary_), marked(to_primary_)};
 }
 
-void Ties::hand_over(NodeField force) const {
-  sum_up(to_primary_, true, {force});
+void Ties::follow(std::initializer_list<NodeField> fields, const TieItems* some) const {
+  sum_up(to_secondary_, some != nullptr ? &some->to_secondary : nullptr, false, fields);
+}
+
+void Ties::hand_over(NodeField force, const TieItems* some) const {
+  sum_up(to_primary_, some != nullptr ? &some->to_primary : nullptr, true, {force});
 }
 
 void Ties::gather(double* force) const {

@@ -47,6 +47,11 @@ struct TieSums {
   std::vector<NodeLink> links;
 };
 
+/// Some of the items of both directions, by index.
+struct TieItems {
+  std::vector<std::size_t> to_secondary, to_primary;
+};
+
 class Ties {
  public:
   Ties(const Mesh& mesh, const std::vector<TieSpec>& specs);
@@ -66,11 +71,15 @@ class Ties {
   /// Pairs of secondary and primary nodes by secondary node, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
-  /// Sets the secondary values from the primary ones; vector fields of 3 * slots values.
-  void follow(std::initializer_list<NodeField> fields) const;
+  /// Items whose own nodes lie in marked groups. `groups`: by slot / kLanes.
+  TieItems items_in(const std::vector<unsigned char>& groups) const;
+
+  /// Sets the secondary values from the primary ones; vector fields of 3 * slots values. `some`: null for
+  /// all.
+  void follow(std::initializer_list<NodeField> fields, const TieItems* some = nullptr) const;
 
   /// Adds the secondary values to the primary ones: transpose of follow.
-  void hand_over(NodeField force) const;
+  void hand_over(NodeField force, const TieItems* some = nullptr) const;
   /// Calls hand_over and sets the secondary values to zero.
   void gather(double* force) const;
   /// Sets the secondary values to zero.

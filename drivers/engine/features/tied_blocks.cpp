@@ -13,9 +13,9 @@ std::vector<PhaseInfo> TiedBlocks::phases() const {
 void TiedBlocks::apply(StepPhase phase, StepState& step) {
   if (step.whole.ties_follow()) return;
   if (phase == StepPhase::tied_forces)
-    ties_->hand_over(step.force);
+    ties_->hand_over(step.force, step.whole.tie_items());
   else
-    ties_->follow({step.displacement, step.velocity});
+    ties_->follow({step.displacement, step.velocity}, step.whole.tie_items());
 }
 
 }  // namespace tread

@@ -2,6 +2,7 @@
 // Access to all nodes, for phases that need more than the nodes on which their features act.
 
 #include "drivers/engine/features/watched_nodes.hpp"
+#include "kernels/ties/tie.hpp"
 #include "kernels/update/body_motion.hpp"
 
 namespace tread {
@@ -20,6 +21,8 @@ class WholeFields {
   virtual void show(const WatchedNodes& /*nodes*/) {}
   /// True in steps in which tied nodes get their forces and motion where the values live.
   virtual bool ties_follow() const { return false; }
+  /// Items of the ties whose nodes the views hold in this step; null: all.
+  virtual const TieItems* tie_items() const { return nullptr; }
 
   /// Kinetic energy of the bodies that do not travel [J].
   virtual double fixed_kinetic_energy() = 0;
