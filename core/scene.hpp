@@ -337,6 +337,7 @@ struct Scene {
   std::string precision = "double";  ///< of nodal fields and elements: "double", "mixed" or "single"
   double zone_start = 2.4;           ///< solution zone [m]
   double zone_length = 0.6;          ///< [m]
+  double zone_margin = 2.5;          ///< way beside each zone with the approach pitch [m]
   std::map<std::string, ZoneSpec, std::less<>> zones;  ///< other finely divided parts of the rail, by name
   double gravity = 9.81;                               ///< [m/s2]
   bool plane_strain = false;                           ///< nothing moves across: a slice of wide bodies

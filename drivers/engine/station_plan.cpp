@@ -24,6 +24,7 @@ MeshSizes mesh_sizes(const Scene& scene) {
     sizes.section = std::min(sizes.section * scale, 12e-3);
     sizes.band_half_width = std::max(sizes.band_half_width, 6 * sizes.contact);
   }
+  sizes.margin = scene.zone_margin;
   return sizes;
 }
 
@@ -44,25 +45,25 @@ Span run_span(const Scene& scene) {
 
 namespace {
 
-/// Half a patch [m].
-double zone_margin(const Scene& scene) {
+/// [m]
+double half_patch(const Scene& scene) {
   return scene.wheel ? 0.7 * patch_reach(0.5 * scene.wheel->diameter) : 0;
 }
 
 }  // namespace
 
 Span zone_span(const Scene& scene) {
-  const double margin = zone_margin(scene);
+  const double half = half_patch(scene);
   const ZoneSpec stated = scene.solution_zone();
-  const Span zone{stated.start - margin, stated.end() + margin};
+  const Span zone{stated.start - half, stated.end() + half};
   const bool elsewhere = !scene.motion && (zone.first > 0 || zone.last < 0);
   return elsewhere ? run_span(scene) : zone;
 }
 
 std::vector<Span> zone_spans(const Scene& scene) {
-  const double margin = zone_margin(scene);
+  const double half = half_patch(scene);
   std::vector<Span> zones = {zone_span(scene)};
-  for (const auto& [name, zone] : scene.zones) zones.push_back({zone.start - margin, zone.end() + margin});
+  for (const auto& [name, zone] : scene.zones) zones.push_back({zone.start - half, zone.end() + half});
   std::sort(zones.begin(), zones.end(), [](const Span& a, const Span& b) { return a.first < b.first; });
   return zones;
 }
@@ -94,6 +95,19 @@ void append_uniform(NestedSegments& plan, Span span, double pitch, int ratio) {
   const double length = span.last - span.first;
   const int count = std::max(1, static_cast<int>(std::ceil(length / pitch - 1e-6)));
   append(plan, count, length / count, ratio);
+}
+
+/// A stretch of the run outside of the zones: the approach pitch, and in `far`, beyond the margins of all
+/// zones, twice that pitch in head and base. On a tread as coarse as that F_N swings more, and kicks the
+/// wheel where the pitch changes.
+void append_approach(NestedSegments& plan, Span stretch, Span far, const MeshSizes& sizes) {
+  const double coarse = sizes.contact * sizes.coarse_ratio;
+  const int parts = approach_parts(sizes);
+  constexpr int kLeast = 8;  // base elements that are worth two changes of pitch
+  if (far.last - far.first < kLeast * coarse) far = {stretch.last, stretch.last};
+  append_uniform(plan, {stretch.first, far.first}, coarse, parts);
+  append_uniform(plan, far, 2 * coarse, parts);
+  append_uniform(plan, {far.last, stretch.last}, coarse, parts);
 }
 
 /// Pitches that grow from `pitch` to `far` over `length`, four elements of each.
@@ -158,24 +172,25 @@ NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, co
   run.last = std::min(run.last, rail.last);
   const double coarse = sizes.contact * sizes.coarse_ratio;
   const double shortest = 0.5 * coarse;
-  const int approach = approach_parts(sizes);
 
   NestedSegments plan;
   auto before = graded(run.first - rail.first, coarse, sizes.far);
   std::reverse(before.begin(), before.end());
   for (const Segment& s : before) append(plan, s.elements, s.pitch, 1);
   double at = run.first;
+  double far = run.first;  // margin behind the last zone ends
   for (const Span& zone : zones_within(run, zones, least_gap(sizes), shortest)) {
     Span step{std::max(zone.first - 2 * kStepLength, run.first),
               std::min(zone.last + 2 * kStepLength, run.last)};
     absorb_slivers(step, run, shortest);
-    append_uniform(plan, {at, step.first}, coarse, approach);
+    append_approach(plan, {at, step.first}, {far, step.first - sizes.margin}, sizes);
     append_uniform(plan, {step.first, zone.first}, coarse, step_parts(sizes));
     append_uniform(plan, zone, coarse, sizes.coarse_ratio);
     append_uniform(plan, {zone.last, step.last}, coarse, step_parts(sizes));
     at = step.last;
+    far = step.last + sizes.margin;
   }
-  append_uniform(plan, {at, run.last}, coarse, approach);
+  append_approach(plan, {at, run.last}, {far, run.last}, sizes);
   for (const Segment& s : graded(rail.last - run.last, coarse, sizes.far))
     append(plan, s.elements, s.pitch, 1);
   return plan;

@@ -81,6 +81,33 @@ TEST(StationPlan, IsFineInEveryZone) {
     }
 }
 
+/// The rail has the approach pitch within the margin of a zone and twice it beyond, in head and base.
+TEST(StationPlan, IsCoarseBeyondTheMargin) {
+  const Span rail{-1, 12};
+  const Span run{-0.04, 9};
+  const Span zone{5, 5.2};
+  for (MeshSizes sizes : {MeshSizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3},
+                          MeshSizes{1.1e-3, 25e-3, 8e-3, 40e-3, 3, 6, 4, 16e-3}})
+    for (const double margin : {0.05, 0.3, 0.7, 4.0}) {
+      SCOPED_TRACE(margin);
+      sizes.margin = margin;
+      const double approach = 1.01 * sizes.contact * sizes.approach_ratio;
+      const double coarse = sizes.contact * sizes.coarse_ratio;
+      const NestedSegments plan = plan_rail(rail, run, {zone}, sizes);
+      EXPECT_NEAR(length_of(plan.fine), 13, 1e-9);
+      EXPECT_NEAR(length_of(plan.coarse), 13, 1e-9);
+      for (std::size_t i = 0; i < plan.fine.size(); ++i)
+        EXPECT_NEAR(plan.fine[i].elements * plan.fine[i].pitch,
+                    plan.coarse[i].elements * plan.coarse[i].pitch, 1e-12);
+      EXPECT_LE(
+          largest_pitch(rail.first, plan.fine, zone.first - margin, std::min(zone.last + margin, run.last)),
+          approach);
+      EXPECT_NEAR(largest_pitch(rail.first, plan.fine, 0, zone.first - margin - 0.2), coarse, 0.02 * coarse);
+      EXPECT_NEAR(largest_pitch(rail.first, plan.coarse, 0, zone.first - margin - 0.2), 2 * coarse,
+                  0.04 * coarse);
+    }
+}
+
 TEST(StationPlan, ATyreIsFineInEveryZone) {
   constexpr double kRadius = 0.43;
   const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
