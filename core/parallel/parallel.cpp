@@ -6,7 +6,9 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel/parallel_backend.hpp"
@@ -22,6 +24,9 @@ constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &open
 
 int g_threads = 1;
 ParallelTimes* g_times = nullptr;
+thread_local const FunctionRef<void()>* t_beside =
+    nullptr;                        ///< for this thread's next call of parallel_ranges
+thread_local bool t_alone = false;  ///< this thread runs what beside() has given it
 
 /// Backend with the given name. Throws InputError for an unknown name; its message cites `where`, the place
 /// of the name.
@@ -46,15 +51,32 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Adds what a thread has done from `start` on to its times; `items`: how many it was.
+void add_time(int thread, std::chrono::steady_clock::time_point start, std::int64_t items) {
+  const double seconds = seconds_since(start);
+  ParallelTimes::Thread& of = g_times->by_thread[static_cast<std::size_t>(thread)];
+  of.busy += seconds;
+  of.longest = std::max(of.longest, seconds / static_cast<double>(items));
+}
+
 /// Runs several ranges per thread, taken as threads become free. A core that another process uses then slows
-/// the rest little.
-void run_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
+/// the rest little. `alone` goes first.
+void run_ranges(std::int64_t n, const FunctionRef<void()>* alone,
+                FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
   if (g_threads == 1) {
     body(0, n, 0);
     return;
   }
   const std::int64_t ranges = std::min(n, std::int64_t{kRangesPerThread} * g_threads);
-  chosen()->run(ranges, g_threads, [&](std::int64_t range, int thread) {
+  const std::int64_t first = alone != nullptr ? 1 : 0;
+  chosen()->run(first + ranges, g_threads, [&](std::int64_t item, int thread) {
+    if (item < first) {
+      const auto from = std::chrono::steady_clock::now();
+      (*alone)();
+      if (g_times) add_time(thread, from, 1);
+      return;
+    }
+    const std::int64_t range = item - first;
     body(n * range / ranges, n * (range + 1) / ranges, thread);
   });
 }
@@ -83,20 +105,59 @@ std::string_view backend() {
 
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
   if (n <= 0) return;
+  if (t_alone) {
+    body(0, n);
+    return;
+  }
+  const FunctionRef<void()>* const alone = std::exchange(t_beside, nullptr);
   if (!g_times) {
-    run_ranges(n, [&](std::int64_t first, std::int64_t last, int /*thread*/) { body(first, last); });
+    run_ranges(n, alone, [&](std::int64_t first, std::int64_t last, int /*thread*/) { body(first, last); });
     return;
   }
   if (g_times->by_thread.size() < static_cast<std::size_t>(g_threads))
     g_times->by_thread.resize(static_cast<std::size_t>(g_threads));
   const auto started = std::chrono::steady_clock::now();
-  run_ranges(n, [&](std::int64_t first, std::int64_t last, int thread) {
+  run_ranges(n, alone, [&](std::int64_t first, std::int64_t last, int thread) {
     const auto from = std::chrono::steady_clock::now();
     body(first, last);
-    g_times->by_thread[static_cast<std::size_t>(thread)].busy += seconds_since(from);
+    add_time(thread, from, last - first);
   });
   g_times->wall += seconds_since(started);
+  double longest = 0;
+  for (ParallelTimes::Thread& of : g_times->by_thread)
+    longest = std::max(longest, std::exchange(of.longest, 0.0));
+  g_times->longest += longest;
   ++g_times->calls;
+}
+
+void beside(FunctionRef<void()> alone, FunctionRef<void()> shared) {
+  if (g_threads == 1 || t_alone) {
+    alone();
+    shared();
+    return;
+  }
+  std::exception_ptr thrown;
+  const auto run_alone = [&] {
+    const auto from = std::chrono::steady_clock::now();
+    t_alone = true;
+    try {
+      alone();
+    } catch (...) {  // thread libraries do not carry it on
+      thrown = std::current_exception();
+    }
+    t_alone = false;
+    if (g_times) g_times->alone += seconds_since(from);
+  };
+  const FunctionRef<void()> waiting(run_alone);
+  t_beside = &waiting;
+  try {
+    shared();
+  } catch (...) {
+    t_beside = nullptr;
+    throw;
+  }
+  if (std::exchange(t_beside, nullptr)) run_alone();
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 void measure_parallel(ParallelTimes* times) {

@@ -28,14 +28,22 @@ std::string_view backend();
 /// this function.
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
 
+/// Calls `shared`, and `alone` beside its first call of parallel_ranges: one thread takes `alone` while the
+/// others begin with the ranges. Neither may touch what the other writes. In `alone`, calls of
+/// parallel_ranges stay on its thread. What it throws is thrown once `shared` is done.
+void beside(FunctionRef<void()> alone, FunctionRef<void()> shared);
+
 /// Times spent inside parallel_ranges.
 struct ParallelTimes {
   struct alignas(64) Thread {
-    double busy = 0;  ///< time in bodies [s]
+    double busy = 0;     ///< time in bodies, and in what ran beside them [s]
+    double longest = 0;  ///< item of this call [s]
   };
   std::vector<Thread> by_thread;
   std::int64_t calls = 0;
-  double wall = 0;  ///< time of all calls [s]
+  double wall = 0;     ///< time of all calls [s]
+  double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range [s]
+  double alone = 0;    ///< time of what ran beside the calls, by beside() [s]
 };
 
 /// Makes every following call add its times to `times`, which needs no set-up; null ends the measurement.

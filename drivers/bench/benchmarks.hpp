@@ -42,11 +42,12 @@ void bench_scaling(const ResolvedScene& scene, const BenchScalingOptions& option
 
 struct BenchHotspotsOptions : BenchOptions {
   std::int64_t steps = 500;  ///< steps of a run, or fewer if the motion ends before the last run does
+  std::vector<int> cores;    ///< numbers of cores for which the step's time is projected
   bool quiet = false;        ///< true for no progress on stderr
 };
 
 /// Measures every phase of whole steps of a scene: time, work, limit and balance of the threads, in the run
-/// whose steps take the median time.
+/// whose steps take the median time. InputError for a projection of steps on a device.
 void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& options);
 
 /// Measure by which two files of `bench kernels --json` are compared.

@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "drivers/bench/benchmarks.hpp"
 #include "drivers/bench/hardware_counters.hpp"
 #include "drivers/bench/measurement.hpp"
+#include "drivers/bench/projection.hpp"
 #include "drivers/bench/rolling_scene.hpp"
 #include "drivers/bench/step_work.hpp"
 #include "drivers/results/run_results.hpp"
@@ -31,11 +33,13 @@ constexpr std::int64_t kWarmUpSteps = 20;
 struct Hotspot {
   const char* name;
   double seconds;         ///< of a step [s]
+  double beside;          ///< of these, beside another phase [s]
   double parallel_share;  ///< of it, in parallel calls [-]
   double imbalance;       ///< slowest thread's busy time over the mean; 0: never parallel
   Load load;
   Limit limit;
   CounterValues counters;  ///< of all steps
+  PhaseWork work;
 };
 
 /// Copies and launches of the steps on a device.
@@ -102,18 +106,31 @@ double imbalance(const ParallelTimes& times) {
 std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, std::int64_t steps,
                                  Limits& limits) {
   std::vector<Hotspot> spots;
-  Hotspot whole{"whole step", 0, 0, 0, {}, {}, {}};
+  Hotspot whole{"whole step", 0, 0, 0, 0, {}, {}, {}, {}};
+  const auto each = [steps](double all) { return all / static_cast<double>(steps); };
   for (const StepPhase phase : clock.phases()) {
     const PhaseTimes& times = clock.times(phase);
     Hotspot spot{name_of(phase),
-                 times.seconds / static_cast<double>(steps),
+                 each(times.seconds),
+                 each(times.beside),
                  times.parallel.wall / times.seconds,
                  imbalance(times.parallel),
                  phase_load(model, phase),
                  {},
-                 times.counters};
+                 times.counters,
+                 {}};
+    double busy = 0;
+    for (const ParallelTimes::Thread& thread : times.parallel.by_thread) busy += thread.busy;
+    spot.work = {spot.name,
+                 each(times.seconds - times.beside - times.parallel.wall),
+                 each(busy),
+                 each(times.parallel.longest),
+                 each(times.parallel.wall - busy / threads()),
+                 each(static_cast<double>(times.parallel.calls)),
+                 spot.load.bytes};
     spot.limit = limits.of(spot.load, model.scene.precision == "double", model.internal->instruction_set());
-    whole.seconds += spot.seconds;
+    whole.seconds += spot.seconds - spot.beside;
+    whole.beside += spot.beside;
     whole.parallel_share += spot.parallel_share * spot.seconds;
     whole.load.flops += spot.load.flops;
     whole.load.bytes += spot.load.bytes;
@@ -138,6 +155,7 @@ Table hotspot_table(const std::vector<Hotspot>& spots, bool counted) {
                {"us/step", Align::right},
                {"Share", Align::right},
                {"In parallel", Align::right},
+               {"Beside, us", Align::right},
                {"Imbalance", Align::right},
                {"MB/step", Align::right},
                {"GB/s", Align::right},
@@ -156,6 +174,7 @@ Table hotspot_table(const std::vector<Hotspot>& spots, bool counted) {
                                     fmt::format("{:.1f}", 1e6 * s.seconds),
                                     fmt::format("{:.1f} %", 100 * s.seconds / whole),
                                     fmt::format("{:.0f} %", 100 * s.parallel_share),
+                                    optional_text(1e6 * s.beside, "{:.1f}"),
                                     optional_text(s.imbalance, "{:.2f}"),
                                     optional_text(1e-6 * s.load.bytes, "{:.2f}"),
                                     optional_text(1e-9 * s.load.bytes / s.seconds, "{:.2f}"),
@@ -202,7 +221,12 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
                  {"seconds_per_step", s.seconds},
                  {"share", s.seconds / spots.back().seconds},
                  {"parallel_share", s.parallel_share},
+                 {"beside_s", s.beside},
                  {"imbalance", s.imbalance},
+                 {"serial_s", s.work.serial},
+                 {"busy_s", s.work.busy},
+                 {"longest_items_s", s.work.longest},
+                 {"parallel_calls", s.work.calls},
                  {"bytes_per_step", s.load.bytes},
                  {"flops_per_step", s.load.flops},
                  {"gb_per_s", 1e-9 * s.load.bytes / s.seconds},
@@ -218,12 +242,52 @@ std::string json_lines(const std::vector<Hotspot>& spots, const Measurement& mea
   return lines;
 }
 
+/// Steps on other numbers of cores, from the phases of one run.
+class Projection {
+ public:
+  Projection(const std::vector<Hotspot>& spots, const std::vector<int>& cores) {
+    std::vector<PhaseWork> phases;
+    for (auto spot = spots.begin(); spot + 1 != spots.end(); ++spot) phases.push_back(spot->work);
+    waits_ = fit_waits(phases, threads());
+    for (const int count : cores) steps_.push_back(project(phases, waits_, count));
+  }
+
+  std::string text(double elements) const {
+    return fmt::format(
+        "Projected from these phases: serial time, work over the cores or the longest items, and waits of "
+        "{:.1f} "
+        "us a call, times the binary logarithm of the cores, and {:.1f} % of the work\n{}",
+        1e6 * waits_.call, 100 * waits_.share, plain_text(projection_table(steps_, elements)));
+  }
+  std::string json_lines() const {
+    std::string lines;
+    for (const ProjectedStep& step : steps_)
+      lines += json_line({{"projected_cores", step.cores},
+                          {"seconds_per_step", step.seconds},
+                          {"efficiency", step.efficiency},
+                          {"lost_serial", step.serial},
+                          {"lost_uneven", step.uneven},
+                          {"lost_waiting", step.waiting},
+                          {"memory_bytes_per_s", step.bandwidth},
+                          {"wait_of_a_call_s", waits_.call},
+                          {"wait_share", waits_.share},
+                          {"largest_loss", step.limit}});
+    return lines;
+  }
+
+ private:
+  WaitModel waits_;
+  std::vector<ProjectedStep> steps_;
+};
+
 }  // namespace
 
 void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& options) {
   const HardwareCounters counters;  // before the threads start, so that theirs count
   use_threads(options.threads);
   choose_device(options.device);
+  if (!options.cores.empty() && chosen_device())
+    throw InputError("bench hotspots: --cores projects steps of the processor; leave out --device");
   const Progress progress(options.quiet);
   const RollingScene scene(resolved.scene, progress);
   Simulation simulation = scene.start();
@@ -253,8 +317,9 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   const Measurement measured = of_whole_steps(runs);
   const std::vector<Hotspot>& spots = median_run(runs);
   const std::int64_t elements = scene.model().elements();
+  const Projection projection(spots, options.cores);
   if (options.json) {
-    fmt::print("{}", json_lines(spots, measured, elements, counters.available()));
+    fmt::print("{}{}", json_lines(spots, measured, elements, counters.available()), projection.json_lines());
     if (on_device.any()) fmt::print("{}", json_line(on_device.json()));
     return;
   }
@@ -266,11 +331,14 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
       1e-6 * static_cast<double>(elements) / spots.back().seconds, measured.repetitions,
       100 * measured.spread);
   fmt::print("{}", plain_text(hotspot_table(spots, counters.available())));
-  fmt::print("{}\n",
-             on_device.any()
-                 ? "Work on a device overlaps: a phase holds what the processor does, and waits for, in it."
-                 : "Phases run one after the other: nothing overlaps.");
+  fmt::print(
+      "{}\n",
+      on_device.any()
+          ? "Work on a device overlaps: a phase holds what the processor does, and waits for, in it."
+          : "Beside: by one thread, beside the phase of the row above, whose time holds it. All other phases "
+            "run one after the other.");
   if (on_device.any()) fmt::print("{}", on_device.text());
+  if (!options.cores.empty()) fmt::print("\n{}", projection.text(static_cast<double>(elements)));
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());
 }
 

@@ -61,6 +61,10 @@ void add_bench_hotspots(CLI::App& bench) {
       bench, "hotspots", "time, work and load balance of every phase of a step", bench_hotspots, state);
   add_device_option(command, state->options.device);
   command.add_option("--steps", state->options.steps, "steps of a run (default: 500)")->check(at_least(1));
+  command
+      .add_option("--cores", state->options.cores,
+                  "numbers of cores: project the step's time on them from work and span of its phases")
+      ->check(at_least(1));
   add_plan_options(command, state->options.plan);
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }

@@ -13,12 +13,6 @@ namespace tread {
 
 namespace {
 
-bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
-  for (std::size_t group = 0; group < a.size(); ++group)
-    if (a[group] != 0 && b[group] != 0) return true;
-  return false;
-}
-
 void choose_holders(const Model& model, Movers& movers) {
   movers.held.assign(static_cast<std::size_t>(model.mesh.slots), 0);
   for (const std::int64_t unknown : held_unknowns(model.mesh, model.restrained)) {

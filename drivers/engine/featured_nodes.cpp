@@ -43,4 +43,10 @@ std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::in
   return marks;
 }
 
+bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+  for (std::size_t group = 0; group < a.size(); ++group)
+    if (a[group] != 0 && b[group] != 0) return true;
+  return false;
+}
+
 }  // namespace tread

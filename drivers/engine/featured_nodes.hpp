@@ -20,6 +20,8 @@ std::vector<std::int64_t> surface_slots(const Model& model);
 
 /// Marks of the groups of a mesh that hold one of these slots.
 std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots);
+/// True where a group has both marks.
+bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b);
 
 /// Copies groups between a field and packed values: copy(place in the packed values, place in the field), of
 /// kGroupValues each.

@@ -65,6 +65,8 @@ class NodeFields : public WholeFields {
   virtual ElementEnergy element_energy() = 0;
   virtual BranchEnergy branch_energy() = 0;
 
+  /// True where the processor takes the steps.
+  virtual bool by_processor() const { return true; }
   virtual bool finite() const = 0;
   virtual void list_state(StateList& list) = 0;
 

@@ -6,12 +6,25 @@ namespace tread {
 
 void PhaseClock::enter(StepPhase phase) {
   close();
-  if (std::find(entered_phases_.begin(), entered_phases_.end(), phase) == entered_phases_.end())
-    entered_phases_.push_back(phase);
+  list(phase);
   current_ = &times_[static_cast<std::size_t>(phase)];
+  alone_before_ = current_->parallel.alone;
   measure_parallel(&current_->parallel);
   if (counters_) counted_ = counters_();
   entered_ = std::chrono::steady_clock::now();
+}
+
+void PhaseClock::list(StepPhase phase) {
+  if (std::find(entered_phases_.begin(), entered_phases_.end(), phase) == entered_phases_.end())
+    entered_phases_.push_back(phase);
+}
+
+void PhaseClock::had_beside(StepPhase phase) {
+  list(phase);
+  PhaseTimes& times = times_[static_cast<std::size_t>(phase)];
+  const double seconds = current_->parallel.alone - alone_before_;
+  times.seconds += seconds;
+  times.beside += seconds;
 }
 
 void PhaseClock::stop() {

@@ -20,6 +20,7 @@ struct CounterValues {
 
 struct PhaseTimes {
   double seconds = 0;
+  double beside = 0;  ///< of these, beside another phase [s]
   ParallelTimes parallel;
   CounterValues counters;
 };
@@ -36,6 +37,8 @@ class PhaseClock {
   PhaseClock& operator=(const PhaseClock&) = delete;
 
   void enter(StepPhase phase);
+  /// The phase entered last has run beside this one since; its own time is what one thread has spent in it.
+  void had_beside(StepPhase phase);
   void stop();
 
   /// Phases that were entered, in the order of their first time.
@@ -44,11 +47,13 @@ class PhaseClock {
 
  private:
   void close();
+  void list(StepPhase phase);
 
   std::function<CounterValues()> counters_;
   std::vector<StepPhase> entered_phases_;
   std::array<PhaseTimes, kStepPhases> times_;
   PhaseTimes* current_ = nullptr;
+  double alone_before_ = 0;  ///< ParallelTimes::alone when the phase was entered [s]
   std::chrono::steady_clock::time_point entered_;
   CounterValues counted_;
 };

@@ -2,8 +2,10 @@
 
 #include "core/error.hpp"
 #include "core/math/hash.hpp"
+#include "core/parallel/parallel.hpp"
 #include "drivers/engine/chosen_fields.hpp"
 #include "drivers/engine/energy_stop.hpp"
+#include "drivers/engine/featured_nodes.hpp"
 #include "drivers/engine/start.hpp"
 #include "drivers/engine/static_system.hpp"
 
@@ -22,6 +24,14 @@ std::int64_t watch_interval(std::int64_t sampling) {
   return (sampling + looks - 1) / looks;
 }
 
+/// True if there are ties, and no node of them is the patch's.
+bool ties_are_apart(const Model& model) {
+  if (!model.contact || !model.ties) return false;
+  const std::vector<unsigned char> surfaces = groups_of(model.mesh, surface_slots(model));
+  return !meet(surfaces, groups_of(model.mesh, model.ties->secondary_slots())) &&
+         !meet(surfaces, groups_of(model.mesh, model.ties->primary_slots()));
+}
+
 }  // namespace
 
 Simulation::Simulation(const Model& model, double patch_y, double dt)
@@ -32,7 +42,8 @@ Simulation::Simulation(const Model& model, double patch_y, double dt)
       v_(fields_->velocity()),
       force_(fields_->force()),
       features_(model, patch_y),
-      watched_(model.mesh) {}
+      watched_(model.mesh),
+      apart_(ties_are_apart(model)) {}
 
 Simulation::Simulation(const Model& model, const Preload& preload, double dt)
     : Simulation(model, preload.contact.centre.y, dt) {
@@ -86,11 +97,10 @@ void Simulation::step() {
   apply(hammer, s);
   apply(unsprung_mass, s);
   // 5  velocities and displacements of the other nodes, restraints; pressure and friction of the middle of
-  // the step; followers: tied nodes, lag q of Maxwell branches, frame
+  // the step; followers: tied nodes (beside the tractions), lag q of Maxwell branches, frame
   apply(update, s);
   apply(guided_bore, s);
-  apply(contact_tractions, s);
-  apply(tied_motion, s);
+  apply_beside(contact_tractions, tied_motion, s);
   apply(branch_lag, s);
   apply(frame, s);
   advance_time();
@@ -114,6 +124,26 @@ void Simulation::apply(StepPhase phase, StepState& step) {
     if (clock_) clock_->enter(phase);
     feature->apply(phase, step);
   }
+}
+
+/// One thread takes the first phase, the others begin with the second. Neither touches what the other does.
+void Simulation::apply_beside(StepPhase alone, StepPhase shared, StepState& step) {
+  if (!ties_beside_patch()) {
+    apply(alone, step);
+    apply(shared, step);
+    return;
+  }
+  if (clock_) clock_->enter(shared);
+  const auto apply_all = [&](StepPhase phase) {
+    for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
+  };
+  beside([&] { apply_all(alone); }, [&] { apply_all(shared); });
+  if (clock_) clock_->had_beside(alone);
+}
+
+/// A patch of many points is better solved by all threads.
+bool Simulation::ties_beside_patch() const {
+  return apart_ && threads() > 1 && fields_->by_processor() && !model_->contact->shares_patch();
 }
 
 void Simulation::advance_time() {

@@ -131,6 +131,8 @@ class Contact {
   double touching_depth(double x) const { return search_.touching_depth(x); }
 
   const std::vector<ContactPoint>& points() const { return points_; }
+  /// True if resolve() uses all threads for the points found last.
+  bool shares_patch() const { return worth_sharing(points_.size()); }
   const ContactTotals& totals() const { return totals_; }
   const Corrugation& corrugation() const { return search_.surfaces().corrugation(); }
   const SurfacePair& surfaces() const { return search_.surfaces(); }

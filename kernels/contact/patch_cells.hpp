@@ -13,18 +13,22 @@ namespace tread {
 
 struct TileForces;
 
-/// Calls body(i) for i below n, by all threads if the patch has points enough: of few points, waiting for one
-/// another takes longer than the work.
+/// True if the patch has points enough for all threads: of few points, waiting for one another takes longer
+/// than the work.
+inline bool worth_sharing(std::size_t points) {
+  return points >= 2048;
+}
+
+/// Calls body(i) for i below n, by all threads if that is worth while.
 template <class Body>
 void share_patch(std::size_t points, std::size_t n, const Body& body) {
-  constexpr std::size_t kWorthSharing = 2048;
   const auto run = [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i) body(static_cast<std::size_t>(i));
   };
-  if (points < kWorthSharing)
-    run(0, static_cast<std::int64_t>(n));
-  else
+  if (worth_sharing(points))
     parallel_ranges(static_cast<std::int64_t>(n), run);
+  else
+    run(0, static_cast<std::int64_t>(n));
 }
 
 /// Points by cells: those that the same 16 nodes of a body carry share one. A sum goes over the nodes of each

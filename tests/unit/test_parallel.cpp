@@ -33,6 +33,61 @@ TEST_P(Parallel, VisitsEveryItemOnce) {
     }
 }
 
+TEST_P(Parallel, OneThreadWorksBesideTheOthers) {
+  for (const int threads : {1, 2, 3}) {
+    set_threads(threads);
+    int alone = 0;
+    std::vector<int> visits(100, 0);
+    std::vector<int> later(100, 0);
+    const auto visit = [](std::vector<int>& of) {
+      parallel_ranges(std::ssize(of), [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) ++of[static_cast<std::size_t>(i)];
+      });
+    };
+    const auto alone_too = [&] {
+      parallel_ranges(
+          7, [&](std::int64_t first, std::int64_t last) { alone += static_cast<int>(last - first); });
+    };
+    beside(alone_too, [&] {
+      visit(visits);
+      visit(later);
+    });
+    EXPECT_EQ(alone, 7);
+    EXPECT_EQ(visits, std::vector<int>(100, 1));
+    EXPECT_EQ(later, std::vector<int>(100, 1));
+    beside(alone_too, [] {});
+    EXPECT_EQ(alone, 14) << "nothing to be beside";
+  }
+}
+
+TEST_P(Parallel, WhatIsThrownBesideIsThrownOn) {
+  for (const int threads : {1, 2}) {
+    set_threads(threads);
+    const auto nothing = [] { parallel_ranges(9, [](std::int64_t, std::int64_t) {}); };
+    EXPECT_THROW(beside([] { throw NumericalError("deep"); }, nothing), NumericalError);
+    EXPECT_THROW(beside([] {}, [] { throw NumericalError("shared"); }), NumericalError);
+    int calls = 0;  // what waited for the others is forgotten
+    parallel_ranges(1, [&](std::int64_t, std::int64_t) { ++calls; });
+    EXPECT_EQ(calls, 1);
+  }
+}
+
+TEST_P(Parallel, TimesAloneAreOneItem) {
+  ParallelTimes times;
+  measure_parallel(&times);
+  set_threads(2);
+  const auto work = [] {
+    volatile double sink = 0;
+    for (int i = 0; i < 2000000; ++i) sink = sink + 1;
+  };
+  beside(work, [] { parallel_ranges(4, [](std::int64_t, std::int64_t) {}); });
+  measure_parallel(nullptr);
+  EXPECT_EQ(times.calls, 1);
+  EXPECT_GT(times.alone, 0);
+  EXPECT_GE(times.longest, 0.99 * times.alone);
+  EXPECT_GE(times.wall, times.alone);
+}
+
 TEST_P(Parallel, TimesAddUp) {
   ParallelTimes times;
   measure_parallel(&times);
