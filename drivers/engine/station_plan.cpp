@@ -103,8 +103,10 @@ void append_uniform(NestedSegments& plan, Span span, double pitch, int ratio) {
 void append_approach(NestedSegments& plan, Span stretch, Span far, const MeshSizes& sizes) {
   const double coarse = sizes.contact * sizes.coarse_ratio;
   const int parts = approach_parts(sizes);
-  constexpr int kLeast = 8;  // base elements that are worth two changes of pitch
-  if (far.last - far.first < kLeast * coarse) far = {stretch.last, stretch.last};
+  constexpr int kLeast = 8;          // base elements that are worth two changes of pitch
+  constexpr double kLongest = 9e-3;  // on longer ones F_N swings by more than 1 % [m]
+  if (far.last - far.first < kLeast * coarse || 2 * coarse / parts > kLongest)
+    far = {stretch.last, stretch.last};
   append_uniform(plan, {stretch.first, far.first}, coarse, parts);
   append_uniform(plan, far, 2 * coarse, parts);
   append_uniform(plan, {far.last, stretch.last}, coarse, parts);

@@ -19,7 +19,7 @@ struct MeshSizes {
   int coarse_ratio = 4;        ///< tied coarse blocks have this many h per element in the solution zone
   int axle_ratio = 4;          ///< axle elements per disc element along the sweep
   double band_half_width = 0;  ///< of the fine running band [m]
-  double margin = 2.5;  ///< way beside a zone with the approach pitch; the rail has twice it beyond [m]
+  double margin = 2.5;         ///< way beside a zone that keeps the approach pitch [m]
 };
 
 /// Sizes of the scene's quality, or scaled to its element size, and the scene's margin.
@@ -49,7 +49,8 @@ struct NestedSegments {
 };
 
 /// Along the rail: h in the zones, a step to the approach pitch on both sides, that pitch over the margin,
-/// twice it in the rest of `run`, growing to the far pitch outside of it. Zones are in order.
+/// twice it in the rest of `run` unless that were longer than 9 mm, growing to the far pitch outside of it.
+/// Zones are in order.
 NestedSegments plan_rail(Span rail, Span run, const std::vector<Span>& zones, const MeshSizes& sizes);
 
 /// Along a rail without a wheel: one pitch, that of the tied coarse blocks. Waves run along all of it.

@@ -49,10 +49,11 @@ void add_general(Keys& keys) {
       with_table("wheel", quantity("solution_zone.length", {Effect::mesh}, at(&Scene::zone_length), kLength,
                                    "m", above(0, 1000), "Length of the finely divided rail")));
   keys.push_back(with_table(
-      "wheel", quantity("solution_zone.margin", {Effect::mesh}, at(&Scene::zone_margin), kLength, "m",
-                        from(0.05, 1000),
-                        "Way on both sides of each zone with elements two or three times as long as in it; "
-                        "on the rest of the run the rail's are four or six times as long")));
+      "wheel",
+      quantity("solution_zone.margin", {Effect::mesh}, at(&Scene::zone_margin), kLength, "m",
+               from(0.05, 1000),
+               "Way on both sides of each zone with elements two or three times as long as in it; "
+               "on the rest of the run the rail's are four or six times as long, if that is below 9 mm")));
 }
 
 void add_zone(Keys& keys, const std::string& name) {

@@ -164,7 +164,7 @@ const BaseScene& base_scene(const std::string& name) {
       {"probed", {kTrack, {"probe.midspan.quantity=motion"}}},
       {"zoned", {kTrack, {"zone.weld.start=-0.1 m"}}},
       {"long way",
-       {kTrack, {"scene.element_size=5 mm", "solution_zone.length=50 mm", "motion.duration=40 ms"}}},
+       {kTrack, {"scene.element_size=2.2 mm", "solution_zone.length=50 mm", "motion.duration=40 ms"}}},
       {"wheelset",
        {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
         {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",

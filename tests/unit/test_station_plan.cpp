@@ -108,6 +108,14 @@ TEST(StationPlan, IsCoarseBeyondTheMargin) {
     }
 }
 
+/// Elements that would be longer than the patch are not made.
+TEST(StationPlan, CoarseMeshesStayAsTheyAre) {
+  MeshSizes sizes{4e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 24e-3};
+  sizes.margin = 0.1;
+  const NestedSegments plan = plan_rail({-1, 12}, {-0.04, 9}, {{5, 5.2}}, sizes);
+  EXPECT_LE(largest_pitch(-1, plan.fine, 0, 9), 1.001 * sizes.contact * sizes.approach_ratio);
+}
+
 TEST(StationPlan, ATyreIsFineInEveryZone) {
   constexpr double kRadius = 0.43;
   const MeshSizes sizes{2.2e-3, 45e-3, 10e-3, 65e-3, 2, 4, 4, 14e-3};
