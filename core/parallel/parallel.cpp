@@ -24,8 +24,8 @@ constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &open
 
 int g_threads = 1;
 ParallelTimes* g_times = nullptr;
-thread_local const FunctionRef<void()>* t_beside =
-    nullptr;                        ///< for this thread's next call of parallel_ranges
+/// For this thread's next call of parallel_ranges, to run too.
+thread_local const FunctionRef<void()>* t_beside = nullptr;
 thread_local bool t_alone = false;  ///< this thread runs what beside() has given it
 
 /// Backend with the given name. Throws InputError for an unknown name; its message cites `where`, the place
@@ -158,6 +158,12 @@ void beside(FunctionRef<void()> alone, FunctionRef<void()> shared) {
   }
   if (std::exchange(t_beside, nullptr)) run_alone();
   if (thrown) std::rethrow_exception(thrown);
+}
+
+double ParallelTimes::busy() const {
+  double sum = 0;
+  for (const Thread& thread : by_thread) sum += thread.busy;
+  return sum;
 }
 
 void measure_parallel(ParallelTimes* times) {

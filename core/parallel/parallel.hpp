@@ -44,6 +44,8 @@ struct ParallelTimes {
   double wall = 0;     ///< time of all calls [s]
   double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range [s]
   double alone = 0;    ///< time of what ran beside the calls, by beside() [s]
+
+  double busy() const;  ///< of all threads [s]
 };
 
 /// Makes every following call add its times to `times`, which needs no set-up; null ends the measurement.

@@ -94,12 +94,9 @@ class DeviceSteps {
 };
 
 double imbalance(const ParallelTimes& times) {
-  double sum = 0;
+  const double sum = times.busy();
   double most = 0;
-  for (const ParallelTimes::Thread& thread : times.by_thread) {
-    sum += thread.busy;
-    most = std::max(most, thread.busy);
-  }
+  for (const ParallelTimes::Thread& thread : times.by_thread) most = std::max(most, thread.busy);
   return sum > 0 ? most * threads() / sum : 0;
 }
 
@@ -119,8 +116,7 @@ std::vector<Hotspot> hotspots_of(const Model& model, const PhaseClock& clock, st
                  {},
                  times.counters,
                  {}};
-    double busy = 0;
-    for (const ParallelTimes::Thread& thread : times.parallel.by_thread) busy += thread.busy;
+    const double busy = times.parallel.busy();
     spot.work = {spot.name,
                  each(times.seconds - times.beside - times.parallel.wall),
                  each(busy),

@@ -47,8 +47,7 @@ StepTimes time_steps(const std::function<void()>& step, const MeasurementPlan& p
   measure_parallel(nullptr);
   result.wall /= static_cast<double>(calls);
   result.parallel = times.wall / static_cast<double>(calls);
-  for (const ParallelTimes::Thread& thread : times.by_thread)
-    result.busy += thread.busy / static_cast<double>(calls);
+  result.busy = times.busy() / static_cast<double>(calls);
   return result;
 }
 

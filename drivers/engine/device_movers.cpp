@@ -1,6 +1,6 @@
 #include "drivers/engine/device_movers.hpp"
 
-#include <utility>
+#include <algorithm>
 
 #include "drivers/engine/featured_nodes.hpp"
 #include "drivers/engine/node_fields.hpp"
@@ -33,17 +33,13 @@ void choose_holders(const Model& model, Movers& movers) {
 }  // namespace
 
 Movers movers_of(const Model& model) {
-  std::vector<unsigned char> host = groups_of(model.mesh, connected_slots(model));
-  const std::vector<unsigned char> surfaces = groups_of(model.mesh, surface_slots(model));
-  std::vector<unsigned char> tied(host.size(), 0);
-  if (model.ties) {
-    tied = groups_of(model.mesh, model.ties->secondary_slots());
-    const std::vector<unsigned char> primary = groups_of(model.mesh, model.ties->primary_slots());
-    const bool apart = !meet(host, tied) && !meet(host, primary) && !meet(surfaces, primary);
-    for (std::size_t group = 0; group < host.size(); ++group)
-      if (primary[group] != 0) tied[group] = 1;
-    for (std::size_t group = 0; group < host.size() && !apart; ++group)
-      if (std::exchange(tied[group], 0) != 0) host[group] = 1;
+  GroupMarks host = connected_groups(model);
+  const GroupMarks surfaces = surface_groups(model);
+  GroupMarks tied = tied_groups(model);
+  if (model.ties &&
+      (meet(host, tied) || meet(surfaces, groups_of(model.mesh, model.ties->primary_slots())))) {
+    add_marks(host, tied);
+    std::fill(tied.begin(), tied.end(), 0);
   }
   Movers movers;
   for (std::size_t group = 0; group < host.size(); ++group) {

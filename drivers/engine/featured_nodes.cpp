@@ -1,5 +1,8 @@
 #include "drivers/engine/featured_nodes.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include "core/index.hpp"
 #include "kernels/contact/contact_surface.hpp"
 
@@ -22,31 +25,41 @@ void add_nodes_of(const std::vector<std::int64_t>& unknowns, std::vector<std::in
 
 }  // namespace
 
-std::vector<std::int64_t> connected_slots(const Model& model) {
-  std::vector<std::int64_t> slots = model.connected_slots();
-  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
-  return slots;
-}
-
-std::vector<std::int64_t> surface_slots(const Model& model) {
-  std::vector<std::int64_t> slots;
-  if (!model.contact) return slots;
-  const ContactOptions& contact = model.contact->options();
-  for (const int block : {contact.rail_block, contact.wheel_block})
-    add_surface(model.mesh.blocks[index(block)], slots);
-  return slots;
-}
-
-std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
-  std::vector<unsigned char> marks(index(mesh.slots / kLanes), 0);
+GroupMarks groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots) {
+  GroupMarks marks(index(mesh.slots / kLanes), 0);
   for (const std::int64_t slot : slots) marks[index(slot / kLanes)] = 1;
   return marks;
 }
 
-bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+GroupMarks connected_groups(const Model& model) {
+  std::vector<std::int64_t> slots = model.connected_slots();
+  if (model.guide) add_nodes_of(model.guide->unknowns(), slots);
+  return groups_of(model.mesh, slots);
+}
+
+GroupMarks surface_groups(const Model& model) {
+  std::vector<std::int64_t> slots;
+  if (model.contact)
+    for (const int block : {model.contact->options().rail_block, model.contact->options().wheel_block})
+      add_surface(model.mesh.blocks[index(block)], slots);
+  return groups_of(model.mesh, slots);
+}
+
+GroupMarks tied_groups(const Model& model) {
+  if (!model.ties) return groups_of(model.mesh, {});
+  GroupMarks marks = groups_of(model.mesh, model.ties->secondary_slots());
+  add_marks(marks, groups_of(model.mesh, model.ties->primary_slots()));
+  return marks;
+}
+
+bool meet(const GroupMarks& a, const GroupMarks& b) {
   for (std::size_t group = 0; group < a.size(); ++group)
     if (a[group] != 0 && b[group] != 0) return true;
   return false;
+}
+
+void add_marks(GroupMarks& marks, const GroupMarks& more) {
+  std::transform(marks.begin(), marks.end(), more.begin(), marks.begin(), std::bit_or<>());
 }
 
 }  // namespace tread

@@ -1,6 +1,6 @@
 #pragma once
 // Nodes that features read or write in a step, in whole groups of kLanes slots: contact surfaces, tied,
-// fastened, driven and restrained ones. Elements alone act on all others.
+// fastened and driven ones. Elements alone act on all others.
 
 #include <cstdint>
 #include <vector>
@@ -12,16 +12,21 @@ namespace tread {
 
 inline constexpr int kGroupValues = 3 * kLanes;  ///< values of a group in a vector field
 
-/// Slots of nodes on which connectors and loads act, or that the guided bore moves; in any order, some of
-/// them more than once.
-std::vector<std::int64_t> connected_slots(const Model& model);
-/// Nodes of both contact surfaces; none without contact.
-std::vector<std::int64_t> surface_slots(const Model& model);
+/// Marks by group.
+using GroupMarks = std::vector<unsigned char>;
 
-/// Marks of the groups of a mesh that hold one of these slots.
-std::vector<unsigned char> groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots);
+/// Groups that hold one of these slots.
+GroupMarks groups_of(const Mesh& mesh, const std::vector<std::int64_t>& slots);
+/// Groups of nodes on which connectors and loads act, or that the guided bore moves.
+GroupMarks connected_groups(const Model& model);
+/// Those of both contact surfaces; none without contact.
+GroupMarks surface_groups(const Model& model);
+/// Those of tied nodes.
+GroupMarks tied_groups(const Model& model);
+
 /// True where a group has both marks.
-bool meet(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b);
+bool meet(const GroupMarks& a, const GroupMarks& b);
+void add_marks(GroupMarks& marks, const GroupMarks& more);
 
 /// Copies groups between a field and packed values: copy(place in the packed values, place in the field), of
 /// kGroupValues each.

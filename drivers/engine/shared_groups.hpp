@@ -2,10 +2,9 @@
 // Which groups of kLanes slots all ranks of a run move: those on which features act whose nodes lie on
 // several ranks, and those about the patch, wherever it is. [docs/records/ranks.md]
 
-#include <span>
 #include <vector>
 
-#include "drivers/engine/model.hpp"
+#include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
 
@@ -27,25 +26,25 @@ class SharedGroups {
   /// follow().
   SharedGroups(const Model& model, const std::vector<GroupMovers>& movers, int own);
 
-  /// Of the running surfaces, shares what contact touches with the wheel's frame anywhere between now and a
+  /// Shares what contact touches of the running surfaces with the wheel's frame anywhere between now and a
   /// time of `ahead` [s] later.
   void follow(const BodyFrame& wheel, double ahead);
 
   /// Marks of the groups that all ranks move.
-  const std::vector<unsigned char>& shared() const { return shared_; }
+  const GroupMarks& shared() const { return shared_; }
   /// Marks of the groups that this rank moves once their force is complete.
-  const std::vector<unsigned char>& deferred() const { return deferred_; }
+  const GroupMarks& deferred() const { return deferred_; }
   /// Items of the ties that this rank needs.
   const TieItems& tie_items() const { return tie_items_; }
 
  private:
-  void share_ties(const std::vector<GroupMovers>& movers);
-  void share_near(int block, const SurfacePart& part);
+  void share_ties(const GroupMarks& featured, const std::vector<GroupMovers>& movers);
+  void share_near(const SweptBlock& block, const SurfaceProfile& profile, const SurfacePart& part);
 
   const Model* model_;
-  std::vector<unsigned char> always_;  ///< shared wherever the wheel is
-  std::vector<unsigned char> own_;     ///< deferred on this rank wherever the wheel is
-  std::vector<unsigned char> shared_, deferred_;
+  GroupMarks always_;  ///< shared wherever the wheel is
+  GroupMarks own_;     ///< deferred on this rank wherever the wheel is
+  GroupMarks shared_, deferred_;
   TieItems tie_items_;
 };
 

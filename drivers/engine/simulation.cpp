@@ -26,10 +26,7 @@ std::int64_t watch_interval(std::int64_t sampling) {
 
 /// True if there are ties, and no node of them is the patch's.
 bool ties_are_apart(const Model& model) {
-  if (!model.contact || !model.ties) return false;
-  const std::vector<unsigned char> surfaces = groups_of(model.mesh, surface_slots(model));
-  return !meet(surfaces, groups_of(model.mesh, model.ties->secondary_slots())) &&
-         !meet(surfaces, groups_of(model.mesh, model.ties->primary_slots()));
+  return model.contact && model.ties && !meet(surface_groups(model), tied_groups(model));
 }
 
 }  // namespace
@@ -118,12 +115,14 @@ StepState Simulation::begin_step() {
           impulse_, *this,    time_, dt_, steps_, sampling_interval_, sampled_,        measured};
 }
 
-/// One virtual call for each feature that the phase has.
 void Simulation::apply(StepPhase phase, StepState& step) {
-  for (Feature* feature : features_.in(phase)) {
-    if (clock_) clock_->enter(phase);
-    feature->apply(phase, step);
-  }
+  if (clock_ && !features_.in(phase).empty()) clock_->enter(phase);
+  call_features(phase, step);
+}
+
+/// One virtual call for each feature that the phase has.
+void Simulation::call_features(StepPhase phase, StepState& step) {
+  for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
 }
 
 /// One thread takes the first phase, the others begin with the second. Neither touches what the other does.
@@ -134,10 +133,7 @@ void Simulation::apply_beside(StepPhase alone, StepPhase shared, StepState& step
     return;
   }
   if (clock_) clock_->enter(shared);
-  const auto apply_all = [&](StepPhase phase) {
-    for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
-  };
-  beside([&] { apply_all(alone); }, [&] { apply_all(shared); });
+  beside([&] { call_features(alone, step); }, [&] { call_features(shared, step); });
   if (clock_) clock_->had_beside(alone);
 }
 

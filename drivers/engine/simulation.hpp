@@ -69,6 +69,7 @@ class Simulation final : private RunEnd {
   void start(const Preload& preload);
   StepState begin_step();
   void apply(StepPhase phase, StepState& step);
+  void call_features(StepPhase phase, StepState& step);
   void apply_beside(StepPhase alone, StepPhase shared, StepState& step);
   bool ties_beside_patch() const;
   void advance_time();

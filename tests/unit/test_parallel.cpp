@@ -66,7 +66,7 @@ TEST_P(Parallel, WhatIsThrownBesideIsThrownOn) {
     const auto nothing = [] { parallel_ranges(9, [](std::int64_t, std::int64_t) {}); };
     EXPECT_THROW(beside([] { throw NumericalError("deep"); }, nothing), NumericalError);
     EXPECT_THROW(beside([] {}, [] { throw NumericalError("shared"); }), NumericalError);
-    int calls = 0;  // what waited for the others is forgotten
+    int calls = 0;  // and the one that waited is forgotten
     parallel_ranges(1, [&](std::int64_t, std::int64_t) { ++calls; });
     EXPECT_EQ(calls, 1);
   }
