@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/index.hpp"
 
 namespace tread {
@@ -20,12 +22,31 @@ const T* BlockMarch<Real>::keep(Device& device, const std::vector<T, Allocator>&
   return array->data();
 }
 
+namespace {
+
+/// For each place of a quad, how many tiles have an element of it that touches moved nodes.
+template <class Real>
+std::vector<int> moved_elements(const BlockElements<Real>& elements) {
+  const auto moved = elements.moved_nodes();
+  std::vector<int> of_place(moved.perturbed.empty() ? 0 : elements.plan().quads.size(), 0);
+  for (std::size_t i = 0; i < moved.perturbed.size(); ++i)
+    if (moved.perturbed[i] != 0) ++of_place[i % of_place.size()];
+  return of_place;
+}
+
+}  // namespace
+
 template <class Real>
 BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements, double damping,
                              std::span<const int> marks)
     : swept_(&elements.block()) {
+  constexpr std::int64_t kMostValues = std::int64_t{1} << 32;  // MarchPlace numbers them
+  if (const std::int64_t values = 3 * (swept_->base + swept_->slots()); values > kMostValues)
+    throw ResourceError("block \"" + swept_->name + "\": the fields up to it have " + std::to_string(values) +
+                        " values, and a device takes " + std::to_string(kMostValues) +
+                        "; larger elements, or --device cpu, need no more");
   const MarchCut sizes = device.cut();
-  const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes);
+  const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes, moved_elements(elements));
   block_.closed = swept_->closed;
   block_.colours = cut.colours;
   block_.quads = static_cast<int>(swept_->section.quads.size());

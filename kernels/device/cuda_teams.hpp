@@ -33,6 +33,14 @@ class CudaTeam {
     for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x)) body(i);
     __syncthreads();
   }
+  /// From the card's memory into its cache.
+  template <int bytes, class Place>
+  __device__ void fetch_ahead(int n, const Place& place) const {
+    constexpr int line = 64;
+    for (int i = static_cast<int>(threadIdx.x); i < n; i += static_cast<int>(blockDim.x))
+      for (int at = 0; at < bytes; at += line)
+        asm volatile("prefetch.global.L2 [%0];" ::"l"(reinterpret_cast<const char*>(place(i)) + at));
+  }
 
  protected:
   mutable std::size_t used_ = 0;

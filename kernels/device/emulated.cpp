@@ -89,6 +89,8 @@ class EmulatedTeam {
     const Order order(n, seed_);
     for (int i = 0; i < n; ++i) body(static_cast<int>(order(i)));
   }
+  template <int bytes, class Place>
+  void fetch_ahead(int /*n*/, const Place& /*place*/) const {}
 
  private:
   int block_;

@@ -3,7 +3,9 @@
 // nothing but elements acts on. Written once for a GPU and for its emulation. [docs/records/device.md]
 //
 // A team has `block()`, its number; `share<T>(n)`, memory that its threads share; `for_each(n, body)`, which
-// calls body(0) ... body(n - 1) in any order, by any thread, and ends when all have ended.
+// calls body(0) ... body(n - 1) in any order, by any thread, and ends when all have ended; and
+// `fetch_ahead<bytes>(n, place)`, which brings what lies from place(0) ... place(n - 1) on nearer, if
+// anything.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,10 +31,9 @@ class March {
         run_(block.run_of(team.block())),
         part_number_(block.part_of(team.block())),
         part_(block.part[part_number_]) {
-    values_ = team.template share<Real>(kNodeValues * part_.nodes);
-    if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeValues * part_.nodes);
-    sums_ = team.template share<Real>(kNodeValues * part_.own_nodes);
-    carry_ = team.template share<Real>(6 * part_.own_nodes);
+    values_ = team.template share<Real>(kNodeStride * part_.nodes);
+    if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeStride * part_.nodes);
+    sums_ = team.template share<Real>(kNodeStride * (part_.own_nodes + 1));
     if constexpr (sweep == Sweep::revolved)
       weights_ = team.template share<Real>(2 * kLanes * block.run_tiles);
     quads_ = team.template share<MarchQuad>(part_.quads);
@@ -44,8 +45,7 @@ class March {
   static std::size_t shared_bytes(const MarchBlock<Real>& block) {
     const int fields = kLinear ? 1 : 2;
     const int weights = sweep == Sweep::revolved ? 2 * kLanes * block.run_tiles : 0;
-    const int reals =
-        kNodeValues * fields * block.most_nodes + (kNodeValues + 6) * block.most_own_nodes + weights;
+    const int reals = kNodeStride * (fields * block.most_nodes + block.most_own_nodes + 1) + weights;
     return sizeof(Real) * static_cast<std::size_t>(reals) +
            sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
            sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
@@ -53,27 +53,36 @@ class March {
 
   TREAD_INLINE void run() {
     if (block_.leaves_out(run_)) return;
+    const MarchLanes all{0, 3};
     first_tile_ = run_ * block_.run_tiles;
     const int end =
         first_tile_ + block_.run_tiles < block_.tiles ? first_tile_ + block_.run_tiles : block_.tiles;
     copy_tables(end);
+    fetch_motion(first_tile_);
+    team_.for_each(kNodeStride * (part_.own_nodes + 1), [&](int i) { sums_[i] = 0; });
     lead_in(first_tile_ > 0 || block_.closed == 0 ? first_tile_ - 1 : block_.tiles - 1);
     TileAt to = enter(first_tile_);
-    team_.for_each(kLanes * part_.nodes, [&](int i) { open_node(to, i / kLanes, i % kLanes); });
+    team_.for_each(kLanes * part_.nodes, [&](int i) { open_node(to, all.item(i), all.lane(i)); });
     for (int tile = first_tile_; tile < end; ++tile) {
       const TileAt at = to;
-      add_elements(at, MarchLanes{0, 3}, true);
-      const bool last = tile + 1 == end;
-      if (!last) to = enter(tile + 1);
-      team_.for_each(kLanes * (last ? part_.own_nodes : part_.nodes), [&](int i) {
-        const int node = i / kLanes;
-        const int lane = i % kLanes;
-        NodeEnds<Real, U> ends{};  // loads of both nodes wait at once
-        if (!last) load_ends(to, node, lane, ends);
-        if (node < part_.own_nodes) close_node(at, node, lane);
-        if (!last) keep_ends(to, node, lane, ends);
-      });
-      old_carry_ = 3 * part_.own_nodes - old_carry_;
+      if (tile + 1 < end) fetch_motion(tile + 1);
+      team_.template fetch_ahead<kLanes * sizeof(Real)>(
+          part_.own_nodes, [&](int node) { return fields_.inverse_mass + at.slot(section_node_[node], 0); });
+      add_elements(at, all, true);
+      if (tile + 1 < end) {
+        to = enter(tile + 1);
+        team_.for_each(kLanes * part_.nodes, [&](int i) {
+          const int node = all.item(i);
+          const int lane = all.lane(i);
+          NodeEnds<Real, U> ends;  // loads of both nodes wait at once
+          load_ends(to, node, lane, ends);
+          if (node < part_.own_nodes) close_node(at, node, lane);
+          keep_ends(to, node, lane, ends);
+        });
+      } else {
+        team_.for_each(kLanes * part_.own_nodes, [&](int i) { close_node(at, all.item(i), all.lane(i)); });
+      }
+      new_carry_ = 3 - new_carry_;
     }
   }
 
@@ -98,12 +107,24 @@ class March {
   }
 
   TREAD_INLINE TileAt enter(int tile) const {
-    TileAt at{block_.tile[tile], tile, 0, 0, -1, -1};
-    at.group = block_.first_group + std::int64_t{tile} * block_.section_nodes;
-    at.next_group = block_.first_group + std::int64_t{at.tile.next} * block_.section_nodes;
-    at.row = block_.row_of(tile);
+    TileAt at{block_.tile[tile], tile, group_of(tile), 0, block_.row_of(tile), -1};
+    at.next_group = at.tile.next < 0 ? at.group : group_of(at.tile.next);
     at.next_row = block_.row_of(at.tile.next);
     return at;
+  }
+
+  TREAD_INLINE MarchPlace group_of(int tile) const {
+    return static_cast<MarchPlace>(block_.first_group) + static_cast<MarchPlace>(tile * block_.section_nodes);
+  }
+
+  /// Brings the motion of a tile's nodes nearer, while something else is computed.
+  TREAD_INLINE void fetch_motion(int tile) const {
+    const auto place = [&](int node) { return (group_of(tile) + section_node_[node]) * (3 * kLanes); };
+    team_.template fetch_ahead<3 * kLanes * sizeof(U)>(part_.nodes,
+                                                       [&](int node) { return fields_.u + place(node); });
+    if (fields_.added != nullptr)
+      team_.template fetch_ahead<3 * kLanes * sizeof(Real)>(
+          part_.nodes, [&](int node) { return fields_.added + place(node); });
   }
 
   /// The element before the run is computed for its forces on the run's first station. No tile: there is
@@ -120,7 +141,7 @@ class March {
     team_.for_each(part_.own_nodes, [&](int node) {
       Real onward[3] = {};
       if (any) forces_on_far(at, node, at.tile.elements - 1, onward);
-      for (int i = first; i < 3; ++i) carry_[i * part_.own_nodes + node] = onward[i];
+      for (int i = first; i < 3; ++i) carry(node)[3 - new_carry_ + i] = onward[i];
     });
   }
 
@@ -161,13 +182,12 @@ class March {
     }
   }
 
+  /// Where a lane has no element, some values that no one reads.
   TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds<Real, U>& ends) const {
-    if (lane < at.tile.elements)
-      ends.template load<first>(fields_, at, section_node_[node], block_.origin_node, lane);
+    ends.template load<first>(fields_, at, section_node_[node], block_.origin_node, lane);
   }
 
   TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds<Real, U>& ends) const {
-    if (lane >= at.tile.elements) return;
     Real near[3];
     Real far[3];
     HalfPitch pitch{};
@@ -193,7 +213,7 @@ class March {
   }
 
   TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
-    NodeEnds<Real, U> ends{};
+    NodeEnds<Real, U> ends;
     load_ends(at, node, lane, ends);
     keep_ends(at, node, lane, ends);
   }
@@ -246,8 +266,8 @@ class March {
   }
 
   TREAD_INLINE void add_element(const TileAt& at, const MarchQuad quad, int lane, bool own) const {
-    const std::int64_t place = std::int64_t{at.tile.pitch_class} * block_.quads + quad.place;
-    const SweptConstants<Real>& constants = block_.constants[place];
+    const int place = at.tile.pitch_class * block_.quads + static_cast<int>(quad.place);
+    const SweptConstants<Real> constants = block_.constants[place];
     if (block_.perturbs(at.row, quad.place)) {
       Real of_modes[3][kModes];
       shifts(at, quad, lane, of_modes);
@@ -258,9 +278,9 @@ class March {
   }
 
   template <class Element>
-  TREAD_INLINE void add_element(const TileAt& at, const MarchQuad& quad, std::int64_t place, int lane,
-                                bool own, const Element& element) const {
-    const SweptConstants<Real>& constants = block_.constants[place];
+  TREAD_INLINE void add_element(const TileAt& at, const MarchQuad& quad, int place, int lane, bool own,
+                                const Element& element) const {
+    const SweptConstants<Real> constants = block_.constants[place];
     Strain<Real> strain;
     Strain<Real> force;
     amplitudes<first>(quad, lane, values_,
@@ -285,16 +305,17 @@ class March {
   template <class Element>
   TREAD_INLINE void add_forces(const MarchQuad& quad, int lane, const Element& element,
                                const Strain<Real>& force) const {
-    const NodeValues<Real> sums[4] = {
-        NodeValues<Real>(sums_, quad.node[0], lane), NodeValues<Real>(sums_, quad.node[1], lane),
-        NodeValues<Real>(sums_, quad.node[2], lane), NodeValues<Real>(sums_, quad.node[3], lane)};
-    bool adds[4];
-    for (int j = 0; j < 4; ++j) adds[j] = quad.node[j] < part_.own_nodes && (quad.begins >> j & 1U) == 0;
+    const auto corner = [&](int j) {
+      return NodeValues<Real>(sums_, quad.node[j] < part_.own_nodes ? quad.node[j] : part_.own_nodes, lane);
+    };
+    const NodeValues<Real> sums[4] = {corner(0), corner(1), corner(2), corner(3)};
+    Real kept[4];  // no choice between values: a product of 0 or 1 costs nothing beside its sum
+    for (int j = 0; j < 4; ++j) kept[j] = (quad.begins >> j & 1U) == 0 ? Real{1} : Real{};
     for (int i = first; i < 3; ++i) {
       Real before[8];  // loads of all corners wait at once
       for (int j = 0; j < 4; ++j) {
-        before[j] = adds[j] ? sums[j][i] : Real{};
-        before[4 + j] = adds[j] ? sums[j][3 + i] : Real{};
+        before[j] = sums[j][i];
+        before[4 + j] = sums[j][3 + i];
       }
       Real s[4];
       Real d[4];
@@ -303,8 +324,8 @@ class March {
       from_modes(a, s, d);
       for (int j = 0; j < 4; ++j) {
         if (quad.node[j] >= part_.own_nodes) continue;
-        sums[j][i] = adds[j] ? before[j] + s[j] : s[j];
-        sums[j][3 + i] = adds[j] ? before[4 + j] + d[j] : d[j];
+        sums[j][i] = before[j] * kept[j] + s[j];
+        sums[j][3 + i] = before[4 + j] * kept[j] + d[j];
       }
     }
   }
@@ -322,6 +343,9 @@ class March {
     }
   }
 
+  /// Beside a node's sums: forces of an element on the first station of the next tile, of two tiles in turn.
+  TREAD_INLINE Real* carry(int node) const { return sums_ + node * kNodeStride + kNodeValues; }
+
   TREAD_INLINE void forces_on_far(const TileAt& at, int node, int lane, Real (&force)[3]) const {
     Real s[3] = {};
     Real d[3] = {};
@@ -333,39 +357,38 @@ class March {
   TREAD_INLINE void close_node(const TileAt& at, int node, int lane) const {
     if (lane >= at.tile.stations) return;
     const int section = section_node_[node];
-    const std::int64_t group = at.group + section;
-    const int mark = fields_.group_mark[group];
+    const int mark = fields_.group_mark[at.group + section];
     NodeBefore<Real, U> node_before;  // loaded before the forces are at hand
-    node_before.template load<sweep, first>(block_, fields_, section, group * kLanes + lane,
+    node_before.template load<sweep, first>(block_, fields_, section, at.slot(section, lane),
                                             at.near_place(section, lane));
     Real s[3] = {};
     Real d[3] = {};
-    if (lane < at.tile.elements) forces(at, node, lane, s, d);
+    if (at.tile.elements > 0) forces(at, node, lane, s, d);
     Real before[3] = {};
-    if (lane > 0) forces_on_far(at, node, lane - 1, before);
+    Real* const of_carry = carry(node);
+    if (lane > 0)
+      forces_on_far(at, node, lane - 1, before);
+    else
+      for (int i = first; i < 3; ++i) before[i] = of_carry[3 - new_carry_ + i];
+    if (lane == at.tile.stations - 1)
+      for (int i = first; i < 3; ++i) of_carry[new_carry_ + i] = s[i] + d[i];
     Real force[3] = {};
-    for (int i = first; i < 3; ++i) {
-      if (lane == 0) before[i] = carry_[old_carry_ + i * part_.own_nodes + node];
-      if (lane == at.tile.stations - 1)
-        carry_[3 * part_.own_nodes - old_carry_ + i * part_.own_nodes + node] = s[i] + d[i];
-      force[i] = (s[i] - d[i]) + before[i];
-    }
+    for (int i = first; i < 3; ++i) force[i] = (s[i] - d[i]) + before[i];
     finish_node(at, section, lane, mark, force, node_before);
   }
 
   /// Moves a node or stores its force. `host`: of its group [MarchFields::group_mark].
   TREAD_INLINE void finish_node(const TileAt& at, int section, int lane, int host, const Real (&force)[3],
                                 NodeBefore<Real, U>& before) const {
-    const std::int64_t place = at.near_place(section, lane);
-    if (host >= 0) {
-      for (int i = 0; i < 3; ++i) fields_.host_force[(std::int64_t{host} * 3 + i) * kLanes + lane] = force[i];
-    } else if (host == kKeeps) {
-      for (int i = 0; i < 3; ++i) fields_.force[place + i * kLanes] = force[i];
+    const MarchPlace place = at.near_place(section, lane);
+    if (host >= 0 || host == kKeeps) {
+      Real* const to = host >= 0 ? fields_.host_force + (host * 3 * kLanes + lane) : fields_.force + place;
+      for (int i = 0; i < 3; ++i) to[i * kLanes] = force[i];
     } else {
       Real weight[2] = {};
       if constexpr (sweep == Sweep::revolved)
         for (int i = 0; i < 2; ++i) weight[i] = weights_[2 * (kLanes * (at.number - first_tile_) + lane) + i];
-      const unsigned held = host == kHolds ? fields_.held[place / (3 * kLanes) * kLanes + lane] : 0U;
+      const unsigned held = host == kHolds ? fields_.held[at.slot(section, lane)] : 0U;
       move_on_device<sweep, first>(block_, fields_, place, weight, force, held, before);
     }
   }
@@ -375,16 +398,15 @@ class March {
   const MarchFields<Real, U>& fields_;
   int run_, part_number_;
   const MarchPart part_;
-  Real* values_ = nullptr;      ///< of the part's nodes [NodeValues]
-  Real* rates_ = nullptr;       ///< the same of what damping adds, where the law is not linear
-  Real* sums_ = nullptr;        ///< of the forces on own nodes [NodeValues]
-  Real* carry_ = nullptr;       ///< of two tiles in turn, [component][own node]: of the element before a tile
-  Real* weights_ = nullptr;     ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
-  MarchQuad* quads_ = nullptr;  ///< of the part
+  Real* values_ = nullptr;          ///< of the part's nodes [NodeValues]
+  Real* rates_ = nullptr;           ///< the same of what damping adds, where the law is not linear
+  Real* sums_ = nullptr;            ///< of the forces on own nodes [NodeValues], then a place that stays zero
+  Real* weights_ = nullptr;         ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
+  MarchQuad* quads_ = nullptr;      ///< of the part
   int* section_node_ = nullptr;     ///< of the part's nodes
   int* first_of_colour_ = nullptr;  ///< among the part's quads, and one more
   int first_tile_ = 0;              ///< of the run
-  int old_carry_ = 0;               ///< place of the carry of the tile before
+  int new_carry_ = 0;               ///< place of the tile's [carry]; the other: of the tile before
 };
 
 }  // namespace tread

@@ -20,38 +20,44 @@ struct MarchLanes {
   TREAD_INLINE int lane(int i) const { return from + (i & ((1 << shift) - 1)); }
 };
 
+/// Place of a value in a field, of fewer than 2^32 values [BlockMarch]: shorter arithmetic than with 64 bits.
+using MarchPlace = std::uint32_t;
+
 /// A tile at which a team is.
 struct TileAt {
   Tile tile;
   int number;
-  std::int64_t group, next_group;  ///< of section node 0, of the tile and its next one
-  int row, next_row;               ///< in the tables of moved nodes; -1: none near
+  MarchPlace group, next_group;  ///< of section node 0, of the tile and its next one
+  int row, next_row;             ///< in the tables of moved nodes; -1: none near
 
+  TREAD_INLINE MarchPlace slot(int section_node, int lane) const {
+    return (group + section_node) * kLanes + lane;
+  }
   /// Place of a node's component 0 in a field, at the near end of a lane's element.
-  TREAD_INLINE std::int64_t near_place(int section_node, int lane) const {
+  TREAD_INLINE MarchPlace near_place(int section_node, int lane) const {
     return (group + section_node) * (3 * kLanes) + lane;
   }
-  TREAD_INLINE std::int64_t far_place(int section_node, int lane) const {
-    return lane + 1 < tile.elements ? near_place(section_node, lane + 1)
+  TREAD_INLINE MarchPlace far_place(int section_node, int lane) const {
+    return lane + 1 < tile.elements ? near_place(section_node, lane) + 1
                                     : (next_group + section_node) * (3 * kLanes);
   }
 };
 
 inline constexpr int kNodeValues = 6 * kLanes;  ///< sums and differences of a node
 
-/// Sums (rows 0 ... 2) and differences (3 ... 5) of the values of a node's elements in a lane. Even and odd
-/// rows change places from node to node: on a card two nodes that are read at once then seldom lie in the
-/// same banks.
+/// From node to node; nodes whose numbers differ modulo 4 (of 8-byte values: 2) lie in different banks of a
+/// card.
+inline constexpr int kNodeStride = kNodeValues + kLanes;
+
+/// Sums (rows 0 ... 2) and differences (3 ... 5) of the values of a node's elements in a lane.
 template <class Real>
 class NodeValues {
  public:
-  TREAD_INLINE NodeValues(Real* values, int node, int lane)
-      : even_(values + node * kNodeValues + lane + (node & 1) * kLanes),
-        odd_(values + node * kNodeValues + lane - (node & 1) * kLanes) {}
-  TREAD_INLINE Real& operator[](int row) const { return (row % 2 == 0 ? even_ : odd_)[row * kLanes]; }
+  TREAD_INLINE NodeValues(Real* values, int node, int lane) : first_(values + node * kNodeStride + lane) {}
+  TREAD_INLINE Real& operator[](int row) const { return first_[row * kLanes]; }
 
  private:
-  Real *even_, *odd_;
+  Real* first_;
 };
 
 /// Values of a node at both ends of an element, as the fields hold them.
@@ -64,23 +70,20 @@ struct NodeEnds {
 
   U near[3], far[3];                 ///< displacements
   U origin[3];                       ///< of the translation's node, at the near end
-  Real near_added[3], far_added[3];  ///< MarchFields::added
+  Real near_added[3], far_added[3];  ///< MarchFields::added, if any
 
   /// `section_node`, `origin_node`: its own, and that of the translation.
   template <int first>
   TREAD_INLINE void load(const MarchFields<Real, U>& fields, const TileAt& at, int section_node,
                          int origin_node, int lane) {
-    const std::int64_t near_at = at.near_place(section_node, lane);
-    const std::int64_t far_at = at.far_place(section_node, lane);
-    const bool adds = fields.added != nullptr;
-    for (int i = first; i < 3; ++i) {
-      near[i] = fields.u[near_at + i * kLanes];
-      far[i] = fields.u[far_at + i * kLanes];
-      near_added[i] = adds ? fields.added[near_at + i * kLanes] : Real{};
-      far_added[i] = adds ? fields.added[far_at + i * kLanes] : Real{};
-    }
-    if constexpr (kRelative)
-      for (int i = 0; i < 3; ++i) origin[i] = fields.u[at.near_place(origin_node, lane) + i * kLanes];
+    const MarchPlace near_at = at.near_place(section_node, lane);
+    const MarchPlace far_at = at.far_place(section_node, lane);
+    take<first>(fields.u + near_at, near);
+    take<first>(fields.u + far_at, far);
+    if constexpr (kRelative) take<0>(fields.u + at.near_place(origin_node, lane), origin);
+    if (fields.added == nullptr) return;
+    take<first>(fields.added + near_at, near_added);
+    take<first>(fields.added + far_at, far_added);
   }
 
   /// Displacements for the elements, of this pitch (revolved).
@@ -96,6 +99,12 @@ struct NodeEnds {
       of_far[i] = static_cast<Real>(far[i] - far_origin[i]);
     }
   }
+
+ private:
+  template <int first, class T>
+  TREAD_INLINE static void take(const T* from, T (&values)[3]) {
+    for (int i = first; i < 3; ++i) values[i] = from[i * kLanes];
+  }
 };
 
 /// A node before it moves.
@@ -107,32 +116,41 @@ struct NodeBefore {
   Real radius = 0;  ///< revolved
 
   /// `at`: place of its component 0 in the fields.
-  template <Sweep sweep, int first>
+  template <Sweep sweep, int first, class Place>
   TREAD_INLINE void load(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields, int section_node,
-                         std::int64_t slot, std::int64_t at) {
+                         Place slot, Place at) {
     if constexpr (sweep == Sweep::revolved) radius = block.radius[section_node];
     inverse_mass = fields.inverse_mass[slot];
+    const U* const of_u = fields.u + at;
+    const Real* const of_v = fields.v + at;
     for (int i = first; i < 3; ++i) {
-      u[i] = fields.u[at + i * kLanes];
-      v[i] = fields.v[at + i * kLanes];
+      u[i] = of_u[i * kLanes];
+      v[i] = of_v[i * kLanes];
     }
   }
 };
 
 /// Moves a node under its force. `at`: place of its component 0 in the fields; `weight`: gravity at its
 /// station (revolved), rounded [m/s2]; `held`: a bit for each component that stays zero.
-template <Sweep sweep, int first, class Real, class U>
-TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields,
-                                 std::int64_t at, const Real (&weight)[2], const Real (&force)[3],
-                                 unsigned held, NodeBefore<Real, U>& node) {
+template <Sweep sweep, int first, class Real, class U, class Place>
+TREAD_INLINE void move_on_device(const MarchBlock<Real>& block, const MarchFields<Real, U>& fields, Place at,
+                                 const Real (&weight)[2], const Real (&force)[3], unsigned held,
+                                 NodeBefore<Real, U>& node) {
   if constexpr (sweep == Sweep::revolved)
     move_spinning(block.step, weight, node.radius, node.inverse_mass, force, node.u, node.v);
   else
     move_fixed<first>(block.step, node.inverse_mass, force, node.u, node.v);
+  U* const to_u = fields.moved_u + at;
+  Real* const to_v = fields.moved_v + at;
+  if (held != 0)
+    for (int i = first; i < 3; ++i) {
+      if ((held >> i & 1U) == 0) continue;
+      node.u[i] = 0;
+      node.v[i] = 0;
+    }
   for (int i = first; i < 3; ++i) {
-    const bool stays = (held >> i & 1U) != 0;
-    fields.moved_u[at + i * kLanes] = stays ? U{} : node.u[i];
-    fields.moved_v[at + i * kLanes] = stays ? Real{} : node.v[i];
+    to_u[i * kLanes] = node.u[i];
+    to_v[i * kLanes] = node.v[i];
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "core/index.hpp"
@@ -58,8 +59,90 @@ std::vector<int> colours_of(const Section& section, const FrontPlan& plan) {
   return colours;
 }
 
+/// Quads of a colour that a card reads at once: those of a warp.
+constexpr int kAtOnce = 4;
+
+/// New numbers of a part's nodes, so that those which a card reads at once lie in different banks
+/// [kNodeStride]: at each corner, quads that it takes at once have numbers that differ modulo kAtOnce, pairs
+/// of them modulo 2. One node after the other gets the best number that is left, so a few do not differ.
+class PartNumbers {
+ public:
+  PartNumbers(const SectionCut& cut, std::size_t part) : number_(index(cut.parts[part].nodes), -1) {
+    const MarchPart& of = cut.parts[part];
+    const MarchQuad* const quads = cut.quads.data() + of.first_quad;
+    const int* const first = cut.first_of_colour.data() + part * index(cut.colours + 1);
+    std::vector<std::vector<Peer>> peers(number_.size());
+    for (int c = 0; c < cut.colours; ++c)
+      for (int q = first[c]; q < first[c + 1]; ++q) {
+        const int begin = q - (q - first[c]) % kAtOnce;
+        for (int other = begin; other < std::min(begin + kAtOnce, first[c + 1]); ++other)
+          for (int corner = 0; corner < 4 && other != q; ++corner)
+            peers[quads[q].node[corner]].push_back(
+                {quads[other].node[corner], (q - begin) / 2 == (other - begin) / 2});
+      }
+    Left of_own;
+    Left of_others;
+    for (int i = of.nodes; i-- > 0;) (i < of.own_nodes ? of_own : of_others)[index(i % kAtOnce)].push_back(i);
+    for (int q = 0; q < of.quads; ++q)
+      for (const int node : quads[q].node)
+        if (number_[index(node)] < 0)
+          number_[index(node)] = best(peers[index(node)], node < of.own_nodes ? of_own : of_others);
+  }
+
+  int operator()(int node) const { return number_[index(node)]; }
+
+ private:
+  /// A node that is read at once with another.
+  struct Peer {
+    int node;
+    bool beside;  ///< where a value has 8 bytes, too
+  };
+  /// Numbers that are left, by their rest modulo kAtOnce.
+  using Left = std::array<std::vector<int>, kAtOnce>;
+
+  int best(const std::vector<Peer>& peers, Left& left) const {
+    std::array<int, kAtOnce> cost{};
+    for (const Peer& peer : peers) {
+      const int number = number_[index(peer.node)];
+      if (number < 0) continue;
+      for (int rest = 0; rest < kAtOnce; ++rest) {
+        if (number % kAtOnce == rest) ++cost[index(rest)];
+        if (peer.beside && number % 2 == rest % 2) cost[index(rest)] += 2;
+      }
+    }
+    std::vector<int>* chosen = nullptr;
+    int least = 0;
+    for (int rest = 0; rest < kAtOnce; ++rest) {
+      std::vector<int>& of = left[index(rest)];
+      if (of.empty() ||
+          (chosen != nullptr && std::pair(cost[index(rest)], chosen->size()) >= std::pair(least, of.size())))
+        continue;
+      chosen = &of;
+      least = cost[index(rest)];
+    }
+    const int number = chosen->back();
+    chosen->pop_back();
+    return number;
+  }
+
+  std::vector<int> number_;  ///< by node
+};
+
+void spread_over_banks(SectionCut& cut) {
+  for (std::size_t part = 0; part < cut.parts.size(); ++part) {
+    const PartNumbers number(cut, part);
+    const MarchPart& of = cut.parts[part];
+    const std::span nodes = std::span(cut.nodes).subspan(index(of.first_node), index(of.nodes));
+    const std::vector<int> before(nodes.begin(), nodes.end());
+    for (int node = 0; node < of.nodes; ++node) nodes[index(number(node))] = before[index(node)];
+    for (MarchQuad& quad : std::span(cut.quads).subspan(index(of.first_quad), index(of.quads)))
+      for (std::uint16_t& node : quad.node) node = static_cast<std::uint16_t>(number(node));
+  }
+}
+
 /// Cuts a section into a number of parts.
-SectionCut cut_into(const Section& section, const FrontPlan& plan, int number) {
+SectionCut cut_into(const Section& section, const FrontPlan& plan, const std::vector<int>& moved,
+                    int number) {
   std::vector<std::array<double, 2>> centre;
   for (const FrontPlan::Quad& entry : plan.quads) {
     std::array<double, 2>& at = centre.emplace_back();
@@ -108,8 +191,10 @@ SectionCut cut_into(const Section& section, const FrontPlan& plan, int number) {
         quads.insert(quads.end(), places_at[index(node)].begin(), places_at[index(node)].end());
       }
     at.own_nodes = static_cast<int>(cut.nodes.size()) - at.first_node;
-    std::sort(quads.begin(), quads.end(),
-              [&](int a, int b) { return std::pair(colour[index(a)], a) < std::pair(colour[index(b)], b); });
+    const auto order = [&](int a) {
+      return std::tuple(colour[index(a)], moved.empty() ? 0 : moved[index(a)], a);
+    };
+    std::sort(quads.begin(), quads.end(), [&](int a, int b) { return order(a) < order(b); });
     quads.erase(std::unique(quads.begin(), quads.end()), quads.end());
     at.quads = static_cast<int>(quads.size());
     std::vector<char> begun(index(section.nodes()), 0);
@@ -149,14 +234,16 @@ int rounds(const SectionCut& cut, int threads) {
 
 }  // namespace
 
-SectionCut cut_section(const Section& section, const FrontPlan& plan, const MarchCut& sizes) {
+SectionCut cut_section(const Section& section, const FrontPlan& plan, const MarchCut& sizes,
+                       const std::vector<int>& moved) {
   const int quads = static_cast<int>(plan.quads.size());
   const int fewest = (quads + sizes.part_quads - 1) / std::max(1, sizes.part_quads);
-  SectionCut best = cut_into(section, plan, fewest);
+  SectionCut best = cut_into(section, plan, moved, fewest);
   for (int number = fewest + 1; number <= std::min(2 * fewest, quads); ++number) {
-    SectionCut cut = cut_into(section, plan, number);
+    SectionCut cut = cut_into(section, plan, moved, number);
     if (rounds(cut, sizes.threads) < rounds(best, sizes.threads)) best = std::move(cut);
   }
+  spread_over_banks(best);
   return best;
 }
 

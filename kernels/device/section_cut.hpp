@@ -27,6 +27,9 @@ struct SectionCut {
 
 /// Cuts a section into parts that a team takes soonest: of elements that share no node, whose threads wait
 /// for each other, it takes as many at once as it has threads. Quads are numbered by their place in the plan.
-SectionCut cut_section(const Section& section, const FrontPlan& plan, const MarchCut& sizes);
+/// `moved`: by place, how many elements of the quad touch moved nodes; empty: none do. Threads that run
+/// together get quads with similar numbers of them.
+SectionCut cut_section(const Section& section, const FrontPlan& plan, const MarchCut& sizes,
+                       const std::vector<int>& moved = {});
 
 }  // namespace tread

@@ -64,9 +64,9 @@ struct HourglassConstants {
 
 /// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the
 /// modes (xi, h2, h3) only, d/dy and d/dz to (eta, zeta, h1) only. In extruded elements the gradients of h1
-/// and the positions of h2, h3, h4 vanish too.
+/// and the positions of h2, h3, h4 vanish too. Aligned, so that a card loads 16 bytes at once.
 template <class Real>
-struct SweptConstants {
+struct alignas(16) SweptConstants {
   Real gradient_x[3];  ///< of xi, h2, h3 [1/m]
   Real gradient_y[3];  ///< of eta, zeta, h1 [1/m]
   Real gradient_z[3];

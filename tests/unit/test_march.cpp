@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <span>
 
+#include "core/error.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/device/block_march.hpp"
 #include "tests/swept_samples.hpp"
@@ -44,6 +46,16 @@ TEST(March, ATranslationMakesNoForceInMixedPrecision) {
     v.download(force.data());
     for (const float component : force) EXPECT_LT(std::abs(component), 1e-6) << block.name;
   }
+}
+
+/// Places in fields have 32 bits on a device.
+TEST(March, FieldsOfTooManyValuesAreRefused) {
+  const auto device = emulated_device();
+  Mesh mesh;
+  mesh.add(samples::extruded());
+  mesh.blocks.front().base = std::int64_t{1} << 31;
+  const InternalForce internal(mesh);
+  EXPECT_THROW(BlockMarch<double>(*device, internal.elements(0), 0, {}), ResourceError);
 }
 
 }  // namespace
