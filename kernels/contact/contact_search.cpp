@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 
 namespace tread {
@@ -108,11 +109,7 @@ void ContactSearch::make_room() {
   const SweptBlock& rail = surfaces_.rail();
   wake_time_.assign(static_cast<std::size_t>(face_index(rail.station_count(), 0)), kEver);
   double pitch = 1e30;
-  longest_pitch_ = 0;
-  for (const PitchClass& c : rail.classes) {
-    pitch = std::min(pitch, c.pitch);
-    longest_pitch_ = std::max(longest_pitch_, c.pitch);
-  }
+  for (const PitchClass& c : rail.classes) pitch = std::min(pitch, c.pitch);
   const SurfaceProfile& wheel = surfaces_.wheel_profile();
   least_radius_ = std::numeric_limits<double>::infinity();
   for (int edge = 0; edge < wheel.edges(); ++edge)
@@ -226,14 +223,21 @@ std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt
   constexpr double kRoom = 2e-3;  // for displacements, and the way from a rail point to the closest one [m]
   const SurfaceProfile& rail_profile = surfaces_.rail_profile();
   const SurfaceProfile& wheel_profile = surfaces_.wheel_profile();
-  const double half = reach() + longest_pitch_ + kRoom;
-  const double angle = half / (0.98 * least_radius_);
   const double way = wheel.velocity.x * dt;
   const double turn = wheel.spin * dt;
+  const std::vector<double>& stations = surfaces_.rail().stations;
+  const double x = wheel.origin.x;
+  const auto face = [&](double at) {
+    const double within = std::clamp(at, stations.front(), stations.back());
+    return std::clamp(surfaces_.rail_stations().find(within).station, 0,
+                      static_cast<int>(stations.size()) - 2);
+  };
+  const double low = stations[index(face(x + std::min(way, 0.0) - reach()))] - kRoom;
+  const double high = stations[index(face(x + std::max(way, 0.0) + reach()) + 1)] + kRoom;
+  const double angle = std::max(x - low, high - x) / (0.98 * least_radius_);
   const double least_p = rail_profile.edge_p(first_edge_, 0) - wheel.origin.y - kRoom;
   const double most_p = rail_profile.edge_p(last_edge_ - 1, 1) - wheel.origin.y + kRoom;
-  return {part_of(surfaces_.rail(), surfaces_.rail_stations(), rail_profile,
-                  {wheel.origin.x + std::min(way, 0.0) - half, wheel.origin.x + std::max(way, 0.0) + half},
+  return {part_of(surfaces_.rail(), surfaces_.rail_stations(), rail_profile, {low, high},
                   {first_edge_, last_edge_ - 1}),
           part_of(surfaces_.wheel(), surfaces_.wheel_stations(), wheel_profile,
                   {-wheel.angle - std::max(turn, 0.0) - angle, -wheel.angle - std::min(turn, 0.0) + angle},

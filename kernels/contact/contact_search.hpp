@@ -121,7 +121,6 @@ class ContactSearch {
   int first_edge_ = 0, last_edge_ = 0;
   double touching_height_ = 0;
   double least_radius_ = 0;   ///< of the wheel's surface [m]
-  double longest_pitch_ = 0;  ///< of the rail's faces [m]
   Aim aim_;
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
