@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -166,12 +167,21 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
     check(cudaGetLastError(), "values of nodes");
   }
 
+  /// Lets the threads of a kernel's teams share so much memory.
+  template <class Kernel>
+  void allow(Kernel* kernel, std::size_t bytes) {
+    std::size_t& allowed = allowed_[reinterpret_cast<const void*>(kernel)];
+    if (bytes <= allowed) return;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
+          "shared memory");
+    allowed = bytes;
+  }
+
   template <class Body>
   void patch_any(const Body& body) {
     const auto kernel = patch_kernel<Body>;
     const std::size_t shared = Body::kNeedsMemory ? shared_ : CudaTeams::kOwnBytes;
-    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
-          "shared memory");
+    allow(kernel, shared);
     cudaLaunchAttribute cluster{};
     cluster.id = cudaLaunchAttributeClusterDimension;
     cluster.val.clusterDim = {static_cast<unsigned>(patch_teams_), 1, 1};
@@ -204,9 +214,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
                             " B among the threads of a team, and " + std::to_string(bytes) +
                             " B are needed; --device cpu needs none");
       const auto kernel = march_kernel<March, Real, U>;
-      check(
-          cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
-          "shared memory");
+      device.allow(kernel, bytes);
       kernel<<<static_cast<unsigned>(block.teams()), kThreads, bytes, device.stream()>>>(block, fields);
       check(cudaGetLastError(), "march");
     }
@@ -214,6 +222,7 @@ class CudaDevice final : public KernelDevice<CudaDevice> {
 
   std::string name_;
   std::size_t shared_ = 0;
+  std::unordered_map<const void*, std::size_t> allowed_;  ///< by kernel [B]
   int patch_teams_ = 1;
   SparedProcessors spared_;
   std::array<Queue, kQueues> queues_;

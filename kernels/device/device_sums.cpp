@@ -87,10 +87,12 @@ NodeSums DeviceSums<Real, U>::nodes(MarchFan<Real, U>& marches, const Instant& a
       task.half_frame = at.frame.after(-0.5 * at.loads.dt);
       task.to = {parts_.data(), static_cast<std::int64_t>(parts_.size()) / node_sums};
       task.first_part = end;
+      const Beside beside(*device_, marches.queue(b));
       kernels_->sum_nodes(task);
       end += task.threads();
     }
   }
+  marches.join();
   fold(node_sums, split, end);
   NodeSums sums;
   sums.fixed_kinetic = 0.5 * folded(0, sum_kinetic);
@@ -122,6 +124,7 @@ std::int64_t DeviceSums<Real, U>::sum_block(MarchFan<Real, U>& marches, int bloc
   task.state = fields.state;
   task.to = {parts_.data(), static_cast<std::int64_t>(parts_.size()) / element_sums};
   task.first_part = first_part;
+  const Beside beside(*device_, marches.queue(block));
   kernels_->sum_elements(marches.variant(block), task);
   return first_part + task.threads();
 }

@@ -64,6 +64,7 @@ class DeviceSums {
   ElementSums elements(MarchFan<Real, U>& marches, const FieldsOf& fields_of) {
     std::int64_t part = 0;
     for (int b = 0; b < marches.blocks(); ++b) part = sum_block(marches, b, fields_of(b), part);
+    marches.join();
     fold(element_sums, part, part);
     return {folded(0, sum_stored), folded(0, sum_dissipated), folded(0, sum_branch), folded(0, sum_power)};
   }

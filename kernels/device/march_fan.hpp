@@ -32,6 +32,8 @@ class MarchFan {
   int blocks() const { return static_cast<int>(blocks_.size()); }
   BlockMarch<Real>& block(int number) { return *blocks_[index(number)]; }
   TileVariant variant(int block) const { return variants_[index(block)]; }
+  /// Queue of a block.
+  static int queue(int block) { return kFanQueue + block % (kQueues - kFanQueue); }
 
   /// Marches over all blocks, with fields(block). What has begun ahead counts if it was begun with these
   /// loads; else all is done anew.
@@ -41,7 +43,7 @@ class MarchFan {
     forget();
     if (near_alone_) return;
     join();
-    for (int b = 0; b < blocks(); ++b) launch(fan_queue(b), b, block(b).at(loads), fields);
+    for (int b = 0; b < blocks(); ++b) launch(queue(b), b, block(b).at(loads), fields);
   }
   /// Lets what follows in the queue in use begin after the march about the patch.
   void await_near() {
@@ -51,7 +53,7 @@ class MarchFan {
   void await_forces() {
     for (int b = 0; b < blocks(); ++b) {
       if (!block(b).awaits_host()) continue;
-      device_->after(near_alone_ ? host_queue(b) : fan_queue(b));
+      device_->after(near_alone_ ? host_queue(b) : queue(b));
       if (!near_alone_ || !near_awaits_host(b)) continue;
       for (int queue = kNearQueue; queue < kHostQueue; ++queue) device_->after(queue);
     }
@@ -67,7 +69,7 @@ class MarchFan {
   void begin_ahead(const StepLoads& loads, const std::array<ReachedTiles, 2>& reached, const Fields& fields) {
     for (const ReachedTiles& of : reached) reached_[index(of.block)] = block(of.block).near(of.tiles);
     for (int b = 0; b < blocks(); ++b)
-      launch(fan_queue(b), b, block(b).beyond(loads, reached_[index(b)]), fields);
+      launch(queue(b), b, block(b).beyond(loads, reached_[index(b)]), fields);
     launch_near(loads, false, fields);
     begun_ = loads;
   }
@@ -108,7 +110,6 @@ class MarchFan {
   }
 
   static int host_queue(int block) { return kHostQueue + block % (kFanQueue - kHostQueue); }
-  static int fan_queue(int block) { return kFanQueue + block % (kQueues - kFanQueue); }
 
   Device* device_;
   FieldKernels<Real, U>* kernels_;
