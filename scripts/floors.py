@@ -17,9 +17,9 @@ ROWS = [
     {"kernels": 0, "io": 1, "drivers/process": 2},
     {"drivers/engine": 0},
     {"drivers/results": 1},
-    {"drivers/verify": 0, "drivers/report": 1, "drivers/bench": 2},
+    {"drivers/verify": 0, "drivers/report": 1},
     {"drivers/run": 1},
-    {"drivers/studies": 1},
+    {"drivers/studies": 1, "drivers/bench": 2},
     {"drivers/cli": 1},
 ]
 COLUMNS = 3

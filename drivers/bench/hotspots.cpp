@@ -285,7 +285,7 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
   if (!options.cores.empty() && chosen_device())
     throw InputError("bench hotspots: --cores projects steps of the processor; leave out --device");
   const Progress progress(options.quiet);
-  const RollingScene scene(resolved.scene, progress);
+  const RollingScene scene(resolved, progress);
   Simulation simulation = scene.start();
   const std::int64_t all = step_count(resolved.scene, scene.dt());
   const std::int64_t before = std::min(kWarmUpSteps, all / 2);

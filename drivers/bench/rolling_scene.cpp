@@ -7,15 +7,20 @@
 #include "drivers/engine/static_system.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "drivers/results/run_results.hpp"
+#include "drivers/run/preload_cache.hpp"
 
 namespace tread {
 
-RollingScene::RollingScene(const Scene& scene, const Progress& progress) {
+RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progress) {
+  const Scene& scene = resolved.scene;
   if (!scene.motion)
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
   model_ = std::make_unique<Model>(scene, std::nullopt, require_memory);
-  preload_ = solve_preload(*model_, steady_motion(*model_),
-                           [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); });
+  const auto say = [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); };
+  preload_ = find_preload(
+                 preload_cache(""), resolved, *model_,
+                 [&] { return solve_preload(*model_, steady_motion(*model_), say); }, say, [] {})
+                 .preload;
   if (scene.corrugation)
     model_->apply_corrugation(scene.corrugation->centre.value_or(preload_.contact.pressure_peak.y));
   dt_ = scene.motion->step_safety * step_limit(*model_).stable_step;

@@ -7,13 +7,14 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/process/progress.hpp"
+#include "io/scene/scene_reader.hpp"
 
 namespace tread {
 
 class RollingScene {
  public:
-  /// Makes mesh, preload and step. Throws InputError for a scene without a motion.
-  RollingScene(const Scene& scene, const Progress& progress);
+  /// Makes mesh, preload (or finds it in the cache) and step. Throws InputError for a scene without a motion.
+  RollingScene(const ResolvedScene& resolved, const Progress& progress);
 
   const Model& model() const { return *model_; }
   double dt() const { return dt_; }

@@ -203,7 +203,7 @@ void bench_scaling(const BenchScalingOptions& options) {
 void bench_scaling(const ResolvedScene& resolved, const BenchScalingOptions& options) {
   Scaling scaling(options);
   const Progress progress(options.json);
-  const RollingScene scene(resolved.scene, progress);
+  const RollingScene scene(resolved, progress);
   const auto simulation = std::make_shared<Simulation>(scene.start());
   scaling.measure_kind("strong", scene.model().elements(),
                        [&](std::int64_t) { return [simulation] { simulation->step(); }; });

@@ -83,16 +83,7 @@ Preload unpack_preload(const SealedContent& content, const Model& model) {
   return preload;
 }
 
-}  // namespace
-
-std::optional<ContentCache> preload_cache(const std::string& place) {
-  const std::string stated = place.empty() ? environment("TREAD_CACHE") : place;
-  if (stated == kOff) return std::nullopt;
-  const fs::path folder = stated.empty() ? usual_folder() : fs::path(stated);
-  if (folder.empty()) return std::nullopt;
-  return ContentCache(folder, limit());
-}
-
+/// Everything that the preload's bits depend on: the program, the instruction set, and preload_content().
 std::string preload_key(const ResolvedScene& resolved, const Model& model) {
   std::string key = fmt::format("program {:016x}\nlibrary {}\ninstruction set {}\n", program_hash(),
                                 gnu_get_libc_version(), model.internal->instruction_set());
@@ -100,6 +91,8 @@ std::string preload_key(const ResolvedScene& resolved, const Model& model) {
   return key;
 }
 
+/// The preload that the cache has under the key; nothing where it has none. Why an entry is of no use goes to
+/// `say`.
 std::optional<Preload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
                                       const ProgressText& say) {
   std::string refused;
@@ -116,6 +109,8 @@ std::optional<Preload> recall_preload(const ContentCache& cache, const std::stri
   }
 }
 
+/// Waits while another process solves the preload of that key, at most half an hour. After that the cache may
+/// have it; what is returned keeps other processes waiting. Nothing where there are no locks.
 std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
                                       const ProgressText& say, const std::function<void()>& wait) {
   using Clock = std::chrono::steady_clock;
@@ -137,6 +132,7 @@ std::optional<FileLock> claim_preload(const ContentCache& cache, const std::stri
   return std::nullopt;
 }
 
+/// Keeps the preload; why it cannot goes to `say`.
 void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,
                   const ProgressText& say) {
   try {
@@ -146,6 +142,34 @@ void keep_preload(const ContentCache& cache, const std::string& key, Preload& pr
   } catch (const ResourceError& error) {
     say(fmt::format("not kept for later runs: {}; --cache names another folder, or off", error.what()));
   }
+}
+
+}  // namespace
+
+std::optional<ContentCache> preload_cache(const std::string& place) {
+  const std::string stated = place.empty() ? environment("TREAD_CACHE") : place;
+  if (stated == kOff) return std::nullopt;
+  const fs::path folder = stated.empty() ? usual_folder() : fs::path(stated);
+  if (folder.empty()) return std::nullopt;
+  return ContentCache(folder, limit());
+}
+
+FoundPreload find_preload(const std::optional<ContentCache>& cache, const ResolvedScene& resolved,
+                          Model& model, const std::function<Preload()>& solve, const ProgressText& say,
+                          const std::function<void()>& wait) {
+  if (!cache) return {solve(), false};
+  const std::string key = preload_key(resolved, model);
+  const auto quietly = [](const std::string&) {};
+  std::optional<Preload> known = recall_preload(*cache, key, model, quietly);
+  const std::optional<FileLock> claim = known ? std::nullopt : claim_preload(*cache, key, say, wait);
+  if (!known) known = recall_preload(*cache, key, model, say);
+  if (known) {
+    say(fmt::format("found by an earlier run, kept in {}", cache->folder().string()));
+    return {std::move(*known), true};
+  }
+  FoundPreload found{solve(), false};
+  keep_preload(*cache, key, found.preload, say);
+  return found;
 }
 
 }  // namespace tread

@@ -16,22 +16,16 @@ namespace tread {
 /// off. Throws InputError.
 std::optional<ContentCache> preload_cache(const std::string& place);
 
-/// Everything that the preload's bits depend on: the program, the instruction set, and preload_content().
-std::string preload_key(const ResolvedScene& resolved, const Model& model);
+struct FoundPreload {
+  Preload preload;
+  bool cached;  ///< found by an earlier run
+};
 
-/// The preload that the cache has under the key, and the model as solve_preload() leaves it; nothing where it
-/// has none. Why an entry is of no use goes to `say`.
-std::optional<Preload> recall_preload(const ContentCache& cache, const std::string& key, Model& model,
-                                      const ProgressText& say);
-
-/// Waits while another process solves the preload of that key, at most half an hour; `wait` is called now and
-/// then and may throw. After that the cache may have it; what is returned keeps other processes waiting.
-/// Nothing where there are no locks.
-std::optional<FileLock> claim_preload(const ContentCache& cache, const std::string& key,
-                                      const ProgressText& say, const std::function<void()>& wait);
-
-/// Keeps the preload; why it cannot goes to `say`.
-void keep_preload(const ContentCache& cache, const std::string& key, Preload& preload,
-                  const ProgressText& say);
+/// The preload of a model made of `resolved`, and the model as solve_preload() leaves it: from the cache,
+/// where that has it or another process is about to put it there (then `wait` is called now and then and may
+/// throw); else what `solve` returns, which is kept.
+FoundPreload find_preload(const std::optional<ContentCache>& cache, const ResolvedScene& resolved,
+                          Model& model, const std::function<Preload()>& solve, const ProgressText& say,
+                          const std::function<void()>& wait);
 
 }  // namespace tread

@@ -67,39 +67,28 @@ void obey_before_first_step(const RunSession& session) {
         fmt::format("stopped before the first step; {} starts again", session.resume_command()));
 }
 
-void solve_statics(const RunSession& session, Model& model, RunResults& results) {
+Preload solve_statics(const RunSession& session, Model& model) {
   // The other ranks sleep meanwhile: their cores are free.
   const int own = threads();
   if (const auto ranks = chosen_ranks()) set_threads(std::min(machine_cores(), own * ranks->on_cores()));
-  results.preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
+  Preload preload = solve_preload(model, steady_motion(model), [&](const std::string& text) {
     session.enter("preload", text);
     obey_before_first_step(session);
   });
   set_threads(own);
+  return preload;
 }
 
-/// From the cache, where that has it or another process is about to put it there. `resolved`: what the model
-/// was made of.
+/// `resolved`: what the model was made of.
 void find_statics(const RunSession& session, const ResolvedScene& resolved, Model& model,
                   RunResults& results) {
   const double started = session.progress.seconds();
-  const auto say = [&](const std::string& text) { session.enter("preload", text); };
-  const std::optional<ContentCache> cache = preload_cache(session.options.cache);
-  const std::string key = cache ? preload_key(resolved, model) : "";
-  const auto quietly = [](const std::string&) {};
-  std::optional<Preload> known = cache ? recall_preload(*cache, key, model, quietly) : std::nullopt;
-  const auto wait = [&] { obey_before_first_step(session); };
-  const std::optional<FileLock> claim =
-      cache && !known ? claim_preload(*cache, key, say, wait) : std::nullopt;
-  if (cache && !known) known = recall_preload(*cache, key, model, say);
-  if (known) {
-    results.preload = std::move(*known);
-    results.preload_cached = 1;
-    say(fmt::format("found by an earlier run, kept in {}", cache->folder().string()));
-  } else {
-    solve_statics(session, model, results);
-    if (cache) keep_preload(*cache, key, results.preload, say);
-  }
+  FoundPreload found = find_preload(
+      preload_cache(session.options.cache), resolved, model, [&] { return solve_statics(session, model); },
+      [&](const std::string& text) { session.enter("preload", text); },
+      [&] { obey_before_first_step(session); });
+  results.preload = std::move(found.preload);
+  if (found.cached) results.preload_cached = 1;
   results.seconds_preload = session.progress.seconds() - started;
 }
 
