@@ -120,7 +120,7 @@ class ContactSearch {
   std::vector<double> lateral_gap_;  ///< by edge: of the smooth surfaces where they touch elsewhere [m]
   int first_edge_ = 0, last_edge_ = 0;
   double touching_height_ = 0;
-  double least_radius_ = 0;   ///< of the wheel's surface [m]
+  double least_radius_ = 0;  ///< of the wheel's surface [m]
   Aim aim_;
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window

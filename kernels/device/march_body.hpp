@@ -30,26 +30,11 @@ class March {
         fields_(fields),
         run_(block.run_of(team.block())),
         part_number_(block.part_of(team.block())),
-        part_(block.part[part_number_]) {
-    values_ = team.template share<Real>(kNodeStride * part_.nodes);
-    if constexpr (!kLinear) rates_ = team.template share<Real>(kNodeStride * part_.nodes);
-    sums_ = team.template share<Real>(kNodeStride * (part_.own_nodes + 1));
-    if constexpr (sweep == Sweep::revolved)
-      weights_ = team.template share<Real>(2 * kLanes * block.run_tiles);
-    quads_ = team.template share<MarchQuad>(part_.quads);
-    section_node_ = team.template share<int>(part_.nodes);
-    first_of_colour_ = team.template share<int>(block.colours + 1);
-  }
+        part_(block.part[part_number_]),
+        room_(team, block, part_) {}
 
   /// Bytes that the threads of a team share at most.
-  static std::size_t shared_bytes(const MarchBlock<Real>& block) {
-    const int fields = kLinear ? 1 : 2;
-    const int weights = sweep == Sweep::revolved ? 2 * kLanes * block.run_tiles : 0;
-    const int reals = kNodeStride * (fields * block.most_nodes + block.most_own_nodes + 1) + weights;
-    return sizeof(Real) * static_cast<std::size_t>(reals) +
-           sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
-           sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
-  }
+  static std::size_t shared_bytes(const MarchBlock<Real>& block) { return Room::bytes(block); }
 
   TREAD_INLINE void run() {
     if (block_.leaves_out(run_)) return;
@@ -59,15 +44,16 @@ class March {
         first_tile_ + block_.run_tiles < block_.tiles ? first_tile_ + block_.run_tiles : block_.tiles;
     copy_tables(end);
     fetch_motion(first_tile_);
-    team_.for_each(kNodeStride * (part_.own_nodes + 1), [&](int i) { sums_[i] = 0; });
+    team_.for_each(kNodeStride * (part_.own_nodes + 1), [&](int i) { room_.sums[i] = 0; });
     lead_in(first_tile_ > 0 || block_.closed == 0 ? first_tile_ - 1 : block_.tiles - 1);
     TileAt to = enter(first_tile_);
     team_.for_each(kLanes * part_.nodes, [&](int i) { open_node(to, all.item(i), all.lane(i)); });
     for (int tile = first_tile_; tile < end; ++tile) {
       const TileAt at = to;
       if (tile + 1 < end) fetch_motion(tile + 1);
-      team_.template fetch_ahead<kLanes * sizeof(Real)>(
-          part_.own_nodes, [&](int node) { return fields_.inverse_mass + at.slot(section_node_[node], 0); });
+      team_.template fetch_ahead<kLanes * sizeof(Real)>(part_.own_nodes, [&](int node) {
+        return fields_.inverse_mass + at.slot(room_.section_node[node], 0);
+      });
       add_elements(at, all, true);
       if (tile + 1 < end) {
         to = enter(tile + 1);
@@ -89,6 +75,7 @@ class March {
  private:
   static constexpr int kValues = kStateValues<Law>;
   using State = typename Law<Real>::template State<Real>;
+  using Room = MarchRoom<Real, kLinear, sweep == Sweep::revolved>;
 
   /// By one loop, so that the loads of all wait at once.
   TREAD_INLINE void copy_tables(int end) {
@@ -97,12 +84,12 @@ class March {
     int most = block_.colours + 1;
     for (const int items : {weighed, part_.quads, part_.nodes}) most = most < items ? items : most;
     team_.for_each(most, [&](int i) {
-      if (i < part_.quads) quads_[i] = block_.part_quads[part_.first_quad + i];
-      if (i < part_.nodes) section_node_[i] = block_.part_nodes[part_.first_node + i];
-      if (i <= block_.colours) first_of_colour_[i] = of_colour[i];
+      if (i < part_.quads) room_.quads[i] = block_.part_quads[part_.first_quad + i];
+      if (i < part_.nodes) room_.section_node[i] = block_.part_nodes[part_.first_node + i];
+      if (i <= block_.colours) room_.first_of_colour[i] = of_colour[i];
       if (i >= weighed) return;
       const Tile& tile = block_.tile[first_tile_ + i / kLanes];
-      if (i % kLanes < tile.stations) weigh(block_, tile.first_station + i % kLanes, weights_ + 2 * i);
+      if (i % kLanes < tile.stations) weigh(block_, tile.first_station + i % kLanes, room_.weights + 2 * i);
     });
   }
 
@@ -119,7 +106,7 @@ class March {
 
   /// Brings the motion of a tile's nodes nearer, while something else is computed.
   TREAD_INLINE void fetch_motion(int tile) const {
-    const auto place = [&](int node) { return (group_of(tile) + section_node_[node]) * (3 * kLanes); };
+    const auto place = [&](int node) { return (group_of(tile) + room_.section_node[node]) * (3 * kLanes); };
     team_.template fetch_ahead<3 * kLanes * sizeof(U)>(part_.nodes,
                                                        [&](int node) { return fields_.u + place(node); });
     if (fields_.added != nullptr)
@@ -148,12 +135,12 @@ class March {
   /// Adds the forces of elements of the tile. Those that share a node do so one after the other, by colour.
   TREAD_INLINE void add_elements(const TileAt& at, MarchLanes lanes, bool own) const {
     for (int colour = 0; colour < block_.colours; ++colour) {
-      const int begin = first_of_colour_[colour];
-      const int quads = first_of_colour_[colour + 1] - begin;
+      const int begin = room_.first_of_colour[colour];
+      const int quads = room_.first_of_colour[colour + 1] - begin;
       if (quads == 0) continue;
       team_.for_each(quads << lanes.shift, [&](int i) {
         const int lane = lanes.lane(i);
-        if (lane < at.tile.elements) add_element(at, quads_[begin + lanes.item(i)], lane, own);
+        if (lane < at.tile.elements) add_element(at, room_.quads[begin + lanes.item(i)], lane, own);
       });
     }
   }
@@ -184,7 +171,7 @@ class March {
 
   /// Where a lane has no element, some values that no one reads.
   TREAD_INLINE void load_ends(const TileAt& at, int node, int lane, NodeEnds<Real, U>& ends) const {
-    ends.template load<first>(fields_, at, section_node_[node], block_.origin_node, lane);
+    ends.template load<first>(fields_, at, room_.section_node[node], block_.origin_node, lane);
   }
 
   TREAD_INLINE void keep_ends(const TileAt& at, int node, int lane, const NodeEnds<Real, U>& ends) const {
@@ -206,10 +193,10 @@ class March {
           far[i] += far_rate[i];
         }
       } else {
-        keep(at, near_rate, far_rate, NodeValues<Real>(rates_, node, lane));
+        keep(at, near_rate, far_rate, NodeValues<Real>(room_.rates, node, lane));
       }
     }
-    keep(at, near, far, NodeValues<Real>(values_, node, lane));
+    keep(at, near, far, NodeValues<Real>(room_.values, node, lane));
   }
 
   TREAD_INLINE void open_node(const TileAt& at, int node, int lane) const {
@@ -249,7 +236,7 @@ class March {
     Real s[3][4];
     Real d[3][4];
     for (int j = 0; j < 4; ++j) {
-      const int section = section_node_[quad.node[j]];
+      const int section = room_.section_node[quad.node[j]];
       Real near[3];
       Real far[3];
       shift(at.row, section, lane, near);
@@ -283,7 +270,7 @@ class March {
     const SweptConstants<Real> constants = block_.constants[place];
     Strain<Real> strain;
     Strain<Real> force;
-    amplitudes<first>(quad, lane, values_,
+    amplitudes<first>(quad, lane, room_.values,
                       [&](int i, const Real(&a)[kModes]) { element.strain(i, a, strain); });
     if constexpr (kLinear) {
       strain_forces<finite_rotation, first>(constants, element, strain, force);
@@ -293,7 +280,7 @@ class March {
       auto state = load_state<State, kValues, Real>(fields_.state + of_state * kLanes + lane);
       Strain<Real> rate;
       if (fields_.added != nullptr)
-        amplitudes<first>(quad, lane, rates_,
+        amplitudes<first>(quad, lane, room_.rates,
                           [&](int i, const Real(&a)[kModes]) { element.strain(i, a, rate); });
       law_forces<finite_rotation>(constants, law, element, strain, fields_.added != nullptr ? &rate : nullptr,
                                   state, force);
@@ -306,7 +293,8 @@ class March {
   TREAD_INLINE void add_forces(const MarchQuad& quad, int lane, const Element& element,
                                const Strain<Real>& force) const {
     const auto corner = [&](int j) {
-      return NodeValues<Real>(sums_, quad.node[j] < part_.own_nodes ? quad.node[j] : part_.own_nodes, lane);
+      return NodeValues<Real>(room_.sums, quad.node[j] < part_.own_nodes ? quad.node[j] : part_.own_nodes,
+                              lane);
     };
     const NodeValues<Real> sums[4] = {corner(0), corner(1), corner(2), corner(3)};
     Real kept[4];  // no choice between values: a product of 0 or 1 costs nothing beside its sum
@@ -332,7 +320,7 @@ class March {
 
   /// Sums and differences of the forces of a lane's elements on a node, in the nodes' own bases.
   TREAD_INLINE void forces(const TileAt& at, int node, int lane, Real (&s)[3], Real (&d)[3]) const {
-    const NodeValues<Real> sums(sums_, node, lane);
+    const NodeValues<Real> sums(room_.sums, node, lane);
     for (int i = first; i < 3; ++i) {
       s[i] = sums[i];
       d[i] = sums[3 + i];
@@ -344,7 +332,7 @@ class March {
   }
 
   /// Beside a node's sums: forces of an element on the first station of the next tile, of two tiles in turn.
-  TREAD_INLINE Real* carry(int node) const { return sums_ + node * kNodeStride + kNodeValues; }
+  TREAD_INLINE Real* carry(int node) const { return room_.sums + node * kNodeStride + kNodeValues; }
 
   TREAD_INLINE void forces_on_far(const TileAt& at, int node, int lane, Real (&force)[3]) const {
     Real s[3] = {};
@@ -356,7 +344,7 @@ class March {
   /// Adds what the elements on both sides of a station have for a node; keeps what belongs to the next tile.
   TREAD_INLINE void close_node(const TileAt& at, int node, int lane) const {
     if (lane >= at.tile.stations) return;
-    const int section = section_node_[node];
+    const int section = room_.section_node[node];
     const int mark = fields_.group_mark[at.group + section];
     NodeBefore<Real, U> node_before;  // loaded before the forces are at hand
     node_before.template load<sweep, first>(block_, fields_, section, at.slot(section, lane),
@@ -387,7 +375,8 @@ class March {
     } else {
       Real weight[2] = {};
       if constexpr (sweep == Sweep::revolved)
-        for (int i = 0; i < 2; ++i) weight[i] = weights_[2 * (kLanes * (at.number - first_tile_) + lane) + i];
+        for (int i = 0; i < 2; ++i)
+          weight[i] = room_.weights[2 * (kLanes * (at.number - first_tile_) + lane) + i];
       const unsigned held = host == kHolds ? fields_.held[at.slot(section, lane)] : 0U;
       move_on_device<sweep, first>(block_, fields_, place, weight, force, held, before);
     }
@@ -398,15 +387,9 @@ class March {
   const MarchFields<Real, U>& fields_;
   int run_, part_number_;
   const MarchPart part_;
-  Real* values_ = nullptr;          ///< of the part's nodes [NodeValues]
-  Real* rates_ = nullptr;           ///< the same of what damping adds, where the law is not linear
-  Real* sums_ = nullptr;            ///< of the forces on own nodes [NodeValues], then a place that stays zero
-  Real* weights_ = nullptr;         ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
-  MarchQuad* quads_ = nullptr;      ///< of the part
-  int* section_node_ = nullptr;     ///< of the part's nodes
-  int* first_of_colour_ = nullptr;  ///< among the part's quads, and one more
-  int first_tile_ = 0;              ///< of the run
-  int new_carry_ = 0;               ///< place of the tile's [carry]; the other: of the tile before
+  const Room room_;
+  int first_tile_ = 0;  ///< of the run
+  int new_carry_ = 0;   ///< place of the tile's [carry]; the other: of the tile before
 };
 
 }  // namespace tread

@@ -2,6 +2,7 @@
 // Tiles and nodes of a march: what a team keeps for them, and the motion of nodes.
 // [kernels/device/march_body.hpp]
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -58,6 +59,38 @@ class NodeValues {
 
  private:
   Real* first_;
+};
+
+/// Memory that the threads of a team share.
+template <class Real, bool linear, bool revolved>
+struct MarchRoom {
+  Real* values;             ///< of the part's nodes [NodeValues]
+  Real* rates = nullptr;    ///< the same of what damping adds, where the law is not linear
+  Real* sums;               ///< of the forces on own nodes [NodeValues], then a place that stays zero
+  Real* weights = nullptr;  ///< [station of the run][along t, along r]: gravity (revolved) [m/s2]
+  MarchQuad* quads;         ///< of the part
+  int* section_node;        ///< of the part's nodes
+  int* first_of_colour;     ///< among the part's quads, and one more
+
+  template <class Team>
+  TREAD_INLINE MarchRoom(const Team& team, const MarchBlock<Real>& block, const MarchPart& part) {
+    values = team.template share<Real>(kNodeStride * part.nodes);
+    if constexpr (!linear) rates = team.template share<Real>(kNodeStride * part.nodes);
+    sums = team.template share<Real>(kNodeStride * (part.own_nodes + 1));
+    if constexpr (revolved) weights = team.template share<Real>(2 * kLanes * block.run_tiles);
+    quads = team.template share<MarchQuad>(part.quads);
+    section_node = team.template share<int>(part.nodes);
+    first_of_colour = team.template share<int>(block.colours + 1);
+  }
+
+  /// For the largest part of a block.
+  static std::size_t bytes(const MarchBlock<Real>& block) {
+    const int of_nodes = (linear ? 1 : 2) * block.most_nodes + block.most_own_nodes + 1;
+    const int reals = kNodeStride * of_nodes + (revolved ? 2 * kLanes * block.run_tiles : 0);
+    return sizeof(Real) * static_cast<std::size_t>(reals) +
+           sizeof(MarchQuad) * static_cast<std::size_t>(block.most_quads) +
+           sizeof(int) * static_cast<std::size_t>(block.most_nodes + block.colours + 1);
+  }
 };
 
 /// Values of a node at both ends of an element, as the fields hold them.
