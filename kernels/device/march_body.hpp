@@ -254,7 +254,7 @@ class March {
 
   TREAD_INLINE void add_element(const TileAt& at, const MarchQuad quad, int lane, bool own) const {
     const int place = at.tile.pitch_class * block_.quads + static_cast<int>(quad.place);
-    const SweptConstants<Real> constants = block_.constants[place];
+    const SweptConstants<Real> constants = block_.constants[place];  // a copy: its loads wait at once
     if (block_.perturbs(at.row, quad.place)) {
       Real of_modes[3][kModes];
       shifts(at, quad, lane, of_modes);
@@ -267,6 +267,7 @@ class March {
   template <class Element>
   TREAD_INLINE void add_element(const TileAt& at, const MarchQuad& quad, int place, int lane, bool own,
                                 const Element& element) const {
+    // Read again, and not passed: a card then has 5 % fewer instructions.
     const SweptConstants<Real> constants = block_.constants[place];
     Strain<Real> strain;
     Strain<Real> force;
