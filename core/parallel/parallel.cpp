@@ -1,6 +1,7 @@
 #include "core/parallel/parallel.hpp"
 
 #include <fmt/core.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,7 @@ constexpr int kRangesPerThread = 8;
 constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &openmp_backend};
 
 int g_threads = 1;
+std::vector<int> g_cores;  ///< bind_threads
 ParallelTimes* g_times = nullptr;
 /// For this thread's next call of parallel_ranges, to run too.
 thread_local const FunctionRef<void()>* t_beside = nullptr;
@@ -59,6 +61,17 @@ void add_time(int thread, std::chrono::steady_clock::time_point start, std::int6
   of.longest = std::max(of.longest, seconds / static_cast<double>(items));
 }
 
+/// Keeps this thread, by its number, on its core. Where the machine does not let it, it goes on anywhere.
+void stay_on_core(int thread) {
+  thread_local int kept_as = 0;
+  if (g_cores.empty() || thread == 0 || kept_as == thread) return;
+  kept_as = thread;
+  cpu_set_t core;
+  CPU_ZERO(&core);
+  CPU_SET(static_cast<std::size_t>(g_cores[static_cast<std::size_t>(thread) % g_cores.size()]), &core);
+  ::sched_setaffinity(0, sizeof(core), &core);
+}
+
 /// Runs several ranges per thread, taken as threads become free. A core that another process uses then slows
 /// the rest little. `alone` goes first.
 void run_ranges(std::int64_t n, const FunctionRef<void()>* alone,
@@ -70,6 +83,7 @@ void run_ranges(std::int64_t n, const FunctionRef<void()>* alone,
   const std::int64_t ranges = std::min(n, std::int64_t{kRangesPerThread} * g_threads);
   const std::int64_t first = alone != nullptr ? 1 : 0;
   chosen()->run(first + ranges, g_threads, [&](std::int64_t item, int thread) {
+    stay_on_core(thread);
     if (item < first) {
       const auto from = std::chrono::steady_clock::now();
       (*alone)();
@@ -88,6 +102,10 @@ void set_threads(int threads) {
 }
 int threads() {
   return g_threads;
+}
+
+void bind_threads(std::vector<int> cores) {
+  g_cores = std::move(cores);
 }
 
 std::vector<std::string_view> backends() {

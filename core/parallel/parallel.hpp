@@ -23,6 +23,10 @@ std::vector<std::string_view> backends();
 void set_backend(std::string_view name);
 std::string_view backend();
 
+/// Keeps each thread that parallel_ranges adds to the calling one on a core of its own: the next ones of
+/// `cores`, numbers of the machine's, of which the first is left to the calling thread. Empty: none is kept.
+void bind_threads(std::vector<int> cores);
+
 /// Calls body(first, last) on disjoint ranges that cover [0, n), in parallel. Ranges are contiguous and
 /// depend on the number of threads: body must treat items independently of one another. A body must not call
 /// this function.

@@ -30,6 +30,8 @@ class Ranks {
   /// Number of ranks, this one included, on this machine; and of those that may use the same of its cores.
   virtual int on_host() const { return count(); }
   virtual int on_cores() const { return count(); }
+  /// Number of this rank among the latter.
+  virtual int place_on_cores() const { return rank(); }
 
   /// Gives each rank the values of all: rank r has those of [first[r], first[r + 1]).
   template <class T>

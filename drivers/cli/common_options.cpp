@@ -70,6 +70,8 @@ void add_thread_options(CLI::App& command, ThreadOptions& options) {
   command
       .add_option("--backend", options.backend, "library of the threads, tbb (default) or openmp; same bits")
       ->type_name("tbb|openmp");
+  command.add_flag("--bind", options.bind,
+                   "keep threads on cores of their own; for a machine without other work");
 }
 
 void add_device_option(CLI::App& command, std::string& device) {

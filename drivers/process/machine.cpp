@@ -9,6 +9,7 @@
 #include <ctime>
 #include <system_error>
 #include <thread>
+#include <vector>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -29,6 +30,22 @@ std::int64_t machine_memory() {
   return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
 }
 
+namespace {
+
+/// Cores that this process may use, by their numbers, from the `first` of them on and around.
+std::vector<int> own_cores(int first) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  std::vector<int> cores;
+  if (::sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
+  std::rotate(cores.begin(), cores.begin() + first % std::ssize(cores), cores.end());
+  return cores;
+}
+
+}  // namespace
+
 void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
   const std::shared_ptr<Ranks> ranks = chosen_ranks();
@@ -37,6 +54,7 @@ void use_threads(const ThreadOptions& options) {
     fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
                options.number, cores, cores);
   set_threads(options.number > 0 ? options.number : cores);
+  if (options.bind) bind_threads(own_cores(ranks ? ranks->place_on_cores() * threads() : 0));
 }
 
 double processor_seconds() {

@@ -10,6 +10,7 @@ namespace tread {
 struct ThreadOptions {
   int number = 0;       ///< number of threads; 0: as many as the machine has
   std::string backend;  ///< library that runs the threads; empty: the default
+  bool bind = false;    ///< they stay on cores of their own [bind_threads]
 };
 
 /// Number of cores that this process may use.
@@ -17,8 +18,8 @@ int machine_cores();
 /// Memory of the machine [B].
 std::int64_t machine_memory();
 
-/// Sets the number and the backend of the threads; by default this rank's share of the cores. Warns of more
-/// threads than cores. Throws InputError for an unknown backend.
+/// Sets the number, the backend and the cores of the threads; by default this rank's share of the cores.
+/// Warns of more threads than cores. Throws InputError for an unknown backend.
 void use_threads(const ThreadOptions& options);
 
 /// Time that this process has used on all cores [s].

@@ -26,14 +26,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Number of ranks whose texts are this rank's.
-int alike(const std::string& text) {
+/// How many ranks have something in common, and the number of this one among them.
+struct Alike {
+  int count, place;
+};
+
+/// Ranks whose texts are this rank's.
+Alike alike(const std::string& text) {
   int count = 0;
+  int rank = 0;
   MPI_Comm_size(MPI_COMM_WORLD, &count);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const std::size_t own = std::hash<std::string>{}(text);
   std::vector<std::size_t> all(static_cast<std::size_t>(count));
   MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
-  return static_cast<int>(std::count(all.begin(), all.end(), own));
+  return {static_cast<int>(std::count(all.begin(), all.end(), own)),
+          static_cast<int>(std::count(all.begin(), all.begin() + rank, own))};
 }
 
 /// Machine and cores that this process may use.
@@ -70,7 +78,7 @@ class MpiRanks final : public Ranks {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
-    on_host_ = alike(host_name());
+    on_host_ = alike(host_name()).count;
     on_cores_ = alike(cores_text());
     if (level < MPI_THREAD_FUNNELED) throw ResourceError("this MPI allows a process no threads");
   }
@@ -79,7 +87,8 @@ class MpiRanks final : public Ranks {
   int rank() const override { return rank_; }
   int count() const override { return count_; }
   int on_host() const override { return on_host_; }
-  int on_cores() const override { return on_cores_; }
+  int on_cores() const override { return on_cores_.count; }
+  int place_on_cores() const override { return on_cores_.place; }
 
   void broadcast(std::span<std::byte> bytes) override {
     constexpr std::size_t kPiece = 1 << 30;
@@ -126,7 +135,8 @@ class MpiRanks final : public Ranks {
     traffic.seconds += std::chrono::duration<double>(Clock::now() - started).count();
   }
 
-  int rank_ = 0, count_ = 1, on_host_ = 1, on_cores_ = 1;
+  int rank_ = 0, count_ = 1, on_host_ = 1;
+  Alike on_cores_{1, 0};
   std::vector<int> counts_, places_;
 };
 

@@ -82,13 +82,15 @@ SealedContent receive(Ranks& ranks) {
 
 const std::string kThreads = "ranks/threads";
 const std::string kBackend = "ranks/backend";
+const std::string kBound = "ranks/bound";
 
 /// The run of rank 0 on this rank.
 class FollowedRun {
  public:
   explicit FollowedRun(const SealedContent& content) {
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
-                 sealed_entry<std::string>(content, kBackend)});
+                 sealed_entry<std::string>(content, kBackend),
+                 sealed_value<std::int64_t>(content, kBound) != 0});
     const RunOrder order = unpack_order(content);
     unpack_results(content, results_);
     const ResolvedScene made = resolve_scene(order.scene, order.overrides);
@@ -139,6 +141,7 @@ void Followers::begin(SealedContent run, const ThreadOptions& threads) const {
   say(*ranks_, Word::begin);
   run[kThreads] = std::vector<std::int64_t>{threads.number};
   run[kBackend] = threads.backend;
+  run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
   send(*ranks_, std::move(run));
 }
 

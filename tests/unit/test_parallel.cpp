@@ -1,9 +1,13 @@
 // Threads: every item runs once, on any thread; times add up.
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.hpp"
@@ -31,6 +35,35 @@ TEST_P(Parallel, VisitsEveryItemOnce) {
       });
       EXPECT_EQ(visits, std::vector<int>(static_cast<std::size_t>(n), 1)) << threads << " threads, " << n;
     }
+}
+
+std::vector<int> cores_of_this_thread() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ::sched_getaffinity(0, sizeof(allowed), &allowed);
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
+  return cores;
+}
+
+TEST_P(Parallel, BoundThreadsStayOnTheirCores) {
+  const std::vector<int> all = cores_of_this_thread();
+  const std::thread::id own = std::this_thread::get_id();
+  std::atomic<int> others = 0;
+  std::atomic<int> kept = 0;
+  set_threads(2);
+  bind_threads({all.front(), all.back()});
+  parallel_ranges(40, [&](std::int64_t, std::int64_t) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (std::this_thread::get_id() == own) return;
+    ++others;
+    if (cores_of_this_thread() == std::vector<int>{all.back()}) ++kept;
+  });
+  bind_threads({});
+  EXPECT_GT(others, 0);
+  EXPECT_EQ(kept, others);
+  EXPECT_EQ(cores_of_this_thread(), all);
 }
 
 TEST_P(Parallel, OneThreadWorksBesideTheOthers) {
