@@ -44,7 +44,7 @@ BlockMarch<Real>::BlockMarch(Device& device, const BlockElements<Real>& elements
   if (const std::int64_t values = 3 * (swept_->base + swept_->slots()); values > kMostValues)
     throw ResourceError("block \"" + swept_->name + "\": the fields up to it have " + std::to_string(values) +
                         " values, and a device takes " + std::to_string(kMostValues) +
-                        "; larger elements, or --device cpu, need no more");
+                        "; choose larger elements, or --device cpu");
   const MarchCut sizes = device.cut();
   const SectionCut cut = cut_section(swept_->section, elements.plan(), sizes, moved_elements(elements));
   block_.closed = swept_->closed;
