@@ -123,8 +123,10 @@ class EmulatedTeams {
   template <class First, class Body>
   void for_lists(int n, const First& first, const Body& body) const {
     for_teams([&] {
-      const int end = first(std::min(n, (team_ + 1) * run(n)));
-      for (int i = first(std::min(n, team_ * run(n))); i < end; ++i) body(i);
+      const int begin = first(std::min(n, team_ * run(n)));
+      const int count = first(std::min(n, (team_ + 1) * run(n))) - begin;
+      const Order order(count, seed_);
+      for (int i = 0; i < count; ++i) body(begin + static_cast<int>(order(i)));
     });
   }
   template <class Value, class Take>
