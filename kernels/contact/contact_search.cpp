@@ -17,18 +17,20 @@ namespace {
 
 constexpr double kEver = -std::numeric_limits<double>::infinity();
 
+/// First station of the face at a place along a surface, or at its end beyond it.
+int face_at(const SweptBlock& block, const StationFinder& finder, double at) {
+  if (!block.closed) at = std::clamp(at, block.stations.front(), block.stations.back());
+  return std::max(finder.find(at).station, 0);
+}
+
 /// The part of a surface between two places along it and about these edges, with all nodes that its faces'
 /// cubics take.
 SurfacePart part_of(const SweptBlock& block, const StationFinder& finder, const SurfaceProfile& profile,
                     std::array<double, 2> ends, std::array<int, 2> edges) {
   constexpr int kBeside = 2;  // of cubics, and one more
   const int all = block.station_count();
-  const auto station = [&](double at) {
-    if (!block.closed) at = std::clamp(at, block.stations.front(), block.stations.back());
-    return std::max(finder.find(at).station, 0);
-  };
-  const int first = station(ends[0]);
-  const int last = station(ends[1]);
+  const int first = face_at(block, finder, ends[0]);
+  const int last = face_at(block, finder, ends[1]);
   SurfacePart part;
   if (block.closed) {
     const int between = ends[1] - ends[0] < M_PI ? (last - first + all) % all : all;
@@ -225,15 +227,13 @@ std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt
   const SurfaceProfile& wheel_profile = surfaces_.wheel_profile();
   const double way = wheel.velocity.x * dt;
   const double turn = wheel.spin * dt;
-  const std::vector<double>& stations = surfaces_.rail().stations;
   const double x = wheel.origin.x;
+  const std::vector<double>& stations = surfaces_.rail().stations;
   const auto face = [&](double at) {
-    const double within = std::clamp(at, stations.front(), stations.back());
-    return std::clamp(surfaces_.rail_stations().find(within).station, 0,
-                      static_cast<int>(stations.size()) - 2);
+    return index(face_at(surfaces_.rail(), surfaces_.rail_stations(), at));
   };
-  const double low = stations[index(face(x + std::min(way, 0.0) - reach()))] - kRoom;
-  const double high = stations[index(face(x + std::max(way, 0.0) + reach()) + 1)] + kRoom;
+  const double low = stations[face(x + std::min(way, 0.0) - reach())] - kRoom;
+  const double high = stations[face(x + std::max(way, 0.0) + reach()) + 1] + kRoom;
   const double angle = std::max(x - low, high - x) / (0.98 * least_radius_);
   const double least_p = rail_profile.edge_p(first_edge_, 0) - wheel.origin.y - kRoom;
   const double most_p = rail_profile.edge_p(last_edge_ - 1, 1) - wheel.origin.y + kRoom;
