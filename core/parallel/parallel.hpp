@@ -23,8 +23,9 @@ std::vector<std::string_view> backends();
 void set_backend(std::string_view name);
 std::string_view backend();
 
-/// Keeps each thread that parallel_ranges adds to the calling one on a core of its own: the next ones of
-/// `cores`, numbers of the machine's, of which the first is left to the calling thread. Empty: none is kept.
+/// Keeps each thread that parallel_ranges adds to the calling one on a core of its own from its next item on:
+/// the next ones of `cores`, numbers of the machine's, of which the first is left to the calling thread. A
+/// thread that is kept stays so. Empty: no more are kept.
 void bind_threads(std::vector<int> cores);
 
 /// Calls body(first, last) on disjoint ranges that cover [0, n), in parallel. Ranges are contiguous and

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <system_error>
 #include <thread>
-#include <vector>
+#include <utility>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -20,31 +20,25 @@
 
 namespace tread {
 
-int machine_cores() {
+std::vector<int> allowed_cores() {
   cpu_set_t allowed;
-  if (::sched_getaffinity(0, sizeof(allowed), &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  CPU_ZERO(&allowed);
+  ::sched_getaffinity(0, sizeof(allowed), &allowed);
+  std::vector<int> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
+  return cores;
+}
+
+int machine_cores() {
+  const std::vector<int> cores = allowed_cores();
+  return cores.empty() ? std::max(1, static_cast<int>(std::thread::hardware_concurrency()))
+                       : static_cast<int>(cores.size());
 }
 
 std::int64_t machine_memory() {
   return static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGE_SIZE);
 }
-
-namespace {
-
-/// Cores that this process may use, by their numbers, from the `first` of them on and around.
-std::vector<int> own_cores(int first) {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  std::vector<int> cores;
-  if (::sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return cores;
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(core, &allowed)) cores.push_back(core);
-  std::rotate(cores.begin(), cores.begin() + first % std::ssize(cores), cores.end());
-  return cores;
-}
-
-}  // namespace
 
 void use_threads(const ThreadOptions& options) {
   if (!options.backend.empty()) set_backend(options.backend);
@@ -54,7 +48,11 @@ void use_threads(const ThreadOptions& options) {
     fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
                options.number, cores, cores);
   set_threads(options.number > 0 ? options.number : cores);
-  if (options.bind) bind_threads(own_cores(ranks ? ranks->place_on_cores() * threads() : 0));
+  if (!options.bind) return;
+  std::vector<int> own = allowed_cores();
+  const int taken = ranks ? ranks->place_on_cores() * threads() : 0;  // by lower ranks
+  if (!own.empty()) std::rotate(own.begin(), own.begin() + taken % std::ssize(own), own.end());
+  bind_threads(std::move(own));
 }
 
 double processor_seconds() {

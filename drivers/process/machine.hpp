@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tread {
 
@@ -13,6 +14,8 @@ struct ThreadOptions {
   bool bind = false;    ///< they stay on cores of their own [bind_threads]
 };
 
+/// Numbers of the cores that this process may use; empty where the machine does not say.
+std::vector<int> allowed_cores();
 /// Number of cores that this process may use.
 int machine_cores();
 /// Memory of the machine [B].

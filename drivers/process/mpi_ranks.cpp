@@ -1,7 +1,6 @@
 // Ranks by MPI. The name stands in this file and in the choice of sources alone (drivers/mpi.cmake).
 
 #include <mpi.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +18,7 @@
 #include "drivers/process/host.hpp"
 #include "drivers/process/launched_ranks.hpp"
 #include "drivers/process/launcher.hpp"
+#include "drivers/process/machine.hpp"
 
 namespace tread {
 
@@ -26,9 +26,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How many ranks have something in common, and the number of this one among them.
+/// Ranks that have something in common.
 struct Alike {
-  int count, place;
+  int count;  ///< of them
+  int place;  ///< number of this one among them
 };
 
 /// Ranks whose texts are this rank's.
@@ -46,12 +47,8 @@ Alike alike(const std::string& text) {
 
 /// Machine and cores that this process may use.
 std::string cores_text() {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  ::sched_getaffinity(0, sizeof(allowed), &allowed);
   std::string text = host_name();
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(core, &allowed)) text += " " + std::to_string(core);
+  for (const int core : allowed_cores()) text += " " + std::to_string(core);
   return text;
 }
 
