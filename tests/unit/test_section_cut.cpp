@@ -15,21 +15,8 @@
 namespace tread {
 namespace {
 
-/// A section of nx by ny quads.
-Section grid(int nx, int ny) {
-  Section section;
-  for (int y = 0; y <= ny; ++y)
-    for (int x = 0; x <= nx; ++x) {
-      section.p.push_back(x);
-      section.q.push_back(y);
-    }
-  for (int y = 0; y < ny; ++y)
-    for (int x = 0; x < nx; ++x) {
-      const int first = y * (nx + 1) + x;
-      section.quads.push_back({first, first + 1, first + nx + 2, first + nx + 1});
-    }
-  section.quad_material.assign(section.quads.size(), 0);
-  return section;
+Section section_of_squares() {
+  return samples::grid_section({.columns = 23, .rows = 17, .width = 0.23, .height = 0.17, .jitter = 0});
 }
 
 std::span<const MarchQuad> quads_of(const SectionCut& cut, const MarchPart& part) {
@@ -50,7 +37,7 @@ void for_each_colour(const SectionCut& cut, const Visit& visit) {
 }
 
 TEST(SectionCut, PartsHoldTheSection) {
-  const Section section = grid(23, 17);
+  const Section section = section_of_squares();
   const FrontPlan plan = make_front_plan(section);
   const SectionCut cut = cut_section(section, plan, {192, 90, 4});
   ASSERT_GT(cut.parts.size(), 3U);
@@ -69,7 +56,7 @@ TEST(SectionCut, PartsHoldTheSection) {
 
 /// Two quads after one another are read at once where a value has 8 bytes, four of them where it has 4.
 TEST(SectionCut, NodesReadAtOnceLieInDifferentBanks) {
-  const Section section = grid(23, 17);
+  const Section section = section_of_squares();
   const SectionCut cut = cut_section(section, make_front_plan(section), {192, 90, 4});
   int pairs = 0;
   int same = 0;
@@ -94,7 +81,7 @@ TEST(SectionCut, NodesReadAtOnceLieInDifferentBanks) {
 }
 
 TEST(SectionCut, QuadsWithMovedNodesComeTogether) {
-  const Section section = grid(23, 17);
+  const Section section = section_of_squares();
   const FrontPlan plan = make_front_plan(section);
   std::vector<int> moved;
   for (const FrontPlan::Quad& quad : plan.quads) moved.push_back(quad.quad % 3 == 0 ? 5 : 0);
