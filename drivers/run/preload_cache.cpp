@@ -140,7 +140,8 @@ void keep_preload(const ContentCache& cache, const std::string& key, Preload& pr
     pack(fields_of(preload), kGroup, content);
     cache.store(key, std::move(content));
   } catch (const ResourceError& error) {
-    say(fmt::format("not kept for later runs: {}; --cache names another folder, or off", error.what()));
+    say(fmt::format("not kept for later runs: {}; TREAD_CACHE or --cache names another folder, or off",
+                    error.what()));
   }
 }
 
