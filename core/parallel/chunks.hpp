@@ -31,15 +31,19 @@ double sum_chunks(std::int64_t n, const Body& body) {
   return sum;
 }
 
+/// The product of [first, last), by this thread.
+inline double dot_of_range(std::int64_t first, std::int64_t last, const double* a, const double* b) {
+  double lane[8] = {};
+  std::int64_t i = first;
+  for (; i + 8 <= last; i += 8)
+    for (int l = 0; l < 8; ++l) lane[l] += a[i + l] * b[i + l];
+  for (; i < last; ++i) lane[0] += a[i] * b[i];
+  return ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
+}
+
 inline double dot(std::int64_t n, const double* a, const double* b) {
-  return sum_chunks(n, [=](std::int64_t first, std::int64_t last) {
-    double lane[8] = {};
-    std::int64_t i = first;
-    for (; i + 8 <= last; i += 8)
-      for (int l = 0; l < 8; ++l) lane[l] += a[i + l] * b[i + l];
-    for (; i < last; ++i) lane[0] += a[i] * b[i];
-    return ((lane[0] + lane[4]) + (lane[1] + lane[5])) + ((lane[2] + lane[6]) + (lane[3] + lane[7]));
-  });
+  return sum_chunks(n,
+                    [=](std::int64_t first, std::int64_t last) { return dot_of_range(first, last, a, b); });
 }
 
 /// Computes y += a x.

@@ -1,58 +1,59 @@
 #include "drivers/engine/energy_sums.hpp"
 
-#include "core/parallel/chunks.hpp"
+#include <algorithm>
 
 namespace tread {
 
 namespace {
 
-/// Sums weight[slot] times `term` of the values of a group of slots, for the components [first, 3) of a
-/// block.
+/// Sums weight[slot] times `term` of the values of a tile's slots, for the components [first_component, 3).
 template <class Term>
-double weighted_sum(const SweptBlock& block, int first_component, const double* weight, ConstNodeField field,
-                    const Term& term) {
-  const std::int64_t base = block.base / kLanes;
-  return sum_chunks(block.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
-    double lanes[kLanes] = {};
-    for (std::int64_t group = base + first; group < base + last; ++group) {
-      const NodeLanes values = field.lanes(group * kLanes);
-      for (int c = first_component; c < 3; ++c)
-        for (int l = 0; l < kLanes; ++l) lanes[l] += weight[group * kLanes + l] * term(values[c][l]);
-    }
-    double sum = 0;
-    for (const double lane : lanes) sum += lane;
-    return sum;
-  });
+double weighted_sum(const SweptBlock& block, int tile, int first_component, const double* weight,
+                    ConstNodeField field, const Term& term) {
+  const std::int64_t nodes = block.section.nodes();
+  const std::int64_t first = block.base / kLanes + tile * nodes;
+  double lanes[kLanes] = {};
+  for (std::int64_t group = first; group < first + nodes; ++group) {
+    const NodeLanes values = field.lanes(group * kLanes);
+    for (int c = first_component; c < 3; ++c)
+      for (int l = 0; l < kLanes; ++l) lanes[l] += weight[group * kLanes + l] * term(values[c][l]);
+  }
+  double sum = 0;
+  for (const double lane : lanes) sum += lane;
+  return sum;
+}
+
+double square(double value) {
+  return value * value;
 }
 
 }  // namespace
 
-double fixed_kinetic_energy(const Model& model, ConstNodeField v) {
-  double sum = 0;
-  for (const SweptBlock& block : model.mesh.blocks)
-    if (block.sweep == Sweep::extruded)
-      sum += 0.5 * weighted_sum(block, 0, model.mass.data(), v, [](double value) { return value * value; });
-  return sum;
+double EnergySums::fixed_kinetic_energy(ConstNodeField v, const TileShare* share) const {
+  return 0.5 * sum_tiles<double>(model_->mesh, fixed_, share, [&](int block, int tile) {
+           return weighted_sum(swept(block), tile, 0, model_->mass.data(), v, square);
+         });
 }
 
-double fixed_gravity_potential(const Model& model, ConstNodeField u) {
-  double sum = 0;
-  for (const SweptBlock& block : model.mesh.blocks)
-    if (block.sweep == Sweep::extruded)
-      sum += weighted_sum(block, 2, model.mass.data(), u, [](double value) { return value; });
-  return model.scene.gravity * sum;
+double EnergySums::fixed_gravity_potential(ConstNodeField u, const TileShare* share) const {
+  return model_->scene.gravity * sum_tiles<double>(model_->mesh, fixed_, share, [&](int block, int tile) {
+           return weighted_sum(swept(block), tile, 2, model_->mass.data(), u,
+                               [](double value) { return value; });
+         });
 }
 
-double half_step_excess(const Model& model, const std::vector<std::int64_t>& unforced, ConstNodeField force,
-                        double dt) {
-  const double* inverse_mass = model.inverse_mass.data();
-  double sum = 0;
-  for (const SweptBlock& block : model.mesh.blocks)
-    sum += weighted_sum(block, block.vertical_only ? 2 : 0, inverse_mass, force,
-                        [](double value) { return value * value; });
-  for (const std::int64_t unknown : unforced)
-    sum -= inverse_mass[unknown / (3 * kLanes) * kLanes + unknown % kLanes] * force[unknown] * force[unknown];
-  return 0.25 * dt * dt * sum;
+double EnergySums::half_step_excess(ConstNodeField force, double dt, const TileShare* share) const {
+  const double* const inverse_mass = model_->inverse_mass.data();
+  return 0.25 * dt * dt * sum_tiles<double>(model_->mesh, all_, share, [&](int number, int tile) {
+           const SweptBlock& block = swept(number);
+           double sum = weighted_sum(block, tile, block.vertical_only ? 2 : 0, inverse_mass, force, square);
+           const std::int64_t first = block.base + std::int64_t{tile} * block.section.nodes() * kLanes;
+           const std::int64_t end = first + std::int64_t{block.section.nodes()} * kLanes;
+           for (auto at = std::lower_bound(unforced_.begin(), unforced_.end(), 3 * first);
+                at != unforced_.end() && *at < 3 * end; ++at)
+             sum -= inverse_mass[*at / (3 * kLanes) * kLanes + *at % kLanes] * square(force[*at]);
+           return sum;
+         });
 }
 
 }  // namespace tread

@@ -18,12 +18,24 @@ namespace tread {
 struct ElementEnergy {
   double stored = 0;      ///< by the laws and the hourglass stiffness [J]
   double dissipated = 0;  ///< by the laws so far [J]
+
+  ElementEnergy& operator+=(const ElementEnergy& o) {
+    stored += o.stored;
+    dissipated += o.dissipated;
+    return *this;
+  }
 };
 
 /// Energy of all Maxwell branches.
 struct BranchEnergy {
   double stored = 0;  ///< in their springs [J]
   double power = 0;   ///< dissipated in their dashpots [W]
+
+  BranchEnergy& operator+=(const BranchEnergy& o) {
+    stored += o.stored;
+    power += o.power;
+    return *this;
+  }
 };
 
 class NodeFields : public WholeFields {

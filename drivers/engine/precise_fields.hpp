@@ -57,7 +57,7 @@ class PreciseFields : public NodeFields {
  public:
   explicit PreciseFields(const Model& model)
       : model_(&model),
-        unforced_(held_unknowns(model.mesh, model.restrained)),
+        sums_(model, unforced_unknowns(model)),
         parts_(model),
         update_(model.mesh, parts_.inverse_mass()),
         u_(static_cast<std::size_t>(3 * model.mesh.slots), 0),
@@ -72,8 +72,6 @@ class PreciseFields : public NodeFields {
     }
     if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
     update_.defer(model.loaded_slots());
-    if (model.guide)
-      unforced_.insert(unforced_.end(), model.guide->unknowns().begin(), model.guide->unknowns().end());
   }
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
@@ -111,41 +109,30 @@ class PreciseFields : public NodeFields {
   }
 
   ElementEnergy element_energy() override {
-    ElementEnergy sum;
-    for (int b = 0; b < static_cast<int>(mesh().blocks.size()); ++b) {
-      const ElementEnergy part = element_energy(b);
-      sum.stored += part.stored;
-      sum.dissipated += part.dissipated;
-    }
-    return sum;
+    return sum_tiles<ElementEnergy>(mesh(), sums_.all_blocks(), share(),
+                                    [&](int block, int tile) { return element_energy(block, tile); });
   }
 
   BranchEnergy branch_energy() override {
-    BranchEnergy sum;
-    for (int b = 0; q_ && b < static_cast<int>(mesh().blocks.size()); ++b) {
-      const std::optional<MaxwellBranch>& branch = q_->branch(b);
-      if (!branch) continue;
-      const double stored = branch->strength * parts_.internal().linear_energy(b, q_->data());
-      sum.stored += stored;
-      sum.power += 2 * stored / branch->time;
-    }
-    return sum;
+    if (!q_) return {};
+    return sum_tiles<BranchEnergy>(mesh(), sums_.all_blocks(), share(), [&](int block, int tile) {
+      const std::optional<MaxwellBranch>& branch = q_->branch(block);
+      if (!branch) return BranchEnergy{};
+      const double stored = branch->strength * parts_.internal().linear_energy(block, tile, q_->data());
+      return BranchEnergy{stored, 2 * stored / branch->time};
+    });
   }
 
-  double fixed_kinetic_energy() override { return tread::fixed_kinetic_energy(*model_, velocity_); }
-  double fixed_gravity_potential() override { return tread::fixed_gravity_potential(*model_, displacement_); }
-  double half_step_excess(double dt) override {
-    return tread::half_step_excess(*model_, unforced_, force_, dt);
-  }
+  double fixed_kinetic_energy() override { return sums_.fixed_kinetic_energy(velocity_, share()); }
+  double fixed_gravity_potential() override { return sums_.fixed_gravity_potential(displacement_, share()); }
+  double half_step_excess(double dt) override { return sums_.half_step_excess(force_, dt, share()); }
   MeanMotion mean_motion(const SpinningBody& body, const BodyFrame& wheel) override {
-    this->fetch();
-    return body.mean_motion(displacement_, velocity_, wheel);
+    return body.mean_motion(displacement_, velocity_, wheel, share());
   }
   double kinetic_energy(const SpinningBody& body, const BodyFrame& wheel, double dt) override {
-    return body.kinetic_energy(displacement_, velocity_, wheel.after(-0.5 * dt));
+    return body.kinetic_energy(displacement_, velocity_, wheel.after(-0.5 * dt), share());
   }
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override {
-    this->fetch();
     body.anchor(mean, displacement_, velocity_, wheel, dt);
     this->changed();
   }
@@ -174,6 +161,8 @@ class PreciseFields : public NodeFields {
  protected:
   const Model& model() const { return *model_; }
   const Mesh& mesh() const { return model_->mesh; }
+  /// The tiles whose values the views hold; null: all.
+  virtual const TileShare* share() const { return nullptr; }
   /// True where element_energy() of a block is u . K u / 2 by the force, which holds K (u + beta v) alone.
   bool energy_by_forces(int b) const {
     return std::is_same_v<Real, double> &&
@@ -181,7 +170,7 @@ class PreciseFields : public NodeFields {
            is_linear(parts_.internal().law(b));
   }
   /// Unknowns that forces do not move.
-  const std::vector<std::int64_t>& unforced() const { return unforced_; }
+  const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
   const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
 
@@ -198,18 +187,26 @@ class PreciseFields : public NodeFields {
  private:
   const Real* lag() const { return q_ ? q_->data() : nullptr; }
   const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
-  ElementEnergy element_energy(int b) const {
-    if constexpr (std::is_same_v<Real, double>) {
-      const SweptBlock& block = mesh().blocks[static_cast<std::size_t>(b)];
-      if (energy_by_forces(b))
-        return {0.5 * dot(3 * block.slots(), u_.data() + 3 * block.base, f_.data() + 3 * block.base), 0};
-    }
-    const DeformationEnergy part = energy(b);
-    return {part.strain + part.hourglass, part.dissipated};
+  static std::vector<std::int64_t> unforced_unknowns(const Model& model) {
+    std::vector<std::int64_t> unknowns = held_unknowns(model.mesh, model.restrained);
+    if (model.guide)
+      unknowns.insert(unknowns.end(), model.guide->unknowns().begin(), model.guide->unknowns().end());
+    return unknowns;
+  }
+  ElementEnergy element_energy(int number, int tile) const {
+    if constexpr (std::is_same_v<Real, double>)
+      if (energy_by_forces(number)) {
+        const SweptBlock& block = mesh().blocks[static_cast<std::size_t>(number)];
+        const std::int64_t values = 3 * kLanes * std::int64_t{block.section.nodes()};
+        const std::int64_t first = 3 * block.base + tile * values;
+        return {0.5 * dot_of_range(first, first + values, u_.data(), f_.data()), 0};
+      }
+    const DeformationEnergy energy = parts_.internal().tile_energy(number, tile, u_.data(), state());
+    return {energy.strain + energy.hourglass, energy.dissipated};
   }
 
   const Model* model_;
-  std::vector<std::int64_t> unforced_;
+  EnergySums sums_;
   std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
   BasicTimeUpdate<Real, U> update_;
   PageVector<U> u_;

@@ -15,20 +15,23 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
   cut(model.mesh);
   join_tiles();
   shared_.emplace(model, movers(), ranks_->rank());
-  share();
+  take_choice();
 }
 
 /// Fields are contiguous in the order of blocks and tiles, and so is a stretch of them.
 template <class Real, class U>
 void RankFields<Real, U>::cut(const Mesh& mesh) {
-  stretches_ = this->internal().cut(ranks_->count());
+  tiles_ = {ranks_.get(), this->internal().cut(ranks_->count())};
   std::vector<std::int64_t> first_of_tile;
   for (const SweptBlock& block : mesh.blocks)
     for (std::int64_t tile = 0; tile < std::ssize(block.tiles); ++tile)
       first_of_tile.push_back(dof(block.base + tile * block.section.nodes() * kLanes, 0));
   first_of_tile.push_back(3 * mesh.slots);
-  for (const TileStretch& stretch : stretches_) first_value_.push_back(first_of_tile[stretch.first]);
+  for (const TileStretch& stretch : tiles_.by_rank) first_value_.push_back(first_of_tile[stretch.first]);
   first_value_.push_back(first_of_tile.back());
+  own_tiles_.resize(first_of_tile.size() - 1, 0);
+  std::fill(own_tiles_.begin() + std::ptrdiff_t(tiles_.own().first),
+            own_tiles_.begin() + std::ptrdiff_t(tiles_.own().last), 1);
 
   std::size_t before = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -38,7 +41,7 @@ void RankFields<Real, U>::cut(const Mesh& mesh) {
       return this->internal().elements(static_cast<int>(b)).state_place(static_cast<int>(within));
     };
     std::vector<std::int64_t>& first = first_state_.emplace_back();
-    for (const TileStretch& stretch : stretches_) first.push_back(values_to(stretch.first));
+    for (const TileStretch& stretch : tiles_.by_rank) first.push_back(values_to(stretch.first));
     first.push_back(values_to(before + tiles));
     before += tiles;
   }
@@ -47,7 +50,8 @@ void RankFields<Real, U>::cut(const Mesh& mesh) {
 template <class Real, class U>
 int RankFields<Real, U>::rank_of(std::size_t tile) const {
   const auto holds = [tile](const TileStretch& stretch) { return stretch.holds(tile); };
-  return static_cast<int>(std::find_if(stretches_.begin(), stretches_.end(), holds) - stretches_.begin());
+  return static_cast<int>(std::find_if(tiles_.by_rank.begin(), tiles_.by_rank.end(), holds) -
+                          tiles_.by_rank.begin());
 }
 
 template <class Real, class U>
@@ -74,7 +78,7 @@ void RankFields<Real, U>::join_tiles() {
 template <class Real, class U>
 std::vector<GroupMovers> RankFields<Real, U>::movers() const {
   std::vector<GroupMovers> movers(index(first_value_.back() / kGroupValues));
-  for (std::size_t rank = 0; rank < stretches_.size(); ++rank)
+  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank)
     for (std::int64_t group = first_value_[rank] / kGroupValues;
          group < first_value_[rank + 1] / kGroupValues; ++group)
       movers[index(group)].rank = static_cast<int>(rank);
@@ -84,35 +88,78 @@ std::vector<GroupMovers> RankFields<Real, U>::movers() const {
   return movers;
 }
 
-/// While all values are at hand, chooses the nodes that all ranks move, for some steps.
+/// Chooses the nodes about the patch that all ranks move, for some steps, and gives each rank their motion.
 template <class Real, class U>
 void RankFields<Real, U>::follow_patch(const StepLoads& loads) {
-  constexpr int kSteps = 70;  // energies are looked at more often, and all values are at hand then
-  shared_->follow(loads.frame, kSteps * loads.dt);
+  constexpr int kSteps = 70;
+  shared_->follow(loads.frame,
+                  (kSteps + 1) * loads.dt);  // the next choice comes after the search of its step
   steps_left_ = kSteps;
-  share();
+  take_choice();
+  exchange(this->u().data(), groups_);
+  exchange(this->v().data(), groups_);
 }
 
 /// Takes over the choice of shared groups. No more of them than at first, so nothing is allocated.
 template <class Real, class U>
-void RankFields<Real, U>::share() {
-  const std::vector<unsigned char>& marks = shared_->shared();
+void RankFields<Real, U>::take_choice() {
+  const GroupMarks& marks = shared_->shared();
   this->update().defer_only(shared_->deferred());
+  held_ = marks;
+  std::fill(held_.begin() + first_value_[own_] / kGroupValues,
+            held_.begin() + first_value_[own_ + 1] / kGroupValues, 1);
   groups_.clear();
-  first_group_.clear();
   for (std::int64_t group = 0; group < std::ssize(marks); ++group)
     if (marks[index(group)] != 0) groups_.push_back(group);
-  for (const std::int64_t value : first_value_) {
-    const auto at = std::lower_bound(groups_.begin(), groups_.end(), value / kGroupValues);
-    first_group_.push_back(at - groups_.begin());
-  }
+  first_group_ = first_of_ranks(groups_);
   for (Joint& joint : joints_) {
     joint.shared.clear();
-    for (std::int64_t node = 0; node < joint.nodes; ++node)
-      for (int c = 0; marks[index(joint.slot / kLanes + node)] != 0 && c < 3; ++c)
-        joint.shared.push_back(3 * node + c);
+    for (std::int64_t node = 0; node < joint.nodes; ++node) {
+      const std::size_t group = index(joint.slot / kLanes + node);
+      if (joint.near == ranks_->rank()) held_[group] = 1;
+      for (int c = 0; marks[group] != 0 && c < 3; ++c) joint.shared.push_back(3 * node + c);
+    }
   }
   place_packed();
+}
+
+/// Places in a list of ascending groups where those of each rank begin, and its end.
+template <class Real, class U>
+std::vector<std::int64_t> RankFields<Real, U>::first_of_ranks(const std::vector<std::int64_t>& groups) const {
+  std::vector<std::int64_t> first;
+  for (const std::int64_t value : first_value_)
+    first.push_back(std::lower_bound(groups.begin(), groups.end(), value / kGroupValues) - groups.begin());
+  return first;
+}
+
+/// Gives each rank the values of these groups, in ascending order, as their tiles' ranks have them.
+template <class Real, class U>
+template <class T>
+void RankFields<Real, U>::exchange(T* field, const std::vector<std::int64_t>& groups) {
+  std::vector<std::int64_t> first = first_of_ranks(groups);
+  AlignedVector<T> packed(groups.size() * kGroupValues);
+  const auto for_values = [&](std::int64_t from, std::int64_t to, const auto& visit) {
+    for_groups(groups, from, to,
+               [&](std::int64_t at, std::int64_t place) { visit(packed.data() + at, field + place); });
+  };
+  for_values(first[own_], first[own_ + 1],
+             [](T* at, const T* value) { std::copy_n(value, kGroupValues, at); });
+  std::vector<std::int64_t> first_packed = first;
+  for (std::int64_t& place : first_packed) place *= kGroupValues;
+  ranks_->gather(packed.data(), first_packed);
+  const auto take = [](const T* at, T* value) { std::copy_n(at, kGroupValues, value); };
+  for_values(0, first[own_], take);
+  for_values(first[own_ + 1], first.back(), take);
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::show(const WatchedNodes& nodes) {
+  std::vector<std::int64_t> groups = nodes.groups();
+  std::sort(groups.begin(), groups.end());
+  exchange(this->u().data(), groups);
+  exchange(this->v().data(), groups);
+  if (this->q()) exchange(this->q()->values().data(), groups);
+  fetch_law_state();
 }
 
 /// Forces that a rank sends lie together: those of its groups, then those at joints.
@@ -120,7 +167,7 @@ template <class Real, class U>
 void RankFields<Real, U>::place_packed() {
   std::int64_t place = 0;
   first_packed_.clear();
-  for (std::size_t rank = 0; rank < stretches_.size(); ++rank) {
+  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank) {
     first_packed_.push_back(place);
     place += (first_group_[rank + 1] - first_group_[rank]) * kGroupValues;
     for (Joint& joint : joints_) {
@@ -158,7 +205,7 @@ void RankFields<Real, U>::pack() {
 
 template <class Real, class U>
 void RankFields<Real, U>::unpack() {
-  for (std::size_t rank = 0; rank < stretches_.size(); ++rank) {
+  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank) {
     if (rank == own_) continue;
     const Real* const packed = packed_groups(rank);
     for_groups(groups_, first_group_[rank], first_group_[rank + 1], [&](std::int64_t at, std::int64_t place) {
@@ -187,6 +234,7 @@ void RankFields<Real, U>::set(const AlignedVector<double>& displacement,
                               const AlignedVector<double>& velocity) {
   Base::set(displacement, velocity);
   whole_ = true;
+  steps_left_ = 0;
 }
 
 template <class Real, class U>
@@ -195,23 +243,25 @@ void RankFields<Real, U>::fetch() {
   ranks_->gather(this->u().data(), first_value_);
   ranks_->gather(this->v().data(), first_value_);
   if (this->q()) ranks_->gather(this->q()->values().data(), first_value_);
-  for (std::size_t b = 0; this->law_state() && b < first_state_.size(); ++b)
-    if (first_state_[b].back() > 0)
-      ranks_->gather(this->law_state()->values(static_cast<int>(b)), first_state_[b]);
+  fetch_law_state();
   whole_ = true;
 }
 
 template <class Real, class U>
+void RankFields<Real, U>::fetch_law_state() {
+  for (std::size_t b = 0; this->law_state() && b < first_state_.size(); ++b)
+    if (first_state_[b].back() > 0)
+      ranks_->gather(this->law_state()->values(static_cast<int>(b)), first_state_[b]);
+}
+
+template <class Real, class U>
 void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool measured) {
-  if (measured) {
-    fetch();
-    Base::internal_force_and_move(loads, true);
-    return;
-  }
-  if (steps_left_ == 0) fetch();
-  if (whole_) follow_patch(loads);
+  if (steps_left_ == 0) follow_patch(loads);
   --steps_left_;
-  this->internal().move(stretches_[own_], this->update(), loads, this->force_fields());
+  if (measured)
+    this->internal().internal_force(tiles_.own(), this->force_fields());
+  else
+    this->internal().move(tiles_.own(), this->update(), loads, this->force_fields());
   pack();
   ranks_->gather(packed_.data(), first_packed_);
   unpack();
@@ -220,12 +270,20 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
 }
 
 template <class Real, class U>
+void RankFields<Real, U>::move_rest(const StepLoads& loads, bool measured) {
+  if (!measured) return Base::move_rest(loads, false);
+  this->update().move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, own_tiles_);
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel,
+                                 double dt) {
+  body.anchor(mean, this->displacement(), this->velocity(), wheel, dt, held_.data());
+}
+
+template <class Real, class U>
 void RankFields<Real, U>::advance_lag(double dt) {
   if (!this->q()) return;
-  if (whole_) {
-    Base::advance_lag(dt);
-    return;
-  }
   this->q()->advance(this->v().data(), dt, first_value_[own_] / 3, first_value_[own_ + 1] / 3);
   for (const Joint& joint : joints_)
     if (joint.near == ranks_->rank())
@@ -260,6 +318,7 @@ void RankFields<Real, U>::spoil() {
 template <class Real, class U>
 void RankFields<Real, U>::list_state(StateList& list) {
   fetch();
+  steps_left_ = 0;  // whoever asks may change the state
   Base::list_state(list);
 }
 

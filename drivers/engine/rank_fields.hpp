@@ -4,7 +4,7 @@
 // Each rank computes the elements of a stretch of tiles and moves their nodes. Nodes that features touch on
 // several ranks are everyone's: each rank gets their forces and moves them in the same way (SharedGroups).
 // Those where two stretches meet belong to both ranks. One exchange of forces a step makes all of them. The
-// views of NodeFields hold them, the rank's own nodes and, after fetch(), all.
+// views of NodeFields hold them, the rank's own nodes, watched ones in samples and, after fetch(), all.
 
 #include <memory>
 #include <optional>
@@ -23,12 +23,15 @@ class RankFields final : public PreciseFields<Real, U> {
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
-  void changed() override { whole_ = true; }
+  bool elsewhere() const override { return !whole_; }
+  bool adds_forces() const override { return true; }
+  void show(const WatchedNodes& nodes) override;
   const TieItems* tie_items() const override { return whole_ ? nullptr : &shared_->tie_items(); }
 
-  /// In measured steps all ranks compute all elements, so that all fields stay whole until the next step.
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
+  void move_rest(const StepLoads& loads, bool measured) override;
   void advance_lag(double dt) override;
+  void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
   void list_state(StateList& list) override;
 
  private:
@@ -50,8 +53,13 @@ class RankFields final : public PreciseFields<Real, U> {
   void join_tiles();
   std::vector<GroupMovers> movers() const;
   void follow_patch(const StepLoads& loads);
-  void share();
+  void take_choice();
+  const TileShare* share() const override { return whole_ ? nullptr : &tiles_; }
+  template <class T>
+  void exchange(T* field, const std::vector<std::int64_t>& groups);
+  std::vector<std::int64_t> first_of_ranks(const std::vector<std::int64_t>& groups) const;
   int rank_of(std::size_t tile) const;
+  void fetch_law_state();
   void place_packed();
   Real* packed_groups(std::size_t rank);
   void pack();
@@ -61,12 +69,14 @@ class RankFields final : public PreciseFields<Real, U> {
 
   std::shared_ptr<Ranks> ranks_;
   std::size_t own_ = 0;                                 ///< this rank
-  std::vector<TileStretch> stretches_;                  ///< by rank
+  TileShare tiles_;                                     ///< stretches of the ranks
+  std::vector<unsigned char> own_tiles_;                ///< marks of this rank's
   std::vector<std::int64_t> first_value_;               ///< by rank, and the end, in vector fields
   std::vector<std::vector<std::int64_t>> first_state_;  ///< by block the same in the state of its law
 
   std::optional<SharedGroups> shared_;
   int steps_left_ = 0;                      ///< that the patch stays among the shared groups
+  GroupMarks held_;                         ///< groups of which this rank holds nodes
   std::vector<std::int64_t> groups_;        ///< shared groups, ascending
   std::vector<std::int64_t> first_group_;   ///< by rank, and the end, in groups_
   std::vector<Joint> joints_;               ///< in the order of their tiles

@@ -237,47 +237,42 @@ void BasicInternalForce<Real, U>::evaluate_tiles(std::size_t first, int tiles, c
 template <class Real, class U>
 DeformationEnergy BasicInternalForce<Real, U>::energy(int block, const U* u,
                                                       const LawState<Real>* laws) const {
-  return sum_energy(block, u, blocks_[index(block)].finite_rotation, laws);
+  return sum_tiles<DeformationEnergy>(mesh_, std::span(&block, 1), nullptr, [&](int /*block*/, int tile) {
+    return tile_energy(block, tile, u, laws);
+  });
 }
 
 template <class Real, class U>
-double BasicInternalForce<Real, U>::linear_energy(int block, const Real* q) const {
-  const DeformationEnergy energy = sum_energy(block, q, false, nullptr);
-  return energy.strain + energy.hourglass;
+DeformationEnergy BasicInternalForce<Real, U>::tile_energy(int block, int tile, const U* u,
+                                                           const LawState<Real>* laws) const {
+  return sum_elements(block, tile, u, blocks_[index(block)].finite_rotation, laws);
+}
+
+template <class Real, class U>
+double BasicInternalForce<Real, U>::linear_energy(int block, int tile, const Real* q) const {
+  const DeformationEnergy sum = sum_elements(block, tile, q, false, nullptr);
+  return sum.strain + sum.hourglass;
 }
 
 template <class Real, class U>
 template <class Value>
-DeformationEnergy BasicInternalForce<Real, U>::sum_energy(int block, const Value* field, bool finite_rotation,
-                                                          const LawState<Real>* laws) const {
+DeformationEnergy BasicInternalForce<Real, U>::sum_elements(int block, int number, const Value* field,
+                                                            bool finite_rotation,
+                                                            const LawState<Real>* laws) const {
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const BlockData& data = blocks_[index(block)];
-  std::vector<DeformationEnergy> partial(swept.tiles.size());
+  const Tile& tile = swept.tiles[index(number)];
+  if (tile.elements == 0) return {};
   const int law = laws != nullptr ? data.elements.law() : 0;
-  const TileEnergy<Real, Value> tile_energy =
+  const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
+  TileView<Real, Value> view;
+  view.u = field + dof(swept.base + number * slots, 0);
+  view.u_next = field + dof(swept.base + tile.next * slots, 0);
+  view.elements = tile.elements;
+  if (law != 0) view.state = laws->values(block) + data.elements.state_place(number);
+  const TileEnergy<Real, Value> of_tile =
       forces_->loops<Real, Value>().energy({swept.sweep, false, finite_rotation, false, law});
-  parallel_ranges(static_cast<std::int64_t>(partial.size()), [&](std::int64_t first, std::int64_t last) {
-    Real* const front = front_of<Real>(data.elements.plan(), law);
-    for (std::int64_t i = first; i < last; ++i) {
-      const Tile& tile = swept.tiles[index(static_cast<int>(i))];
-      if (tile.elements == 0) continue;
-      const std::int64_t slots = std::int64_t{swept.section.nodes()} * kLanes;
-      TileView<Real, Value> view;
-      view.u = field + dof(swept.base + i * slots, 0);
-      view.u_next = field + dof(swept.base + tile.next * slots, 0);
-      view.elements = tile.elements;
-      if (law != 0) view.state = laws->values(block) + data.elements.state_place(static_cast<int>(i));
-      partial[static_cast<std::size_t>(i)] =
-          tile_energy(data.elements.tile_elements(static_cast<int>(i), 1, 0), view, front);
-    }
-  });
-  DeformationEnergy total;
-  for (const DeformationEnergy& part : partial) {
-    total.strain += part.strain;
-    total.hourglass += part.hourglass;
-    total.dissipated += part.dissipated;
-  }
-  return total;
+  return of_tile(data.elements.tile_elements(number, 1, 0), view, front_of<Real>(data.elements.plan(), law));
 }
 
 template <class Real, class U>

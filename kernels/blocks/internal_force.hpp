@@ -11,6 +11,7 @@
 #include "core/aligned.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/mesh/tile_sums.hpp"
 #include "kernels/blocks/block_elements.hpp"
 #include "kernels/blocks/element_matrices.hpp"
 #include "kernels/blocks/time_update.hpp"
@@ -21,14 +22,6 @@ namespace tread {
 
 /// Von Mises equivalent of a stress (xx, yy, zz, yz, zx, xy).
 double von_mises(const std::array<double, 6>& stress);
-
-/// Successive tiles [first, last) in the order of blocks and tiles.
-struct TileStretch {
-  std::size_t first = 0;
-  std::size_t last = 0;
-
-  bool holds(std::size_t tile) const { return first <= tile && tile < last; }
-};
 
 /// Fields that the elements' loop reads and moves.
 template <class Real, class U>
@@ -83,7 +76,7 @@ class BasicInternalForce {
   /// The same with the laws that the blocks have, F(u) + beta K v or F(u) + strength K q where they are not
   /// linear; advances their state to the displacement, once.
   void internal_force(const ForceFields<Real, U>& at) const {
-    evaluate(0, items_.size(), {at.displacement, at.velocity, at.lag, at.force, false, {}, at.laws});
+    evaluate(0, items_.size(), unmoved_fields(at));
   }
   /// internal_force(at), and nodes whose force is complete move by a step while they are at hand:
   /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force
@@ -101,6 +94,10 @@ class BasicInternalForce {
   /// tiles are not marked.
   void move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
             const ForceFields<Real, U>& at) const;
+  /// internal_force(at) of a stretch alone, likewise.
+  void internal_force(const TileStretch& stretch, const ForceFields<Real, U>& at) const {
+    evaluate(stretch.first, stretch.last, unmoved_fields(at));
+  }
   /// Force of a tile's last element on the station behind it: [section node][3] [N].
   std::span<const Real> carry(std::size_t tile) const;
 
@@ -110,8 +107,10 @@ class BasicInternalForce {
   /// Energy of u by the law that the block has; without `laws` by the linear one, whose gradient F is. Reads
   /// the state. [J]
   DeformationEnergy energy(int block, const U* u, const LawState<Real>* laws = nullptr) const;
-  /// q . K q / 2 of the block's linear law. [J]
-  double linear_energy(int block, const Real* q) const;
+  /// The same of one of its tiles. [J]
+  DeformationEnergy tile_energy(int block, int tile, const U* u, const LawState<Real>* laws = nullptr) const;
+  /// q . K q / 2 of the linear law of a block's tile. [J]
+  double linear_energy(int block, int tile, const Real* q) const;
 
   /// Stress at the element's centre by the law that the block has, (xx, yy, zz, yz, zx, xy) with x the sweep
   /// direction: in the middle frame; with finite rotation the second Piola-Kirchhoff stress, which turns with
@@ -186,14 +185,17 @@ class BasicInternalForce {
   };
 
   template <class Value>
-  DeformationEnergy sum_energy(int block, const Value* field, bool finite_rotation,
-                               const LawState<Real>* laws) const;
+  DeformationEnergy sum_elements(int block, int tile, const Value* field, bool finite_rotation,
+                                 const LawState<Real>* laws) const;
 
   bool joined(std::size_t item) const {
     const Item& at = items_[item];
     return elements(at.block).joins_next(at.tile);
   }
   Real* carry(const Item& item) const;
+  static Fields unmoved_fields(const ForceFields<Real, U>& at) {
+    return {at.displacement, at.velocity, at.lag, at.force, false, {}, at.laws};
+  }
   static Fields moved_fields(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
                              const ForceFields<Real, U>& at) {
     const Moved moved = {&update, &loads, at.displacement, at.velocity};

@@ -107,6 +107,13 @@ struct DeformationEnergy {
   double strain = 0;  ///< stored by the law of the one-point stress
   double hourglass = 0;
   double dissipated = 0;  ///< by the law so far
+
+  DeformationEnergy& operator+=(const DeformationEnergy& o) {
+    strain += o.strain;
+    hourglass += o.hourglass;
+    dissipated += o.dissipated;
+    return *this;
+  }
 };
 
 /// Energy of a tile's elements by the law that the variant has; reads `u`, `u_next` and `state` of the view.

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/update/anchoring.hpp"
 
@@ -54,16 +55,13 @@ void for_each_tile(const Mesh& mesh, const std::vector<int>& blocks, const Visit
   }
 }
 
-/// Sum of the results of `of_tile`, in a fixed order for any number of threads.
+/// Sum of the results of `of_tile` over the tiles of the blocks.
 template <class Sum, class OfTile>
-Sum sum_over_tiles(const Mesh& mesh, const std::vector<int>& blocks, const OfTile& of_tile) {
-  Sum total{};
-  for (const int b : blocks) {
-    std::vector<Sum> partial(mesh.blocks[static_cast<std::size_t>(b)].tiles.size());
-    for_each_tile(mesh, {b}, [&](const TileView& view, std::size_t t) { partial[t] = of_tile(view); });
-    for (const Sum& part : partial) total += part;
-  }
-  return total;
+Sum sum_views(const Mesh& mesh, const std::vector<int>& blocks, const TileShare* share,
+              const OfTile& of_tile) {
+  return sum_tiles<Sum>(mesh, blocks, share, [&](int block, int tile) {
+    return of_tile(TileView(mesh.blocks[index(block)], index(tile)));
+  });
 }
 
 struct Moments {
@@ -93,7 +91,7 @@ struct MotionSums {
 
 SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass)
     : mesh_(&mesh), blocks_(std::move(blocks)), nodal_mass_(mass) {
-  const auto sums = sum_over_tiles<Moments>(mesh, blocks_, [mass](const TileView& view) {
+  const auto sums = sum_views<Moments>(mesh, blocks_, nullptr, [mass](const TileView& view) {
     Moments m;
     for (int node = 0; node < view.block.section.nodes(); ++node)
       for (int lane = 0; lane < view.tile.stations; ++lane) {
@@ -109,8 +107,9 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
   transverse_ = 0.5 * sums.polar + sums.second_y - sums.mass * centre_y_ * centre_y_;
 }
 
-MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
-  const auto sums = sum_over_tiles<MotionSums>(*mesh_, blocks_, [&](const TileView& view) {
+MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+                                     const TileShare* share) const {
+  const auto sums = sum_views<MotionSums>(*mesh_, blocks_, share, [&](const TileView& view) {
     LaneVectors displacement, velocity;
     double rotation[kLanes] = {};
     double spin[kLanes] = {};
@@ -138,8 +137,9 @@ MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const B
           sums.spin / inertia_};
 }
 
-double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
-  return sum_over_tiles<double>(*mesh_, blocks_, [&](const TileView& view) {
+double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+                                    const TileShare* share) const {
+  return sum_views<double>(*mesh_, blocks_, share, [&](const TileView& view) {
     LaneVectors carried;  // velocity of the frame in the lanes' bases
     for (int lane = 0; lane < view.tile.stations; ++lane)
       carried.set(lane, Turn(view.angle(lane) + frame.angle).to_cylindrical(frame.velocity));
@@ -163,7 +163,7 @@ double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const Bo
 }
 
 Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
-  return sum_over_tiles<Vec3>(*mesh_, blocks_, [&](const TileView& view) {
+  return sum_views<Vec3>(*mesh_, blocks_, nullptr, [&](const TileView& view) {
     LaneVectors place, velocity;
     double mass[kLanes] = {};
     for (int node = 0; node < view.block.section.nodes(); ++node) {
@@ -184,14 +184,15 @@ Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame&
   });
 }
 
-void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame,
-                          double dt) const {
+void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame, double dt,
+                          const unsigned char* groups) const {
   const Anchoring anchoring(mean, frame, dt);
   for_each_tile(*mesh_, blocks_, [&](const TileView& view, std::size_t /*tile*/) {
     std::array<Anchoring::Station, kLanes> stations;
     for (int lane = 0; lane < view.tile.stations; ++lane)
       stations[static_cast<std::size_t>(lane)] = anchoring.at(view.angle(lane));
     for (int node = 0; node < view.block.section.nodes(); ++node) {
+      if (groups != nullptr && groups[view.slot(node) / kLanes] == 0) continue;
       const Vec3 reference{0, view.block.section.p[static_cast<std::size_t>(node)], view.radius(node)};
       for (int lane = 0; lane < view.tile.stations; ++lane) {
         const std::int64_t slot = view.slot(node) + lane;

@@ -6,6 +6,7 @@
 #include "core/body_frame.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/mesh/tile_sums.hpp"
 #include "kernels/update/mean_motion.hpp"
 
 namespace tread {
@@ -24,18 +25,23 @@ class SpinningBody {
   double centre_y() const { return centre_y_; }  ///< centre of mass, on the axis [m]
   const std::vector<int>& blocks() const { return blocks_; }
 
-  /// Mean motion for the displacement field u [m] and the relative velocity field w [m/s].
-  MeanMotion mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
+  /// Mean motion for the displacement field u [m] and the relative velocity field w [m/s]. `share`: the tiles
+  /// whose values this process has; null: all.
+  MeanMotion mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+                         const TileShare* share = nullptr) const;
 
   /// Kinetic energy in inertial axes [J].
-  double kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
+  double kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
+                        const TileShare* share = nullptr) const;
   Vec3 momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
 
   /// Moves the frame onto a motion relative to it, for example the body's mean_motion(). [Anchoring]
   void anchor(NodeField u, NodeField w, BodyFrame& frame, double dt) const {
     anchor(mean_motion(u, w, frame), u, w, frame, dt);
   }
-  void anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame, double dt) const;
+  /// `groups`: null, or marks by slot / kLanes of the groups whose nodes move.
+  void anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame, double dt,
+              const unsigned char* groups = nullptr) const;
 
  private:
   template <class Visit>

@@ -62,7 +62,7 @@ void WheelMotion::apply(StepPhase phase, StepState& step) {
     step.wheel.advance(step.dt);
   } else if ((step.steps + 1) % kAnchorInterval == 0) {
     step.whole.anchor(parts_.body, relative_to_frame(step.motion()), step.wheel, step.dt);
-    anchored(step.displacement, step.velocity, step.whole.ties_follow());
+    anchored(step.displacement, step.velocity, &step.whole);
   }
 }
 
@@ -72,12 +72,14 @@ void WheelMotion::meet(const StaticStart& start) {
                               ? parts_.bore->motion()
                               : parts_.body.mean_motion(start.displacement, start.velocity, start.wheel);
   parts_.body.anchor(mean, start.displacement, start.velocity, start.wheel, start.dt);
-  anchored(start.displacement, start.velocity, false);
+  anchored(start.displacement, start.velocity, nullptr);
 }
 
-void WheelMotion::anchored(NodeField displacement, NodeField velocity, bool ties_follow) const {
+/// `whole`: null while the views hold all values.
+void WheelMotion::anchored(NodeField displacement, NodeField velocity, const WholeFields* whole) const {
   if (parts_.bore) parts_.bore->anchored();
-  if (parts_.ties && !ties_follow) parts_.ties->follow({displacement, velocity});
+  if (!parts_.ties || (whole != nullptr && whole->ties_follow())) return;
+  parts_.ties->follow({displacement, velocity}, whole != nullptr ? whole->tie_items() : nullptr);
 }
 
 MeanMotion WheelMotion::relative_to_frame(const Motion& motion) const {

@@ -49,7 +49,7 @@ class WheelMotion final : public Feature {
   };
   void choose_creepage_points(double patch_y);
   /// Lets bore and tied nodes follow the frame, unless the latter do so where they live.
-  void anchored(NodeField displacement, NodeField velocity, bool ties_follow) const;
+  void anchored(NodeField displacement, NodeField velocity, const WholeFields* whole) const;
   /// `mean`: relative_to_frame().
   double creepage(const CreepagePoint& point, const Motion& motion, const MeanMotion& mean) const;
 

@@ -37,7 +37,7 @@ void WheelRailContact::add_tractions(StepState& step) {
     step.end.stop_if_unstable();
     contact_->require_room(step.wheel);
   }
-  if (step.measured && !step.whole.elsewhere()) contact_->add_forces(step.force);
+  if (step.measured && step.whole.adds_forces()) contact_->add_forces(step.force);
   const Vec3 on_wheel = -contact_->totals().force_on_rail;
   step.impulse.total += step.dt * on_wheel;
   step.impulse.contact += step.dt * Vec3{std::abs(on_wheel.x), std::abs(on_wheel.y), std::abs(on_wheel.z)};

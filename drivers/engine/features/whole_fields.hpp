@@ -21,6 +21,8 @@ class WholeFields {
   virtual void show(const WatchedNodes& /*nodes*/) {}
   /// True in steps in which tied nodes get their forces and motion where the values live.
   virtual bool ties_follow() const { return false; }
+  /// True in steps whose forces the views hold, those of contact included.
+  virtual bool adds_forces() const { return !elsewhere(); }
   /// Items of the ties whose nodes the views hold in this step; null: all.
   virtual const TieItems* tie_items() const { return nullptr; }
 
