@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev
+packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libmetis-dev libtomlplusplus-dev libcli11-dev
   libfmt-dev libtbb-dev nlohmann-json3-dev)
 
 # die MESSAGE...: one line each; the exit code says that the machine lacks something.

@@ -23,23 +23,24 @@ struct TileStretch {
   bool holds(std::size_t tile) const { return first <= tile && tile < last; }
 };
 
-/// The stretches of tiles of which ranks hold the values.
+/// The tiles of which ranks hold the values.
 struct TileShare {
   Ranks* ranks = nullptr;
-  std::vector<TileStretch> by_rank;
-
-  const TileStretch& own() const { return by_rank[index(ranks->rank())]; }
+  std::vector<TileStretch> own;      ///< of this rank
+  std::vector<std::size_t> by_rank;  ///< tiles of rank 0, of rank 1 ...
+  std::vector<std::int64_t> first;   ///< by rank, and the end, in by_rank
 
   /// Gives each rank the sums of all. `sums`: by tile of all blocks.
   template <class Sum>
   void complete(std::vector<Sum>& sums) const {
     static_assert(std::is_trivially_copyable_v<Sum> && sizeof(Sum) % sizeof(double) == 0);
-    constexpr std::size_t kValues = sizeof(Sum) / sizeof(double);
-    std::vector<std::int64_t> first;
-    for (const TileStretch& stretch : by_rank)
-      first.push_back(static_cast<std::int64_t>(stretch.first * kValues));
-    first.push_back(static_cast<std::int64_t>(sums.size() * kValues));
-    ranks->gather(reinterpret_cast<double*>(sums.data()), first);
+    std::vector<Sum> packed(sums.size());
+    for (std::size_t i = 0; i < packed.size(); ++i) packed[i] = sums[by_rank[i]];
+    std::vector<std::int64_t> first_value;
+    for (const std::int64_t i : first)
+      first_value.push_back(i * static_cast<std::int64_t>(sizeof(Sum) / sizeof(double)));
+    ranks->gather(reinterpret_cast<double*>(packed.data()), first_value);
+    for (std::size_t i = 0; i < packed.size(); ++i) sums[by_rank[i]] = packed[i];
   }
 };
 
@@ -50,16 +51,18 @@ Sum sum_tiles(const Mesh& mesh, std::span<const int> blocks, const TileShare* sh
   std::vector<std::size_t> before = {0};
   for (const SweptBlock& block : mesh.blocks) before.push_back(before.back() + block.tiles.size());
   std::vector<Sum> sums(before.back());
-  const TileStretch own = share != nullptr ? share->own() : TileStretch{0, before.back()};
-  for (const int block : blocks) {
-    const std::size_t offset = before[index(block)];
-    const std::size_t first = std::max(own.first, offset);
-    const std::size_t last = std::max(first, std::min(own.last, before[index(block) + 1]));
-    parallel_ranges(static_cast<std::int64_t>(last - first), [&](std::int64_t from, std::int64_t to) {
-      for (std::size_t tile = first + index(from); tile < first + index(to); ++tile)
-        sums[tile] = of_tile(block, static_cast<int>(tile - offset));
-    });
-  }
+  const TileStretch all = {0, before.back()};
+  const std::span<const TileStretch> own = share != nullptr ? share->own : std::span(&all, 1);
+  for (const int block : blocks)
+    for (const TileStretch& stretch : own) {
+      const std::size_t offset = before[index(block)];
+      const std::size_t first = std::max(stretch.first, offset);
+      const std::size_t last = std::max(first, std::min(stretch.last, before[index(block) + 1]));
+      parallel_ranges(static_cast<std::int64_t>(last - first), [&](std::int64_t from, std::int64_t to) {
+        for (std::size_t tile = first + index(from); tile < first + index(to); ++tile)
+          sums[tile] = of_tile(block, static_cast<int>(tile - offset));
+      });
+    }
   if (share != nullptr) share->complete(sums);
   Sum total{};
   for (const int block : blocks)

@@ -18,6 +18,12 @@ struct RankTraffic {
   double seconds = 0;         ///< time in the calls [s]
 };
 
+/// Bytes that go to another rank or come from it.
+struct RankSegment {
+  int rank;
+  std::span<std::byte> bytes;
+};
+
 class Ranks {
  public:
   Ranks() = default;
@@ -38,6 +44,9 @@ class Ranks {
   void gather(T* values, std::span<const std::int64_t> first) {
     gather_values(reinterpret_cast<std::byte*>(values), static_cast<int>(sizeof(T)), first);
   }
+  /// Sends bytes to single ranks and receives theirs. What two ranks send one another has the order of both
+  /// lists.
+  virtual void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) = 0;
   /// Gives all ranks the bytes of rank 0. A rank that has to wait long for them leaves its core to others.
   virtual void broadcast(std::span<std::byte> bytes) = 0;
 

@@ -9,224 +9,92 @@
 
 namespace tread {
 
+namespace {
+
+template <class Real, class U>
+std::vector<TileWork> work_of(const Mesh& mesh, const BasicInternalForce<Real, U>& internal) {
+  std::size_t tiles = 0;
+  for (const SweptBlock& block : mesh.blocks) tiles += block.tiles.size();
+  std::vector<TileWork> work;
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    work.push_back({internal.cost(tile), internal.joined(tile)});
+  return work;
+}
+
+TileShare share_of(const RankCut& cut, Ranks& ranks) {
+  TileShare share{&ranks, cut.stretches(ranks.rank()), {}, {0}};
+  for (int rank = 0; rank < cut.ranks(); ++rank) {
+    for (const TileStretch& stretch : cut.stretches(rank))
+      for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) share.by_rank.push_back(tile);
+    share.first.push_back(std::ssize(share.by_rank));
+  }
+  return share;
+}
+
+}  // namespace
+
 template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
-    : Base(model), ranks_(std::move(ranks)), own_(index(ranks_->rank())) {
-  cut(model.mesh);
-  join_tiles();
-  shared_.emplace(model, movers(), ranks_->rank());
-  take_choice();
-}
-
-/// Fields are contiguous in the order of blocks and tiles, and so is a stretch of them.
-template <class Real, class U>
-void RankFields<Real, U>::cut(const Mesh& mesh) {
-  tiles_ = {ranks_.get(), this->internal().cut(ranks_->count())};
-  std::vector<std::int64_t> first_of_tile;
-  for (const SweptBlock& block : mesh.blocks)
-    for (std::int64_t tile = 0; tile < std::ssize(block.tiles); ++tile)
-      first_of_tile.push_back(dof(block.base + tile * block.section.nodes() * kLanes, 0));
-  first_of_tile.push_back(3 * mesh.slots);
-  for (const TileStretch& stretch : tiles_.by_rank) first_value_.push_back(first_of_tile[stretch.first]);
-  first_value_.push_back(first_of_tile.back());
-  own_tiles_.resize(first_of_tile.size() - 1, 0);
-  std::fill(own_tiles_.begin() + std::ptrdiff_t(tiles_.own().first),
-            own_tiles_.begin() + std::ptrdiff_t(tiles_.own().last), 1);
-
-  std::size_t before = 0;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
-    const std::size_t tiles = mesh.blocks[b].tiles.size();
-    const auto values_to = [&](std::size_t tile) {
-      const std::size_t within = std::clamp(tile, before, before + tiles) - before;
-      return this->internal().elements(static_cast<int>(b)).state_place(static_cast<int>(within));
-    };
-    std::vector<std::int64_t>& first = first_state_.emplace_back();
-    for (const TileStretch& stretch : tiles_.by_rank) first.push_back(values_to(stretch.first));
-    first.push_back(values_to(before + tiles));
-    before += tiles;
-  }
-}
-
-template <class Real, class U>
-int RankFields<Real, U>::rank_of(std::size_t tile) const {
-  const auto holds = [tile](const TileStretch& stretch) { return stretch.holds(tile); };
-  return static_cast<int>(std::find_if(tiles_.by_rank.begin(), tiles_.by_rank.end(), holds) -
-                          tiles_.by_rank.begin());
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::join_tiles() {
-  const Mesh& mesh = this->mesh();
-  std::size_t before = 0;
-  for (std::size_t b = 0; b < mesh.blocks.size(); before += mesh.blocks[b++].tiles.size()) {
-    const SweptBlock& block = mesh.blocks[b];
-    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile) {
-      if (block.tiles[tile].elements == 0) continue;
-      const int next = block.tiles[tile].next;
-      Joint joint;
-      joint.near = rank_of(before + tile);
-      joint.far = rank_of(before + index(next));
-      joint.tile = before + tile;
-      if (joint.near == joint.far) continue;
-      joint.nodes = block.section.nodes();
-      joint.slot = block.base + next * joint.nodes * kLanes;
-      joints_.push_back(std::move(joint));
-    }
-  }
-}
-
-template <class Real, class U>
-std::vector<GroupMovers> RankFields<Real, U>::movers() const {
-  std::vector<GroupMovers> movers(index(first_value_.back() / kGroupValues));
-  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank)
-    for (std::int64_t group = first_value_[rank] / kGroupValues;
-         group < first_value_[rank + 1] / kGroupValues; ++group)
-      movers[index(group)].rank = static_cast<int>(rank);
-  for (const Joint& joint : joints_)
-    for (std::int64_t node = 0; node < joint.nodes; ++node)
-      movers[index(joint.slot / kLanes + node)].beside = joint.near;
-  return movers;
+    : Base(model),
+      ranks_(std::move(ranks)),
+      cut_(model, work_of(model.mesh, this->internal()), ranks_->count()),
+      tiles_(share_of(cut_, *ranks_)),
+      own_tiles_(cut_.tiles(), 0),
+      shared_(model, cut_),
+      held_(shared_.held_by(ranks_->rank())),
+      forces_(cut_, shared_, *ranks_) {
+  for (const TileStretch& stretch : tiles_.own)
+    for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
+  if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
+  take_near();
 }
 
 /// Chooses the nodes about the patch that all ranks move, for some steps, and gives each rank their motion.
 template <class Real, class U>
 void RankFields<Real, U>::follow_patch(const StepLoads& loads) {
   constexpr int kSteps = 70;
-  shared_->follow(loads.frame,
-                  (kSteps + 1) * loads.dt);  // the next choice comes after the search of its step
+  shared_.follow(loads.frame, (kSteps + 1) * loads.dt);  // the next choice comes after the search of its step
   steps_left_ = kSteps;
-  take_choice();
-  exchange(this->u().data(), groups_);
-  exchange(this->v().data(), groups_);
+  forces_.follow(shared_.near());
+  take_near();
+  share_groups(this->u().data(), shared_.near());
+  share_groups(this->v().data(), shared_.near());
 }
 
-/// Takes over the choice of shared groups. No more of them than at first, so nothing is allocated.
 template <class Real, class U>
-void RankFields<Real, U>::take_choice() {
-  const GroupMarks& marks = shared_->shared();
-  this->update().defer_only(shared_->deferred());
-  held_ = marks;
-  std::fill(held_.begin() + first_value_[own_] / kGroupValues,
-            held_.begin() + first_value_[own_ + 1] / kGroupValues, 1);
-  groups_.clear();
-  for (std::int64_t group = 0; group < std::ssize(marks); ++group)
-    if (marks[index(group)] != 0) groups_.push_back(group);
-  first_group_ = first_of_ranks(groups_);
-  for (Joint& joint : joints_) {
-    joint.shared.clear();
-    for (std::int64_t node = 0; node < joint.nodes; ++node) {
-      const std::size_t group = index(joint.slot / kLanes + node);
-      if (joint.near == ranks_->rank()) held_[group] = 1;
-      for (int c = 0; marks[group] != 0 && c < 3; ++c) joint.shared.push_back(3 * node + c);
-    }
-  }
-  place_packed();
+void RankFields<Real, U>::take_near() {
+  moved_ = held_.moved;
+  deferred_ = held_.deferred;
+  for (const std::int64_t group : shared_.near()) moved_[index(group)] = deferred_[index(group)] = 1;
+  this->update().defer_only(deferred_);
 }
 
-/// Places in a list of ascending groups where those of each rank begin, and its end.
-template <class Real, class U>
-std::vector<std::int64_t> RankFields<Real, U>::first_of_ranks(const std::vector<std::int64_t>& groups) const {
-  std::vector<std::int64_t> first;
-  for (const std::int64_t value : first_value_)
-    first.push_back(std::lower_bound(groups.begin(), groups.end(), value / kGroupValues) - groups.begin());
-  return first;
-}
-
-/// Gives each rank the values of these groups, in ascending order, as their tiles' ranks have them.
+/// Gives each rank the values of these groups, as their tiles' ranks have them.
 template <class Real, class U>
 template <class T>
-void RankFields<Real, U>::exchange(T* field, const std::vector<std::int64_t>& groups) {
-  std::vector<std::int64_t> first = first_of_ranks(groups);
-  AlignedVector<T> packed(groups.size() * kGroupValues);
-  const auto for_values = [&](std::int64_t from, std::int64_t to, const auto& visit) {
-    for_groups(groups, from, to,
-               [&](std::int64_t at, std::int64_t place) { visit(packed.data() + at, field + place); });
-  };
-  for_values(first[own_], first[own_ + 1],
-             [](T* at, const T* value) { std::copy_n(value, kGroupValues, at); });
-  std::vector<std::int64_t> first_packed = first;
-  for (std::int64_t& place : first_packed) place *= kGroupValues;
-  ranks_->gather(packed.data(), first_packed);
-  const auto take = [](const T* at, T* value) { std::copy_n(at, kGroupValues, value); };
-  for_values(0, first[own_], take);
-  for_values(first[own_ + 1], first.back(), take);
+void RankFields<Real, U>::share_groups(T* field, const std::vector<std::int64_t>& groups) {
+  std::vector<std::int64_t> ordered = groups;
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [&](std::int64_t a, std::int64_t b) { return cut_.owner(a) < cut_.owner(b); });
+  std::vector<std::int64_t> first(index(cut_.ranks()) + 1, 0);
+  for (const std::int64_t group : ordered) first[index(cut_.owner(group)) + 1] += kGroupValues;
+  for (std::size_t rank = 0; rank + 1 < first.size(); ++rank) first[rank + 1] += first[rank];
+  AlignedVector<T> packed(ordered.size() * kGroupValues);
+  for_groups(ordered, 0, std::ssize(ordered), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(field + place, kGroupValues, packed.data() + at);
+  });
+  ranks_->gather(packed.data(), first);
+  for_groups(ordered, 0, std::ssize(ordered), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(packed.data() + at, kGroupValues, field + place);
+  });
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::show(const WatchedNodes& nodes) {
-  std::vector<std::int64_t> groups = nodes.groups();
-  std::sort(groups.begin(), groups.end());
-  exchange(this->u().data(), groups);
-  exchange(this->v().data(), groups);
-  if (this->q()) exchange(this->q()->values().data(), groups);
+  share_groups(this->u().data(), nodes.groups());
+  share_groups(this->v().data(), nodes.groups());
+  if (this->q()) share_groups(this->q()->values().data(), nodes.groups());
   fetch_law_state();
-}
-
-/// Forces that a rank sends lie together: those of its groups, then those at joints.
-template <class Real, class U>
-void RankFields<Real, U>::place_packed() {
-  std::int64_t place = 0;
-  first_packed_.clear();
-  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank) {
-    first_packed_.push_back(place);
-    place += (first_group_[rank + 1] - first_group_[rank]) * kGroupValues;
-    for (Joint& joint : joints_) {
-      if (joint.near == static_cast<int>(rank))
-        joint.element_force = std::exchange(place, place + 3 * joint.nodes);
-      if (joint.far == static_cast<int>(rank))
-        joint.other_force = std::exchange(place, place + 3 * joint.nodes);
-    }
-  }
-  first_packed_.push_back(place);
-  packed_.resize(index(place));
-}
-
-/// Packed forces of a rank's groups, counted from those of the first group of all.
-template <class Real, class U>
-Real* RankFields<Real, U>::packed_groups(std::size_t rank) {
-  return packed_.data() + first_packed_[rank] - first_group_[rank] * kGroupValues;
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::pack() {
-  Real* const packed = packed_groups(own_);
-  for_groups(groups_, first_group_[own_], first_group_[own_ + 1], [&](std::int64_t at, std::int64_t place) {
-    std::copy_n(this->f().data() + place, kGroupValues, packed + at);
-  });
-  for (const Joint& joint : joints_) {
-    if (joint.near == ranks_->rank())
-      std::copy_n(this->internal().carry(joint.tile).data(), 3 * joint.nodes,
-                  packed_.data() + joint.element_force);
-    if (joint.far == ranks_->rank())
-      for (std::int64_t i = 0; i < 3 * joint.nodes; ++i)
-        packed_[index(joint.other_force + i)] = this->f()[index(dof(joint.slot, 0) + i * kLanes)];
-  }
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::unpack() {
-  for (std::size_t rank = 0; rank < tiles_.by_rank.size(); ++rank) {
-    if (rank == own_) continue;
-    const Real* const packed = packed_groups(rank);
-    for_groups(groups_, first_group_[rank], first_group_[rank + 1], [&](std::int64_t at, std::int64_t place) {
-      std::copy_n(packed + at, kGroupValues, this->f().data() + place);
-    });
-  }
-  for (const Joint& joint : joints_) join_forces(joint);
-}
-
-/// Forces at the joint's station on the nodes that this rank moves there, in one process's order of addition.
-template <class Real, class U>
-void RankFields<Real, U>::join_forces(const Joint& joint) {
-  const Real* const element = packed_.data() + joint.element_force;
-  const Real* const others = packed_.data() + joint.other_force;
-  Real* const f = this->f().data() + dof(joint.slot, 0);
-  if (joint.far == ranks_->rank())
-    for (std::int64_t i = 0; i < 3 * joint.nodes; ++i) f[i * kLanes] += element[i];
-  else if (joint.near == ranks_->rank())
-    for (std::int64_t i = 0; i < 3 * joint.nodes; ++i) f[i * kLanes] = others[i] + element[i];
-  else
-    for (const std::int64_t i : joint.shared) f[i * kLanes] += element[i];
 }
 
 template <class Real, class U>
@@ -240,18 +108,41 @@ void RankFields<Real, U>::set(const AlignedVector<double>& displacement,
 template <class Real, class U>
 void RankFields<Real, U>::fetch() {
   if (whole_) return;
-  ranks_->gather(this->u().data(), first_value_);
-  ranks_->gather(this->v().data(), first_value_);
-  if (this->q()) ranks_->gather(this->q()->values().data(), first_value_);
+  const auto of_tile = [this](std::size_t tile) { return kGroupValues * cut_.first_group(tile); };
+  fetch_values(this->u().data(), of_tile);
+  fetch_values(this->v().data(), of_tile);
+  if (this->q()) fetch_values(this->q()->values().data(), of_tile);
   fetch_law_state();
-  whole_ = true;
+  whole_ = ranks_->rank() == 0;
+}
+
+/// Gives rank 0 the values of all. Those of the tiles [first, last) lie at [place(first), place(last)).
+template <class Real, class U>
+template <class T, class Place>
+void RankFields<Real, U>::fetch_values(T* values, const Place& place) {
+  std::vector<RankSegment> sent, received;
+  const auto add = [&](int rank, int other, std::vector<RankSegment>& list) {
+    for (const TileStretch& stretch : cut_.stretches(rank))
+      list.push_back({other, std::as_writable_bytes(
+                                 std::span(values + place(stretch.first), values + place(stretch.last)))});
+  };
+  if (ranks_->rank() != 0) add(ranks_->rank(), 0, sent);
+  for (int rank = 1; ranks_->rank() == 0 && rank < cut_.ranks(); ++rank) add(rank, rank, received);
+  ranks_->exchange(sent, received);
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::fetch_law_state() {
-  for (std::size_t b = 0; this->law_state() && b < first_state_.size(); ++b)
-    if (first_state_[b].back() > 0)
-      ranks_->gather(this->law_state()->values(static_cast<int>(b)), first_state_[b]);
+  std::size_t before = 0;
+  for (std::size_t b = 0; this->law_state() && b < this->mesh().blocks.size(); ++b) {
+    const std::size_t tiles = this->mesh().blocks[b].tiles.size();
+    const BlockElements<Real>& elements = this->internal().elements(static_cast<int>(b));
+    const auto place = [&](std::size_t tile) {
+      return elements.state_place(static_cast<int>(std::clamp(tile, before, before + tiles) - before));
+    };
+    if (place(before + tiles) > 0) fetch_values(this->law_state()->values(static_cast<int>(b)), place);
+    before += tiles;
+  }
 }
 
 template <class Real, class U>
@@ -259,12 +150,11 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
   if (steps_left_ == 0) follow_patch(loads);
   --steps_left_;
   if (measured)
-    this->internal().internal_force(tiles_.own(), this->force_fields());
+    this->internal().internal_force(tiles_.own, this->force_fields());
   else
-    this->internal().move(tiles_.own(), this->update(), loads, this->force_fields());
-  pack();
-  ranks_->gather(packed_.data(), first_packed_);
-  unpack();
+    this->internal().move(tiles_.own, this->update(), loads, this->force_fields());
+  forces_.exchange([this](std::size_t tile) { return this->internal().carry(tile).data(); },
+                   this->f().data());
   whole_ = false;
   if (ranks_->spoils_copies()) spoil();
 }
@@ -276,21 +166,24 @@ void RankFields<Real, U>::move_rest(const StepLoads& loads, bool measured) {
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel,
-                                 double dt) {
-  body.anchor(mean, this->displacement(), this->velocity(), wheel, dt, held_.data());
+void RankFields<Real, U>::advance_lag(double dt) {
+  if (!this->q()) return;
+  const auto advance = [&](std::int64_t first, std::int64_t last) {
+    this->q()->advance(this->v().data(), dt, first * kLanes, last * kLanes);
+  };
+  for (const TileStretch& stretch : tiles_.own)
+    advance(cut_.first_group(stretch.first), cut_.first_group(stretch.last));
+  for (const Joint& joint : cut_.joints())
+    if (joint.near == ranks_->rank()) advance(joint.slot / kLanes, joint.slot / kLanes + joint.nodes);
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::advance_lag(double dt) {
-  if (!this->q()) return;
-  this->q()->advance(this->v().data(), dt, first_value_[own_] / 3, first_value_[own_ + 1] / 3);
-  for (const Joint& joint : joints_)
-    if (joint.near == ranks_->rank())
-      this->q()->advance(this->v().data(), dt, joint.slot, joint.slot + joint.nodes * kLanes);
+void RankFields<Real, U>::anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel,
+                                 double dt) {
+  body.anchor(mean, this->displacement(), this->velocity(), wheel, dt, moved_.data());
 }
 
-/// Whoever reads another rank's values without fetching them is found out.
+/// Whoever reads another rank's values without having got them is found out.
 template <class Real, class U>
 void RankFields<Real, U>::spoil() {
   const auto spoil_lanes = [](auto* field, std::int64_t group, int first) {
@@ -299,26 +192,26 @@ void RankFields<Real, U>::spoil() {
         field[group * kGroupValues + c * kLanes + lane] =
             std::numeric_limits<std::remove_pointer_t<decltype(field)>>::quiet_NaN();
   };
-  for (std::int64_t group = 0; group < first_value_.back() / kGroupValues; ++group) {
-    const std::int64_t value = group * kGroupValues;
-    if (value >= first_value_[own_] && value < first_value_[own_ + 1]) continue;
-    const bool joined = std::any_of(joints_.begin(), joints_.end(), [&](const Joint& joint) {
-      const std::int64_t node = group - joint.slot / kLanes;
-      return joint.near == ranks_->rank() && node >= 0 && node < joint.nodes;
-    });
-    const int first = joined ? 1 : 0;
+  const std::vector<std::int64_t>& near = shared_.near();
+  std::vector<unsigned char> first_lane(moved_.size(), 0);  // that this rank does not move
+  for (const Joint& joint : cut_.joints())
+    if (joint.near == ranks_->rank()) std::fill_n(first_lane.begin() + joint.slot / kLanes, joint.nodes, 1);
+  for (std::int64_t group = 0; group < std::ssize(moved_); ++group) {
+    if (cut_.owner(group) == ranks_->rank()) continue;
+    const int first = first_lane[index(group)];
+    const bool complete =
+        held_.forced[index(group)] != 0 || std::binary_search(near.begin(), near.end(), group);
     if (this->q()) spoil_lanes(this->q()->values().data(), group, first);
-    if (std::binary_search(groups_.begin(), groups_.end(), group)) continue;
+    if (!complete) spoil_lanes(this->f().data(), group, first);
+    if (complete && moved_[index(group)] != 0) continue;
     spoil_lanes(this->u().data(), group, first);
     spoil_lanes(this->v().data(), group, first);
-    spoil_lanes(this->f().data(), group, first);
   }
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::list_state(StateList& list) {
   fetch();
-  steps_left_ = 0;  // whoever asks may change the state
   Base::list_state(list);
 }
 

@@ -1,5 +1,6 @@
 #include "drivers/engine/shared_groups.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/index.hpp"
@@ -7,55 +8,82 @@
 
 namespace tread {
 
-SharedGroups::SharedGroups(const Model& model, const std::vector<GroupMovers>& movers, int own)
-    : model_(&model),
-      always_(connected_groups(model)),
-      own_(groups_of(model.mesh, model.loaded_slots())),
-      shared_(surface_groups(model)) {
-  add_marks(shared_, always_);
-  if (model.ties) share_ties(shared_, movers);
-  for (std::size_t group = 0; group < own_.size(); ++group)
-    own_[group] = movers[group].beside == own || (own_[group] != 0 && movers[group].rank == own);
-  add_marks(shared_, always_);
-  deferred_ = always_;
-  add_marks(deferred_, own_);
-  if (model.ties) tie_items_ = model.ties->items_in(deferred_);
-  add_marks(deferred_, shared_);
+namespace {
+
+std::size_t group_of(std::int64_t slot) {
+  return index(slot / kLanes);
 }
 
-/// A tie whose nodes one rank moves is that rank's own. Where ranks meet or other features act, all need the
-/// motion of the primary nodes, and for it the forces of all secondary ones on them.
-void SharedGroups::share_ties(const GroupMarks& featured, const std::vector<GroupMovers>& movers) {
-  const std::vector<TiedSlot> tied = model_->ties->tied_slots();
-  const auto group = [](std::int64_t slot) { return index(slot / kLanes); };
-  for (const TiedSlot& pair : tied)
-    if (featured[group(pair.secondary)] != 0 || featured[group(pair.primary)] != 0 ||
-        !movers[group(pair.secondary)].alone_with(movers[group(pair.primary)]))
-      always_[group(pair.primary)] = 1;
-  for (const TiedSlot& pair : tied)
-    if (always_[group(pair.primary)] != 0) always_[group(pair.secondary)] = 1;
+std::vector<std::int64_t> marked(const GroupMarks& marks) {
+  std::vector<std::int64_t> groups;
+  for (std::int64_t group = 0; group < std::ssize(marks); ++group)
+    if (marks[index(group)] != 0) groups.push_back(group);
+  return groups;
+}
+
+}  // namespace
+
+/// Ties at which other features act are of all ranks.
+SharedGroups::SharedGroups(const Model& model, const RankCut& cut)
+    : model_(&model),
+      cut_(&cut),
+      tied_(model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{}),
+      all_ranks_(connected_groups(model)),
+      loaded_(groups_of(model.mesh, model.loaded_slots())) {
+  GroupMarks featured = surface_groups(model);
+  near_ = marked(featured);
+  add_marks(featured, all_ranks_);
+  for (const auto& [secondary, primary] : tied_)
+    if (featured[group_of(secondary)] != 0 || featured[group_of(primary)] != 0)
+      all_ranks_[group_of(secondary)] = all_ranks_[group_of(primary)] = 1;
+}
+
+/// A tied node gets its motion from the primary nodes, and these need the forces of all that are tied to
+/// them.
+HeldGroups SharedGroups::held_by(int rank) const {
+  HeldGroups held{all_ranks_, {}, {}};
+  for (const TileStretch& stretch : cut_->stretches(rank))
+    std::fill(held.moved.begin() + cut_->first_group(stretch.first),
+              held.moved.begin() + cut_->first_group(stretch.last), 1);
+  GroupMarks stations = held.moved;  // and, where tiles of others begin, one lane of theirs
+  for (const Joint& joint : cut_->joints())
+    if (joint.near == rank) std::fill_n(stations.begin() + joint.slot / kLanes, joint.nodes, 1);
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [secondary, primary] : tied_) {
+      if (stations[group_of(secondary)] == 0 || held.moved[group_of(primary)] != 0) continue;
+      held.moved[group_of(primary)] = stations[group_of(primary)] = 1;
+      more = true;
+    }
+  }
+  held.forced = held.moved;
+  held.moved = stations;
+  for (const auto& [secondary, primary] : tied_)
+    if (held.moved[group_of(primary)] != 0) held.forced[group_of(secondary)] = 1;
+  held.deferred = held.moved;
+  for (std::int64_t group = 0; group < std::ssize(held.deferred); ++group)
+    if (cut_->owner(group) == rank && loaded_[index(group)] == 0 && all_ranks_[index(group)] == 0)
+      held.deferred[index(group)] = 0;
+  return held;
 }
 
 void SharedGroups::follow(const BodyFrame& wheel, double ahead) {
-  shared_ = always_;
-  if (model_->contact) {
-    const std::array<SurfacePart, 2> parts = model_->contact->near(wheel, ahead);
-    const SurfacePair& surfaces = model_->contact->surfaces();
-    share_near(surfaces.rail(), surfaces.rail_profile(), parts[0]);
-    share_near(surfaces.wheel(), surfaces.wheel_profile(), parts[1]);
-  }
-  deferred_ = shared_;
-  add_marks(deferred_, own_);
+  near_.clear();
+  if (!model_->contact) return;
+  const std::array<SurfacePart, 2> parts = model_->contact->near(wheel, ahead);
+  const SurfacePair& surfaces = model_->contact->surfaces();
+  add_near(surfaces.rail(), surfaces.rail_profile(), parts[0]);
+  add_near(surfaces.wheel(), surfaces.wheel_profile(), parts[1]);
+  std::sort(near_.begin(), near_.end());
 }
 
-void SharedGroups::share_near(const SweptBlock& block, const SurfaceProfile& profile,
-                              const SurfacePart& part) {
+void SharedGroups::add_near(const SweptBlock& block, const SurfaceProfile& profile, const SurfacePart& part) {
   const TileSpan tiles = tiles_of(block, part);
   const auto all = static_cast<int>(block.tiles.size());
   for (int i = 0; i < tiles.count; ++i)
     for (int ordinal = part.first_node; ordinal < part.last_node; ++ordinal)
-      shared_[index(block.base / kLanes + std::int64_t{(tiles.first + i) % all} * block.section.nodes() +
-                    profile.node(ordinal))] = 1;
+      near_.push_back(block.base / kLanes + std::int64_t{(tiles.first + i) % all} * block.section.nodes() +
+                      profile.node(ordinal));
 }
 
 }  // namespace tread

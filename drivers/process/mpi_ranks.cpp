@@ -52,15 +52,15 @@ std::string cores_text() {
   return text;
 }
 
-/// Waits. A rank that has waited long sleeps: on a busy machine it then gets its core back sooner than one
-/// that keeps asking, and ranks that wait for the preload leave their cores to it.
-void await(MPI_Request request) {
+/// Waits for all of them. A rank that has waited long sleeps: on a busy machine it then gets its core back
+/// sooner than one that keeps asking, and ranks that wait for the preload leave their cores to it.
+void await(std::span<MPI_Request> requests) {
   using std::chrono::microseconds;
   constexpr microseconds kAwake{200};  ///< as long as an exchange among idle cores takes
   constexpr microseconds kLong{20000};
   const Clock::time_point started = Clock::now();
   for (int done = 0;;) {
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    MPI_Testall(static_cast<int>(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE);
     if (done != 0) return;
     const Clock::duration waited = Clock::now() - started;
     if (waited > kAwake) std::this_thread::sleep_for(waited > kLong ? microseconds(1000) : microseconds(20));
@@ -88,14 +88,28 @@ class MpiRanks final : public Ranks {
   int place_on_cores() const override { return on_cores_.place; }
 
   void broadcast(std::span<std::byte> bytes) override {
-    constexpr std::size_t kPiece = 1 << 30;
-    while (!bytes.empty()) {
-      const std::span<std::byte> piece = bytes.first(std::min(kPiece, bytes.size()));
+    for_pieces(bytes, [](std::byte* at, int size) {
       MPI_Request request = MPI_REQUEST_NULL;
-      MPI_Ibcast(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
-      await(request);
-      bytes = bytes.subspan(piece.size());
-    }
+      MPI_Ibcast(at, size, MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+      await({&request, 1});
+    });
+  }
+
+  void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) override {
+    const Clock::time_point started = Clock::now();
+    requests_.clear();
+    for (const RankSegment& segment : received)
+      for_pieces(segment.bytes, [&](std::byte* at, int size) {
+        MPI_Irecv(at, size, MPI_BYTE, segment.rank, 0, MPI_COMM_WORLD, &requests_.emplace_back());
+        traffic.received += size;
+      });
+    for (const RankSegment& segment : sent)
+      for_pieces(segment.bytes, [&](std::byte* at, int size) {
+        MPI_Isend(at, size, MPI_BYTE, segment.rank, 0, MPI_COMM_WORLD, &requests_.emplace_back());
+        traffic.sent += size;
+      });
+    await(requests_);
+    note_wait(started);
   }
 
   [[noreturn]] void end_all(int code) override {
@@ -120,11 +134,19 @@ class MpiRanks final : public Ranks {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Iallgatherv(MPI_IN_PLACE, 0, type, values, counts_.data(), places_.data(), type, MPI_COMM_WORLD,
                     &request);
-    await(request);
+    await({&request, 1});
     const std::int64_t own = counts_[static_cast<std::size_t>(rank_)];
     traffic.sent += own * size * (count_ - 1);
     traffic.received += (first.back() - own) * size;
     note_wait(started);
+  }
+
+  /// MPI counts by int.
+  template <class Visit>
+  static void for_pieces(std::span<std::byte> bytes, const Visit& visit) {
+    constexpr std::size_t kPiece = 1 << 30;
+    for (; !bytes.empty(); bytes = bytes.subspan(std::min(kPiece, bytes.size())))
+      visit(bytes.data(), static_cast<int>(std::min(kPiece, bytes.size())));
   }
 
   void note_wait(Clock::time_point started) {
@@ -135,6 +157,7 @@ class MpiRanks final : public Ranks {
   int rank_ = 0, count_ = 1, on_host_ = 1;
   Alike on_cores_{1, 0};
   std::vector<int> counts_, places_;
+  std::vector<MPI_Request> requests_;
 };
 
 }  // namespace

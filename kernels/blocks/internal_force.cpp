@@ -112,36 +112,47 @@ std::size_t BasicInternalForce<Real, U>::item_at(std::size_t first, std::size_t 
 }
 
 template <class Real, class U>
-std::vector<TileStretch> BasicInternalForce<Real, U>::cut(int stretches) const {
-  const auto place = [&](int i) { return item_at(0, items_.size(), cost_.back() * i / stretches); };
-  std::vector<TileStretch> cuts;
-  for (int i = 0; i < stretches; ++i) cuts.push_back({place(i), place(i + 1)});
-  return cuts;
-}
-
-template <class Real, class U>
-void BasicInternalForce<Real, U>::move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update,
-                                       const StepLoads& loads, const ForceFields<Real, U>& at) const {
+void BasicInternalForce<Real, U>::move(std::span<const TileStretch> stretches,
+                                       const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+                                       const ForceFields<Real, U>& at) const {
   std::fill(unmoved_.begin(), unmoved_.end(), 0);
-  evaluate(stretch.first, stretch.last, moved_fields(update, loads, at));
+  evaluate(stretches, moved_fields(update, loads, at));
 }
 
+/// Each thread gets successive items of like cost.
 template <class Real, class U>
-void BasicInternalForce<Real, U>::evaluate_elements(std::size_t first, std::size_t last,
+void BasicInternalForce<Real, U>::evaluate_elements(std::span<const TileStretch> stretches,
                                                     const Fields& fields) const {
-  parallel_ranges(cost_[last] - cost_[first], [&](std::int64_t from, std::int64_t to) {
-    evaluate_items(item_at(first, last, from), item_at(first, last, to), fields);
+  const auto cost_of = [this](const TileStretch& of) { return cost_[of.last] - cost_[of.first]; };
+  std::int64_t all = 0;
+  for (const TileStretch& stretch : stretches) all += cost_of(stretch);
+  parallel_ranges(all, [&](std::int64_t from, std::int64_t to) {
+    for (const TileStretch& stretch : stretches) {
+      const std::int64_t cost = cost_of(stretch);
+      if (from < cost && to > 0) {
+        const auto item = [&](std::int64_t at) {
+          return item_at(stretch.first, stretch.last, std::clamp(at, std::int64_t{0}, cost));
+        };
+        evaluate_items(item(from), item(to), fields);
+      }
+      from -= cost;
+      to -= cost;
+    }
   });
 }
 
 template <class Real, class U>
-void BasicInternalForce<Real, U>::add_carries(const TileStretch& stretch, Real* f) const {
-  for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-    if (!pending_[i]) continue;
-    const BlockData& data = blocks_[index(items_[i].block)];
-    if (stretch.holds(data.first_item + index(data.elements.previous(items_[i].tile))))
-      add_carry(items_[i], f);
-  }
+void BasicInternalForce<Real, U>::add_carries(std::span<const TileStretch> stretches, Real* f) const {
+  const auto hold = [stretches](std::size_t tile) {
+    return std::any_of(stretches.begin(), stretches.end(),
+                       [tile](const TileStretch& of) { return of.holds(tile); });
+  };
+  for (const TileStretch& stretch : stretches)
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+      if (!pending_[i]) continue;
+      const BlockData& data = blocks_[index(items_[i].block)];
+      if (hold(data.first_item + index(data.elements.previous(items_[i].tile)))) add_carry(items_[i], f);
+    }
 }
 
 template <class Real, class U>

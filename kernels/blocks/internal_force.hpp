@@ -88,15 +88,20 @@ class BasicInternalForce {
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
 
-  /// Stretches of like cost that cover all tiles; some are empty where there are few tiles.
-  std::vector<TileStretch> cut(int stretches) const;
-  /// move() of a stretch alone. The forces in carry() of tiles outside that end in it are missing. Other
-  /// tiles are not marked.
-  void move(const TileStretch& stretch, const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
-            const ForceFields<Real, U>& at) const;
-  /// internal_force(at) of a stretch alone, likewise.
-  void internal_force(const TileStretch& stretch, const ForceFields<Real, U>& at) const {
-    evaluate(stretch.first, stretch.last, unmoved_fields(at));
+  /// Cost of a tile against others, in the order of blocks and tiles.
+  std::int64_t cost(std::size_t tile) const { return cost_[tile + 1] - cost_[tile]; }
+  /// True where the loop takes the tile behind this one along.
+  bool joined(std::size_t tile) const {
+    const Item& at = items_[tile];
+    return elements(at.block).joins_next(at.tile);
+  }
+  /// move() of some stretches alone, in ascending order, which part no joined tiles. The forces in carry() of
+  /// tiles outside that end in them are missing. Other tiles are not marked.
+  void move(std::span<const TileStretch> stretches, const BasicTimeUpdate<Real, U>& update,
+            const StepLoads& loads, const ForceFields<Real, U>& at) const;
+  /// internal_force(at) of some stretches alone, likewise.
+  void internal_force(std::span<const TileStretch> stretches, const ForceFields<Real, U>& at) const {
+    evaluate(stretches, unmoved_fields(at));
   }
   /// Force of a tile's last element on the station behind it: [section node][3] [N].
   std::span<const Real> carry(std::size_t tile) const;
@@ -188,10 +193,6 @@ class BasicInternalForce {
   DeformationEnergy sum_elements(int block, int tile, const Value* field, bool finite_rotation,
                                  const LawState<Real>* laws) const;
 
-  bool joined(std::size_t item) const {
-    const Item& at = items_[item];
-    return elements(at.block).joins_next(at.tile);
-  }
   Real* carry(const Item& item) const;
   static Fields unmoved_fields(const ForceFields<Real, U>& at) {
     return {at.displacement, at.velocity, at.lag, at.force, false, {}, at.laws};
@@ -202,17 +203,21 @@ class BasicInternalForce {
     return {at.displacement, at.velocity, at.lag, at.force, false, moved, at.laws};
   }
   void evaluate(std::size_t first, std::size_t last, const Fields& fields) const {
-    evaluate_elements(first, last, fields);
-    add_carries({first, last}, fields.f);
+    const TileStretch stretch{first, last};
+    evaluate({&stretch, 1}, fields);
   }
-  void evaluate_elements(std::size_t first, std::size_t last, const Fields& fields) const;
+  void evaluate(std::span<const TileStretch> stretches, const Fields& fields) const {
+    evaluate_elements(stretches, fields);
+    add_carries(stretches, fields.f);
+  }
+  void evaluate_elements(std::span<const TileStretch> stretches, const Fields& fields) const;
   std::size_t item_at(std::size_t first, std::size_t last, std::int64_t cost) const;
   void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
-  /// Adds the forces that tiles of the stretch have left for others of it.
-  void add_carries(const TileStretch& stretch, Real* f) const;
+  /// Adds the forces that tiles of the stretches have left for others of them.
+  void add_carries(std::span<const TileStretch> stretches, Real* f) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;

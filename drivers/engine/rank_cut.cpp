@@ -1,0 +1,120 @@
+#include "drivers/engine/rank_cut.hpp"
+
+#include <fmt/core.h>
+#include <metis.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Pieces of work, with the number of nodal forces that go between two of them if they part.
+struct WorkGraph {
+  std::vector<idx_t> cost;
+  std::map<std::pair<idx_t, idx_t>, idx_t> links;  ///< both ways
+
+  void link(idx_t a, idx_t b, std::int64_t forces) {
+    if (a == b) return;
+    for (const auto& pair : {std::pair(a, b), std::pair(b, a)}) links[pair] += static_cast<idx_t>(forces);
+  }
+};
+
+/// Part of each piece.
+std::vector<idx_t> parts_of(WorkGraph graph, int parts) {
+  auto pieces = static_cast<idx_t>(graph.cost.size());
+  std::vector<idx_t> part(graph.cost.size(), 0);
+  if (pieces <= parts) {
+    for (idx_t piece = 0; piece < pieces; ++piece) part[index(piece)] = piece;
+    return part;
+  }
+  if (parts == 1) return part;
+  std::vector<idx_t> first(graph.cost.size() + 1, 0);
+  std::vector<idx_t> other, weight;
+  for (const auto& [pair, forces] : graph.links) {
+    ++first[index(pair.first) + 1];
+    other.push_back(pair.second);
+    weight.push_back(forces);
+  }
+  for (std::size_t piece = 0; piece < graph.cost.size(); ++piece) first[piece + 1] += first[piece];
+  std::vector<idx_t> options(METIS_NOPTIONS);
+  METIS_SetDefaultOptions(options.data());
+  options[METIS_OPTION_SEED] = 1;
+  idx_t constraints = 1, cut = 0, wanted = parts;
+  const int outcome =
+      METIS_PartGraphRecursive(&pieces, &constraints, first.data(), other.data(), graph.cost.data(), nullptr,
+                               weight.data(), &wanted, nullptr, nullptr, options.data(), &cut, part.data());
+  if (outcome != METIS_OK)
+    throw ResourceError(
+        fmt::format("METIS cannot cut {} pieces of the mesh for {} ranks (its code: {}); start "
+                    "fewer ranks",
+                    pieces, parts, outcome));
+  return part;
+}
+
+}  // namespace
+
+RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int ranks)
+    : rank_(work.size()), owner_(index(model.mesh.slots / kLanes)), stretches_(index(ranks)) {
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (std::int64_t tile = 0; tile < std::ssize(block.tiles); ++tile)
+      first_group_.push_back(block.base / kLanes + tile * block.section.nodes());
+  first_group_.push_back(model.mesh.slots / kLanes);
+  deal_out(model, work, ranks);
+  for (std::size_t tile = 0; tile < rank_.size(); ++tile) {
+    std::fill(owner_.begin() + first_group_[tile], owner_.begin() + first_group_[tile + 1], rank_[tile]);
+    std::vector<TileStretch>& own = stretches_[index(rank_[tile])];
+    if (own.empty() || own.back().last != tile) own.push_back({tile, tile});
+    own.back().last = tile + 1;
+  }
+  join_tiles(model.mesh);
+}
+
+/// Tiles that the loop takes together are one piece. Pieces are linked along the sweep and by ties.
+void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, int ranks) {
+  WorkGraph graph;
+  std::vector<idx_t> piece(work.size());
+  for (std::size_t tile = 0; tile < work.size(); ++tile) {
+    if (tile == 0 || !work[tile - 1].with_next) graph.cost.push_back(0);
+    piece[tile] = static_cast<idx_t>(graph.cost.size()) - 1;
+    graph.cost.back() += static_cast<idx_t>(work[tile].cost);
+  }
+  std::size_t before = 0;
+  for (const SweptBlock& block : model.mesh.blocks) {
+    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
+      if (block.tiles[tile].elements > 0)
+        graph.link(piece[before + tile], piece[before + index(block.tiles[tile].next)],
+                   2 * std::int64_t{block.section.nodes()});
+    before += block.tiles.size();
+  }
+  const auto piece_of = [&](std::int64_t slot) {
+    const auto at = std::upper_bound(first_group_.begin(), first_group_.end(), slot / kLanes);
+    return piece[index(at - first_group_.begin()) - 1];
+  };
+  if (model.ties)
+    for (const TiedSlot& pair : model.ties->tied_slots())
+      graph.link(piece_of(pair.secondary), piece_of(pair.primary), 1);
+  const std::vector<idx_t> part = parts_of(std::move(graph), ranks);
+  for (std::size_t tile = 0; tile < work.size(); ++tile)
+    rank_[tile] = static_cast<int>(part[index(piece[tile])]);
+}
+
+void RankCut::join_tiles(const Mesh& mesh) {
+  std::size_t before = 0;
+  for (const SweptBlock& block : mesh.blocks) {
+    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile) {
+      if (block.tiles[tile].elements == 0) continue;
+      const std::size_t next = before + index(block.tiles[tile].next);
+      const std::size_t own = before + tile;
+      if (rank_[own] != rank_[next])
+        joints_.push_back({rank_[own], rank_[next], own, first_group_[next] * kLanes, block.section.nodes()});
+    }
+    before += block.tiles.size();
+  }
+}
+
+}  // namespace tread

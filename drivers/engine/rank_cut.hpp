@@ -1,0 +1,54 @@
+#pragma once
+// The tiles of a model's mesh, dealt out among ranks: like cost for each, few nodes between them.
+// [docs/records/ranks.md]
+
+#include <cstdint>
+#include <vector>
+
+#include "core/index.hpp"
+#include "core/mesh/tile_sums.hpp"
+#include "drivers/engine/model.hpp"
+
+namespace tread {
+
+/// Where the last element of a rank's tile ends at the first station of another rank's tile. Both ranks move
+/// the nodes of that station.
+struct Joint {
+  int near = 0, far = 0;  ///< ranks of the element and of the station
+  std::size_t tile = 0;   ///< of the element
+  std::int64_t slot = 0;  ///< of section node 0 at the station
+  std::int64_t nodes = 0;
+};
+
+/// A tile as a piece of work.
+struct TileWork {
+  std::int64_t cost = 0;
+  bool with_next = false;  ///< the loop takes the tile behind it along
+};
+
+class RankCut {
+ public:
+  /// `work`: by tile, in the order of blocks and tiles. Ranks are left without tiles where there are few.
+  RankCut(const Model& model, const std::vector<TileWork>& work, int ranks);
+
+  int ranks() const { return static_cast<int>(stretches_.size()); }
+  std::size_t tiles() const { return rank_.size(); }
+  int rank_of(std::size_t tile) const { return rank_[tile]; }
+  int owner(std::int64_t group) const { return owner_[index(group)]; }
+  const std::vector<TileStretch>& stretches(int rank) const { return stretches_[index(rank)]; }
+  const std::vector<Joint>& joints() const { return joints_; }
+  /// First group of a tile, and after the last one the number of groups.
+  std::int64_t first_group(std::size_t tile) const { return first_group_[tile]; }
+
+ private:
+  void deal_out(const Model& model, const std::vector<TileWork>& work, int ranks);
+  void join_tiles(const Mesh& mesh);
+
+  std::vector<int> rank_;   ///< by tile
+  std::vector<int> owner_;  ///< by group
+  std::vector<std::int64_t> first_group_;
+  std::vector<std::vector<TileStretch>> stretches_;
+  std::vector<Joint> joints_;
+};
+
+}  // namespace tread
