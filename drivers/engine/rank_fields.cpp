@@ -45,6 +45,7 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       forces_(cut_, shared_, *ranks_) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
+  if (model.contact) model.contact->searching().share_among(ranks_);
   if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
   take_near();
 }

@@ -216,9 +216,23 @@ void ContactSearch::find(const ContactState& state, std::span<const PointHistory
                          std::vector<ContactPoint>& points) {
   const Visit visit{&state, history, bounds(aim_, time)};
   parallel_ranges(aim_.last_station - aim_.first_station, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) visit_column(visit, aim_.first_station + static_cast<int>(i));
+    for (int station = aim_.first_station + static_cast<int>(first);
+         station < aim_.first_station + static_cast<int>(last); ++station)
+      if (!shared_ || shared_->own(station)) visit_column(visit, station);
   });
+  if (shared_) exchange();
   gather(points);
+}
+
+/// Gives each rank the columns that all have searched.
+void ContactSearch::exchange() {
+  window_.first_station = aim_.first_station;
+  window_.of_station.clear();
+  const std::size_t edges = index(surfaces_.rail_profile().edges());
+  for (int station = aim_.first_station; station < aim_.last_station; ++station)
+    window_.of_station.push_back({std::span(wake_time_).subspan(index(face_index(station, 0)), edges),
+                                  &columns_[index(station - aim_.first_station)]});
+  shared_->exchange(window_);
 }
 
 std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt) const {

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/body_frame.hpp"
@@ -13,6 +15,7 @@
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/face_quadrature.hpp"
 #include "kernels/contact/search_body.hpp"
+#include "kernels/contact/shared_columns.hpp"
 #include "kernels/contact/surface_pair.hpp"
 
 namespace tread {
@@ -63,6 +66,11 @@ class ContactSearch {
   /// aim(), with the tractions and velocities before the step. A point that carried pressure stays.
   void find(const ContactState& state, std::span<const PointHistory> history, double time,
             std::vector<ContactPoint>& points);
+  /// From now on ranks share what find() searches; null: this process searches alone.
+  void share_among(std::shared_ptr<Ranks> ranks) {
+    shared_.reset();
+    if (ranks) shared_.emplace(std::move(ranks));
+  }
   SearchBounds bounds(const Aim& aim, double time) const;
   SearchEnd end() const;
 
@@ -106,6 +114,7 @@ class ContactSearch {
   void make_room();
   [[noreturn]] void refuse(const BodyFrame& wheel) const;
   void visit_column(const Visit& visit, int station);
+  void exchange();
   void gather(std::vector<ContactPoint>& points) const;
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
   /// Number of a rail face among all.
@@ -124,6 +133,8 @@ class ContactSearch {
   Aim aim_;
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
+  std::optional<SharedColumns> shared_;
+  FaceColumns window_;  ///< of shared searches
 };
 
 }  // namespace tread
