@@ -1,17 +1,21 @@
 #pragma once
-// Arrays that share no page of memory with others: a device may lock their pages.
+// Arrays that share no page of memory with others, and of which only what is touched takes memory: a device
+// may lock their pages, and ranks hold fields of which they use a part.
 
 #include <cstddef>
+#include <cstdint>
+#include <cstdlib>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace tread {
 
+/// New elements are zero bytes, which nobody has written: arrays keep the size that they begin with.
 template <class T>
 struct PageAllocator {
   using value_type = T;
   static constexpr std::size_t kPage = 4096;  ///< [B]
-  static constexpr std::align_val_t alignment{kPage};
 
   PageAllocator() = default;
   template <class U>
@@ -19,9 +23,22 @@ struct PageAllocator {
 
   T* allocate(std::size_t n) {
     const std::size_t pages = (n * sizeof(T) + kPage - 1) / kPage;
-    return static_cast<T*>(::operator new(pages* kPage, alignment));
+    void* const whole = std::calloc(pages + 2, kPage);
+    if (whole == nullptr) throw std::bad_alloc();
+    // The first page boundary behind a pointer's length: the place before it holds where all began.
+    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(whole) + sizeof(void*);
+    auto* const values = reinterpret_cast<void**>((begin + kPage - 1) / kPage * kPage);
+    values[-1] = whole;
+    return reinterpret_cast<T*>(values);
   }
-  void deallocate(T* p, std::size_t /*n*/) { ::operator delete(p, alignment); }
+  void deallocate(T* p, std::size_t /*n*/) { std::free(reinterpret_cast<void**>(p)[-1]); }
+
+  template <class U>
+  void construct(U* /*zeros*/) {}
+  template <class U, class Value>
+  void construct(U* place, Value&& value) {
+    ::new (static_cast<void*>(place)) U(std::forward<Value>(value));
+  }
   bool operator==(const PageAllocator& /*other*/) const { return true; }
 };
 

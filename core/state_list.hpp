@@ -2,6 +2,7 @@
 // The state that a run carries from one step to the next, as named views. Each owner lists its fields once;
 // saving, restoring and comparing use that list.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -49,6 +50,15 @@ class StateList {
   }
 
   const std::vector<Field>& fields() const { return fields_; }
+  /// The fields that another list does not have.
+  StateList without(const StateList& other) const {
+    StateList list;
+    for (const Field& field : fields_)
+      if (std::none_of(other.fields_.begin(), other.fields_.end(),
+                       [&](const Field& left) { return left.name == field.name; }))
+        list.fields_.push_back(field);
+    return list;
+  }
 
  private:
   std::vector<Field> fields_;

@@ -77,6 +77,9 @@ class NodeFields : public WholeFields {
   virtual ElementEnergy element_energy() = 0;
   virtual BranchEnergy branch_energy() = 0;
 
+  /// Gives other ranks what they hold of rank 0's values.
+  virtual void spread() {}
+
   /// True where the processor takes the steps.
   virtual bool by_processor() const { return true; }
   virtual bool finite() const = 0;

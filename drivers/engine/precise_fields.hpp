@@ -60,9 +60,9 @@ class PreciseFields : public NodeFields {
         sums_(model, unforced_unknowns(model)),
         parts_(model),
         update_(model.mesh, parts_.inverse_mass()),
-        u_(static_cast<std::size_t>(3 * model.mesh.slots), 0),
-        v_(u_.size(), 0),
-        f_(u_.size(), 0) {
+        u_(static_cast<std::size_t>(3 * model.mesh.slots)),
+        v_(u_.size()),
+        f_(u_.size()) {
     displacement_ = u_.data();
     velocity_ = v_.data();
     force_ = f_.data();

@@ -95,45 +95,61 @@ void RankFields<Real, U>::show(const WatchedNodes& nodes) {
   share_groups(this->u().data(), nodes.groups());
   share_groups(this->v().data(), nodes.groups());
   if (this->q()) share_groups(this->q()->values().data(), nodes.groups());
-  fetch_law_state();
+  send_law_state(Way::to_rank_0);
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::set(const AlignedVector<double>& displacement,
                               const AlignedVector<double>& velocity) {
   Base::set(displacement, velocity);
-  whole_ = true;
+  gathered_ = true;
   steps_left_ = 0;
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::fetch() {
-  if (whole_) return;
-  const auto of_tile = [this](std::size_t tile) { return kGroupValues * cut_.first_group(tile); };
-  fetch_values(this->u().data(), of_tile);
-  fetch_values(this->v().data(), of_tile);
-  if (this->q()) fetch_values(this->q()->values().data(), of_tile);
-  fetch_law_state();
-  whole_ = ranks_->rank() == 0;
+  if (gathered_) return;
+  send_all_tiles(Way::to_rank_0);
+  gathered_ = true;
 }
 
-/// Gives rank 0 the values of all. Those of the tiles [first, last) lie at [place(first), place(last)).
+template <class Real, class U>
+void RankFields<Real, U>::spread() {
+  send_all_tiles(Way::from_rank_0);
+  spread_halos(this->u().data());
+  spread_halos(this->v().data());
+  if (this->q()) spread_halos(this->q()->values().data());
+  gathered_ = true;
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::send_all_tiles(Way way) {
+  const auto of_tile = [this](std::size_t tile) { return kGroupValues * cut_.first_group(tile); };
+  send_tiles(way, this->u().data(), of_tile);
+  send_tiles(way, this->v().data(), of_tile);
+  if (this->q()) send_tiles(way, this->q()->values().data(), of_tile);
+  send_law_state(way);
+}
+
+/// Values of the other ranks' tiles. Those of the tiles [first, last) lie at [place(first), place(last)).
 template <class Real, class U>
 template <class T, class Place>
-void RankFields<Real, U>::fetch_values(T* values, const Place& place) {
-  std::vector<RankSegment> sent, received;
-  const auto add = [&](int rank, int other, std::vector<RankSegment>& list) {
+void RankFields<Real, U>::send_tiles(Way way, T* values, const Place& place) {
+  std::vector<RankSegment> of_tiles;
+  for (int rank = 1; rank < cut_.ranks(); ++rank) {
+    if (ranks_->rank() != 0 && ranks_->rank() != rank) continue;
     for (const TileStretch& stretch : cut_.stretches(rank))
-      list.push_back({other, std::as_writable_bytes(
-                                 std::span(values + place(stretch.first), values + place(stretch.last)))});
-  };
-  if (ranks_->rank() != 0) add(ranks_->rank(), 0, sent);
-  for (int rank = 1; ranks_->rank() == 0 && rank < cut_.ranks(); ++rank) add(rank, rank, received);
-  ranks_->exchange(sent, received);
+      of_tiles.push_back(
+          {ranks_->rank() == 0 ? rank : 0,
+           std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
+  }
+  const bool sends = (way == Way::from_rank_0) == (ranks_->rank() == 0);
+  ranks_->exchange(sends ? of_tiles : std::vector<RankSegment>{},
+                   sends ? std::vector<RankSegment>{} : of_tiles);
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::fetch_law_state() {
+void RankFields<Real, U>::send_law_state(Way way) {
   std::size_t before = 0;
   for (std::size_t b = 0; this->law_state() && b < this->mesh().blocks.size(); ++b) {
     const std::size_t tiles = this->mesh().blocks[b].tiles.size();
@@ -141,9 +157,43 @@ void RankFields<Real, U>::fetch_law_state() {
     const auto place = [&](std::size_t tile) {
       return elements.state_place(static_cast<int>(std::clamp(tile, before, before + tiles) - before));
     };
-    if (place(before + tiles) > 0) fetch_values(this->law_state()->values(static_cast<int>(b)), place);
+    if (place(before + tiles) > 0) send_tiles(way, this->law_state()->values(static_cast<int>(b)), place);
     before += tiles;
   }
+}
+
+/// Groups that a rank holds of others' tiles before the first step.
+template <class Real, class U>
+std::vector<std::int64_t> RankFields<Real, U>::halo_of(int rank) const {
+  GroupMarks held = shared_.held_by(rank).moved;
+  for (const std::int64_t group : shared_.near()) held[index(group)] = 1;
+  std::vector<std::int64_t> groups;
+  for (std::int64_t group = 0; group < std::ssize(held); ++group)
+    if (held[index(group)] != 0 && cut_.owner(group) != rank) groups.push_back(group);
+  return groups;
+}
+
+template <class Real, class U>
+template <class T>
+void RankFields<Real, U>::spread_halos(T* field) {
+  std::vector<AlignedVector<T>> packed;
+  std::vector<RankSegment> segments;
+  for (int rank = 1; rank < cut_.ranks(); ++rank) {
+    if (ranks_->rank() != 0 && ranks_->rank() != rank) continue;
+    const std::vector<std::int64_t> groups = halo_of(rank);
+    AlignedVector<T>& values = packed.emplace_back(groups.size() * kGroupValues);
+    segments.push_back({ranks_->rank() == 0 ? rank : 0, std::as_writable_bytes(std::span(values))});
+    if (ranks_->rank() == 0)
+      for_groups(groups, 0, std::ssize(groups), [&](std::int64_t at, std::int64_t place) {
+        std::copy_n(field + place, kGroupValues, values.data() + at);
+      });
+  }
+  if (ranks_->rank() == 0) return ranks_->exchange(segments, {});
+  ranks_->exchange({}, segments);
+  const std::vector<std::int64_t> groups = halo_of(ranks_->rank());
+  for_groups(groups, 0, std::ssize(groups), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(packed.front().data() + at, kGroupValues, field + place);
+  });
 }
 
 template <class Real, class U>
@@ -156,7 +206,7 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
     this->internal().move(tiles_.own, this->update(), loads, this->force_fields());
   forces_.exchange([this](std::size_t tile) { return this->internal().carry(tile).data(); },
                    this->f().data());
-  whole_ = false;
+  gathered_ = false;
   if (ranks_->spoils_copies()) spoil();
 }
 

@@ -24,10 +24,11 @@ class RankFields final : public PreciseFields<Real, U> {
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
-  bool elsewhere() const override { return !whole_; }
+  void spread() override;
+  bool elsewhere() const override { return !whole(); }
   bool adds_forces() const override { return true; }
   void show(const WatchedNodes& nodes) override;
-  const TieItems* tie_items() const override { return whole_ ? nullptr : &tie_items_; }
+  const TieItems* tie_items() const override { return whole() ? nullptr : &tie_items_; }
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void move_rest(const StepLoads& loads, bool measured) override;
@@ -38,14 +39,21 @@ class RankFields final : public PreciseFields<Real, U> {
  private:
   using Base = PreciseFields<Real, U>;
 
-  const TileShare* share() const override { return whole_ ? nullptr : &tiles_; }
+  /// True where the views hold all values of the present.
+  bool whole() const { return gathered_ && ranks_->rank() == 0; }
+  const TileShare* share() const override { return whole() ? nullptr : &tiles_; }
   void follow_patch(const StepLoads& loads);
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
+  enum class Way { to_rank_0, from_rank_0 };
   template <class T, class Place>
-  void fetch_values(T* values, const Place& place);
-  void fetch_law_state();
+  void send_tiles(Way way, T* values, const Place& place);
+  void send_all_tiles(Way way);
+  void send_law_state(Way way);
+  std::vector<std::int64_t> halo_of(int rank) const;
+  template <class T>
+  void spread_halos(T* field);
   void spoil();
 
   std::shared_ptr<Ranks> ranks_;
@@ -58,8 +66,8 @@ class RankFields final : public PreciseFields<Real, U> {
   GroupMarks moved_, deferred_;  ///< with the patch
   TieItems tie_items_;
   RankForces<Real> forces_;
-  int steps_left_ = 0;  ///< that the patch stays among the shared groups
-  bool whole_ = true;   ///< the views hold all values of the present
+  int steps_left_ = 0;    ///< that the patch stays among the shared groups
+  bool gathered_ = true;  ///< rank 0 has all values of the present
 };
 
 extern template class RankFields<double, double>;

@@ -75,6 +75,12 @@ StateList Simulation::state() {
   return list;
 }
 
+StateList Simulation::nodal_state() {
+  StateList list;
+  fields_->list_state(list);
+  return list;
+}
+
 void Simulation::step() {
   using enum StepPhase;
   StepState s = begin_step();

@@ -51,6 +51,11 @@ class Simulation final : private RunEnd {
   /// Every field that outlives a step, those of the model's parts too.
   StateList state();
 
+  /// The part of state() that spread() brings to other ranks.
+  StateList nodal_state();
+  /// Gives other ranks what they hold of rank 0's values, instead of state(). All ranks call it.
+  void spread() { fields_->spread(); }
+
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;
   const NodeFields& fields() const { return fetched(); }

@@ -27,7 +27,7 @@ std::array<int, 2> touched(const SurfaceFields& fields) {
 }
 
 /// The column with the largest sum of values [station][columns].
-int strongest(const std::vector<double>& values, std::size_t columns) {
+int strongest(std::span<const double> values, std::size_t columns) {
   std::vector<double> sum(columns, 0.0);
   for (std::size_t i = 0; i < values.size(); ++i) sum[i % columns] += values[i];
   return static_cast<int>(std::max_element(sum.begin(), sum.end()) - sum.begin());
@@ -48,7 +48,7 @@ double beside(const SurfaceFields& fields, int station, int cell_row) {
 }
 
 /// Largest of the values [station][columns] over the stations of the stretch.
-double largest(const SurfaceFields& fields, const SurfaceResults& surface, const std::vector<double>& values,
+double largest(const SurfaceFields& fields, const SurfaceResults& surface, std::span<const double> values,
                std::size_t columns) {
   double most = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -63,9 +63,9 @@ struct SurfaceDataset {
   const char* name;
   const char* unit;
   const char* description;
-  const std::vector<double>& values;  ///< values [station] or [station][column]
-  std::size_t columns;                ///< number of columns; 1: by station alone
-  int less = 0;                       ///< number of stations at the end without a value
+  std::span<const double> values;  ///< values [station] or [station][column]
+  std::size_t columns;             ///< number of columns; 1: by station alone
+  int less = 0;                    ///< number of stations at the end without a value
 };
 
 void write_field(Hdf5File& file, const SurfaceDataset& field, int first, int last) {

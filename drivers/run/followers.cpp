@@ -102,9 +102,12 @@ class FollowedRun {
           "the environment's TREAD_INSTRUCTION_SET=avx2 on different processors",
           other));
     simulation_.emplace(*model_, results_.preload.contact.centre.y, results_.dt);
-    unpack_state(content, *model_, *simulation_);
+    unpack_followed(content, *model_, *simulation_);
     simulation_->set_sampling_interval(sampling_interval(model_->scene, results_.dt));
   }
+
+  /// Gets the nodes' values, once the content is gone.
+  void take_values() { simulation_->spread(); }
 
   /// Steps and fetches until another word.
   Word follow(Ranks& ranks) {
@@ -136,13 +139,15 @@ class FollowedRun {
 
 Followers::Followers() : ranks_(chosen_ranks()) {}
 
-void Followers::begin(SealedContent run, const ThreadOptions& threads) const {
+void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) const {
   if (absent()) return;
+  leave_to_spread(simulation, run);
   say(*ranks_, Word::begin);
   run[kThreads] = std::vector<std::int64_t>{threads.number};
   run[kBackend] = threads.backend;
   run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
   send(*ranks_, std::move(run));
+  simulation.spread();
 }
 
 void Followers::step(Simulation& simulation) const {
@@ -174,8 +179,15 @@ std::string Followers::description(std::int64_t steps) const {
 void follow(Ranks& ranks) {
   // Rank 0 obeys signals. The launcher sends them to all.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);
-  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;)
-    word = word == Word::begin ? FollowedRun(receive(ranks)).follow(ranks) : next_word(ranks);
+  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;) {
+    if (word == Word::end) {
+      word = next_word(ranks);
+      continue;
+    }
+    FollowedRun run(receive(ranks));
+    run.take_values();
+    word = run.follow(ranks);
+  }
 }
 
 void dismiss(Ranks& ranks) {

@@ -20,7 +20,7 @@ class Followers {
   bool absent() const { return !ranks_; }
 
   /// Hands the run over: its content between two steps, as pack_run() packs it.
-  void begin(SealedContent run, const ThreadOptions& threads) const;
+  void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) const;
   /// A step on all ranks.
   void step(Simulation& simulation) const;
   /// Brings all values of the fields to rank 0.

@@ -64,7 +64,7 @@ void Rolling::go_on(const SealedContent& checkpoint) {
 /// The other ranks take the run over as a process that resumes it would.
 void Rolling::begin_ranks() {
   if (followers_.absent()) return;
-  followers_.begin(pack_all(""), session_->options.threads);
+  followers_.begin(pack_all(""), *simulation_, session_->options.threads);
   session_->progress.say("[ranks] " + followers_.description(0));
 }
 

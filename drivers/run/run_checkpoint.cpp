@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/error.hpp"
@@ -148,7 +149,8 @@ void unpack(const SealedContent& content, const std::string& group, const StateL
           if (stored.size() != values.size())
             throw InputError(
                 fmt::format("'{}' has {} values, this scene needs {}", name, stored.size(), values.size()));
-          std::copy(stored.begin(), stored.end(), values.begin());
+          for (std::size_t i = 0; i < values.size(); ++i)  // zeros that nobody writes take no memory
+            if (std::memcmp(&values[i], &stored[i], sizeof(Value)) != 0) values[i] = stored[i];
         },
         field.values);
   }
@@ -211,6 +213,16 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
   unpack(content, "state", simulation.state());
   const auto hash = static_cast<std::uint64_t>(sealed_value<std::int64_t>(content, "made/state_hash"));
   if (hash != simulation.state_hash()) throw InputError("its state hash differs");
+}
+
+void leave_to_spread(Simulation& simulation, SealedContent& content) {
+  const StateList nodal = simulation.nodal_state();
+  for (const StateList::Field& field : nodal.fields()) content.erase("state/" + field.name);
+}
+
+void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation) {
+  check_mesh(content, model);
+  unpack(content, "state", simulation.state().without(simulation.nodal_state()));
 }
 
 std::string other_origin(const SealedContent& content, const Model& model) {

@@ -58,6 +58,11 @@ MeasuredRows::Kept unpack_measured(const SealedContent& content);
 /// made on another mesh.
 void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation);
 
+/// Takes out of a run's content what Simulation::spread() gives to other ranks.
+void leave_to_spread(Simulation& simulation, SealedContent& content);
+/// unpack_state() of the rest, on another rank.
+void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation);
+
 /// Reason why the bits may differ from those of the program that wrote the checkpoint; empty if they do not.
 std::string other_origin(const SealedContent& content, const Model& model);
 

@@ -54,7 +54,7 @@ Pressed press_wheel(const TyreOnBlock& bodies, const ProgressText& progress) {
   SurfaceFields fields(grid);
   fields.add_stress(model.contact->nodes(), *model.internal, model.index.rail_cap,
                     {preload.displacement.data()});
-  const std::vector<double>& stress = fields.max_von_mises();
+  const std::span<const double> stress = fields.max_von_mises();
   const auto strongest =
       static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
   const std::size_t row = strongest % grid.quad.size();

@@ -64,13 +64,13 @@ double von_mises(const std::array<double, 6>& s) {
 
 template <class Real, class U>
 BasicInternalForce<Real, U>::BasicInternalForce(const Mesh& mesh)
-    : mesh_(mesh), forces_(tile_forces().front()), carries_(mesh.blocks.size()) {
+    : mesh_(mesh), forces_(tile_forces().front()) {
   cost_.push_back(0);
   for (int block = 0; block < static_cast<int>(mesh.blocks.size()); ++block) {
     const SweptBlock& swept = mesh.blocks[index(block)];
     BlockData& data = blocks_.emplace_back(mesh, block);
     data.carry_stride = index(3 * swept.section.nodes() + kLanes);
-    carries_[index(block)].assign(swept.tiles.size() * data.carry_stride, 0);
+    carries_.emplace_back(swept.tiles.size() * data.carry_stride);
     no_carry_.resize(std::max(no_carry_.size(), data.carry_stride), 0);
     data.first_item = items_.size();
     for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
@@ -361,7 +361,7 @@ template <class Real, class U>
 std::int64_t BasicInternalForce<Real, U>::bytes() const {
   std::int64_t sum = 0;
   for (const BlockData& data : blocks_) sum += data.elements.bytes();
-  for (const AlignedVector<Real>& carries : carries_)
+  for (const PageVector<Real>& carries : carries_)
     sum += static_cast<std::int64_t>(carries.size() * sizeof(Real));
   return sum;
 }

@@ -12,6 +12,7 @@
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/mesh/tile_sums.hpp"
+#include "core/page_vector.hpp"
 #include "kernels/blocks/block_elements.hpp"
 #include "kernels/blocks/element_matrices.hpp"
 #include "kernels/blocks/time_update.hpp"
@@ -224,11 +225,11 @@ class BasicInternalForce {
   const TileForces* forces_;
   std::vector<BlockData> blocks_;
   std::vector<Item> items_;
-  std::vector<std::int64_t> cost_;                    ///< of all tiles before each, to share the work evenly
-  AlignedVector<Real> no_carry_;                      ///< zeros
-  mutable std::vector<AlignedVector<Real>> carries_;  ///< by block: [tile][carry_stride]
-  mutable std::vector<unsigned char> pending_;        ///< items whose carry is added after the parallel part
-  mutable std::vector<unsigned char> unmoved_;        ///< those, and items without elements
+  std::vector<std::int64_t> cost_;                 ///< of all tiles before each, to share the work evenly
+  AlignedVector<Real> no_carry_;                   ///< zeros
+  mutable std::vector<PageVector<Real>> carries_;  ///< by block: [tile][carry_stride]
+  mutable std::vector<unsigned char> pending_;     ///< items whose carry is added after the parallel part
+  mutable std::vector<unsigned char> unmoved_;     ///< those, and items without elements
 };
 
 using InternalForce = BasicInternalForce<double>;

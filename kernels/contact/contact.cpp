@@ -58,7 +58,7 @@ void Contact::set_corrugation(Corrugation corrugation) {
 }
 
 void Contact::make_room() {
-  history_.assign(search_.rail_points(), {});
+  history_ = PageVector<PointHistory>(search_.rail_points());
   std::visit(
       [this](auto& of) {
         if constexpr (std::decay_t<decltype(of)>::kHasState) of.state.assign(history_.size(), {});
@@ -96,7 +96,7 @@ void Contact::find_static(const ContactState& state, double traction) {
 }
 
 void Contact::begin() {
-  std::fill(history_.begin(), history_.end(), PointHistory{});
+  history_ = PageVector<PointHistory>(history_.size());
   std::visit([](auto& of) { of.state.assign(of.state.size(), {}); }, friction_);
   search_.wake_all();
   frictional_work_ = damping_work_ = 0;

@@ -12,6 +12,7 @@
 #include "core/corrugation.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 #include "core/running_surface.hpp"
 #include "core/state_list.hpp"
 #include "kernels/contact/contact_point.hpp"
@@ -100,7 +101,7 @@ class Contact {
   SurfaceFields* record() const { return record_; }
   /// State and parts, for whoever solves elsewhere. Histories and states: by integration point of the whole
   /// rail.
-  std::vector<PointHistory>& history() { return history_; }
+  PageVector<PointHistory>& history() { return history_; }
   Friction& friction() { return friction_; }
   ContactSearch& searching() { return search_; }
   const ContactSearch& searching() const { return search_; }
@@ -172,7 +173,7 @@ class Contact {
   Friction friction_;
   ContactSearch search_;
   PatchArea area_;
-  std::vector<PointHistory> history_;  ///< by integration point of the whole rail
+  PageVector<PointHistory> history_;  ///< by integration point of the whole rail
   std::vector<ContactPoint> points_;
   PatchSolver solver_;
   PatchNodes nodes_;

@@ -26,11 +26,11 @@ std::size_t cells(const SurfaceGrid& grid) {
 
 SurfaceFields::SurfaceFields(const SurfaceGrid& grid)
     : grid_(grid),
-      max_pressure_(grid.nodes(), 0.0),
-      max_shear_(grid.nodes(), 0.0),
-      max_von_mises_(cells(grid), 0.0),
-      frictional_work_(grid.nodes(), 0.0),
-      sampled_work_(grid.nodes(), 0.0) {}
+      max_pressure_(grid.nodes()),
+      max_shear_(grid.nodes()),
+      max_von_mises_(cells(grid)),
+      frictional_work_(grid.nodes()),
+      sampled_work_(grid.nodes()) {}
 
 void SurfaceFields::add_step(const PatchNodes& patch) {
   for_each_node(patch, [&](std::size_t i, const NodalContact& node) {
@@ -55,7 +55,7 @@ void SurfaceFields::add_stress(const PatchNodes& patch, const InternalForce& for
   });
 }
 
-double SurfaceFields::sum(const std::vector<double>& per_area) const {
+double SurfaceFields::sum(std::span<const double> per_area) const {
   double all = 0;
   for (int station = 0; station < grid_.stations(); ++station)
     for (int row = 0; row < grid_.rows(); ++row)

@@ -3,8 +3,10 @@
 // [theory.md, Fields of the surface]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/page_vector.hpp"
 #include "core/state_list.hpp"
 #include "kernels/blocks/internal_force.hpp"
 #include "kernels/contact/patch_nodes.hpp"
@@ -21,9 +23,9 @@ class SurfaceFields {
 
   /// The fields that add_step() changes, by node.
   struct StepFields {
-    std::vector<double>& max_pressure;
-    std::vector<double>& max_shear;
-    std::vector<double>& frictional_work;
+    PageVector<double>& max_pressure;
+    PageVector<double>& max_shear;
+    PageVector<double>& frictional_work;
   };
   StepFields step_fields() { return {max_pressure_, max_shear_, frictional_work_}; }
 
@@ -42,15 +44,15 @@ class SurfaceFields {
   void add_stress(const PatchNodes& patch, const InternalForce& force, int block, const Deformation& of);
 
   const SurfaceGrid& grid() const { return grid_; }
-  const std::vector<double>& max_pressure() const { return max_pressure_; }        ///< by node [Pa]
-  const std::vector<double>& max_shear() const { return max_shear_; }              ///< by node [Pa]
-  const std::vector<double>& max_von_mises() const { return max_von_mises_; }      ///< by cell [Pa]
-  const std::vector<double>& frictional_work() const { return frictional_work_; }  ///< by node [J/m2]
+  std::span<const double> max_pressure() const { return max_pressure_; }        ///< by node [Pa]
+  std::span<const double> max_shear() const { return max_shear_; }              ///< by node [Pa]
+  std::span<const double> max_von_mises() const { return max_von_mises_; }      ///< by cell [Pa]
+  std::span<const double> frictional_work() const { return frictional_work_; }  ///< by node [J/m2]
   /// By samples; by node [J/m2].
-  const std::vector<double>& sampled_frictional_work() const { return sampled_work_; }
+  std::span<const double> sampled_frictional_work() const { return sampled_work_; }
 
   /// Integral of a work per area, given by node, over the whole surface [J].
-  double sum(const std::vector<double>& per_area) const;
+  double sum(std::span<const double> per_area) const;
 
   static std::int64_t bytes(const SurfaceGrid& grid);
 
@@ -64,7 +66,7 @@ class SurfaceFields {
 
  private:
   SurfaceGrid grid_;
-  std::vector<double> max_pressure_, max_shear_, max_von_mises_, frictional_work_, sampled_work_;
+  PageVector<double> max_pressure_, max_shear_, max_von_mises_, frictional_work_, sampled_work_;
 };
 
 }  // namespace tread

@@ -292,7 +292,7 @@ void DeviceContact::fetch_points() {
 
 void DeviceContact::fetch_record() {
   if (!sent_ || record_ == nullptr) return;
-  const auto copy = [&](std::vector<double>& to, const double* from) {
+  const auto copy = [&](PageVector<double>& to, const double* from) {
     device_->download(to.data(), from, to.size() * sizeof(double));
   };
   const SurfaceFields::StepFields fields = record_->step_fields();

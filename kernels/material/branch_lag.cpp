@@ -10,7 +10,7 @@ namespace tread {
 
 template <class Real>
 BranchLag<Real>::BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches)
-    : mesh_(mesh), branches_(std::move(branches)), q_(static_cast<std::size_t>(3 * mesh.slots), 0) {}
+    : mesh_(mesh), branches_(std::move(branches)), q_(static_cast<std::size_t>(3 * mesh.slots)) {}
 
 template <class Real>
 LagAdvance<Real> BranchLag<Real>::advance_of(int block, double dt) const {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/aligned.hpp"
 #include "core/inline.hpp"
 #include "core/material.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 
 namespace tread {
 
@@ -39,7 +39,7 @@ class BranchLag {
 
   /// Vector field of 3 * mesh.slots values [m].
   const Real* data() const { return q_.data(); }
-  AlignedVector<Real>& values() { return q_; }
+  PageVector<Real>& values() { return q_; }
   const std::optional<MaxwellBranch>& branch(int block) const {
     return branches_[static_cast<std::size_t>(block)];
   }
@@ -47,7 +47,7 @@ class BranchLag {
  private:
   const Mesh& mesh_;
   std::vector<std::optional<MaxwellBranch>> branches_;
-  AlignedVector<Real> q_;
+  PageVector<Real> q_;
 };
 
 extern template class BranchLag<double>;

@@ -64,7 +64,7 @@ std::int64_t law_state_values(const Mesh& mesh) {
 template <class Real>
 LawState<Real>::LawState(const Mesh& mesh) : mesh_(&mesh) {
   for (const SweptBlock& block : mesh.blocks)
-    values_.emplace_back(static_cast<std::size_t>(state_values_of(block)), Real{0});
+    values_.emplace_back(static_cast<std::size_t>(state_values_of(block)));
 }
 
 template <class Real>

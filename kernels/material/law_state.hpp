@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 #include "core/state_list.hpp"
 
 namespace tread {
@@ -42,7 +42,7 @@ class LawState {
 
  private:
   const Mesh* mesh_;
-  std::vector<AlignedVector<Real>> values_;
+  std::vector<PageVector<Real>> values_;
 };
 
 /// Number of values of a mesh's LawState.

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <barrier>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "core/parallel/parallel.hpp"
@@ -102,7 +104,7 @@ class Case {
   void expect_same_steps(int count, const std::vector<std::int64_t>& looks) {
     const auto meeting = std::make_shared<Meeting>(count);
     std::vector<std::unique_ptr<Model>> models;
-    std::vector<std::unique_ptr<Simulation>> shared;
+    Simulations shared;
     for (int rank = 0; rank < count; ++rank) {
       models.push_back(std::make_unique<Model>(scene_, deepest_));
       choose_ranks(std::make_shared<ThreadRanks>(meeting, rank));
@@ -110,16 +112,15 @@ class Case {
       choose_ranks(nullptr);
       shared.back()->set_sampling_interval(kSampling);
       samples::copy(one_->state(), shared.back()->state());
+      if (rank > 0) spoil(shared.back()->nodal_state());
     }
+    on_threads(shared, [](Simulation& simulation) { simulation.spread(); });
     for (const std::int64_t look : looks) {
-      std::vector<std::thread> threads;
       const std::int64_t steps = one_->steps() + look;
-      for (const auto& simulation : shared)
-        threads.emplace_back([&simulation, steps] {
-          while (simulation->steps() < steps) simulation->step();
-          simulation->fields();
-        });
-      for (std::thread& thread : threads) thread.join();
+      on_threads(shared, [steps](Simulation& simulation) {
+        while (simulation.steps() < steps) simulation.step();
+        simulation.fields();
+      });
       while (one_->steps() < steps) one_->step();
       EXPECT_EQ(samples::differences(one_->state(), shared.front()->state()), "")
           << count << " ranks, " << steps;
@@ -129,6 +130,23 @@ class Case {
   }
 
  private:
+  using Simulations = std::vector<std::unique_ptr<Simulation>>;
+
+  template <class Call>
+  static void on_threads(const Simulations& ranks, const Call& call) {
+    std::vector<std::thread> threads;
+    for (const auto& simulation : ranks) threads.emplace_back([&call, &simulation] { call(*simulation); });
+    for (std::thread& thread : threads) thread.join();
+  }
+  static void spoil(const StateList& list) {
+    for (const StateList::Field& field : list.fields())
+      std::visit(
+          [](auto values) {
+            std::fill(values.begin(), values.end(), std::numeric_limits<double>::quiet_NaN());
+          },
+          field.values);
+  }
+
   Scene scene_;
   Model model_;
   Preload preload_;
