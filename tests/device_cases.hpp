@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,7 +83,7 @@ inline Apart apart(std::int64_t values, const Simulation& a, const Simulation& b
 }
 
 /// Largest difference of two lists, by the largest value of the former.
-inline double difference(const std::vector<double>& a, const std::vector<double>& b) {
+inline double difference(std::span<const double> a, std::span<const double> b) {
   double largest = 0;
   double apart = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -50,6 +50,16 @@ struct BenchHotspotsOptions : BenchOptions {
 /// whose steps take the median time. InputError for a projection of steps on a device.
 void bench_hotspots(const ResolvedScene& scene, const BenchHotspotsOptions& options);
 
+struct BenchRanksOptions : BenchOptions {
+  int ranks = 64;  ///< that the scene is cut for
+  std::vector<int>
+      parts;  ///< numbers of ranks whose part is timed alone; the others' times follow from the first
+};
+
+/// Cuts a scene for ranks that are not there: elements, nodes, memory and messages of each in a step; and
+/// times the parts of some of them, without the contact. Nothing is preloaded.
+void bench_ranks(const ResolvedScene& scene, const BenchRanksOptions& options);
+
 /// Measure by which two files of `bench kernels --json` are compared.
 enum class BenchMeasure {
   rate,               ///< element-steps a second: for two builds on one machine

@@ -69,6 +69,20 @@ void add_bench_hotspots(CLI::App& bench) {
   command.add_flag("--quiet", state->options.quiet, "no progress on stderr");
 }
 
+void add_bench_ranks(CLI::App& bench) {
+  auto state = std::make_shared<SceneCommand<BenchRanksOptions>>();
+  CLI::App& command = add_scene_command(
+      bench, "ranks", "nodes, memory and messages of a scene cut for ranks that are not there", bench_ranks,
+      state);
+  command.add_option("--ranks", state->options.ranks, "number of ranks (default: 64)")->check(at_least(1));
+  command
+      .add_option("--parts", state->options.parts,
+                  "numbers of ranks whose part of a step is timed alone, without contact; the first predicts "
+                  "the times of all")
+      ->check(at_least(0));
+  add_plan_options(command, state->options.plan);
+}
+
 void add_bench_compare(CLI::App& bench) {
   auto files = std::make_shared<std::array<std::string, 2>>();
   auto measure = std::make_shared<BenchMeasure>(BenchMeasure::rate);
@@ -100,6 +114,7 @@ void add_bench(CLI::App& app, const std::string& /*command_line*/) {
   add_bench_kernels(bench);
   add_bench_scaling(bench);
   add_bench_hotspots(bench);
+  add_bench_ranks(bench);
   add_bench_compare(bench);
 }
 

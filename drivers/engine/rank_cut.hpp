@@ -26,9 +26,19 @@ struct TileWork {
   bool with_next = false;  ///< the loop takes the tile behind it along
 };
 
+/// By tile. `internal`: BasicInternalForce of the mesh.
+template <class Internal>
+std::vector<TileWork> tile_work(const Mesh& mesh, const Internal& internal) {
+  std::vector<TileWork> work;
+  for (const SweptBlock& block : mesh.blocks)
+    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
+      work.push_back({internal.cost(work.size()), internal.joined(work.size())});
+  return work;
+}
+
 class RankCut {
  public:
-  /// `work`: by tile, in the order of blocks and tiles. Ranks are left without tiles where there are few.
+  /// `work`: tile_work(). Ranks are left without tiles where there are few.
   RankCut(const Model& model, const std::vector<TileWork>& work, int ranks);
 
   int ranks() const { return static_cast<int>(stretches_.size()); }

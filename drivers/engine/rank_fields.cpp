@@ -11,16 +11,6 @@ namespace tread {
 
 namespace {
 
-template <class Real, class U>
-std::vector<TileWork> work_of(const Mesh& mesh, const BasicInternalForce<Real, U>& internal) {
-  std::size_t tiles = 0;
-  for (const SweptBlock& block : mesh.blocks) tiles += block.tiles.size();
-  std::vector<TileWork> work;
-  for (std::size_t tile = 0; tile < tiles; ++tile)
-    work.push_back({internal.cost(tile), internal.joined(tile)});
-  return work;
-}
-
 TileShare share_of(const RankCut& cut, Ranks& ranks) {
   TileShare share{&ranks, cut.stretches(ranks.rank()), {}, {0}};
   for (int rank = 0; rank < cut.ranks(); ++rank) {
@@ -37,7 +27,7 @@ template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
     : Base(model),
       ranks_(std::move(ranks)),
-      cut_(model, work_of(model.mesh, this->internal()), ranks_->count()),
+      cut_(model, tile_work(model.mesh, this->internal()), ranks_->count()),
       tiles_(share_of(cut_, *ranks_)),
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),

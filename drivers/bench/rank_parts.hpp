@@ -1,0 +1,28 @@
+#pragma once
+// A model cut for ranks that are not there: what each would hold, send and compute in a step.
+// [docs/records/ranks.md]
+
+#include <cstdint>
+#include <vector>
+
+#include "drivers/engine/model.hpp"
+#include "drivers/engine/rank_cut.hpp"
+#include "drivers/engine/shared_groups.hpp"
+
+namespace tread {
+
+/// A rank's part of the work.
+struct RankPart {
+  std::int64_t elements = 0;
+  std::int64_t cost = 0;           ///< of its tiles, against others
+  std::int64_t own = 0, halo = 0;  ///< groups of kLanes slots of its tiles, and others that it holds
+  int neighbours = 0;              ///< ranks that it sends forces to, or gets them from
+  std::int64_t sent = 0;           ///< values in a step
+  std::int64_t received = 0;       ///< values in a step
+};
+
+/// By rank. `groups`: follows the patch.
+std::vector<RankPart> rank_parts(const Model& model, const RankCut& cut, const std::vector<TileWork>& work,
+                                 const SharedGroups& groups);
+
+}  // namespace tread
