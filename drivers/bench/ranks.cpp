@@ -162,7 +162,7 @@ void bench_ranks(const ResolvedScene& resolved, const BenchRanksOptions& options
                                    part, options.ranks - 1));
   const Model model(scene, std::nullopt, require_memory);
   const StepLoads loads = loads_of(model);
-  const std::vector<TileWork> work = tile_work(model.mesh, *model.internal);
+  const std::vector<TileWork> work = tile_work(model, *model.internal);
   const RankCut cut(model, work, options.ranks);
   SharedGroups groups(model, cut);
   groups.follow(loads.frame, 70 * loads.dt);

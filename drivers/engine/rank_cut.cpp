@@ -56,14 +56,36 @@ std::vector<idx_t> parts_of(WorkGraph graph, int parts) {
   return part;
 }
 
+/// `first`: first_groups().
+std::size_t tile_of(const std::vector<std::int64_t>& first, std::int64_t slot) {
+  const auto at = std::upper_bound(first.begin(), first.end(), slot / kLanes);
+  return index(at - first.begin()) - 1;
+}
+
 }  // namespace
 
-RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int ranks)
-    : rank_(work.size()), owner_(index(model.mesh.slots / kLanes)), stretches_(index(ranks)) {
-  for (const SweptBlock& block : model.mesh.blocks)
+std::vector<std::int64_t> first_groups(const Mesh& mesh) {
+  std::vector<std::int64_t> first;
+  for (const SweptBlock& block : mesh.blocks)
     for (std::int64_t tile = 0; tile < std::ssize(block.tiles); ++tile)
-      first_group_.push_back(block.base / kLanes + tile * block.section.nodes());
-  first_group_.push_back(model.mesh.slots / kLanes);
+      first.push_back(block.base / kLanes + tile * block.section.nodes());
+  first.push_back(mesh.slots / kLanes);
+  return first;
+}
+
+void add_ties(const Model& model, std::vector<TileWork>& work) {
+  if (!model.ties) return;
+  // Both directions of a node's tie, and its late motion, take as long as half an extruded element.
+  constexpr std::int64_t kTiedNode = 2;
+  const std::vector<std::int64_t> first = first_groups(model.mesh);
+  for (const std::int64_t slot : model.ties->secondary_slots()) work[tile_of(first, slot)].cost += kTiedNode;
+}
+
+RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int ranks)
+    : rank_(work.size()),
+      owner_(index(model.mesh.slots / kLanes)),
+      first_group_(first_groups(model.mesh)),
+      stretches_(index(ranks)) {
   deal_out(model, work, ranks);
   for (std::size_t tile = 0; tile < rank_.size(); ++tile) {
     std::fill(owner_.begin() + first_group_[tile], owner_.begin() + first_group_[tile + 1], rank_[tile]);
@@ -91,10 +113,7 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
                    2 * std::int64_t{block.section.nodes()});
     before += block.tiles.size();
   }
-  const auto piece_of = [&](std::int64_t slot) {
-    const auto at = std::upper_bound(first_group_.begin(), first_group_.end(), slot / kLanes);
-    return piece[index(at - first_group_.begin()) - 1];
-  };
+  const auto piece_of = [&](std::int64_t slot) { return piece[tile_of(first_group_, slot)]; };
   if (model.ties)
     for (const TiedSlot& pair : model.ties->tied_slots())
       graph.link(piece_of(pair.secondary), piece_of(pair.primary), 1);

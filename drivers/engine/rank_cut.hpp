@@ -26,13 +26,20 @@ struct TileWork {
   bool with_next = false;  ///< the loop takes the tile behind it along
 };
 
-/// By tile. `internal`: BasicInternalForce of the mesh.
+/// First group of each tile, in the order of blocks and tiles, and the number of groups.
+std::vector<std::int64_t> first_groups(const Mesh& mesh);
+
+/// Adds the work of tied nodes.
+void add_ties(const Model& model, std::vector<TileWork>& work);
+
+/// By tile. `internal`: BasicInternalForce of the model's mesh.
 template <class Internal>
-std::vector<TileWork> tile_work(const Mesh& mesh, const Internal& internal) {
+std::vector<TileWork> tile_work(const Model& model, const Internal& internal) {
   std::vector<TileWork> work;
-  for (const SweptBlock& block : mesh.blocks)
+  for (const SweptBlock& block : model.mesh.blocks)
     for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
       work.push_back({internal.cost(work.size()), internal.joined(work.size())});
+  add_ties(model, work);
   return work;
 }
 

@@ -27,7 +27,7 @@ template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
     : Base(model),
       ranks_(std::move(ranks)),
-      cut_(model, tile_work(model.mesh, this->internal()), ranks_->count()),
+      cut_(model, tile_work(model, this->internal()), ranks_->count()),
       tiles_(share_of(cut_, *ranks_)),
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),
