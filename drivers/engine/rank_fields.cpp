@@ -1,10 +1,14 @@
 #include "drivers/engine/rank_fields.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/math/hash.hpp"
 #include "drivers/engine/featured_nodes.hpp"
 
 namespace tread {
@@ -105,11 +109,26 @@ void RankFields<Real, U>::fetch() {
 
 template <class Real, class U>
 void RankFields<Real, U>::spread() {
+  require_one_cut();
   send_all_tiles(Way::from_rank_0);
   spread_halos(this->u().data());
   spread_halos(this->v().data());
   if (this->q()) spread_halos(this->q()->values().data());
   gathered_ = true;
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::require_one_cut() {
+  Hash hash;
+  for (std::size_t tile = 0; tile < cut_.tiles(); ++tile)
+    hash.add(static_cast<std::uint64_t>(cut_.rank_of(tile)));
+  std::uint64_t of_rank_0 = hash.value();
+  ranks_->broadcast(std::as_writable_bytes(std::span(&of_rank_0, 1)));
+  if (of_rank_0 != hash.value())
+    throw ResourceError(
+        fmt::format("rank {} cuts the mesh otherwise than rank 0: their machines have different versions of "
+                    "METIS; install the same one on all of them",
+                    ranks_->rank()));
 }
 
 template <class Real, class U>

@@ -46,6 +46,7 @@ class RankFields final : public PreciseFields<Real, U> {
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
+  void require_one_cut();
   enum class Way { to_rank_0, from_rank_0 };
   template <class T, class Place>
   void send_tiles(Way way, T* values, const Place& place);

@@ -155,5 +155,31 @@ TEST_F(Bench, HotspotsCoverTheWholeStep) {
   EXPECT_EQ(phases.count("whole step"), 1U);
 }
 
+TEST_F(Bench, RanksHoldEachElementOnceAndWhatIsSentIsReceived) {
+  const auto ranks = [this](int count, const std::string& more) {
+    return call(
+        fmt::format("ranks {}/scenes/tyre.toml -t 1 --ranks {} --set \"scene.element_size=8 mm\" {} {}",
+                    TREAD_SOURCE_DIR, count, more, kSmoke));
+  };
+  ASSERT_EQ(ranks(1, ""), 0);
+  const double elements = number(records().front(), "elements");
+  ASSERT_EQ(ranks(3, "--parts 2 0"), 0);
+  double sum = 0, sent = 0, received = 0;
+  for (const JsonRecord& row : records()) {
+    sum += number(row, "elements");
+    sent += number(row, "sent_B");
+    received += number(row, "received_B");
+    EXPECT_GT(number(row, "node_slots_of_others"), 0);
+    EXPECT_EQ(number(row, "ranks_beside"), 2);
+    EXPECT_GT(number(row, "predicted_seconds_per_step"), 0);
+    EXPECT_EQ(row.count("seconds_per_step"), number(row, "rank") == 1 ? 0U : 1U);
+  }
+  EXPECT_EQ(records().size(), 3U);
+  EXPECT_EQ(sum, elements);
+  EXPECT_EQ(sent, received);
+  EXPECT_GT(sent, 0);
+  EXPECT_EQ(ranks(3, "--parts 3"), 2);
+}
+
 }  // namespace
 }  // namespace tread
