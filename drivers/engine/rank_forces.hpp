@@ -62,7 +62,7 @@ class RankForces {
   }
 
   const RankMessages& messages() const { return messages_; }
-  /// RankMessages::follow. No more forces than at first, so nothing is allocated.
+  /// RankMessages::follow.
   void follow(const std::vector<std::int64_t>& near) {
     messages_.follow(near);
     make_room();
