@@ -68,6 +68,7 @@ void RankFields<Real, U>::take_near() {
 template <class Real, class U>
 template <class T>
 void RankFields<Real, U>::share_groups(T* field, const std::vector<std::int64_t>& groups) {
+  if (groups.empty()) return;
   std::vector<std::int64_t> ordered = groups;
   std::stable_sort(ordered.begin(), ordered.end(),
                    [&](std::int64_t a, std::int64_t b) { return cut_.owner(a) < cut_.owner(b); });

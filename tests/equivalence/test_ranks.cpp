@@ -74,6 +74,7 @@ class ThreadRanks final : public Ranks {
     for (std::size_t other = 0; other + 1 < first.size(); ++other) {
       if (other == static_cast<std::size_t>(rank_)) continue;
       const std::int64_t from = first[other] * size;
+      if (first[other + 1] == first[other]) continue;
       std::memcpy(values + from, meeting_->values[other] + from,
                   static_cast<std::size_t>(first[other + 1] * size - from));
     }
