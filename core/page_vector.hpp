@@ -3,8 +3,8 @@
 // may lock their pages, and ranks hold fields of which they use a part.
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
@@ -26,8 +26,9 @@ struct PageAllocator {
     void* const whole = std::calloc(pages + 2, kPage);
     if (whole == nullptr) throw std::bad_alloc();
     // The first page boundary behind a pointer's length: the place before it holds where all began.
-    const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(whole) + sizeof(void*);
-    auto* const values = reinterpret_cast<void**>((begin + kPage - 1) / kPage * kPage);
+    void* first = static_cast<std::byte*>(whole) + sizeof(void*);
+    std::size_t room = (pages + 2) * kPage - sizeof(void*);
+    auto* const values = static_cast<void**>(std::align(kPage, pages * kPage, first, room));
     values[-1] = whole;
     return reinterpret_cast<T*>(values);
   }

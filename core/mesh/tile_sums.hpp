@@ -3,6 +3,7 @@
 // depend on the number of threads, nor on who has summed over which tile.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -33,13 +34,12 @@ struct TileShare {
   /// Gives each rank the sums of all. `sums`: by tile of all blocks.
   template <class Sum>
   void complete(std::vector<Sum>& sums) const {
-    static_assert(std::is_trivially_copyable_v<Sum> && sizeof(Sum) % sizeof(double) == 0);
+    static_assert(std::is_trivially_copyable_v<Sum>);
     std::vector<Sum> packed(sums.size());
     for (std::size_t i = 0; i < packed.size(); ++i) packed[i] = sums[by_rank[i]];
-    std::vector<std::int64_t> first_value;
-    for (const std::int64_t i : first)
-      first_value.push_back(i * static_cast<std::int64_t>(sizeof(Sum) / sizeof(double)));
-    ranks->gather(reinterpret_cast<double*>(packed.data()), first_value);
+    std::vector<std::int64_t> first_byte;
+    for (const std::int64_t i : first) first_byte.push_back(i * static_cast<std::int64_t>(sizeof(Sum)));
+    ranks->gather(reinterpret_cast<std::byte*>(packed.data()), first_byte);
     for (std::size_t i = 0; i < packed.size(); ++i) sums[by_rank[i]] = packed[i];
   }
 };
