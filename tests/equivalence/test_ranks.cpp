@@ -115,7 +115,10 @@ class Case {
       samples::copy(one_->state(), shared.back()->state());
       if (rank > 0) spoil(shared.back()->nodal_state());
     }
-    on_threads(shared, [](Simulation& simulation) { simulation.spread(); });
+    on_threads(shared, [](Simulation& simulation) {
+      simulation.spread();
+      simulation.fields();  // as at the checkpoint before the first step
+    });
     for (const std::int64_t look : looks) {
       const std::int64_t steps = one_->steps() + look;
       on_threads(shared, [steps](Simulation& simulation) {
