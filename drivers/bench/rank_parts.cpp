@@ -1,15 +1,13 @@
 #include "drivers/bench/rank_parts.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <vector>
+
+#include "drivers/engine/rank_forces.hpp"
 
 namespace tread {
 
 namespace {
-
-/// Values that go from one rank to another in a step.
-using Traffic = std::map<std::pair<int, int>, std::int64_t>;
 
 void add_tiles(const Mesh& mesh, const RankCut& cut, const std::vector<TileWork>& work,
                std::vector<RankPart>& parts) {
@@ -23,45 +21,28 @@ void add_tiles(const Mesh& mesh, const RankCut& cut, const std::vector<TileWork>
     }
 }
 
-/// Groups that a rank gets whole, and those of which it moves one station.
-void add_held(const RankCut& cut, const SharedGroups& groups, int rank, std::vector<RankPart>& parts,
-              Traffic& traffic) {
-  HeldGroups held = groups.held_by(rank);
-  for (const std::int64_t group : groups.near()) held.moved[index(group)] = held.forced[index(group)] = 1;
-  for (std::int64_t group = 0; group < std::ssize(held.forced); ++group) {
-    const int owner = cut.owner(group);
-    if (owner == rank) continue;
-    if (held.moved[index(group)] != 0) ++parts[index(rank)].halo;
-    if (held.forced[index(group)] != 0) traffic[{owner, rank}] += kGroupValues;
-  }
-  for (const Joint& joint : cut.joints()) {
-    const auto marks = held.forced.begin() + joint.slot / kLanes;
-    if (joint.far == rank)
-      traffic[{joint.near, rank}] += 3 * joint.nodes;
-    else if (joint.near != rank)
-      traffic[{joint.near, rank}] += 3 * std::count(marks, marks + joint.nodes, 1);
-    if (joint.near == rank) traffic[{joint.far, rank}] += 3 * joint.nodes;
-  }
-}
-
 }  // namespace
 
 std::vector<RankPart> rank_parts(const Model& model, const RankCut& cut, const std::vector<TileWork>& work,
                                  const SharedGroups& groups) {
   std::vector<RankPart> parts(index(cut.ranks()));
   add_tiles(model.mesh, cut, work, parts);
-  Traffic traffic;
-  for (int rank = 0; rank < cut.ranks(); ++rank) add_held(cut, groups, rank, parts, traffic);
-  for (const auto& [ranks, values] : traffic) {
-    if (values == 0) continue;
-    RankPart& from = parts[index(ranks.first)];
-    RankPart& to = parts[index(ranks.second)];
-    from.sent += values;
-    to.received += values;
-    if (traffic.count({ranks.second, ranks.first}) == 0 || traffic[{ranks.second, ranks.first}] == 0)
-      ++from.neighbours;
-    ++to.neighbours;
+  std::vector<std::vector<bool>> beside(parts.size(), std::vector<bool>(parts.size(), false));
+  for (int to = 0; to < cut.ranks(); ++to) {
+    const HeldGroups held = groups.held_by(to);
+    parts[index(to)].halo = std::ssize(groups.halo_of(to, held));
+    for (int from = 0; from < cut.ranks(); ++from) {
+      if (from == to) continue;
+      RankMessage message(cut, from, to, held.forced);
+      message.follow(groups.near());
+      if (message.count == 0) continue;
+      parts[index(from)].sent += message.count;
+      parts[index(to)].received += message.count;
+      beside[index(from)][index(to)] = beside[index(to)][index(from)] = true;
+    }
   }
+  for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    parts[rank].neighbours = static_cast<int>(std::count(beside[rank].begin(), beside[rank].end(), true));
   return parts;
 }
 

@@ -62,6 +62,18 @@ std::size_t tile_of(const std::vector<std::int64_t>& first, std::int64_t slot) {
   return index(at - first.begin()) - 1;
 }
 
+/// Calls visit(tile, tile of the station behind its last element, nodes there) for tiles with elements.
+template <class Visit>
+void for_each_link(const Mesh& mesh, const Visit& visit) {
+  std::size_t before = 0;
+  for (const SweptBlock& block : mesh.blocks) {
+    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
+      if (block.tiles[tile].elements > 0)
+        visit(before + tile, before + index(block.tiles[tile].next), std::int64_t{block.section.nodes()});
+    before += block.tiles.size();
+  }
+}
+
 }  // namespace
 
 std::vector<std::int64_t> first_groups(const Mesh& mesh) {
@@ -105,14 +117,9 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
     piece[tile] = static_cast<idx_t>(graph.cost.size()) - 1;
     graph.cost.back() += static_cast<idx_t>(work[tile].cost);
   }
-  std::size_t before = 0;
-  for (const SweptBlock& block : model.mesh.blocks) {
-    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
-      if (block.tiles[tile].elements > 0)
-        graph.link(piece[before + tile], piece[before + index(block.tiles[tile].next)],
-                   2 * std::int64_t{block.section.nodes()});
-    before += block.tiles.size();
-  }
+  for_each_link(model.mesh, [&](std::size_t tile, std::size_t next, std::int64_t nodes) {
+    graph.link(piece[tile], piece[next], 2 * nodes);
+  });
   const auto piece_of = [&](std::int64_t slot) { return piece[tile_of(first_group_, slot)]; };
   if (model.ties)
     for (const TiedSlot& pair : model.ties->tied_slots())
@@ -123,17 +130,10 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
 }
 
 void RankCut::join_tiles(const Mesh& mesh) {
-  std::size_t before = 0;
-  for (const SweptBlock& block : mesh.blocks) {
-    for (std::size_t tile = 0; tile < block.tiles.size(); ++tile) {
-      if (block.tiles[tile].elements == 0) continue;
-      const std::size_t next = before + index(block.tiles[tile].next);
-      const std::size_t own = before + tile;
-      if (rank_[own] != rank_[next])
-        joints_.push_back({rank_[own], rank_[next], own, first_group_[next] * kLanes, block.section.nodes()});
-    }
-    before += block.tiles.size();
-  }
+  for_each_link(mesh, [&](std::size_t tile, std::size_t next, std::int64_t nodes) {
+    if (rank_[tile] != rank_[next])
+      joints_.push_back({rank_[tile], rank_[next], tile, first_group_[next] * kLanes, nodes});
+  });
 }
 
 }  // namespace tread

@@ -36,7 +36,7 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),
       held_(shared_.held_by(ranks_->rank())),
-      forces_(cut_, shared_, *ranks_) {
+      forces_(cut_, shared_, held_, *ranks_) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
   if (model.contact) model.contact->searching().share_among(ranks_);
@@ -112,9 +112,13 @@ template <class Real, class U>
 void RankFields<Real, U>::spread() {
   require_one_cut();
   send_all_tiles(Way::from_rank_0);
-  spread_halos(this->u().data());
-  spread_halos(this->v().data());
-  if (this->q()) spread_halos(this->q()->values().data());
+  std::vector<Halo> halos;  // of those ranks with which this one exchanges
+  for (int rank = 1; ranks_->rank() == 0 && rank < cut_.ranks(); ++rank)
+    halos.push_back({rank, shared_.halo_of(rank, shared_.held_by(rank))});
+  if (ranks_->rank() != 0) halos.push_back({0, shared_.halo_of(ranks_->rank(), held_)});
+  spread_halos(this->u().data(), halos);
+  spread_halos(this->v().data(), halos);
+  if (this->q()) spread_halos(this->q()->values().data(), halos);
   gathered_ = true;
 }
 
@@ -154,8 +158,7 @@ void RankFields<Real, U>::send_tiles(Way way, T* values, const Place& place) {
            std::as_writable_bytes(std::span(values + place(stretch.first), values + place(stretch.last)))});
   }
   const bool sends = (way == Way::from_rank_0) == (ranks_->rank() == 0);
-  ranks_->exchange(sends ? of_tiles : std::vector<RankSegment>{},
-                   sends ? std::vector<RankSegment>{} : of_tiles);
+  exchange_one_way(sends, of_tiles);
 }
 
 template <class Real, class U>
@@ -172,38 +175,34 @@ void RankFields<Real, U>::send_law_state(Way way) {
   }
 }
 
-/// Groups that a rank holds of others' tiles before the first step.
-template <class Real, class U>
-std::vector<std::int64_t> RankFields<Real, U>::halo_of(int rank) const {
-  GroupMarks held = shared_.held_by(rank).moved;
-  for (const std::int64_t group : shared_.near()) held[index(group)] = 1;
-  std::vector<std::int64_t> groups;
-  for (std::int64_t group = 0; group < std::ssize(held); ++group)
-    if (held[index(group)] != 0 && cut_.owner(group) != rank) groups.push_back(group);
-  return groups;
-}
-
 template <class Real, class U>
 template <class T>
-void RankFields<Real, U>::spread_halos(T* field) {
+void RankFields<Real, U>::spread_halos(T* field, const std::vector<Halo>& halos) {
+  const bool sends = ranks_->rank() == 0;
   std::vector<AlignedVector<T>> packed;
   std::vector<RankSegment> segments;
-  for (int rank = 1; rank < cut_.ranks(); ++rank) {
-    if (ranks_->rank() != 0 && ranks_->rank() != rank) continue;
-    const std::vector<std::int64_t> groups = halo_of(rank);
-    AlignedVector<T>& values = packed.emplace_back(groups.size() * kGroupValues);
-    segments.push_back({ranks_->rank() == 0 ? rank : 0, std::as_writable_bytes(std::span(values))});
-    if (ranks_->rank() == 0)
-      for_groups(groups, 0, std::ssize(groups), [&](std::int64_t at, std::int64_t place) {
-        std::copy_n(field + place, kGroupValues, values.data() + at);
-      });
+  for (const Halo& halo : halos) {
+    AlignedVector<T>& values = packed.emplace_back(halo.groups.size() * kGroupValues);
+    segments.push_back({halo.other, std::as_writable_bytes(std::span(values))});
+    if (!sends) continue;
+    for_groups(halo.groups, 0, std::ssize(halo.groups), [&](std::int64_t at, std::int64_t place) {
+      std::copy_n(field + place, kGroupValues, values.data() + at);
+    });
   }
-  if (ranks_->rank() == 0) return ranks_->exchange(segments, {});
-  ranks_->exchange({}, segments);
-  const std::vector<std::int64_t> groups = halo_of(ranks_->rank());
+  exchange_one_way(sends, segments);
+  if (sends) return;
+  const std::vector<std::int64_t>& groups = halos.front().groups;
   for_groups(groups, 0, std::ssize(groups), [&](std::int64_t at, std::int64_t place) {
     std::copy_n(packed.front().data() + at, kGroupValues, field + place);
   });
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::exchange_one_way(bool sends, const std::vector<RankSegment>& segments) {
+  if (sends)
+    ranks_->exchange(segments, {});
+  else
+    ranks_->exchange({}, segments);
 }
 
 template <class Real, class U>

@@ -52,9 +52,13 @@ class RankFields final : public PreciseFields<Real, U> {
   void send_tiles(Way way, T* values, const Place& place);
   void send_all_tiles(Way way);
   void send_law_state(Way way);
-  std::vector<std::int64_t> halo_of(int rank) const;
+  struct Halo {
+    int other;  ///< rank that sends or gets its values
+    std::vector<std::int64_t> groups;
+  };
   template <class T>
-  void spread_halos(T* field);
+  void spread_halos(T* field, const std::vector<Halo>& halos);
+  void exchange_one_way(bool sends, const std::vector<RankSegment>& segments);
   void spoil();
 
   std::shared_ptr<Ranks> ranks_;

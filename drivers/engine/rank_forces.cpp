@@ -1,7 +1,7 @@
 #include "drivers/engine/rank_forces.hpp"
 
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 namespace tread {
 
@@ -15,123 +15,114 @@ std::vector<std::int64_t> all_values(const Joint& joint) {
 
 }  // namespace
 
-RankMessages::RankMessages(const RankCut& cut, const SharedGroups& groups, int own) : cut_(&cut), own_(own) {
-  const GroupMarks own_forced = groups.held_by(own).forced;
+RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const GroupMarks& forced)
+    : cut(&all), from(sender), to(receiver) {
+  for (const TileStretch& stretch : cut->stretches(from))
+    for (std::int64_t group = cut->first_group(stretch.first); group < cut->first_group(stretch.last);
+         ++group)
+      if (forced[index(group)] != 0) always.push_back(group);
+  for (const Joint& joint : cut->joints()) {
+    const auto marks = forced.begin() + joint.slot / kLanes;
+    if (joint.near == from) parts.push_back({&joint, true, {}, {marks, marks + joint.nodes}});
+    if (joint.far == from && joint.near == to) parts.push_back({&joint, false, all_values(joint), {}});
+  }
+}
+
+void RankMessage::follow(const std::vector<std::int64_t>& near) {
+  groups.assign(always.begin(), always.end());
+  for (const std::int64_t group : near)
+    if (cut->owner(group) == from && !std::binary_search(always.begin(), always.end(), group))
+      groups.push_back(group);
+  std::sort(groups.begin(), groups.end());
+  count = std::ssize(groups) * kGroupValues;
+  for (JointPart& part : parts) {
+    if (part.element) {
+      part.values.clear();
+      for (std::int64_t node = 0; node < part.joint->nodes; ++node)
+        if (part.joint->far == to || part.always[index(node)] != 0 ||
+            std::binary_search(near.begin(), near.end(), part.joint->slot / kLanes + node))
+          for (int c = 0; c < 3; ++c) part.values.push_back(3 * node + c);
+    }
+    count += std::ssize(part.values);
+  }
+}
+
+template <class Real>
+RankForces<Real>::RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held,
+                             Ranks& ranks)
+    : ranks_(&ranks) {
+  const int own = ranks.rank();
   for (int rank = 0; rank < cut.ranks(); ++rank) {
     if (rank == own) continue;
-    add(sent_, own, rank, groups.held_by(rank).forced);
-    add(received_, rank, own, own_forced);
+    sent_.push_back({RankMessage(cut, own, rank, groups.held_by(rank).forced)});
+    received_.push_back({RankMessage(cut, rank, own, held.forced)});
   }
   follow(groups.near());
 }
 
-/// `forced`: groups whose forces the receiver needs.
-void RankMessages::add(std::vector<Message>& messages, int from, int to, const GroupMarks& forced) const {
-  Message message{from == own_ ? to : from, {}, {}, {}};
-  for (const TileStretch& stretch : cut_->stretches(from))
-    for (std::int64_t group = cut_->first_group(stretch.first); group < cut_->first_group(stretch.last);
-         ++group)
-      if (forced[index(group)] != 0) message.always.push_back(group);
-  for (const Joint& joint : cut_->joints()) {
-    const auto marks = forced.begin() + joint.slot / kLanes;
-    if (joint.near == from) message.parts.push_back({&joint, true, {}, {marks, marks + joint.nodes}});
-    if (joint.far == from && joint.near == to)
-      message.parts.push_back({&joint, false, all_values(joint), {}});
-  }
-  messages.push_back(std::move(message));
-}
-
-void RankMessages::follow(const std::vector<std::int64_t>& near) {
-  follow(sent_, near, true);
-  follow(received_, near, false);
-}
-
-void RankMessages::follow(std::vector<Message>& messages, const std::vector<std::int64_t>& near,
-                          bool sends) const {
-  std::int64_t place = 0;
-  for (Message& message : messages) {
-    const int from = sends ? own_ : message.rank;
-    const int to = sends ? message.rank : own_;
-    message.groups.assign(message.always.begin(), message.always.end());
-    const auto middle = std::ssize(message.groups);
-    for (const std::int64_t group : near)
-      if (cut_->owner(group) == from &&
-          !std::binary_search(message.always.begin(), message.always.end(), group))
-        message.groups.push_back(group);
-    std::inplace_merge(message.groups.begin(), message.groups.begin() + middle, message.groups.end());
-    message.first = place;
-    message.count = std::ssize(message.groups) * kGroupValues;
-    for (JointPart& part : message.parts) {
-      if (part.element) {
-        part.values.clear();
-        for (std::int64_t node = 0; node < part.joint->nodes; ++node)
-          if (part.joint->far == to || part.always[index(node)] != 0 ||
-              std::binary_search(near.begin(), near.end(), part.joint->slot / kLanes + node))
-            for (int c = 0; c < 3; ++c) part.values.push_back(3 * node + c);
-      }
-      message.count += std::ssize(part.values);
-    }
-    place += message.count;
-  }
-}
-
 template <class Real>
-void RankForces<Real>::make_room() {
-  out_.resize(index(messages_.values_sent()));
-  in_.resize(index(messages_.values_received()));
-  const auto segments = [](const std::vector<RankMessages::Message>& messages, AlignedVector<Real>& values,
-                           std::vector<RankSegment>& list) {
-    list.clear();
-    for (const RankMessages::Message& message : messages)
-      if (message.count > 0)
-        list.push_back({message.rank, std::as_writable_bytes(std::span(values).subspan(
-                                          index(message.first), index(message.count)))});
+void RankForces<Real>::follow(const std::vector<std::int64_t>& near) {
+  const auto lay_out = [&](std::vector<Packed>& messages, AlignedVector<Real>& values,
+                           int RankMessage::*other, std::vector<RankSegment>& segments) {
+    std::int64_t place = 0;
+    for (Packed& packed : messages) {
+      packed.message.follow(near);
+      packed.first = std::exchange(place, place + packed.message.count);
+    }
+    values.resize(index(place));
+    segments.clear();
+    for (const Packed& packed : messages)
+      if (packed.message.count > 0)
+        segments.push_back({packed.message.*other, std::as_writable_bytes(std::span(values).subspan(
+                                                       index(packed.first), index(packed.message.count)))});
   };
-  segments(messages_.sent(), out_, out_segments_);
-  segments(messages_.received(), in_, in_segments_);
+  lay_out(sent_, out_, &RankMessage::to, out_segments_);
+  lay_out(received_, in_, &RankMessage::from, in_segments_);
 }
 
 template <class Real>
 void RankForces<Real>::exchange(Carry carry, Real* force) {
-  for (const RankMessages::Message& message : messages_.sent()) pack(message, carry, force);
+  for (const Packed& packed : sent_) pack(packed, carry, force);
   ranks_->exchange(out_segments_, in_segments_);
-  for (const RankMessages::Message& message : messages_.received()) unpack_groups(message, force);
-  for (const RankMessages::Message& message : messages_.received()) unpack_joints(message, carry, force);
+  for (const Packed& packed : received_) unpack_groups(packed, force);
+  for (const Packed& packed : received_) unpack_joints(packed, carry, force);
 }
 
 template <class Real>
-void RankForces<Real>::pack(const RankMessages::Message& message, Carry carry, const Real* force) {
-  Real* packed = out_.data() + message.first;
+void RankForces<Real>::pack(const Packed& packed, Carry carry, const Real* force) {
+  const RankMessage& message = packed.message;
+  Real* values = out_.data() + packed.first;
   for_groups(message.groups, 0, std::ssize(message.groups), [&](std::int64_t at, std::int64_t place) {
-    std::copy_n(force + place, kGroupValues, packed + at);
+    std::copy_n(force + place, kGroupValues, values + at);
   });
-  packed += kGroupValues * std::ssize(message.groups);
-  for (const RankMessages::JointPart& part : message.parts) {
+  values += kGroupValues * std::ssize(message.groups);
+  for (const RankMessage::JointPart& part : message.parts) {
     const Real* const element = carry(part.joint->tile);
     const Real* const station = force + dof(part.joint->slot, 0);
-    for (const std::int64_t i : part.values) *packed++ = part.element ? element[i] : station[i * kLanes];
+    for (const std::int64_t i : part.values) *values++ = part.element ? element[i] : station[i * kLanes];
   }
 }
 
 template <class Real>
-void RankForces<Real>::unpack_groups(const RankMessages::Message& message, Real* force) const {
-  const Real* const packed = in_.data() + message.first;
-  for_groups(message.groups, 0, std::ssize(message.groups), [&](std::int64_t at, std::int64_t place) {
-    std::copy_n(packed + at, kGroupValues, force + place);
+void RankForces<Real>::unpack_groups(const Packed& packed, Real* force) const {
+  const std::vector<std::int64_t>& groups = packed.message.groups;
+  const Real* const values = in_.data() + packed.first;
+  for_groups(groups, 0, std::ssize(groups), [&](std::int64_t at, std::int64_t place) {
+    std::copy_n(values + at, kGroupValues, force + place);
   });
 }
 
 /// Forces at a station are added in one process's order: that of the element last.
 template <class Real>
-void RankForces<Real>::unpack_joints(const RankMessages::Message& message, Carry carry, Real* force) const {
-  const Real* packed = in_.data() + message.first + kGroupValues * std::ssize(message.groups);
-  for (const RankMessages::JointPart& part : message.parts) {
+void RankForces<Real>::unpack_joints(const Packed& packed, Carry carry, Real* force) const {
+  const Real* values = in_.data() + packed.first + kGroupValues * std::ssize(packed.message.groups);
+  for (const RankMessage::JointPart& part : packed.message.parts) {
     const Real* const element = carry(part.joint->tile);
     Real* const station = force + dof(part.joint->slot, 0);
     for (const std::int64_t i : part.values) {
       Real& total = station[i * kLanes];
-      total = part.element ? total + *packed : *packed + element[i];
-      ++packed;
+      total = part.element ? total + *values : *values + element[i];
+      ++values;
     }
   }
 }

@@ -13,60 +13,37 @@
 
 namespace tread {
 
-class RankMessages {
- public:
-  /// Keeps a reference to the cut. `own`: this rank.
-  RankMessages(const RankCut& cut, const SharedGroups& groups, int own);
-
-  /// A part of a message about the station of a joint: the force of the element, or of all others there.
+/// What one rank sends another in a step: forces of whole groups, then those at joints.
+struct RankMessage {
+  /// About the station of a joint: the force of the element, or of all others there.
   struct JointPart {
     const Joint* joint;
     bool element;
     std::vector<std::int64_t> values;  ///< 3 * section node + component
     GroupMarks always;                 ///< by section node: those of third ranks wherever the patch is
   };
-  /// Forces of whole groups, then those at joints.
-  struct Message {
-    int rank;                                  ///< the other
-    std::vector<std::int64_t> always, groups;  ///< ascending: those wherever the patch is, and all
-    std::vector<JointPart> parts;
-    std::int64_t first = 0;  ///< place of its values among those of all messages
-    std::int64_t count = 0;  ///< of its values
-  };
+
+  /// Keeps a reference to the cut. `forced`: HeldGroups::forced of the receiver.
+  RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced);
 
   /// All ranks get the forces of these groups, ascending, besides those wherever the patch is.
   void follow(const std::vector<std::int64_t>& near);
 
-  const std::vector<Message>& sent() const { return sent_; }
-  const std::vector<Message>& received() const { return received_; }
-  std::int64_t values_sent() const { return sent_.empty() ? 0 : sent_.back().first + sent_.back().count; }
-  std::int64_t values_received() const {
-    return received_.empty() ? 0 : received_.back().first + received_.back().count;
-  }
-
- private:
-  void add(std::vector<Message>& messages, int from, int to, const GroupMarks& forced) const;
-  void follow(std::vector<Message>& messages, const std::vector<std::int64_t>& near, bool sends) const;
-
-  const RankCut* cut_;
-  int own_;
-  std::vector<Message> sent_, received_;
+  const RankCut* cut;
+  int from, to;
+  std::vector<std::int64_t> always, groups;  ///< ascending: those wherever the patch is, and all
+  std::vector<JointPart> parts;
+  std::int64_t count = 0;  ///< of its values
 };
 
 template <class Real>
 class RankForces {
  public:
-  RankForces(const RankCut& cut, const SharedGroups& groups, Ranks& ranks)
-      : messages_(cut, groups, ranks.rank()), ranks_(&ranks) {
-    make_room();
-  }
+  /// Keeps references. `held`: by this rank.
+  RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held, Ranks& ranks);
 
-  const RankMessages& messages() const { return messages_; }
-  /// RankMessages::follow.
-  void follow(const std::vector<std::int64_t>& near) {
-    messages_.follow(near);
-    make_room();
-  }
+  /// RankMessage::follow of all.
+  void follow(const std::vector<std::int64_t>& near);
 
   /// Force of a tile's last element on the station behind it. [BasicInternalForce::carry]
   using Carry = FunctionRef<const Real*(std::size_t)>;
@@ -74,13 +51,17 @@ class RankForces {
   void exchange(Carry carry, Real* force);
 
  private:
-  void make_room();
-  void pack(const RankMessages::Message& message, Carry carry, const Real* force);
-  void unpack_groups(const RankMessages::Message& message, Real* force) const;
-  void unpack_joints(const RankMessages::Message& message, Carry carry, Real* force) const;
+  /// A message and its place among the values that go the same way.
+  struct Packed {
+    RankMessage message;
+    std::int64_t first = 0;
+  };
+  void pack(const Packed& packed, Carry carry, const Real* force);
+  void unpack_groups(const Packed& packed, Real* force) const;
+  void unpack_joints(const Packed& packed, Carry carry, Real* force) const;
 
-  RankMessages messages_;
   Ranks* ranks_;
+  std::vector<Packed> sent_, received_;
   AlignedVector<Real> out_, in_;
   std::vector<RankSegment> out_segments_, in_segments_;
 };

@@ -67,6 +67,14 @@ HeldGroups SharedGroups::held_by(int rank) const {
   return held;
 }
 
+std::vector<std::int64_t> SharedGroups::halo_of(int rank, const HeldGroups& held) const {
+  GroupMarks moved = held.moved;
+  for (const std::int64_t group : near_) moved[index(group)] = 1;
+  std::vector<std::int64_t> groups = marked(moved);
+  std::erase_if(groups, [&](std::int64_t group) { return cut_->owner(group) == rank; });
+  return groups;
+}
+
 void SharedGroups::follow(const BodyFrame& wheel, double ahead) {
   near_.clear();
   if (!model_->contact) return;

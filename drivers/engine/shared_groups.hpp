@@ -24,6 +24,9 @@ class SharedGroups {
   SharedGroups(const Model& model, const RankCut& cut);
 
   HeldGroups held_by(int rank) const;
+  /// Groups of others' tiles of which a rank moves nodes, with those about the patch, ascending. `held`: by
+  /// it.
+  std::vector<std::int64_t> halo_of(int rank, const HeldGroups& held) const;
 
   /// The patch is what contact touches with the wheel's frame anywhere between now and a time of `ahead` [s]
   /// later.

@@ -135,6 +135,13 @@ class FollowedRun {
   std::optional<Simulation> simulation_;
 };
 
+/// Until a word that is not about the run.
+Word follow_run(Ranks& ranks) {
+  FollowedRun run(receive(ranks));
+  run.take_values();
+  return run.follow(ranks);
+}
+
 }  // namespace
 
 Followers::Followers() : ranks_(chosen_ranks()) {}
@@ -179,15 +186,8 @@ std::string Followers::description(std::int64_t steps) const {
 void follow(Ranks& ranks) {
   // Rank 0 obeys signals. The launcher sends them to all.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) std::signal(signal, SIG_IGN);
-  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;) {
-    if (word == Word::end) {
-      word = next_word(ranks);
-      continue;
-    }
-    FollowedRun run(receive(ranks));
-    run.take_values();
-    word = run.follow(ranks);
-  }
+  for (Word word = next_word(ranks); word == Word::begin || word == Word::end;)
+    word = word == Word::begin ? follow_run(ranks) : next_word(ranks);
 }
 
 void dismiss(Ranks& ranks) {
