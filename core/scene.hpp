@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/body_spec.hpp"
 #include "core/material.hpp"
 #include "core/math/elastic_pair.hpp"
 
@@ -357,6 +358,7 @@ struct Scene {
   std::optional<MotionSpec> motion;
   std::optional<CorrugationSpec> corrugation;
   std::map<std::string, SurfaceSpec, std::less<>> surfaces;  ///< by name
+  std::map<std::string, BodySpec, std::less<>> bodies;       ///< by name
   std::optional<WearSpec> wear;
   std::optional<PulseSpec> pulse;
   std::optional<HammerSpec> hammer;
