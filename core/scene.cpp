@@ -29,6 +29,12 @@ const Material& Scene::head_material() const {
   return rail && !rail->head_material.empty() ? material(rail->head_material) : rail_material();
 }
 
+const std::pair<const std::string, BodySpec>* Scene::body_replacing(std::string_view part) const {
+  const auto found =
+      std::ranges::find_if(bodies, [&](const auto& body) { return body.second.replaces == part; });
+  return found == bodies.end() ? nullptr : &*found;
+}
+
 ElasticPair Scene::elastic_pair() const {
   const Material& of_wheel = wheel_material();
   const Material& of_rail = head_material();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/body_spec.hpp"
@@ -373,6 +374,8 @@ struct Scene {
   const Material& rail_material() const;   ///< InputError without [rail]
   const Material& head_material() const;   ///< of the rail's running surface; InputError without [rail]
   ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
+  /// The body of a file that replaces a part, "disc" or "rail", and its name; null: none does.
+  const std::pair<const std::string, BodySpec>* body_replacing(std::string_view part) const;
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;
 

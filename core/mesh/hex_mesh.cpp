@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/index.hpp"
+#include "core/mesh/swept_block.hpp"
 
 namespace tread {
 
 namespace {
-
-/// Corners at the other ends of a corner's three edges, in the order of a positive triple product.
-constexpr std::size_t kNeighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                           {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) {
   return dot(a, cross(b, c));
@@ -54,6 +52,31 @@ HexMesh hexahedra_of(const SweptBlock& block) {
   return mesh;
 }
 
+std::vector<std::array<std::int32_t, 4>> outer_faces(const HexMesh& mesh,
+                                                     const std::vector<std::int32_t>& set) {
+  using Face = std::array<std::int32_t, 4>;
+  const auto is_member = [&](std::int32_t node) { return std::binary_search(set.begin(), set.end(), node); };
+  std::vector<std::pair<Face, Face>> faces;  // nodes ascending, and as the element has them
+  for (const HexCorners& corners : mesh.elements)
+    for (const auto& of : kHexFaces) {
+      Face face;
+      for (std::size_t k = 0; k < 4; ++k) face[k] = corners[of[k]];
+      if (!std::all_of(face.begin(), face.end(), is_member)) continue;
+      Face sorted = face;
+      std::sort(sorted.begin(), sorted.end());
+      faces.emplace_back(sorted, face);
+    }
+  std::sort(faces.begin(), faces.end());
+  std::vector<Face> outer;
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t end = i + 1;
+    while (end < faces.size() && faces[end].first == faces[i].first) ++end;
+    if (end == i + 1) outer.push_back(faces[i].second);
+    i = end;
+  }
+  return outer;
+}
+
 HexShape hex_shape(const std::array<Vec3, 8>& corners) {
   HexShape shape;
   shape.volume = volume_of(corners);
@@ -62,7 +85,7 @@ HexShape hex_shape(const std::array<Vec3, 8>& corners) {
   for (std::size_t i = 0; i < 8; ++i) {
     std::array<Vec3, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) {
-      edge[k] = corners[kNeighbours[i][k]] - corners[i];
+      edge[k] = corners[kHexNeighbours[i][k]] - corners[i];
       shape.shortest_edge = std::min(shape.shortest_edge, norm(edge[k]));
       shape.longest_edge = std::max(shape.longest_edge, norm(edge[k]));
     }

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "core/math/vec.hpp"
-#include "core/mesh/swept_block.hpp"
 
 namespace tread {
+
+struct SweptBlock;
 
 /// Indices of an element's nodes: 0 ... 3 run about one face, counter-clockwise seen from the face opposite;
 /// 4 ... 7 are the nodes opposite to them.
@@ -41,6 +42,15 @@ HexMesh hexahedra_of(const SweptBlock& block);
 /// Corners of the six faces. Normals point outwards.
 inline constexpr std::array<std::array<std::size_t, 4>, 6> kHexFaces = {
     {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+/// Corners at the other ends of a corner's three edges, in the order of a positive triple product.
+inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours = {
+    {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
+
+/// Faces of one element alone all of whose nodes belong to a set (indices, ascending); each as indices of
+/// nodes about it, its normal pointing outwards.
+std::vector<std::array<std::int32_t, 4>> outer_faces(const HexMesh& mesh,
+                                                     const std::vector<std::int32_t>& set);
 
 /// Shape of an element by its corners.
 struct HexShape {

@@ -104,4 +104,11 @@ int Mesh::add(SweptBlock block) {
   return static_cast<int>(blocks.size()) - 1;
 }
 
+int Mesh::add(HexBody body) {
+  body.base = slots;
+  slots += body.slots();
+  bodies.push_back(std::move(body));
+  return static_cast<int>(bodies.size()) - 1;
+}
+
 }  // namespace tread

@@ -10,12 +10,14 @@
 
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "core/inline.hpp"
 #include "core/material.hpp"
 #include "core/math/vec.hpp"
+#include "core/mesh/hex_mesh.hpp"
 #include "core/mesh/section.hpp"
 
 namespace tread {
@@ -110,13 +112,34 @@ Vec3 position(const SweptBlock& block, int section_node, int station);
 Vec3 to_cartesian(const SweptBlock& block, int station, double angle, const Vec3& local);
 Vec3 to_local(const SweptBlock& block, int station, double angle, const Vec3& cartesian);
 
-/// The blocks of a model. Node fields are contiguous over all of them; unused lanes hold zero.
+/// A body of hexahedra of another program beside the swept blocks. Components of vector fields are Cartesian,
+/// in the axes of the body: of a wheel's those of the frame at angle 0.
+struct HexBody {
+  std::string name;
+  HexMesh mesh;                     ///< positions in the body frame, of a wheel relative to its axis [m]
+  std::vector<Material> materials;  ///< by part of the mesh
+  bool spins = false;               ///< with the wheel's frame
+  std::int64_t base = 0;            ///< slot of node 0 in the mesh's node fields
+
+  std::int64_t nodes() const { return static_cast<std::int64_t>(mesh.nodes.size()); }
+  std::int64_t elements() const { return static_cast<std::int64_t>(mesh.elements.size()); }
+  std::int64_t slots() const { return (nodes() + kLanes - 1) / kLanes * kLanes; }
+  std::int64_t slot(std::int64_t node) const { return base + node; }
+};
+
+/// Angle of a station of a revolved block whose basis (t, y, r) is (x, y, z): a node of a spinning HexBody is
+/// one of such a station, at (x, y, z) in place of (0, y, r).
+inline constexpr double kCartesianAngle = std::numbers::pi;
+
+/// The bodies of a model. Node fields are contiguous over all of them; unused lanes hold zero.
 struct Mesh {
   std::vector<SweptBlock> blocks;
-  std::int64_t slots = 0;  ///< node slots over all blocks, a multiple of kLanes
+  std::vector<HexBody> bodies;  ///< after the blocks in the fields
+  std::int64_t slots = 0;       ///< node slots over all blocks and bodies, a multiple of kLanes
 
-  /// Appends a block, gives it its base and returns its index.
+  /// Appends a block or a body, gives it its base and returns its index.
   int add(SweptBlock block);
+  int add(HexBody body);
 };
 
 /// Index of a component of a node in a vector field of 3 * mesh.slots values. Within a group of kLanes slots

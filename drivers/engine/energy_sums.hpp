@@ -39,6 +39,10 @@ class EnergySums {
   double half_step_excess(ConstNodeField force, double dt, const TileShare* share) const;
 
  private:
+  /// Mass times `term` of the components from the first on, over all that does not travel.
+  template <class Term>
+  double sum_of_fixed(int first_component, ConstNodeField field, const TileShare* share,
+                      const Term& term) const;
   const SweptBlock& swept(int block) const { return model_->mesh.blocks[static_cast<std::size_t>(block)]; }
 
   const Model* model_;

@@ -56,13 +56,45 @@ void Model::build_blocks() {
   if (scene.slab_track) build_slab();
   if (scene.sleepers) build_sleepers();
   if (scene.wheel) build_wheel();
+  build_bodies();
   if (mesh.blocks.empty()) throw InputError("the scene has neither [rail] nor [wheel]: nothing to compute");
 }
 
+int Model::add_body(const std::string& name, const BodySpec& spec, const Material& material) {
+  HexBody body;
+  body.name = name;
+  body.mesh = *spec.mesh;
+  body.materials.assign(body.mesh.parts.size(),
+                        spec.material.empty() ? material : scene.material(spec.material));
+  body.spins = spec.on_wheel();
+  return mesh.add(std::move(body));
+}
+
+void Model::build_bodies() {
+  const auto tie = [&](int body, const std::string& name, const char* key, const std::string& set, int block,
+                       const char* path, bool whole) {
+    body_ties.push_back({body, set, fmt::format("body.{}.{}", name, key), block, path, whole});
+  };
+  if (const auto* disc = scene.body_replacing("disc"); disc && index.tread >= 0) {
+    const auto& [name, spec] = *disc;
+    index.disc_body = add_body(name, spec, scene.wheel_material());
+    tie(index.disc_body, name, "tread", spec.tread, index.tread, "tie", true);
+    tie(index.disc_body, name, "axle", spec.axle, index.axle, "tie", false);
+  }
+  if (const auto* rail = scene.body_replacing("rail"); rail && index.rail_cap >= 0) {
+    const auto& [name, spec] = *rail;
+    index.base_body = add_body(name, spec, scene.rail_material());
+    tie(index.base_body, name, "head", spec.head, index.rail_cap, "tie", true);
+  }
+}
+
 void Model::tie_blocks() {
-  if (tie_specs.empty()) return;
+  if (tie_specs.empty() && body_ties.empty()) return;
   for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
-  ties.emplace(mesh, tie_specs);
+  std::vector<FollowingNode> tied;
+  for (const BodyTieSpec& spec : body_ties)
+    for (FollowingNode& node : tie_body(mesh, spec)) tied.push_back(node);
+  ties.emplace(mesh, tie_specs, tied);
 }
 
 void Model::build_operators() {
@@ -184,27 +216,49 @@ void Model::build_wheel() {
   brake_ring_thickness = sized.brake_ring_thickness;
   index.tread = add(make_swept_block("tread", Sweep::revolved, std::move(sections.tread), {material},
                                      plan.start, plan.tread));
-  index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {material},
-                                    plan.start, plan.disc));
+  const bool swept_disc = scene.body_replacing("disc") == nullptr;
+  if (swept_disc)
+    index.disc = add(make_swept_block("wheel disc", Sweep::revolved, std::move(sections.disc), {material},
+                                      plan.start, plan.disc));
   index.axle = add(
       make_swept_block("axle", Sweep::revolved, std::move(sections.axle), {material}, plan.start, plan.axle));
+  if (!swept_disc) return;
   tie_specs.push_back({index.tread, "tie", index.disc, "tie_outer"});
   tie_specs.push_back({index.disc, "tie_inner", index.axle, "tie"});
 }
 
 void Model::build_internal() {
   internal = std::make_unique<InternalForce>(mesh);
-  if (scene.motion)
+  body_forces.clear();
+  const bool turns = scene.motion.has_value();
+  if (turns)
     for (const int b : index.wheel()) internal->set_finite_rotation(b, true);
+  for (const HexBody& body : mesh.bodies)
+    body_forces.push_back(std::make_unique<BodyForce>(body, turns && body.spins));
 }
 
 void Model::build_mass() {
   mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
-  internal->lumped_mass(mass.data());
+  add_lumped_mass(mass.data());
   if (ties) ties->gather_mass(mass.data());
   inverse_mass.assign(mass.size(), 0.0);
   for (std::size_t i = 0; i < mass.size(); ++i)
     if (mass[i] > 0) inverse_mass[i] = 1 / mass[i];
+}
+
+void Model::add_lumped_mass(double* of_nodes) const {
+  internal->lumped_mass(of_nodes);
+  for (const auto& body : body_forces) body->add_mass(of_nodes);
+}
+
+void Model::internal_force(const double* u, double* f) const {
+  internal->internal_force(u, nullptr, f);
+  for (const auto& body : body_forces) body->internal_force<double, double>(u, nullptr, nullptr, f);
+}
+
+void Model::apply_stiffness(const double* u, double* f) const {
+  internal->apply(u, f);
+  for (const auto& body : body_forces) body->apply(u, f);
 }
 
 void Model::set_damping() {
@@ -215,22 +269,35 @@ void Model::set_damping() {
     if (material.high_frequency_fraction > 0)
       omega = std::max(omega, internal->max_frequency(static_cast<int>(b)).omega);
   }
+  for (const auto& body : body_forces) {
+    const Material& material = body->body().materials.front();
+    if (material.high_frequency_fraction > 0)
+      highest[material.name] = std::max(highest[material.name], body->elements().max_frequency().omega);
+  }
+  const auto beta_of = [&](const Material& material) {
+    const double fraction = material.high_frequency_fraction;  // of critical: beta omega / 2
+    return fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
+  };
+  for (const auto& body : body_forces) {
+    const Material& material = body->body().materials.front();
+    body->set_damping(beta_of(material), material.branch());
+  }
   beta.assign(mesh.blocks.size(), 0.0);
   branches.assign(mesh.blocks.size(), std::nullopt);
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Material& material = mesh.blocks[b].materials.front();
-    const double fraction = material.high_frequency_fraction;  // of critical: beta omega / 2
     branches[b] = material.branch();
     if (branches[b])
       internal->set_branch(static_cast<int>(b), branches[b]->strength);
     else
-      beta[b] = fraction > 0 ? 2 * fraction / highest[material.name] : material.rayleigh_beta;
+      beta[b] = beta_of(material);
     internal->set_beta(static_cast<int>(b), beta[b]);
   }
 }
 
 bool Model::has_branches() const {
-  return std::any_of(branches.begin(), branches.end(), [](const auto& branch) { return branch.has_value(); });
+  return std::ranges::any_of(branches, [](const auto& branch) { return branch.has_value(); }) ||
+         std::ranges::any_of(body_forces, [](const auto& body) { return body->branch().has_value(); });
 }
 
 void Model::build_wheel_parts() {
@@ -355,12 +422,14 @@ std::vector<std::int64_t> Model::connected_slots() const {
 std::int64_t Model::elements() const {
   std::int64_t sum = 0;
   for (const SweptBlock& block : mesh.blocks) sum += block.elements();
+  for (const HexBody& body : mesh.bodies) sum += body.elements();
   return sum;
 }
 
 std::int64_t Model::nodes() const {
   std::int64_t sum = 0;
   for (const SweptBlock& block : mesh.blocks) sum += block.nodes();
+  for (const HexBody& body : mesh.bodies) sum += body.nodes();
   return sum;
 }
 

@@ -19,6 +19,8 @@
 #include "kernels/connectors/connectors.hpp"
 #include "kernels/connectors/guided_bore.hpp"
 #include "kernels/contact/contact.hpp"
+#include "kernels/hexahedra/body_force.hpp"
+#include "kernels/ties/body_tie.hpp"
 #include "kernels/ties/tie.hpp"
 #include "kernels/update/body_motion.hpp"
 
@@ -46,11 +48,13 @@ struct Model {
   Mesh mesh;
   BlockIndex index;
   std::vector<TieSpec> tie_specs;
+  std::vector<BodyTieSpec> body_ties;
   std::optional<Ties> ties;
-  std::unique_ptr<InternalForce> internal;
-  std::vector<std::int64_t> restrained;  ///< unknowns that stay zero
-  AlignedVector<double> mass;            ///< lumped, ties gathered; scalar node field [kg]
-  AlignedVector<double> inverse_mass;    ///< scalar node field, 0 where nothing moves by itself [1/kg]
+  std::unique_ptr<InternalForce> internal;              ///< of the blocks
+  std::vector<std::unique_ptr<BodyForce>> body_forces;  ///< by Mesh::bodies
+  std::vector<std::int64_t> restrained;                 ///< unknowns that stay zero
+  AlignedVector<double> mass;                           ///< lumped, ties gathered; scalar node field [kg]
+  AlignedVector<double> inverse_mass;  ///< scalar node field, 0 where nothing moves by itself [1/kg]
 
   std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
   std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
@@ -74,6 +78,11 @@ struct Model {
   std::int64_t elements() const;
   std::int64_t nodes() const;
 
+  /// f = F(u) of all blocks and bodies at rest, and f = K u; vector fields of 3 * mesh.slots values [N].
+  void internal_force(const double* u, double* f) const;
+  void apply_stiffness(const double* u, double* f) const;
+  void add_lumped_mass(double* mass) const;  ///< of elements alone; scalar node field [kg]
+
   /// Nodes to or from whose force a step adds more than their elements do: those of ties, and the others.
   std::vector<std::int64_t> loaded_slots() const;
   std::vector<std::int64_t> connected_slots() const;
@@ -84,7 +93,9 @@ struct Model {
 
  private:
   int add(SweptBlock block);
+  int add_body(const std::string& name, const BodySpec& spec, const Material& material);
   void build_blocks();
+  void build_bodies();
   void tie_blocks();
   void build_operators();
   void build_connectors();

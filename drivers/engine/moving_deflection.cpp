@@ -38,6 +38,16 @@ void move_deflection(const Model& model, double speed, const StartFields& fields
           fields.velocity[static_cast<std::size_t>(dof(block.base + block.slot(node, station), c))] =
               rate * along_sweep(block, node, station, c, fields.displacement);
   }
+  for (const HexBody& body : model.mesh.bodies) {
+    const double rate = body.spins ? fields.wheel.spin : -speed;
+    const std::vector<Vec3> change = along_motion(body, fields.displacement.data());
+    for (std::int64_t node = 0; node < body.nodes(); ++node) {
+      Vec3 per_way = change[static_cast<std::size_t>(node)];
+      if (body.spins)  // the axes turn under what stands still
+        per_way += -1 * cross({0, 1, 0}, ConstNodeField(fields.displacement.data()).at(body.slot(node)));
+      NodeField(fields.velocity.data()).set(body.slot(node), rate * per_way);
+    }
+  }
   for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({fields.velocity.data()});
 }

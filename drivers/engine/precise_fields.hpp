@@ -67,7 +67,7 @@ class PreciseFields : public NodeFields {
     velocity_ = v_.data();
     force_ = f_.data();
     if (model.has_branches()) {
-      q_.emplace(model.mesh, model.branches);
+      q_.emplace(model.mesh, model.branches, branches_of_bodies(model));
       lag_ = q_->data();
     }
     if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
@@ -80,6 +80,7 @@ class PreciseFields : public NodeFields {
   }
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override {
+    for (const auto& body : model_->body_forces) body->internal_force(u_.data(), v_.data(), lag(), f_.data());
     if (measured)
       parts_.internal().internal_force(force_fields());
     else
@@ -87,6 +88,7 @@ class PreciseFields : public NodeFields {
   }
   void move_rest(const StepLoads& loads, bool measured) override {
     const BasicUpdateFields<Real, U> fields = {u_.data(), v_.data(), f_.data()};
+    for (const HexBody& body : mesh().bodies) move_body(body, loads, parts_.inverse_mass(), fields);
     if (measured)
       update_.move_all(loads, fields);
     else
@@ -109,18 +111,26 @@ class PreciseFields : public NodeFields {
   }
 
   ElementEnergy element_energy() override {
-    return sum_tiles<ElementEnergy>(mesh(), sums_.all_blocks(), share(),
-                                    [&](int block, int tile) { return element_energy(block, tile); });
+    auto sum = sum_tiles<ElementEnergy>(mesh(), sums_.all_blocks(), share(),
+                                        [&](int block, int tile) { return element_energy(block, tile); });
+    for (const auto& body : model_->body_forces) sum += ElementEnergy{whole(body->energy(displacement_)), 0};
+    return sum;
   }
 
   BranchEnergy branch_energy() override {
     if (!q_) return {};
-    return sum_tiles<BranchEnergy>(mesh(), sums_.all_blocks(), share(), [&](int block, int tile) {
+    const auto energy_of = [](const MaxwellBranch& branch, double linear_energy) {
+      const double stored = branch.strength * linear_energy;
+      return BranchEnergy{stored, 2 * stored / branch.time};
+    };
+    auto sum = sum_tiles<BranchEnergy>(mesh(), sums_.all_blocks(), share(), [&](int block, int tile) {
       const std::optional<MaxwellBranch>& branch = q_->branch(block);
       if (!branch) return BranchEnergy{};
-      const double stored = branch->strength * parts_.internal().linear_energy(block, tile, q_->data());
-      return BranchEnergy{stored, 2 * stored / branch->time};
+      return energy_of(*branch, parts_.internal().linear_energy(block, tile, q_->data()));
     });
+    for (const auto& body : model_->body_forces)
+      if (body->branch()) sum += energy_of(*body->branch(), body->linear_energy(q_->data()));
+    return sum;
   }
 
   double fixed_kinetic_energy() override { return sums_.fixed_kinetic_energy(velocity_, share()); }
@@ -187,6 +197,12 @@ class PreciseFields : public NodeFields {
  private:
   const Real* lag() const { return q_ ? q_->data() : nullptr; }
   const LawState<Real>* state() const { return state_ ? &*state_ : nullptr; }
+  static double whole(const DeformationEnergy& energy) { return energy.strain + energy.hourglass; }
+  static std::vector<std::optional<MaxwellBranch>> branches_of_bodies(const Model& model) {
+    std::vector<std::optional<MaxwellBranch>> branches;
+    for (const auto& body : model.body_forces) branches.push_back(body->branch());
+    return branches;
+  }
   static std::vector<std::int64_t> unforced_unknowns(const Model& model) {
     std::vector<std::int64_t> unknowns = held_unknowns(model.mesh, model.restrained);
     if (model.guide)
@@ -202,7 +218,7 @@ class PreciseFields : public NodeFields {
         return {0.5 * dot_of_range(first, first + values, u_.data(), f_.data()), 0};
       }
     const DeformationEnergy energy = parts_.internal().tile_energy(number, tile, u_.data(), state());
-    return {energy.strain + energy.hourglass, energy.dissipated};
+    return {whole(energy), energy.dissipated};
   }
 
   const Model* model_;

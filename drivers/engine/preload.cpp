@@ -14,6 +14,7 @@
 #include "drivers/engine/static_system.hpp"
 #include "drivers/engine/traction.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
+#include "kernels/update/turn.hpp"
 
 namespace tread {
 
@@ -32,6 +33,27 @@ void add_acceleration(const Model& model, const SweptBlock& block, double angle,
   }
 }
 
+/// The same of a body.
+void add_acceleration(const Model& model, const HexBody& body, double angle, const Vec3& acceleration,
+                      double* load) {
+  const Vec3 local = body.spins ? Turn(kCartesianAngle + angle).to_cylindrical(acceleration) : acceleration;
+  for (std::int64_t node = 0; node < body.nodes(); ++node) {
+    const std::int64_t slot = body.slot(node);
+    for (int c = 0; c < 3; ++c) load[dof(slot, c)] += model.mass[static_cast<std::size_t>(slot)] * local[c];
+  }
+}
+
+/// Adds the centrifugal force of a spinning body; `spin` [rad/s].
+void add_centrifugal(const Model& model, const HexBody& body, double spin, double* load) {
+  for (std::int64_t node = 0; node < body.nodes(); ++node) {
+    const std::int64_t slot = body.slot(node);
+    const Vec3& at = body.mesh.nodes[static_cast<std::size_t>(node)];
+    const double scale = model.mass[static_cast<std::size_t>(slot)] * spin * spin;
+    load[dof(slot, 0)] += scale * at.x;
+    load[dof(slot, 2)] += scale * at.z;
+  }
+}
+
 /// Adds the centrifugal force of a revolved block; `spin` [rad/s].
 void add_centrifugal(const Model& model, const SweptBlock& block, double spin, double* load) {
   for (int station = 0; station < block.station_count(); ++station)
@@ -47,6 +69,10 @@ void add_external_load(const Model& model, const BodyFrame& frame, double spin, 
   for (const SweptBlock& block : model.mesh.blocks) {
     add_acceleration(model, block, 0, {0, 0, -model.scene.gravity}, load);
     if (block.sweep == Sweep::revolved) add_centrifugal(model, block, spin, load);
+  }
+  for (const HexBody& body : model.mesh.bodies) {
+    add_acceleration(model, body, 0, {0, 0, -model.scene.gravity}, load);
+    if (body.spins) add_centrifugal(model, body, spin, load);
   }
   if (!model.journal.empty()) model.journal.add(load, frame, {0, 0, -model.journal_load()});
 }
@@ -88,6 +114,28 @@ void add_steady_inertia(const Model& model, const SteadyMotion& motion, const do
   }
 }
 
+/// The same of bodies, by the change along the motion twice.
+void add_steady_inertia_of_bodies(const Model& model, const SteadyMotion& motion, const double* u,
+                                  double* load) {
+  for (const HexBody& body : model.mesh.bodies) {
+    const double rate = body.spins ? motion.spin : motion.speed;
+    if (rate == 0) continue;
+    AlignedVector<double> change(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
+    const auto differentiate = [&](const double* field) {
+      const std::vector<Vec3> along = along_motion(body, field);
+      for (std::int64_t node = 0; node < body.nodes(); ++node)
+        NodeField(change.data()).set(body.slot(node), along[static_cast<std::size_t>(node)]);
+    };
+    differentiate(u);
+    differentiate(change.data());
+    for (std::int64_t node = 0; node < body.nodes(); ++node) {
+      const std::int64_t slot = body.slot(node);
+      const double scale = -model.mass[static_cast<std::size_t>(slot)] * rate * rate;
+      NodeField(load).add(slot, scale * ConstNodeField(change.data()).at(slot));
+    }
+  }
+}
+
 /// Adds the forces that press on a wheelset which has been rolling.
 void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {
   model.journal.add(load, frame, {0, 0, -run_in.journal_force});
@@ -95,6 +143,8 @@ void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame,
   for (const int b : model.wheelset->blocks())
     add_acceleration(model, model.mesh.blocks[static_cast<std::size_t>(b)], frame.angle, {0, 0, -per_mass},
                      load);
+  for (const HexBody& body : model.mesh.bodies)
+    if (body.spins) add_acceleration(model, body, frame.angle, {0, 0, -per_mass}, load);
 }
 
 /// Adds the torque of a wheelset that has been rolling under traction, and the inertia of its vehicle along
@@ -266,7 +316,7 @@ void Equilibrium::residual(Preload& state, double* r) {
   const auto n = static_cast<std::int64_t>(state.displacement.size());
   system_.expand(u);
   springs_ = fixed_springs_;
-  model_->internal->internal_force(u, nullptr, r);
+  model_->internal_force(u, r);
   add_springs(fixed_springs_, u, r);
   if (model_->contact) {
     model_->contact->find_static({u, nullptr, &state.wheel}, state.traction);
@@ -278,6 +328,7 @@ void Equilibrium::residual(Preload& state, double* r) {
   });
   add_load(state, r);
   add_steady_inertia(*model_, motion_, u, r);
+  add_steady_inertia_of_bodies(*model_, motion_, u, r);
   finish(state, r);
   if (!held_) return;
   const auto work = held_->work(r);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drivers/engine/rail_beam.hpp"
+#include "kernels/update/turn.hpp"
 
 namespace tread {
 
@@ -21,6 +22,14 @@ void visit_nodes(const SweptBlock& block, ConstNodeField u, const BodyFrame& whe
       const std::int64_t slot = block.base + block.slot(node, station);
       visit(slot, to_cartesian(block, station, wheel.angle, u.at(slot)));
     }
+}
+
+/// The same of a body.
+template <class Visit>
+void visit_nodes(const HexBody& body, ConstNodeField u, const BodyFrame& wheel, const Visit& visit) {
+  const Turn turn(kCartesianAngle + wheel.angle);
+  for (std::int64_t node = 0; node < body.nodes(); ++node)
+    visit(body.slot(node), turn.to_cartesian(u.at(body.slot(node))));
 }
 
 }  // namespace
@@ -44,14 +53,16 @@ AxleBending axle_bending(const Model& model, ConstNodeField displacement, const 
   const double journal = rim.z - model.journal.displacement(displacement, wheel).z;
   if (journal < kHardly * model.hertz_patch.approach) return axle;
   double mass = 0;
+  const auto add = [&](std::int64_t slot, const Vec3& u) {
+    const double m = model.mass[static_cast<std::size_t>(slot)];
+    const Vec3 shape = (1 / journal) * (rim - u);
+    axle.wheelset_share += m * shape.z;
+    mass += m * dot(shape, shape);
+  };
   for (const int b : model.index.wheel())
-    visit_nodes(model.mesh.blocks[static_cast<std::size_t>(b)], displacement, wheel,
-                [&](std::int64_t slot, const Vec3& u) {
-                  const double m = model.mass[static_cast<std::size_t>(slot)];
-                  const Vec3 shape = (1 / journal) * (rim - u);
-                  axle.wheelset_share += m * shape.z;
-                  mass += m * dot(shape, shape);
-                });
+    visit_nodes(model.mesh.blocks[static_cast<std::size_t>(b)], displacement, wheel, add);
+  for (const HexBody& body : model.mesh.bodies)
+    if (body.spins) visit_nodes(body, displacement, wheel, add);
   const double added = model.scene.vehicle ? model.scene.vehicle->unsprung_mass : 0;
   axle.journal = journal;
   axle.bending.coupling = axle.wheelset_share + added;

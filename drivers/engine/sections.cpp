@@ -225,6 +225,7 @@ SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const Whee
   WheelBuilder builder(scene, sizes, plan);
   WheelShape& shape = builder.shape;
   if (wheel.web_thickness) shape.web_thickness = *wheel.web_thickness;
+  if (scene.body_replacing("disc")) return {builder.sections(), 0, 0};
   if (wheel.brake_rings) {
     size_by_mass(builder, {&WheelShape::brake_ring_thickness, "brake rings", kThinnestRing, kThickestRing},
                  wheel.mass);

@@ -26,7 +26,8 @@ struct SizedWheel {
 };
 
 /// The web, or with WheelSpec::brake_rings the two plates on it, are as thick as WheelSpec::mass needs with
-/// the plan's polygons. InputError if no thickness does it, or if a stated web alone makes another mass.
+/// the plan's polygons; beside a disc from a file neither matters. InputError if no thickness does it, or if
+/// a stated web alone makes another mass.
 SizedWheel wheel_sections(const Scene& scene, const MeshSizes& sizes, const WheelPlan& plan);
 
 /// The corrugation whose deepest line lies at y = `centre` [m].

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/engine/traction.hpp"
+#include "kernels/update/turn.hpp"
 
 namespace tread {
 
@@ -25,18 +26,34 @@ void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<doubl
       moment += m * block.section.q[static_cast<std::size_t>(node)];
     }
   }
+  const double length = model.scene.rail->length;
+  for (const HexBody& body : model.mesh.bodies)
+    for (std::int64_t node = 0; !body.spins && node < body.nodes(); ++node) {
+      const double m = model.mass[static_cast<std::size_t>(body.slot(node))] / length;
+      mass += m;
+      moment += m * body.mesh.nodes[static_cast<std::size_t>(node)].z;
+    }
+  const double centroid = moment / mass;
   for (const int b : model.index.rail()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     for (int station = 0; station < block.station_count(); ++station) {
       const SectionMotion section = motion(block.stations[static_cast<std::size_t>(station)]);
       for (int node = 0; node < block.section.nodes(); ++node) {
         const std::int64_t slot = block.base + block.slot(node, station);
-        const double above = block.section.q[static_cast<std::size_t>(node)] - moment / mass;
+        const double above = block.section.q[static_cast<std::size_t>(node)] - centroid;
         field[static_cast<std::size_t>(dof(slot, 0))] += section.axial + above * section.rotation;
         field[static_cast<std::size_t>(dof(slot, 2))] -= section.deflection;
       }
     }
   }
+  for (const HexBody& body : model.mesh.bodies)
+    for (std::int64_t node = 0; !body.spins && node < body.nodes(); ++node) {
+      const Vec3& at = body.mesh.nodes[static_cast<std::size_t>(node)];
+      const SectionMotion section = motion(at.x);
+      NodeField(field.data())
+          .add(body.slot(node),
+               {section.axial + (at.z - centroid) * section.rotation, 0, -section.deflection});
+    }
   for (const std::int64_t unknown : model.restrained) field[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({field.data()});
 }
@@ -67,6 +84,13 @@ void bend_axle(const Model& model, double rate, const StartFields& fields) {
         }
     }
   }
+  const Vec3 carried = Turn(kCartesianAngle + fields.wheel.angle).to_cylindrical(rim);
+  for (const HexBody& body : model.mesh.bodies)
+    for (std::int64_t node = 0; body.spins && node < body.nodes(); ++node) {
+      const std::int64_t slot = body.slot(node);
+      const Vec3 beyond = ConstNodeField(fields.displacement.data()).at(slot) - carried;
+      NodeField(fields.velocity.data()).add(slot, rate * beyond);
+    }
   for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({fields.velocity.data()});
 }
@@ -113,6 +137,9 @@ void start_wheel(const Model& model, const Preload& preload, const StartFields& 
     for (std::int64_t i = 3 * block.base; i < 3 * (block.base + block.slots()); ++i)
       fields.velocity[static_cast<std::size_t>(i)] *= spin_ratio;
   }
+  for (const HexBody& body : model.mesh.bodies)
+    for (std::int64_t i = 3 * body.base; body.spins && i < 3 * (body.base + body.slots()); ++i)
+      fields.velocity[static_cast<std::size_t>(i)] *= spin_ratio;
 }
 
 void start_pulse(const Model& model, const PulseSpec& pulse, const StartFields& fields) {

@@ -15,6 +15,7 @@ namespace tread {
 AlignedVector<double> StaticSystem::diagonal() const {
   AlignedVector<double> diagonal(static_cast<std::size_t>(3 * model_->mesh.slots), 0.0);
   model_->internal->diagonal(diagonal.data());
+  for (const auto& body : model_->body_forces) body->add_diagonal(diagonal.data());
   if (model_->ties) model_->ties->gather_diagonal(diagonal.data());
   for (const std::int64_t unknown : model_->restrained) diagonal[static_cast<std::size_t>(unknown)] = 0;
   if (model_->guide)
@@ -26,7 +27,7 @@ AlignedVector<double> StaticSystem::diagonal() const {
 void StaticSystem::apply(double* x, double* y) const {
   const double rise = model_->guide ? x[model_->guide->unknown()] : 0;
   expand(x);
-  model_->internal->apply(x, y);
+  model_->apply_stiffness(x, y);
   if (model_->ties) model_->ties->clear(x);
   if (model_->guide) {
     for (const std::int64_t unknown : model_->guide->unknowns()) x[unknown] = 0;
@@ -78,6 +79,10 @@ struct Stiffening {
     for (const double of_block : model.beta) beta = std::max(beta, of_block);
     for (const std::optional<MaxwellBranch>& of_block : model.branches)
       if (of_block) branch = std::max(branch, 1 + of_block->strength);
+    for (const auto& body : model.body_forces) {
+      beta = std::max(beta, body->beta());
+      if (body->branch()) branch = std::max(branch, 1 + body->branch()->strength);
+    }
   }
   double at(double dt) const { return branch + 2 * beta / dt; }
   /// Stable step of bodies of the frequency omega [s].
@@ -175,7 +180,14 @@ std::vector<StiffestElement> stiffest_elements(const Model& model) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
     const ElementFrequency highest = model.internal->max_frequency(b);
     const int corner = block.section.quads[static_cast<std::size_t>(highest.quad)][0];
-    list.push_back({stable_step(highest.omega, 0), position(block, corner, highest.station)});
+    list.push_back({stable_step(highest.omega, 0), position(block, corner, highest.station), block.name});
+  }
+  for (const auto& force : model.body_forces) {
+    const HexFrequency highest = force->elements().max_frequency();
+    const HexMesh& mesh = force->body().mesh;
+    list.push_back({stable_step(highest.omega, 0), mesh.corners(highest.element)[0],
+                    fmt::format("{} (element {} of the file)", force->body().name,
+                                mesh.element_number[highest.element])});
   }
   return list;
 }
@@ -200,12 +212,10 @@ StepLimit step_limit(const Model& model) {
   limit.stable_step = step.stable;
   refuse_heavy_damping(material.beta, omega);
   limit.stiffest = stiffest_elements(model);
-  const std::size_t block = limit.stiffest_block();
-  const StiffestElement& stiffest = limit.stiffest[block];
+  const StiffestElement& stiffest = limit.stiffest[limit.stiffest_block()];
   limit.reason = fmt::format(
       "stiffest element: {} at ({:.4f}, {:.4f}, {:.4f}) m alone {:.3e} s; assembled bodies {:.3e} s",
-      model.mesh.blocks[block].name, stiffest.at.x, stiffest.at.y, stiffest.at.z, stiffest.step,
-      stable_step(omega, 0));
+      stiffest.name, stiffest.at.x, stiffest.at.y, stiffest.at.z, stiffest.step, stable_step(omega, 0));
   if (material.beta > 0 || material.branch > 1)
     limit.reason +=
         fmt::format("; damping takes {:.1f} % of that", 100 * (1 - step.material / stable_step(omega, 0)));

@@ -30,16 +30,17 @@ class StaticSystem {
   const Model* model_;
 };
 
-/// The element of a block with the highest frequency of its own.
+/// The element of a block or body with the highest frequency of its own.
 struct StiffestElement {
-  double step = 0;  ///< stable step of the element alone, without damping [s]
-  Vec3 at;          ///< a corner of it (wheel blocks: relative to the axis) [m]
+  double step = 0;   ///< stable step of the element alone, without damping [s]
+  Vec3 at;           ///< a corner of it (wheel blocks: relative to the axis) [m]
+  std::string name;  ///< of the block or body
 };
 
 /// Limit of the time step, for the report.
 struct StepLimit {
   double stable_step = 0;                 ///< largest of the assembled bodies, damping included [s]
-  std::vector<StiffestElement> stiffest;  ///< by block
+  std::vector<StiffestElement> stiffest;  ///< by block, then by body
   std::string reason;                     ///< one sentence
 
   /// With the shortest step of `stiffest`.

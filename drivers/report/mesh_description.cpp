@@ -101,7 +101,7 @@ Table inertia_table(const SpinningBody& wheelset) {
 }
 
 /// The stable step of each block alone beside the shortest.
-Table step_table(const Model& model, const StepLimit& limit) {
+Table step_table(const StepLimit& limit) {
   Table table{"",
               {{"Block"},
                {"Stiffest element at (x, y, z) [m]"},
@@ -109,11 +109,9 @@ Table step_table(const Model& model, const StepLimit& limit) {
                {"Over the shortest", Align::right}},
               {}};
   const double shortest = limit.stiffest[limit.stiffest_block()].step;
-  for (std::size_t b = 0; b < limit.stiffest.size(); ++b) {
-    const StiffestElement& element = limit.stiffest[b];
-    table.rows.push_back({model.mesh.blocks[b].name, place(element.at), fmt::format("{:.3e}", element.step),
+  for (const StiffestElement& element : limit.stiffest)
+    table.rows.push_back({element.name, place(element.at), fmt::format("{:.3e}", element.step),
                           fmt::format("{:.2f}", element.step / shortest)});
-  }
   return table;
 }
 
@@ -176,7 +174,7 @@ void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
   }
   const std::vector<BlockMeasures> groups = by_group(model, blocks);
   fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(groups)), plain_text(quality_table(groups)),
-             plain_text(step_table(model, limit)), plain_text(mass_table(bodies_of(model, blocks))));
+             plain_text(step_table(limit)), plain_text(mass_table(bodies_of(model, blocks))));
   if (model.wheelset) fmt::print("{}\n", plain_text(inertia_table(*model.wheelset)));
   fmt::print("Stable step  {:.4e} s: {}\n", limit.stable_step, limit.reason);
   if (!options.output.empty()) fmt::print("Mesh         {}\n", (options.output / "mesh.hdf").string());

@@ -21,10 +21,10 @@ void expect_motion(const StepLoads& loads, const BasicUpdateFields<Real, U>& fie
 }  // namespace
 
 template <class Real>
-StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads) {
+StepConstants<Real> step_constants(Sweep sweep, const StepLoads& loads) {
   StepConstants<Real> step;
   step.dt = static_cast<Real>(loads.dt);
-  if (block.sweep == Sweep::extruded) {
+  if (sweep == Sweep::extruded) {
     step.gravity = static_cast<Real>(loads.gravity);
     return step;
   }
@@ -39,8 +39,8 @@ GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads&
   return gravity_in_sweep(loads.gravity, block.stations[index(station)] + loads.frame.angle);
 }
 
-template StepConstants<double> step_constants(const SweptBlock&, const StepLoads&);
-template StepConstants<float> step_constants(const SweptBlock&, const StepLoads&);
+template StepConstants<double> step_constants(Sweep, const StepLoads&);
+template StepConstants<float> step_constants(Sweep, const StepLoads&);
 
 template <class Real, class U>
 BasicTimeUpdate<Real, U>::BasicTimeUpdate(const Mesh& mesh, const Real* inverse_mass)
@@ -96,7 +96,7 @@ TileMotion<Real, U> BasicTimeUpdate<Real, U>::motion(int block, int tile, const 
   const SweptBlock& swept = mesh_.blocks[index(block)];
   const std::int64_t slot = swept.base + std::int64_t{tile} * swept.section.nodes() * kLanes;
   TileMotion<Real, U> motion;
-  motion.step = step_constants<Real>(swept, loads);
+  motion.step = step_constants<Real>(swept.sweep, loads);
   motion.u = u + dof(slot, 0);
   motion.v = v + dof(slot, 0);
   motion.inverse_mass = inverse_mass_ + slot;

@@ -30,9 +30,9 @@ struct StepLoads {
   bool operator==(const StepLoads&) const = default;
 };
 
-/// The step of a block's nodes.
+/// The step of the nodes of a body that is fixed (extruded) or spins (revolved).
 template <class Real>
-StepConstants<Real> step_constants(const SweptBlock& block, const StepLoads& loads);
+StepConstants<Real> step_constants(Sweep sweep, const StepLoads& loads);
 
 /// Gravity at a station of a revolved block.
 GravityInSweep gravity_at(const SweptBlock& block, int station, const StepLoads& loads);
@@ -92,8 +92,8 @@ class BasicTimeUpdate {
   std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
 };
 
-extern template StepConstants<double> step_constants(const SweptBlock&, const StepLoads&);
-extern template StepConstants<float> step_constants(const SweptBlock&, const StepLoads&);
+extern template StepConstants<double> step_constants(Sweep, const StepLoads&);
+extern template StepConstants<float> step_constants(Sweep, const StepLoads&);
 
 using TimeUpdate = BasicTimeUpdate<double>;
 extern template class BasicTimeUpdate<double>;

@@ -149,7 +149,7 @@ bool BlockMarch<Real>::awaits_host(MarchRuns runs) const {
 template <class Real>
 const MarchBlock<Real>& BlockMarch<Real>::at(const StepLoads& loads) {
   block_.marched = {0, block_.runs()};
-  block_.step = step_constants<Real>(*swept_, loads);
+  block_.step = step_constants<Real>(swept_->sweep, loads);
   block_.gravity = loads.gravity;
   block_.frame_angle = loads.frame.angle;
   return block_;

@@ -26,8 +26,9 @@ struct LagAdvance {
 template <class Real>
 class BranchLag {
  public:
-  /// Keeps a reference to the mesh. `branches`: by block. At rest.
-  BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches);
+  /// Keeps a reference to the mesh. `branches`: by block; `of_bodies`: by body. At rest.
+  BranchLag(const Mesh& mesh, std::vector<std::optional<MaxwellBranch>> branches,
+            std::vector<std::optional<MaxwellBranch>> of_bodies = {});
 
   /// Exact over a step of dt [s] with the velocity v [m/s], a vector field.
   void advance(const Real* v, double dt) { advance(v, dt, 0, mesh_.slots); }
@@ -35,7 +36,9 @@ class BranchLag {
   void advance(const Real* v, double dt, std::int64_t first, std::int64_t last);
 
   /// For a block that has a branch.
-  LagAdvance<Real> advance_of(int block, double dt) const;
+  LagAdvance<Real> advance_of(int block, double dt) const {
+    return advance_of(*branches_[static_cast<std::size_t>(block)], dt);
+  }
 
   /// Vector field of 3 * mesh.slots values [m].
   const Real* data() const { return q_.data(); }
@@ -45,8 +48,14 @@ class BranchLag {
   }
 
  private:
+  static LagAdvance<Real> advance_of(const MaxwellBranch& branch, double dt);
+  /// Of the slots in [first, last) and in those of a part.
+  template <class Part>
+  void advance(const Part& part, const std::optional<MaxwellBranch>& branch, const Real* v, double dt,
+               std::int64_t first, std::int64_t last);
+
   const Mesh& mesh_;
-  std::vector<std::optional<MaxwellBranch>> branches_;
+  std::vector<std::optional<MaxwellBranch>> branches_, of_bodies_;
   PageVector<Real> q_;
 };
 

@@ -126,10 +126,49 @@ double mean_radius(const SweptBlock& block, const std::vector<int>& nodes) {
   return sum / static_cast<double>(nodes.size());
 }
 
+/// Halves a body's nodes across the longest side of their box until they are close together and few enough;
+/// calls visit(nodes) for each part.
+template <class Visit>
+void cut_body(const HexBody& body, std::vector<std::int32_t> nodes, const AggregateOptions& options,
+              const Visit& visit) {
+  const auto at = [&](std::int32_t node) -> const Vec3& {
+    return body.mesh.nodes[static_cast<std::size_t>(node)];
+  };
+  Vec3 low = at(nodes.front()), high = low;
+  for (const std::int32_t node : nodes)
+    for (int c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], at(node)[c]);
+      high[c] = std::max(high[c], at(node)[c]);
+    }
+  int axis = 0;
+  for (int c = 1; c < 3; ++c)
+    if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
+  const auto cube = [](int n) { return static_cast<std::size_t>(n * n * n); };
+  const bool wide = high[axis] - low[axis] > options.size && nodes.size() >= 2 * cube(options.least_across);
+  if (!wide && nodes.size() <= cube(options.nodes_across)) {
+    visit(std::move(nodes));
+    return;
+  }
+  const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
+  std::nth_element(nodes.begin(), middle, nodes.end(), [&](std::int32_t a, std::int32_t b) {
+    return std::pair(at(a)[axis], a) < std::pair(at(b)[axis], b);
+  });
+  cut_body(body, {nodes.begin(), middle}, options, visit);
+  cut_body(body, {middle, nodes.end()}, options, visit);
+}
+
+std::vector<std::int32_t> all_nodes(const HexBody& body) {
+  std::vector<std::int32_t> nodes(body.mesh.nodes.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
 }  // namespace
 
 std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options) {
   std::int64_t count = 0;
+  for (const HexBody& body : mesh.bodies)
+    cut_body(body, all_nodes(body), options, [&](std::vector<std::int32_t> /*nodes*/) { ++count; });
   for (const SweptBlock& block : mesh.blocks)
     for (const auto& nodes : section_parts(block.section, options))
       count += static_cast<std::int64_t>(station_runs(block, mean_radius(block, nodes), options).size());
@@ -137,7 +176,11 @@ std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options) 
 }
 
 Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, const AggregateOptions& options)
-    : mesh_(&mesh), free_(static_cast<std::size_t>(mesh.slots), 0), part_of_node_(mesh.blocks.size()) {
+    : mesh_(&mesh),
+      free_(static_cast<std::size_t>(mesh.slots), 0),
+      part_of_node_(mesh.blocks.size()),
+      first_body_slot_(mesh.bodies.empty() ? mesh.slots : mesh.bodies.front().base),
+      of_body_slots_(static_cast<std::size_t>(mesh.slots - first_body_slot_), -1) {
   for (std::int64_t slot = 0; slot < mesh.slots; ++slot)
     for (int c = 0; c < 3; ++c)
       if (free[static_cast<std::size_t>(dof(slot, c))] != 0)
@@ -151,6 +194,7 @@ Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, cons
       add_part(block, std::move(nodes), options);
     }
   }
+  for (const HexBody& body : mesh.bodies) add_boxes(body, all_nodes(body), options);
   sums_.resize(slices_.size());
 }
 
@@ -163,44 +207,73 @@ void Aggregates::add_part(const SweptBlock& block, std::vector<int> nodes, const
   for (int tile = 0; tile < static_cast<int>(block.tiles.size()); ++tile) items_.push_back({part, tile});
   int first = 0;
   for (const int last : station_runs(block, radius, options)) {
-    add_patch(part, first, last);
+    add_stations(part, first, last);
     first = last;
   }
 }
 
-/// Calls visit(place of the station, section node, free components).
+/// Calls visit(place of the station, p, q, free components).
 template <class Visit>
 void Aggregates::for_each_node(const Patch& patch, const Visit& visit) const {
+  for (std::size_t i = patch.first_node; i < patch.last_node; ++i) {
+    const BodyNode& node = body_nodes_[i];
+    const int bits = free_[static_cast<std::size_t>(node.slot)];
+    if (bits != 0) visit(StationPlace(node.at.x), node.at.y, node.at.z, bits);
+  }
+  if (patch.part < 0) return;
   const Part& part = parts_[static_cast<std::size_t>(patch.part)];
+  const Section& section = part.block->section;
   for (int station = patch.first_station; station < patch.last_station; ++station)
     for (const int node : part.nodes) {
       const std::int64_t slot = part.block->base + part.block->slot(node, station);
       const int bits = free_[static_cast<std::size_t>(slot)];
-      if (bits != 0) visit(slice(part, station).place, node, bits);
+      if (bits != 0)
+        visit(slice(part, station).place, section.p[static_cast<std::size_t>(node)],
+              section.q[static_cast<std::size_t>(node)], bits);
     }
 }
 
-void Aggregates::add_patch(int part, int first_station, int last_station) {
+void Aggregates::add_stations(int part, int first_station, int last_station) {
   Patch patch;
   patch.part = part;
   patch.first_station = first_station;
   patch.last_station = last_station;
-  const Section& section = parts_[static_cast<std::size_t>(part)].block->section;
+  if (!add_patch(patch)) return;
+  for (int station = first_station; station < last_station; ++station)
+    slices_[parts_[static_cast<std::size_t>(part)].first_slice + static_cast<std::size_t>(station)].patch =
+        count() - 1;
+}
+
+void Aggregates::add_boxes(const HexBody& body, std::vector<std::int32_t> all,
+                           const AggregateOptions& options) {
+  cut_body(body, std::move(all), options, [&](const std::vector<std::int32_t>& nodes) {
+    Patch patch;
+    patch.first_node = body_nodes_.size();
+    for (const std::int32_t node : nodes)
+      body_nodes_.push_back({body.slot(node), body.mesh.nodes[static_cast<std::size_t>(node)]});
+    patch.last_node = body_nodes_.size();
+    const bool moves = add_patch(patch);
+    for (std::size_t i = patch.first_node; moves && i < patch.last_node; ++i)
+      of_body_slots_[static_cast<std::size_t>(body_nodes_[i].slot - first_body_slot_)] =
+          static_cast<std::int32_t>(i);
+    body_patches_.resize(body_nodes_.size(), moves ? count() - 1 : -1);
+  });
+}
+
+/// Returns false where nothing of the patch is free.
+bool Aggregates::add_patch(Patch patch) {
   int nodes = 0;
-  for_each_node(patch, [&](const StationPlace& place, int node, int /*free*/) {
-    patch.centre +=
-        place.position(section.p[static_cast<std::size_t>(node)], section.q[static_cast<std::size_t>(node)]);
+  for_each_node(patch, [&](const StationPlace& place, double p, double q, int /*free*/) {
+    patch.centre += place.position(p, q);
     ++nodes;
   });
-  if (nodes == 0) return;
+  if (nodes == 0) return false;
   patch.centre = (1.0 / nodes) * patch.centre;
   orthonormalise(patch);
   patch.first_mode = modes_;
   modes_ += patch.mode_count;
-  for (int station = first_station; station < last_station; ++station)
-    slices_[parts_[static_cast<std::size_t>(part)].first_slice + static_cast<std::size_t>(station)].patch =
-        count();
   patches_.push_back(patch);
+  return true;
 }
 
 namespace {
@@ -223,12 +296,9 @@ std::array<std::array<double, 6>, 3> rigid_rows(const StationPlace& place, doubl
 }  // namespace
 
 void Aggregates::orthonormalise(Patch& patch) const {
-  const Section& section = parts_[static_cast<std::size_t>(patch.part)].block->section;
   Eigen::Matrix<double, 6, 6> gram = Eigen::Matrix<double, 6, 6>::Zero();
   double extent = 0;
-  for_each_node(patch, [&](const StationPlace& place, int node, int free) {
-    const double p = section.p[static_cast<std::size_t>(node)];
-    const double q = section.q[static_cast<std::size_t>(node)];
+  for_each_node(patch, [&](const StationPlace& place, double p, double q, int free) {
     extent = std::max(extent, norm(place.position(p, q) - patch.centre));
     const auto rows = rigid_rows(place, p, q, patch.centre);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -257,6 +327,10 @@ void Aggregates::orthonormalise(Patch& patch) const {
 
 int Aggregates::of_slot(std::int64_t slot) const {
   if (free_[static_cast<std::size_t>(slot)] == 0) return -1;
+  if (is_of_body(slot)) {
+    const std::int32_t node = of_body_slots_[static_cast<std::size_t>(slot - first_body_slot_)];
+    return node < 0 ? -1 : body_patches_[static_cast<std::size_t>(node)];
+  }
   std::size_t b = 0;
   while (slot >= mesh_->blocks[b].base + mesh_->blocks[b].slots()) ++b;
   const SweptBlock& block = mesh_->blocks[b];
@@ -273,6 +347,14 @@ std::array<double, 6> Aggregates::mode_row(std::int64_t unknown) const {
   std::array<double, 6> values = {};
   if (!(free_[static_cast<std::size_t>(slot)] >> component & 1)) return values;
   const Patch& patch = patches_[static_cast<std::size_t>(of_slot(slot))];
+  if (is_of_body(slot)) {
+    const auto node =
+        static_cast<std::size_t>(of_body_slots_[static_cast<std::size_t>(slot - first_body_slot_)]);
+    const Vec3& at = body_nodes_[node].at;
+    for (std::size_t k = 0; k < 6; ++k)
+      values[k] = (patch.basis[k].translation + cross(patch.basis[k].rotation, at - patch.centre))[component];
+    return values;
+  }
   const Part& part = parts_[static_cast<std::size_t>(patch.part)];
   const std::int64_t group = (slot - part.block->base) / kLanes;
   const auto node = static_cast<std::size_t>(group % part.block->section.nodes());
@@ -308,16 +390,29 @@ void Aggregates::restrict_to_modes(const double* fine, double* coarse) const {
   parallel_ranges(count(), [&](std::int64_t first, std::int64_t last) {
     for (auto a = static_cast<std::size_t>(first); a < static_cast<std::size_t>(last); ++a) {
       const Patch& patch = patches_[a];
-      const Part& part = parts_[static_cast<std::size_t>(patch.part)];
-      RigidMotion sum;
-      for (int station = patch.first_station; station < patch.last_station; ++station)
-        sum +=
-            slice(part, station)
-                .place.resultant(sums_[part.first_slice + static_cast<std::size_t>(station)], patch.centre);
+      const RigidMotion sum = resultant(patch, fine);
       for (int k = 0; k < patch.mode_count; ++k)
         coarse[patch.first_mode + k] = dot(patch.basis[static_cast<std::size_t>(k)], sum);
     }
   });
+}
+
+/// Of the forces at a patch's nodes; those of blocks are summed up in sums_.
+RigidMotion Aggregates::resultant(const Patch& patch, const double* fine) const {
+  RigidMotion sum;
+  for (std::size_t i = patch.first_node; i < patch.last_node; ++i) {
+    const BodyNode& node = body_nodes_[i];
+    const int bits = free_[static_cast<std::size_t>(node.slot)];
+    Vec3 force;
+    for (int c = 0; c < 3; ++c) force[c] = (bits >> c & 1) != 0 ? fine[dof(node.slot, c)] : 0;
+    sum += RigidMotion{force, cross(node.at - patch.centre, force)};
+  }
+  if (patch.part < 0) return sum;
+  const Part& part = parts_[static_cast<std::size_t>(patch.part)];
+  for (int station = patch.first_station; station < patch.last_station; ++station)
+    sum += slice(part, station)
+               .place.resultant(sums_[part.first_slice + static_cast<std::size_t>(station)], patch.centre);
+  return sum;
 }
 
 RigidMotion Aggregates::motion(const Patch& patch, const double* coarse) const {
@@ -347,6 +442,19 @@ void Aggregates::prolongate_add(const double* coarse, double* fine) const {
         motions.add_to(block.section.p[static_cast<std::size_t>(node)],
                        block.section.q[static_cast<std::size_t>(node)], fine + dof(slot, 0),
                        where_free(slot));
+      }
+    }
+  });
+  parallel_ranges(count(), [&](std::int64_t first, std::int64_t last) {
+    for (auto a = static_cast<std::size_t>(first); a < static_cast<std::size_t>(last); ++a) {
+      const Patch& patch = patches_[a];
+      if (patch.first_node == patch.last_node) continue;
+      const RigidMotion moved = motion(patch, coarse);
+      for (std::size_t i = patch.first_node; i < patch.last_node; ++i) {
+        const BodyNode& node = body_nodes_[i];
+        const Vec3 at = moved.translation + cross(moved.rotation, node.at - patch.centre);
+        for (int c = 0; c < 3; ++c)
+          if ((free_[static_cast<std::size_t>(node.slot)] >> c & 1) != 0) fine[dof(node.slot, c)] += at[c];
       }
     }
   });

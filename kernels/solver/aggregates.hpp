@@ -20,7 +20,8 @@ struct AggregateOptions {
 /// Number of aggregates of a mesh whose nodes are all free.
 std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options = {});
 
-/// Division of the free nodes into aggregates: connected parts of a block's section times a run of stations.
+/// Division of the free nodes into aggregates: connected parts of a block's section times a run of stations,
+/// and boxes of a body's nodes.
 /// Every free node belongs to one aggregate. An aggregate has up to six modes: its rigid motions on the free
 /// unknowns, orthonormal in the plain product. Motions that these unknowns cannot tell apart (a line of
 /// nodes, vertical motion only) are left out. Together the modes are the columns of Z, numbered aggregate
@@ -62,9 +63,10 @@ class Aggregates {
     int patch = -1;
   };
   struct Patch {
-    int part = 0;
+    int part = -1;  ///< -1: of a body
     int first_station = 0;
     int last_station = 0;
+    std::size_t first_node = 0, last_node = 0;  ///< of a body, in body_nodes_
     int first_mode = 0;
     int mode_count = 0;
     Vec3 centre;
@@ -77,14 +79,23 @@ class Aggregates {
   };
 
   void add_part(const SweptBlock& block, std::vector<int> nodes, const AggregateOptions& options);
-  void add_patch(int part, int first_station, int last_station);
+  void add_stations(int part, int first_station, int last_station);
+  void add_boxes(const HexBody& body, std::vector<std::int32_t> nodes, const AggregateOptions& options);
+  bool add_patch(Patch patch);
   void orthonormalise(Patch& patch) const;
   template <class Visit>
   void for_each_node(const Patch& patch, const Visit& visit) const;
   const Slice& slice(const Part& part, int station) const {
     return slices_[part.first_slice + static_cast<std::size_t>(station)];
   }
+  /// A node of a body.
+  struct BodyNode {
+    std::int64_t slot = 0;
+    Vec3 at;
+  };
+  bool is_of_body(std::int64_t slot) const { return slot >= first_body_slot_; }
   RigidMotion motion(const Patch& patch, const double* coarse) const;
+  RigidMotion resultant(const Patch& patch, const double* fine) const;
   /// Returns 1 for a free and 0 for a held unknown, by component and lane of a group of slots.
   auto where_free(std::int64_t first_slot) const {
     return [free = free_.data() + first_slot](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; };
@@ -97,6 +108,10 @@ class Aggregates {
   std::vector<Slice> slices_;
   std::vector<Patch> patches_;
   std::vector<Item> items_;
+  std::int64_t first_body_slot_;             ///< slots from here on are of bodies
+  std::vector<BodyNode> body_nodes_;         ///< by patch
+  std::vector<std::int32_t> of_body_slots_;  ///< by slot of bodies, index in body_nodes_; -1: none
+  std::vector<int> body_patches_;            ///< patches of bodies by index in body_nodes_
   int modes_ = 0;
   mutable std::vector<StationValues> sums_;  ///< buffer by slice
 };

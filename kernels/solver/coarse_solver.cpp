@@ -86,6 +86,12 @@ std::vector<std::vector<int>> aggregate_graph(const Mesh& mesh, const Aggregates
       }
     }
   }
+  for (const HexBody& body : mesh.bodies)
+    for (const HexCorners& corners : body.mesh.elements) {
+      std::array<std::int64_t, 8> slots;
+      for (std::size_t i = 0; i < 8; ++i) slots[i] = body.slot(corners[i]);
+      couplings.join(slots);
+    }
   return couplings.graph();
 }
 

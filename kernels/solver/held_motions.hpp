@@ -14,9 +14,9 @@ namespace tread {
 /// elsewhere.
 class HeldMotions {
  public:
-  /// Held motions of a mesh's `blocks` together, about the origin; references to both are kept. `mass`:
-  /// lumped, scalar node field, zero at nodes that are not free [kg]. The motions move no restrained unknown.
-  /// Throws NumericalError if some mean does not see its motion (R^T M R singular).
+  /// Held motions of a mesh's `blocks` and spinning bodies together, about the origin; references to both are
+  /// kept. `mass`: lumped, scalar node field, zero at nodes that are not free [kg]. The motions move no
+  /// restrained unknown. Throws NumericalError if some mean does not see its motion (R^T M R singular).
   HeldMotions(const Mesh& mesh, const std::vector<int>& blocks, const double* mass,
               std::vector<RigidMotion> motions);
 
@@ -39,6 +39,7 @@ class HeldMotions {
   void add(const RigidMotion& motion, bool weighted, double* field) const;
   RigidMotion combined(const std::vector<double>& work) const;
 
+  const Mesh* mesh_;
   const double* mass_;
   std::vector<RigidMotion> motions_;
   std::vector<double> inverse_;  ///< inverse of R^T M R: [i][j]

@@ -42,6 +42,9 @@ class StationPlace {
         cosine_(revolved_ ? std::cos(block.stations[static_cast<std::size_t>(station)]) : 1),
         sine_(revolved_ ? std::sin(block.stations[static_cast<std::size_t>(station)]) : 0) {}
 
+  /// Place of nodes at x of a body with Cartesian components, whose p and q are y and z.
+  explicit StationPlace(double x) : revolved_(false), x_(x), cosine_(1), sine_(0) {}
+
   Vec3 position(double p, double q) const { return {x_ + q * q_axis().x, p, q * q_axis().z}; }
   StationValues displacement(const RigidMotion& motion, const Vec3& centre) const {
     return {to_local(motion.translation + cross(motion.rotation, Vec3{x_, 0, 0} - centre)),

@@ -197,14 +197,21 @@ void sum_up(const TieSums& sums, const std::vector<std::size_t>* some, bool add,
 
 }  // namespace
 
-Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs) {
+Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs, const std::vector<FollowingNode>& tied)
+    : nodes_(tied) {
   for (const TieSpec& spec : specs) join(mesh, spec);
   require_one_sum_per_node(to_secondary_);
   require_one_sum_per_node(to_primary_);
-  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+  list_slots();
+}
+
+void Ties::list_slots() {
+  const auto list = [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
     secondary_.push_back(secondary);
     primary_.push_back(primary);
-  });
+  };
+  for_each_link(to_secondary_, list);
+  nodes_.for_each(list);
   for (std::vector<std::int64_t>* slots : {&secondary_, &primary_}) {
     std::sort(slots->begin(), slots->end());
     slots->erase(std::unique(slots->begin(), slots->end()), slots->end());
@@ -267,9 +274,11 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
 
 std::vector<TiedSlot> Ties::tied_slots() const {
   std::vector<TiedSlot> slots;
-  for_each_link(to_secondary_, [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+  const auto add = [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
     slots.push_back({secondary, primary});
-  });
+  };
+  for_each_link(to_secondary_, add);
+  nodes_.for_each(add);
   std::stable_sort(slots.begin(), slots.end(),
                    [](const TiedSlot& a, const TiedSlot& b) { return a.secondary < b.secondary; });
   return slots;
@@ -281,7 +290,7 @@ std::int64_t Ties::bytes() const {
     sum += sums->items.size() * sizeof(TieSums::Item) + sums->stations.size() * sizeof(sums->stations[0]) +
            sums->others.size() * sizeof(int) + sums->nodes.size() * sizeof(LinkedNode) +
            sums->links.size() * sizeof(sums->links[0]);
-  return static_cast<std::int64_t>(sum);
+  return static_cast<std::int64_t>(sum) + nodes_.bytes();
 }
 
 TieItems Ties::items_in(const std::vector<unsigned char>& groups) const {
@@ -302,10 +311,13 @@ TieItems Ties::items_in(const std::vector<unsigned char>& groups) const {
 
 void Ties::follow(std::initializer_list<NodeField> fields, const TieItems* some) const {
   sum_up(to_secondary_, some != nullptr ? &some->to_secondary : nullptr, false, fields);
+  if (some == nullptr)
+    for (const NodeField& field : fields) nodes_.follow(field);
 }
 
 void Ties::hand_over(NodeField force, const TieItems* some) const {
   sum_up(to_primary_, some != nullptr ? &some->to_primary : nullptr, true, {force});
+  if (some == nullptr) nodes_.hand_over(force);
 }
 
 void Ties::gather(double* force) const {
@@ -321,17 +333,25 @@ void Ties::clear(double* field) const {
 }
 
 void Ties::gather_diagonal(double* diagonal) const {
-  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+  const auto gather = [&](std::int64_t secondary, std::int64_t primary, double weight) {
     for (int c = 0; c < 3; ++c) diagonal[dof(primary, c)] += weight * weight * diagonal[dof(secondary, c)];
+  };
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    gather(secondary, primary, weight);
   });
+  nodes_.for_each(gather);
   for (const std::int64_t slot : secondary_)
     for (int c = 0; c < 3; ++c) diagonal[dof(slot, c)] = 0;
 }
 
 void Ties::gather_mass(double* mass) const {
-  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+  const auto gather = [&](std::int64_t secondary, std::int64_t primary, double weight) {
     mass[primary] += weight * mass[secondary];
+  };
+  for_each_link(to_primary_, [&](std::int64_t primary, std::int64_t secondary, double weight) {
+    gather(secondary, primary, weight);
   });
+  nodes_.for_each(gather);
   for (const std::int64_t slot : secondary_) mass[slot] = 0;
 }
 

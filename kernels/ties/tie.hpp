@@ -12,6 +12,7 @@
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tie_sum.hpp"
 #include "kernels/solver/linear_operator.hpp"
+#include "kernels/ties/node_links.hpp"
 
 namespace tread {
 
@@ -54,7 +55,8 @@ struct TieItems {
 
 class Ties {
  public:
-  Ties(const Mesh& mesh, const std::vector<TieSpec>& specs);
+  /// `tied`: nodes of and on bodies without a section.
+  Ties(const Mesh& mesh, const std::vector<TieSpec>& specs, const std::vector<FollowingNode>& tied = {});
 
   bool empty() const { return secondary_.empty(); }
   std::int64_t secondary_count() const { return static_cast<std::int64_t>(secondary_.size()); }
@@ -74,8 +76,8 @@ class Ties {
   /// Items whose own nodes lie in marked groups. `groups`: by slot / kLanes.
   TieItems items_in(const std::vector<unsigned char>& groups) const;
 
-  /// Sets the secondary values from the primary ones; vector fields of 3 * slots values. `some`: null for
-  /// all.
+  /// Sets the secondary values from the primary ones; vector fields of 3 * slots values. `some`: of the ties
+  /// between blocks, null for all ties.
   void follow(std::initializer_list<NodeField> fields, const TieItems* some = nullptr) const;
 
   /// Adds the secondary values to the primary ones: transpose of follow.
@@ -93,9 +95,11 @@ class Ties {
 
  private:
   void join(const Mesh& mesh, const TieSpec& spec);
+  void list_slots();
 
   std::vector<std::int64_t> secondary_, primary_;  ///< slots, ascending
   TieSums to_secondary_, to_primary_;
+  NodeLinks nodes_;
 };
 
 }  // namespace tread

@@ -27,7 +27,8 @@ class Anchoring {
     return {Turn(angle + angle_).to_cylindrical(displacement_), half.to_cylindrical(step_half_),
             half.to_cylindrical(speed_change_)};
   }
-  /// `reference`: place of the node (0, y, r) [m]; u: displacement [m], w: relative velocity [m/s].
+  /// `reference`: place of the node in the basis of its station, (0, y, r) in a swept block [m]; u:
+  /// displacement [m], w: relative velocity [m/s].
   TREAD_BODY void move(const Station& at, const Vec3& reference, Vec3& u, Vec3& w) const {
     const Vec3 displacement = u;
     const Vec3 velocity = w;

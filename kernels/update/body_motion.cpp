@@ -89,9 +89,16 @@ struct MotionSums {
 
 }  // namespace
 
+template <class Visit>
+void SpinningBody::for_each_body_node(const Visit& visit) const {
+  for (const HexBody& body : mesh_->bodies)
+    for (std::int64_t node = 0; body.spins && node < body.nodes(); ++node)
+      visit(body.slot(node), body.mesh.nodes[index(node)], nodal_mass_[body.slot(node)]);
+}
+
 SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass)
     : mesh_(&mesh), blocks_(std::move(blocks)), nodal_mass_(mass) {
-  const auto sums = sum_views<Moments>(mesh, blocks_, nullptr, [mass](const TileView& view) {
+  auto sums = sum_views<Moments>(mesh, blocks_, nullptr, [mass](const TileView& view) {
     Moments m;
     for (int node = 0; node < view.block.section.nodes(); ++node)
       for (int lane = 0; lane < view.tile.stations; ++lane) {
@@ -101,6 +108,9 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
       }
     return m;
   });
+  for_each_body_node([&](std::int64_t /*slot*/, const Vec3& at, double m) {
+    sums += Moments{m, m * at.y, m * at.y * at.y, m * (at.x * at.x + at.z * at.z)};
+  });
   mass_ = sums.mass;
   inertia_ = sums.polar;
   centre_y_ = sums.first_y / sums.mass;
@@ -109,7 +119,7 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
 
 MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
                                      const TileShare* share) const {
-  const auto sums = sum_views<MotionSums>(*mesh_, blocks_, share, [&](const TileView& view) {
+  auto sums = sum_views<MotionSums>(*mesh_, blocks_, share, [&](const TileView& view) {
     LaneVectors displacement, velocity;
     double rotation[kLanes] = {};
     double spin[kLanes] = {};
@@ -133,13 +143,21 @@ MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const B
     }
     return sum;
   });
+  const Turn turn(kCartesianAngle + frame.angle);
+  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+    const Vec3 moved = m * u.at(slot);
+    const Vec3 velocity = m * w.at(slot);
+    const auto about_axle = [&](const Vec3& of) { return at.z * of.x - at.x * of.z; };
+    sums += {turn.to_cartesian(moved), turn.to_cartesian(velocity + spin_cross(frame.spin, moved)),
+             about_axle(moved), about_axle(velocity)};
+  });
   return {(1 / mass_) * sums.displacement, (1 / mass_) * sums.velocity, sums.rotation / inertia_,
           sums.spin / inertia_};
 }
 
 double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const BodyFrame& frame,
                                     const TileShare* share) const {
-  return sum_views<double>(*mesh_, blocks_, share, [&](const TileView& view) {
+  auto energy = sum_views<double>(*mesh_, blocks_, share, [&](const TileView& view) {
     LaneVectors carried;  // velocity of the frame in the lanes' bases
     for (int lane = 0; lane < view.tile.stations; ++lane)
       carried.set(lane, Turn(view.angle(lane) + frame.angle).to_cylindrical(frame.velocity));
@@ -160,10 +178,16 @@ double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const Bo
     for (const double lane : twice) sum += 0.5 * lane;
     return sum;
   });
+  const Vec3 carried = Turn(kCartesianAngle + frame.angle).to_cylindrical(frame.velocity);
+  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+    const Vec3 v = carried + w.at(slot) + spin_cross(frame.spin, at + u.at(slot));
+    energy += 0.5 * m * dot(v, v);
+  });
+  return energy;
 }
 
 Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const {
-  return sum_views<Vec3>(*mesh_, blocks_, nullptr, [&](const TileView& view) {
+  auto momentum = sum_views<Vec3>(*mesh_, blocks_, nullptr, [&](const TileView& view) {
     LaneVectors place, velocity;
     double mass[kLanes] = {};
     for (int node = 0; node < view.block.section.nodes(); ++node) {
@@ -182,6 +206,12 @@ Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame&
                  .to_cartesian(velocity.at(lane) + spin_cross(frame.spin, place.at(lane)));
     return sum;
   });
+  const Turn turn(kCartesianAngle + frame.angle);
+  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+    const Vec3 relative = w.at(slot) + spin_cross(frame.spin, at + u.at(slot));
+    momentum += m * (frame.velocity + turn.to_cartesian(relative));
+  });
+  return momentum;
 }
 
 void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, BodyFrame& frame, double dt,
@@ -203,6 +233,14 @@ void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, Body
         w.set(slot, velocity);
       }
     }
+  });
+  const Anchoring::Station station = anchoring.at(kCartesianAngle);
+  for_each_body_node([&](std::int64_t slot, const Vec3& at, double /*mass*/) {
+    Vec3 displacement = u.at(slot);
+    Vec3 velocity = w.at(slot);
+    anchoring.move(station, at, displacement, velocity);
+    u.set(slot, displacement);
+    w.set(slot, velocity);
   });
   frame = anchoring.moved();
 }

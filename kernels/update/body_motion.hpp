@@ -14,7 +14,7 @@ namespace tread {
 class SpinningBody {
  public:
   SpinningBody() = default;
-  /// `mass`: lumped nodal masses, scalar node field [kg].
+  /// Blocks and all of the mesh's bodies that spin. `mass`: lumped nodal masses, scalar node field [kg].
   SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass);
 
   double mass() const { return mass_; }
@@ -44,8 +44,9 @@ class SpinningBody {
               const unsigned char* groups = nullptr) const;
 
  private:
+  /// Calls visit(slot, place, mass) for the nodes of bodies that are not swept.
   template <class Visit>
-  void for_each_node(Visit visit) const;
+  void for_each_body_node(const Visit& visit) const;
 
   const Mesh* mesh_ = nullptr;
   std::vector<int> blocks_;

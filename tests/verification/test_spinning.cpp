@@ -186,7 +186,7 @@ TEST(Spinning, TurnOfTheVelocityKeepsItsSizeInSinglePrecision) {
   StepLoads loads;
   loads.dt = 3.4e-7;
   loads.frame.spin = 194;
-  auto step = step_constants<float>(samples::revolved_open(), loads);
+  auto step = step_constants<float>(Sweep::revolved, loads);
   step.spin2 = 0;
   const float weight[2] = {};
   const float force[3] = {};

@@ -1,0 +1,66 @@
+#pragma once
+// The element forces of a body of hexahedra on the fields of a mesh, and the motion of its nodes.
+// [theory.md, Bodies from files]
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/material.hpp"
+#include "core/mesh/node_field.hpp"
+#include "core/mesh/swept_block.hpp"
+#include "kernels/blocks/time_update.hpp"
+#include "kernels/hexahedra/hex_force.hpp"
+
+namespace tread {
+
+/// Vector fields hold 3 * mesh.slots values in the order of dof(); all but the body's own are left alone.
+/// Forces are computed in double for fields of either precision. Results are the same bits for any number of
+/// threads. One object serves one caller at a time: it computes in buffers of its own.
+class BodyForce {
+ public:
+  /// Keeps a reference. A body that `deforms_finitely` turns or deflects beyond small strain.
+  BodyForce(const HexBody& body, bool deforms_finitely);
+
+  const HexBody& body() const { return *body_; }
+  const HexForce& elements() const { return elements_; }
+
+  /// Stiffness-proportional damping [s], or a Maxwell branch in place of it.
+  void set_damping(double beta, const std::optional<MaxwellBranch>& branch);
+  double beta() const { return branch_ ? 0 : elements_.beta(); }
+  const std::optional<MaxwellBranch>& branch() const { return branch_; }
+
+  /// f = F(u + beta v), or F(u + g q) with a branch of strength g and lag q; f is overwritten. `v`, `q`: null
+  /// where they do not matter. [N]
+  template <class U, class Real>
+  void internal_force(const U* u, const Real* v, const Real* q, Real* f) const;
+  /// f = K u: linear, without damping. [N]
+  void apply(const double* u, double* f) const;
+
+  /// Energy of u; of the linear operator where `linear` [J].
+  DeformationEnergy energy(ConstNodeField u) const;
+  double linear_energy(ConstNodeField u) const;
+
+  void add_mass(double* mass) const;          ///< lumped; scalar field of mesh.slots values [kg]
+  void add_diagonal(double* diagonal) const;  ///< of K [N/m]
+
+  std::int64_t bytes() const;
+
+ private:
+  const HexBody* body_;
+  HexForce elements_;
+  std::optional<MaxwellBranch> branch_;
+  mutable AlignedVector<double> u_, v_, f_;  ///< rows of the nodes
+};
+
+/// Moves the nodes of a body by a step. `inverse_mass`: mesh.slots values, 0 where nothing moves [1/kg].
+template <class Real, class U>
+void move_body(const HexBody& body, const StepLoads& loads, const Real* inverse_mass,
+               const BasicUpdateFields<Real, U>& fields);
+
+/// By node, the change of a vector field's Cartesian components per way along x [m], or per angle about the
+/// axle [rad] in a body that spins.
+std::vector<Vec3> along_motion(const HexBody& body, const double* field);
+
+}  // namespace tread

@@ -1,0 +1,26 @@
+#pragma once
+// Ties between a body of hexahedra and a swept block. The nodes of the finer side are moved onto the faces of
+// the other and follow them. [theory.md, Ties]
+
+#include <string>
+#include <vector>
+
+#include "core/mesh/swept_block.hpp"
+#include "kernels/ties/node_links.hpp"
+
+namespace tread {
+
+struct BodyTieSpec {
+  int body = -1;
+  std::string set;  ///< of the body's nodes
+  std::string key;  ///< of the scene that names the set, for messages
+  int block = -1;
+  std::string path;    ///< line of the block's section
+  bool whole = false;  ///< the set must cover the block's line
+};
+
+/// Locates and moves the secondary nodes; call it before coefficients are made. Throws InputError if they lie
+/// further off the primary faces than a tenth of these, if the set has no faces or does not cover the line.
+std::vector<FollowingNode> tie_body(Mesh& mesh, const BodyTieSpec& spec);
+
+}  // namespace tread
