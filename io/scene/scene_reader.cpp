@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/scene/field_text.hpp"
 #include "io/scene/idle_materials.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_entries.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/setting.hpp"
@@ -52,7 +52,7 @@ class SceneBuilder {
     check_required();
     add_check_results();
     if (!problems_.empty()) throw ProblemsError(std::move(problems_));
-    ResolvedScene resolved{scene_, source_.name, source_, overrides, entries()};
+    ResolvedScene resolved{scene_, source_.name, source_, overrides, scene_entries(scene_, settings_)};
     resolved.source.files = std::move(files_);
     return resolved;
   }
@@ -358,19 +358,6 @@ class SceneBuilder {
       const Place place = place_of(key);
       problems_.push_back({place.file, place.line, place.column, key, problem.message});
     }
-  }
-
-  std::vector<Entry> entries() {
-    std::vector<Entry> list;
-    for (const Key& key : scene_keys(scene_)) {
-      if (!key.locate || !applies(key, scene_)) continue;
-      const std::optional<FieldText> text = field_text(key, key.locate(scene_));
-      if (!text) continue;
-      const auto setting = settings_.find(key.path);
-      const std::string source = setting == settings_.end() ? "default" : setting->second.origin.source;
-      list.push_back({key.path, text->value, text->unit, source, key.description, text->shown});
-    }
-    return list;
   }
 
   const SceneSource& source_;
