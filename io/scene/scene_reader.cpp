@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/scene/idle_materials.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
@@ -271,6 +272,14 @@ class SceneBuilder {
       read_file_of(std::string(kSurfaceTables) + table + ".file", read,
                    surface.kind == "map" ? read_map_text : read_table_text);
     }
+    for (auto& [name, body] : scene_.bodies) {
+      const std::string table = std::string(kBodyTables) + name;
+      const auto read = [&, &of = body](const std::string& text, const std::string& file) {
+        set_mesh(text, file, of, problems_);
+      };
+      if (settings_.count(table + ".unit") && !bad_.count(table + ".unit"))
+        read_file_of(table + ".file", read, read_mesh_text);
+    }
     if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
     if (scene_.wheel)
       read_columns("wheel.web", {.needs_units = true, .example = "r [mm]"}, scene_.wheel->web_y,
@@ -323,7 +332,8 @@ class SceneBuilder {
       if (!key.required || settings_.count(key.path) || !applies(key, scene_)) continue;
       if (std::holds_alternative<std::monostate>(key.locate(scene_))) continue;
       bad_.insert(key.path);
-      if (tables_unclear_) continue;
+      const bool unclear = !key.only_with.key.empty() && bad_.count(key.only_with.key);
+      if (tables_unclear_ || unclear) continue;
       const std::optional<SceneTable> table = table_of(key.path);
       const std::string kind = key.quantity ? fmt::format("a {}", key.quantity->name) : "a value";
       report(mentioned_.at(table->name).place, key.path,
