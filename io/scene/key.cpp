@@ -23,6 +23,7 @@ void TableNames::add(std::string_view table) {
   if (table.starts_with(kZoneTables)) zones.emplace_back(table.substr(kZoneTables.size()));
   if (table.starts_with(kSupportTables)) supports.emplace_back(table.substr(kSupportTables.size()));
   if (table.starts_with(kSurfaceTables)) surfaces.emplace_back(table.substr(kSurfaceTables.size()));
+  if (table.starts_with(kBodyTables)) bodies.emplace_back(table.substr(kBodyTables.size()));
   if (table.starts_with(kProbeTables)) probes.emplace_back(table.substr(kProbeTables.size()));
 }
 

@@ -94,6 +94,8 @@ inline constexpr std::string_view kMaterialTables = "material.";
 inline constexpr std::string_view kProbeTables = "probe.";
 /// Begins the path of every table of a surface's depths: "surface.weld".
 inline constexpr std::string_view kSurfaceTables = "surface.";
+/// Begins the path of every table of a body from a file: "body.web".
+inline constexpr std::string_view kBodyTables = "body.";
 
 /// Begins the path of every table of a support that differs: "support.broken".
 inline constexpr std::string_view kSupportTables = "support.";
@@ -107,6 +109,7 @@ struct TableNames {
   std::vector<std::string> zones;
   std::vector<std::string> supports;
   std::vector<std::string> surfaces;
+  std::vector<std::string> bodies;
   std::vector<std::string> probes;
 
   /// Adds the name in the path of a table that a scene names; nothing for other tables.

@@ -36,8 +36,12 @@ Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locat
           .allowed = std::move(allowed)};
 }
 
+Key text(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description) {
+  return choice(std::move(path), effects, std::move(locate), {}, std::move(description));
+}
+
 Key file(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description) {
-  return or_file(choice(std::move(path), effects, std::move(locate), {}, std::move(description)));
+  return or_file(text(std::move(path), effects, std::move(locate), std::move(description)));
 }
 
 Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,

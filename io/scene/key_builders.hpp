@@ -69,7 +69,9 @@ Key number(std::string path, Effects effects, std::function<Field(Scene&)> locat
            std::string description, Kind kind = Kind::number);
 Key choice(std::string path, Effects effects, std::function<Field(Scene&)> locate,
            std::vector<std::string> allowed, std::string description);
-/// A text that names a file of columns.
+/// Any text.
+Key text(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description);
+/// A text that names a file.
 Key file(std::string path, Effects effects, std::function<Field(Scene&)> locate, std::string description);
 /// A text that names the material of a part.
 Key material_name(std::string path, Effects effects, std::function<Field(Scene&)> locate,

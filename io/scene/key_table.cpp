@@ -12,11 +12,7 @@ namespace tread::keys {
 namespace {
 
 void add_general(Keys& keys) {
-  keys.push_back({.path = "scene.title",
-                  .effects = {Effect::text},
-                  .kind = Kind::text,
-                  .locate = at(&Scene::title),
-                  .description = "Name of the scene in reports"});
+  keys.push_back(text("scene.title", {Effect::text}, at(&Scene::title), "Name of the scene in reports"));
   keys.push_back({.path = "scene.based_on",
                   .effects = Effects::all(),
                   .kind = Kind::directive,
@@ -114,6 +110,7 @@ Keys make_keys(const TableNames& names) {
   add_wear(keys);
   add_impacts(keys);
   for (const std::string& name : names.surfaces) add_surface(keys, name);
+  for (const std::string& name : names.bodies) add_body(keys, name);
   for (const std::string& name : names.probes) add_probe(keys, name);
   add_output(keys);
   for (const SceneTable& table : make_tables(names))
@@ -163,7 +160,7 @@ constexpr NamedTables entries_of(std::string_view prefix, void (*add_keys)(Keys&
           [](const Scene& scene, const std::string& name) { return (scene.*Map).contains(name); }};
 }
 
-constexpr std::array<NamedTables, 5> kNamedTables = {
+constexpr std::array<NamedTables, 6> kNamedTables = {
     entries_of<&Scene::materials>(
         kMaterialTables, add_material,
         "A material of that name; parts name their material: `wheel.material`, `rail.material`, "
@@ -184,6 +181,11 @@ constexpr std::array<NamedTables, 5> kNamedTables = {
         "Depth on the running surface of rail or wheel, added to the contact gap. Depths of all such tables "
         "and of [corrugation] are summed.\nA place on the wheel is where it meets the rail in free rolling, "
         "once a turn."),
+    entries_of<&Scene::bodies>(
+        kBodyTables, add_body,
+        "A mesh of another program in place of the wheel's disc, between tread and axle, or of the rail "
+        "below its head.\nSets of its nodes are tied to the parts beside it.\n"
+        "`tread import` reads and checks such a mesh by itself."),
     entries_of<&Scene::probes>(
         kProbeTables, add_probe,
         "A point of a body whose motion or stress the histories hold, in columns that begin with the "
@@ -242,6 +244,7 @@ std::vector<SceneTable> make_tables(const TableNames& names) {
   tables.insert(tables.end(), others.begin(), others.end());
   add_named(tables, kSupportTables, names.supports);
   add_named(tables, kSurfaceTables, names.surfaces);
+  add_named(tables, kBodyTables, names.bodies);
   add_named(tables, kProbeTables, names.probes);
   tables.push_back(always("output", "Intervals of samples, progress lines, checkpoints and frames."));
   tables.push_back(

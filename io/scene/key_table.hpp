@@ -18,6 +18,8 @@ void add_material(Keys& keys, const std::string& name);
 void add_support(Keys& keys, const std::string& name);
 /// Adds the keys of the depths of that name on a running surface.
 void add_surface(Keys& keys, const std::string& name);
+/// Adds the keys of the body of that name from a file.
+void add_body(Keys& keys, const std::string& name);
 /// Adds the keys of the probe of that name.
 void add_probe(Keys& keys, const std::string& name);
 void add_wheel(Keys& keys);

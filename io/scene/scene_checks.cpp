@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/travel.hpp"
+#include "io/scene/body_checks.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
 #include "io/scene/wheel_checks.hpp"
@@ -38,6 +39,7 @@ class Checker {
     if (scene_.rail) check_rail(*scene_.rail);
     check_zones(scene_, others);
     check_supports(scene_, others);
+    check_bodies(scene_, others);
     if (scene_.motion) check_motion(*scene_.motion);
     if (scene_.rail && scene_.corrugation) check_corrugation(*scene_.rail, *scene_.corrugation);
     for (const auto& [name, surface] : scene_.surfaces)
@@ -128,13 +130,19 @@ class Checker {
 
   bool knows(const std::string& material) const { return scene_.materials.contains(material); }
 
+  /// "the sleepers need", "[body.web] needs"
+  static std::string needy(const std::string& part) {
+    if (part.find('.') != std::string::npos) return fmt::format("[{}] needs", part);
+    return fmt::format("the {} {}", part, part.ends_with('s') ? "need" : "needs");
+  }
+
   void report_missing(const MaterialUse& use) {
     std::vector<std::string> names;
     for (const auto& [name, material] : scene_.materials) names.push_back(name);
     const std::string similar = similar_text(use.name, names);
     require(false, {std::string(kMaterialTables) + use.name, use.key},
-            fmt::format("the {} {} [material.{}]; the scene's materials: {}{}", use.part,
-                        use.part.ends_with('s') ? "need" : "needs", use.name, scene_.material_names(),
+            fmt::format("{} [material.{}]; the scene's materials: {}{}", needy(use.part), use.name,
+                        scene_.material_names(),
                         similar.empty() ? "" : fmt::format(" (did you mean {}?)", similar)));
   }
 

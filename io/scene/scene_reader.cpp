@@ -10,11 +10,12 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/scene/field_text.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/scene/idle_materials.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/profile_file.hpp"
 #include "io/scene/scene_checks.hpp"
+#include "io/scene/scene_entries.hpp"
 #include "io/scene/scene_library.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/setting.hpp"
@@ -52,7 +53,7 @@ class SceneBuilder {
     check_required();
     add_check_results();
     if (!problems_.empty()) throw ProblemsError(std::move(problems_));
-    ResolvedScene resolved{scene_, source_.name, source_, overrides, entries()};
+    ResolvedScene resolved{scene_, source_.name, source_, overrides, scene_entries(scene_, settings_)};
     resolved.source.files = std::move(files_);
     return resolved;
   }
@@ -271,6 +272,14 @@ class SceneBuilder {
       read_file_of(std::string(kSurfaceTables) + table + ".file", read,
                    surface.kind == "map" ? read_map_text : read_table_text);
     }
+    for (auto& [name, body] : scene_.bodies) {
+      const std::string table = std::string(kBodyTables) + name;
+      const auto read = [&, &of = body](const std::string& text, const std::string& file) {
+        set_mesh(text, file, of, problems_);
+      };
+      if (settings_.count(table + ".unit") && !bad_.count(table + ".unit"))
+        read_file_of(table + ".file", read, read_mesh_text);
+    }
     if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
     if (scene_.wheel)
       read_columns("wheel.web", {.needs_units = true, .example = "r [mm]"}, scene_.wheel->web_y,
@@ -323,7 +332,8 @@ class SceneBuilder {
       if (!key.required || settings_.count(key.path) || !applies(key, scene_)) continue;
       if (std::holds_alternative<std::monostate>(key.locate(scene_))) continue;
       bad_.insert(key.path);
-      if (tables_unclear_) continue;
+      const bool unclear = !key.only_with.key.empty() && bad_.count(key.only_with.key);
+      if (tables_unclear_ || unclear) continue;
       const std::optional<SceneTable> table = table_of(key.path);
       const std::string kind = key.quantity ? fmt::format("a {}", key.quantity->name) : "a value";
       report(mentioned_.at(table->name).place, key.path,
@@ -358,19 +368,6 @@ class SceneBuilder {
       const Place place = place_of(key);
       problems_.push_back({place.file, place.line, place.column, key, problem.message});
     }
-  }
-
-  std::vector<Entry> entries() {
-    std::vector<Entry> list;
-    for (const Key& key : scene_keys(scene_)) {
-      if (!key.locate || !applies(key, scene_)) continue;
-      const std::optional<FieldText> text = field_text(key, key.locate(scene_));
-      if (!text) continue;
-      const auto setting = settings_.find(key.path);
-      const std::string source = setting == settings_.end() ? "default" : setting->second.origin.source;
-      list.push_back({key.path, text->value, text->unit, source, key.description, text->shown});
-    }
-    return list;
   }
 
   const SceneSource& source_;

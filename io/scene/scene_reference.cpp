@@ -35,6 +35,7 @@ A table that is absent is not modelled and costs nothing.
   A file holds two numbers a line, separated by blanks, commas or semicolons; `#` starts a comment.
   A line such as `# x [m]  d [mm]` before the numbers states the units.
   Depths and friction need this line; profiles without the line are in millimetres.
+  The file of a `[body.NAME]` is a mesh.
 * **Mistakes.** Unknown keys, wrong units, values out of range and keys without effect are errors.
   Parts that do not fit together are errors too.
   All errors are reported at once with file, line and column.
@@ -123,7 +124,7 @@ std::string library_section(const LibraryEntry& entry) {
 }  // namespace
 
 std::string scene_reference() {
-  const TableNames any_name = {{"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}};
+  const TableNames any_name = {{"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}, {"NAME"}};
   const std::vector<SceneTable> tables = scene_tables(any_name);
   const std::vector<Key> keys = scene_keys(any_name);
   Scene everything;

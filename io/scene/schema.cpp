@@ -25,7 +25,9 @@ const std::vector<std::string>& usual_materials() {
 namespace {
 
 TableNames usual_names() {
-  return {usual_materials(), {}, {}, {}, {}};
+  TableNames names;
+  names.materials = usual_materials();
+  return names;
 }
 
 }  // namespace
@@ -40,6 +42,7 @@ std::vector<Key> scene_keys(const Scene& scene) {
   for (const auto& [name, zone] : scene.zones) names.zones.push_back(name);
   for (const auto& [name, support] : scene.supports) names.supports.push_back(name);
   for (const auto& [name, surface] : scene.surfaces) names.surfaces.push_back(name);
+  for (const auto& [name, body] : scene.bodies) names.bodies.push_back(name);
   for (const auto& [name, probe] : scene.probes) names.probes.push_back(name);
   return keys::make_keys(names);
 }
@@ -77,7 +80,7 @@ std::optional<SceneTable> table_of(std::string_view path) {
 bool is_table(std::string_view path) {
   const std::string_view named = keys::named_table_of(path);
   if (!named.empty()) return path == named;
-  for (const std::string_view kind : {kZoneTables, kSupportTables, kSurfaceTables, kProbeTables})
+  for (const std::string_view kind : {kZoneTables, kSupportTables, kSurfaceTables, kBodyTables, kProbeTables})
     if (kind == std::string(path) + ".") return true;
   const auto below = [&](const Key& key) { return key.path != path && starts_with_table(key.path, path); };
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);
@@ -86,11 +89,12 @@ bool is_table(std::string_view path) {
 std::vector<MaterialUse> material_uses(const Scene& scene) {
   Scene copy = scene;
   std::vector<MaterialUse> uses;
-  for (const Key& key : scene_keys()) {
+  for (const Key& key : scene_keys(scene)) {
     if (!key.names_material) continue;
     const Field field = key.locate(copy);
     const auto* name = std::get_if<std::string*>(&field);
-    if (name && !(*name)->empty()) uses.push_back({key.path, key.path.substr(0, key.path.find('.')), **name});
+    if (name && !(*name)->empty())
+      uses.push_back({key.path, key.path.substr(0, key.path.rfind('.')), **name});
   }
   return uses;
 }

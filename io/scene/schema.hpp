@@ -43,7 +43,7 @@ bool is_table(std::string_view path);
 /// {"wheel.material", "steel"}.
 struct MaterialUse {
   std::string key;
-  std::string part;  ///< table of the part: "wheel"
+  std::string part;  ///< table of the part: "wheel", "body.web"
   std::string name;  ///< of the material
 };
 std::vector<MaterialUse> material_uses(const Scene& scene);

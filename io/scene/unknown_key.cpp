@@ -52,7 +52,8 @@ constexpr std::array kPurposes = {
     Purpose{{"mass_scaling"},
             "masses are not scaled; scene.precision = \"mixed\" or larger elements are faster"},
     Purpose{{"mesh", "nodes_file", "elements", "import"},
-            "bodies are swept from profiles; scene.element_size sets the mesh"},
+            "a table [body.NAME] puts the mesh of a file in place of the wheel's disc or of the rail below "
+            "its head; the other bodies are swept from profiles, scene.element_size sets their mesh"},
     Purpose{{"export", "keyword", "lsdyna", "ls_dyna"},
             "`tread export` writes a keyword deck, `tread mesh -o DIR` nodes and hexahedra as VTKHDF"},
     Purpose{{"switch", "turnout", "crossing", "transition", "bridge"},
@@ -79,11 +80,12 @@ constexpr std::array kPurposes = {
 };
 
 /// Names that a scene gives to its tables, by the start of their paths.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kOwnNames = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kOwnNames = {
     {{kMaterialTables, "a material's name"},
      {kZoneTables, "a zone's name"},
      {kSupportTables, "a support's name"},
      {kSurfaceTables, "the name of a surface's depth"},
+     {kBodyTables, "a body's name"},
      {kProbeTables, "a probe's name"}}};
 
 }  // namespace

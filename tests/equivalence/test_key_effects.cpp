@@ -25,12 +25,25 @@
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/schema.hpp"
 #include "tests/bar_scene.hpp"
+#include "tests/body_files.hpp"
 #include "tests/state_copies.hpp"
 
 namespace tread {
 namespace {
 
 using Overrides = std::vector<std::string>;
+
+constexpr const char* kWheelset =
+    "[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n";
+
+/// A short rail under a wheelset, and more.
+Overrides on_short_rail(const Overrides& more = {}) {
+  Overrides all = {"rail.length=2 m",         "rail.origin=1 m",         "fastenings.count=3",
+                   "fastenings.first=0.35 m", "solution_zone.start=0 m", "solution_zone.length=10 mm",
+                   "motion.duration=0.1 ms"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
 
 /// A tyre that rolls over a bar on two fastenings and a slab: every part but a half wheelset, in seconds.
 constexpr const char* kTrack = R"(
@@ -165,10 +178,13 @@ const BaseScene& base_scene(const std::string& name) {
       {"zoned", {kTrack, {"zone.weld.start=-0.1 m"}}},
       {"long way",
        {kTrack, {"scene.element_size=2.2 mm", "solution_zone.length=50 mm", "motion.duration=40 ms"}}},
-      {"wheelset",
-       {"[scene]\ntitle = \"wheelset\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
-        {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
-         "solution_zone.start=0 m", "solution_zone.length=10 mm", "motion.duration=0.1 ms"}}},
+      {"wheelset", {kWheelset, on_short_rail()}},
+      {"webbed",
+       {kWheelset, on_short_rail({"body.web.replaces=disc", "body.web.file=disc.inp", "body.web.unit=mm",
+                                  "body.web.tread=tread", "body.web.axle=axle"})}},
+      {"footed",
+       {kWheelset, on_short_rail({"body.web.replaces=rail", "body.web.file=base.inp", "body.web.unit=mm",
+                                  "body.web.head=head", "body.web.foot=foot"})}},
       {"worn",
        {"[scene]\ntitle = \"worn\"\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"11 mm\"\n",
         {"rail.length=2 m", "rail.origin=1 m", "fastenings.count=3", "fastenings.first=0.35 m",
@@ -201,6 +217,8 @@ std::string worn_columns(const PlaneCurve& curve, double from, double to) {
   return text;
 }
 
+const std::map<std::string, std::string>& body_files();
+
 Scene resolve(const std::string& name, const Overrides& more) {
   const BaseScene& base = base_scene(name);
   Overrides overrides = base.overrides;
@@ -215,7 +233,28 @@ Scene resolve(const std::string& name, const Overrides& more) {
                    "# y [mm]  r [mm]\n-40 145\n-30 165\n-30 340\n-40 365\n35 365\n25 340\n25 165\n35 145\n"},
                   {"/nowhere/tread.txt", worn_columns(built_in_wheel("LMA").surface, -69, 65)},
                   {"/nowhere/head.txt", worn_columns(built_in_rail("CN60").running, -35, 35)}};
+  const auto of_body = [](const std::string& text) { return text.starts_with("body."); };
+  if (std::any_of(overrides.begin(), overrides.end(), of_body))
+    source.files.insert(body_files().begin(), body_files().end());
   return resolve_scene(source, overrides).scene;
+}
+
+/// The wheelset's disc and the rail's base as other programs would write them.
+const std::map<std::string, std::string>& body_files() {
+  static const std::map<std::string, std::string> kFiles = [] {
+    constexpr double kMm = 1e-3, kCm = 1e-2;
+    const Model model(resolve("wheelset", {}));
+    const SweptBlock& disc = model.mesh.blocks[static_cast<std::size_t>(model.index.disc)];
+    const SweptBlock& base = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_base)];
+    const std::vector<std::pair<std::string, std::string>> ends = {{"tie_outer", "tread"},
+                                                                   {"tie_inner", "axle"}};
+    return std::map<std::string, std::string>{
+        {"/nowhere/disc.inp", samples::body_file(disc, ends, kMm, 0)},
+        {"/nowhere/other_disc.inp", samples::body_file(disc, ends, kMm, 1e-4)},
+        {"/nowhere/other_disc_cm.inp", samples::body_file(disc, ends, kCm, 1e-4)},
+        {"/nowhere/base.inp", samples::body_file(base, {{"tie", "head"}, {"foot", "foot"}}, kMm, 0)}};
+  }();
+  return kFiles;
 }
 
 /// Hashes of what a scene leads to on a given mesh.
@@ -301,13 +340,20 @@ Bits bits_of(const Scene& scene) {
 }
 
 /// Another value of a key in a scene; `with`: what the key needs besides, before and after; `then`: after
-/// alone.
+/// alone; `first`: before alone.
 struct Change {
   std::string key;
   std::string value;
   std::string scene = "track";
   Overrides with = {};
   Overrides then = {};
+  Overrides first = {};
+
+  Overrides before() const {
+    Overrides all = with;
+    all.insert(all.end(), first.begin(), first.end());
+    return all;
+  }
 };
 
 const std::vector<Change>& changes() {
@@ -459,6 +505,27 @@ const std::vector<Change>& changes() {
       {"surface.shape.wavelength", "0.14 m", "wavy"},
       {"surface.shape.order", "22", "polygonal"},
       {"surface.shape.file", "other_depth.txt", "measured depths"},
+      {"body.web.replaces",
+       "rail",
+       "wheelset",
+       {"body.web.unit=mm"},
+       {"body.web.file=base.inp", "body.web.head=head", "body.web.foot=foot"},
+       {"body.web.replaces=disc", "body.web.file=disc.inp", "body.web.tread=tread", "body.web.axle=axle"}},
+      {"body.web.file", "other_disc.inp", "webbed"},
+      {"body.web.unit", "cm", "webbed", {}, {"body.web.file=other_disc_cm.inp"}},
+      {"body.web.part", "holed", "webbed"},
+      {"body.web.material",
+       "light",
+       "webbed",
+       {"material.light.youngs_modulus=205.9 GPa", "material.light.poissons_ratio=0.3",
+        "material.light.density=7600 kg/m3", "rail.material=light"}},
+      {"body.web.origin_x", "0.01 mm", "webbed"},
+      {"body.web.origin_y", "0.01 mm", "webbed"},
+      {"body.web.origin_z", "0.01 mm", "webbed"},
+      {"body.web.tread", "most of tread", "webbed"},
+      {"body.web.axle", "most of axle", "webbed"},
+      {"body.web.head", "most of head", "footed"},
+      {"body.web.foot", "most of foot", "footed"},
       {"wear.coefficient", "3e-9 kg/N/m"},
       {"wear.change", "0.1"},
       {"wear.shortest", "40 mm"},
@@ -510,8 +577,8 @@ std::string table_in(const std::string& key) {
 /// Bits of each scene before the change, found once.
 const Bits& bits_before(const Change& change) {
   static std::map<std::pair<std::string, Overrides>, Bits> known;
-  const auto [found, is_new] = known.try_emplace({change.scene, change.with});
-  if (is_new) found->second = bits_of(resolve(change.scene, change.with));
+  const auto [found, is_new] = known.try_emplace({change.scene, change.before()});
+  if (is_new) found->second = bits_of(resolve(change.scene, change.before()));
   return found->second;
 }
 
@@ -532,7 +599,7 @@ TEST_P(KeysOf, AffectWhatTheyState) {
     with.insert(with.end(), change.then.begin(), change.then.end());
     with.push_back(change.key + "=" + change.value);
     const Scene scene = resolve(change.scene, with);
-    const Scene unchanged = resolve(change.scene, change.with);
+    const Scene unchanged = resolve(change.scene, change.before());
     const bool same_mesh = mesh_bits(Model(scene)) == mesh_bits(Model(unchanged));
     if (same_run(scene, unchanged)) {
       EXPECT_EQ(!same_mesh, effects.has(Effect::mesh)) << "mesh";
@@ -565,7 +632,8 @@ INSTANTIATE_TEST_SUITE_P(Tables, KeysOf, testing::ValuesIn(tables()),
                          [](const auto& table) { return table.param; });
 
 TEST(KeyEffects, EveryKeyIsChanged) {
-  for (const Key& key : scene_keys(TableNames{{"steel"}, {"weld"}, {"odd"}, {"shape"}, {"midspan"}})) {
+  for (const Key& key :
+       scene_keys(TableNames{{"steel"}, {"weld"}, {"odd"}, {"shape"}, {"web"}, {"midspan"}})) {
     const auto is_of_key = [&](const Change& change) { return change.key == key.path; };
     const auto count = std::count_if(changes().begin(), changes().end(), is_of_key);
     EXPECT_EQ(count, key.kind == Kind::directive ? 0 : 1) << key.path;

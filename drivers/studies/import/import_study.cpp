@@ -8,9 +8,8 @@
 
 #include "core/millimetre.hpp"
 #include "drivers/studies/import/mesh_extremes.hpp"
-#include "io/scene/problems.hpp"
+#include "io/scene/body_file.hpp"
 #include "io/text/json.hpp"
-#include "io/text/text_file.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -122,12 +121,8 @@ Json json_of(const ImportedMesh& imported, const MeshExtremes& m, const ImportOp
 }  // namespace
 
 ImportedMesh read_mesh_file(const std::filesystem::path& file, const MeshWish& wish) {
-  const std::string text = read_bytes(file, kLargestMeshFile);
-  MeshFaults faults;
-  ImportedMesh imported = mesh_of(text, file, wish, faults);
   std::vector<Problem> problems;
-  for (const LineFault& fault : faults.list())
-    problems.push_back({file.string(), fault.line, 0, "", fault.message});
+  ImportedMesh imported = mesh_in(read_mesh_text(file), file, wish, problems);
   if (!problems.empty()) throw ProblemsError(std::move(problems));
   return imported;
 }

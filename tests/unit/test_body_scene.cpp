@@ -1,0 +1,223 @@
+// Keys of bodies from files: what is read, what is refused and with which words.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/mesh/hex_mesh.hpp"
+#include "drivers/run/scene_content.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "tests/mesh_files.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace tread {
+namespace {
+
+const std::string kBase = "[scene]\ntitle = \"body\"\nbased_on = \"highspeed-slab-2014\"\n";
+
+/// Scenes beside the bar of tests/mesh_files.hpp, in which "bottom" and "edge" are sets of nodes.
+class BodyScene : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string deck = samples::keyword_file(samples::SolidCards::one);
+    deck.insert(deck.find("*DATABASE"), "*SET_NODE_LIST_TITLE\nedge\n         2\n       135       136\n");
+    write("bar.k", deck);
+    write("bar.inp", with_edge(samples::abaqus_file()));
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path / name) << text;
+  }
+  static std::string with_edge(const std::string& inp) { return inp + "*NSET, NSET=edge\n135, 136\n"; }
+
+  /// A table that replaces the disc by the bar of the Abaqus file; `more` are other lines of it.
+  static std::string disc(const std::string& name, const std::string& more = "") {
+    return "[body." + name +
+           "]\nreplaces = \"disc\"\nfile = \"bar.inp\"\nunit = \"mm\"\ntread = \"bottom\"\naxle = "
+           "\"edge\"\n" +
+           more;
+  }
+  static std::string rail(const std::string& name, const std::string& more = "") {
+    return "[body." + name +
+           "]\nreplaces = \"rail\"\nfile = \"bar.inp\"\nunit = \"mm\"\nhead = \"bottom\"\nfoot = \"edge\"\n" +
+           more;
+  }
+
+  ResolvedScene resolved(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    return resolve_scene(SceneSource{"x.toml", kBase + text, folder_.path}, overrides);
+  }
+  /// The message with which the scene is refused, without the folder's name.
+  std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) const {
+    try {
+      resolved(text, overrides);
+    } catch (const InputError& error) {
+      std::string message = error.what();
+      const std::string folder = folder_.path.string() + "/";
+      for (auto at = message.find(folder); at != std::string::npos; at = message.find(folder))
+        message.erase(at, folder.size());
+      return message;
+    }
+    return "accepted";
+  }
+
+  samples::TemporaryFolder folder_;
+};
+
+TEST_F(BodyScene, TakesAMeshAboutItsOrigin) {
+  const Scene scene =
+      resolved(disc("web", "origin_x = \"5 mm\"\norigin_y = \"-1 cm\"\norigin_z = \"0.5 m\"\n")).scene;
+  const BodySpec& body = scene.bodies.at("web");
+  EXPECT_TRUE(body.on_wheel());
+  EXPECT_EQ(body.reading, "Abaqus input file: 12 hexahedra, 36 nodes");
+  ASSERT_TRUE(body.mesh);
+  EXPECT_EQ(body.mesh->node_sets.at(body.tread).size(), 12U);
+  EXPECT_EQ(body.mesh->node_sets.at(body.axle).size(), 2U);
+  std::size_t n = 0;
+  samples::BarMesh::for_each_node([&](int, double x, double y, double z) {
+    const Vec3 expected = 1e-3 * Vec3{x - 5, y + 10, z - 500};
+    EXPECT_LT(norm(body.mesh->nodes[n++] - expected), 1e-15);
+  });
+}
+
+TEST_F(BodyScene, TakesAPartOfAnotherFormatInItsUnit) {
+  const ResolvedScene scene = resolved(
+      "[body.web]\nreplaces = \"rail\"\nfile = \"bar.k\"\nunit = \"cm\"\npart = \"7\"\nhead = \"bottom\"\n"
+      "foot = \"edge\"\n");
+  const BodySpec& body = scene.scene.bodies.at("web");
+  EXPECT_EQ(body.reading, "LS-DYNA keyword deck: 8 hexahedra, 27 nodes");
+  ASSERT_TRUE(body.mesh);
+  double last = 0;
+  for (const Vec3& at : body.mesh->nodes) last = std::max(last, at.x);
+  EXPECT_NEAR(last, 0.3, 1e-15);
+  // The resolved scene reads back as the same.
+  const ResolvedScene again = resolve_scene(SceneSource{"again.toml", resolved_toml(scene), "/nowhere"});
+  EXPECT_EQ(again.scene.bodies.at("web").mesh->nodes.size(), 27U);
+  EXPECT_EQ(again.scene.bodies.at("web").part, "7");
+}
+
+TEST_F(BodyScene, ContentsOfTheFileTellScenesApart) {
+  const SceneContent before = scene_content(resolved(disc("web")));
+  EXPECT_EQ(difference(before, scene_content(resolved(disc("web")))), "");
+  write("bar.inp", with_edge(samples::abaqus_file()) + "** another\n");
+  const std::string apart = difference(before, scene_content(resolved(disc("web"))));
+  EXPECT_NE(apart.find("bar.inp has other contents"), std::string::npos) << apart;
+}
+
+TEST_F(BodyScene, UnknownSetsAreRefused) {
+  EXPECT_EQ(
+      refusal(disc("web"), {"body.web.tread=botom"}),
+      "--set: body.web.tread: bar.inp has no set \"botom\" with nodes of the body; state one of \"ALL\", "
+      "\"bottom\", \"edge\", \"face\" (did you mean \"bottom\"?)");
+  // A set without nodes of the part is none.
+  EXPECT_EQ(refusal(disc("web", "part = \"left end\"\n")),
+            "x.toml:9:1: body.web.axle: bar.inp has no set \"edge\" with nodes of the body; state one of "
+            "\"ALL\", \"bottom\", \"face\"");
+  EXPECT_EQ(
+      refusal(disc("web"), {"body.web.axle=ALL"}),
+      "--set: body.web.axle: node 101 of bar.inp is in \"bottom\" of body.web.tread too; a node is tied "
+      "to one part: leave it out of one of the sets");
+  std::string many = with_edge(samples::abaqus_file());
+  for (int i = 0; i < 9; ++i) many += "*NSET, NSET=more" + std::to_string(i) + "\n101\n";
+  write("bar.inp", many);
+  EXPECT_NE(refusal(disc("web"), {"body.web.tread=none"}).find("\"more5\" and 3 others"), std::string::npos);
+}
+
+TEST_F(BodyScene, WrongUnitsAreRefused) {
+  EXPECT_EQ(refusal(disc("web"), {"body.web.unit=inch"}),
+            "--set: body.web.unit: \"inch\" is unknown; choose from: mm, cm, m");
+  std::string table = disc("web");
+  table.erase(table.find("unit"), std::string("unit = \"mm\"\n").size());
+  EXPECT_EQ(refusal(table),
+            "x.toml:4:7: body.web.unit: is missing; [body.web] needs a value: Unit of the file's lengths; it "
+            "is never guessed");
+}
+
+TEST_F(BodyScene, MaterialsAreThoseOfTheScene) {
+  EXPECT_EQ(refusal(disc("web", "material = \"stel\"\n")),
+            "x.toml:10:1: body.web.material: [body.web] needs [material.stel]; the scene's materials: "
+            "gap_filler, mortar, slab, steel (did you mean steel?)");
+  const std::string cast =
+      "[material.cast]\nyoungs_modulus = \"170 GPa\"\npoissons_ratio = 0.27\ndensity = \"7200 kg/m3\"\n";
+  EXPECT_EQ(refusal(cast + disc("web", "material = \"cast\"\n")), "accepted");
+  const std::string yields = "law = \"j2\"\nyield_stress = \"300 MPa\"\n";
+  EXPECT_EQ(refusal(cast + yields + disc("web", "material = \"cast\"\n")),
+            "x.toml:16:1: body.web.material: [material.cast] has law = \"j2\", and a body from a file is "
+            "elastic; state body.web.material, a material with law = \"elastic\"");
+  EXPECT_EQ(
+      refusal(disc("web"), {"material.steel.law=j2", "material.steel.yield_stress=300 MPa"}),
+      "--set: material.steel.law: [material.steel] has law = \"j2\", and a body from a file is elastic; "
+      "state body.web.material, a material with law = \"elastic\"");
+}
+
+TEST_F(BodyScene, BrokenMeshesNameTheLine) {
+  std::string broken = samples::abaqus_file();
+  broken.replace(broken.find("101, 0"), 6, "101, x");
+  write("bar.inp", broken);
+  EXPECT_EQ(refusal(disc("web")).find("bar.inp:5: node 101"), 0U) << refusal(disc("web"));
+  write("bar.inp", "");
+  EXPECT_EQ(refusal(disc("web")), "bar.inp: the file is empty");
+  EXPECT_EQ(refusal(disc("web"), {"body.web.file=none.inp"}),
+            "--set: body.web.file: cannot read none.inp: No such file or directory");
+  write("bar.inp", samples::abaqus_file());
+  EXPECT_EQ(refusal(disc("web"), {"body.web.part=middle"})
+                .find("bar.inp: there is no part \"middle\" with hexahedra; there are "),
+            0U);
+}
+
+TEST_F(BodyScene, KeysOfTheOtherKindAreIdle) {
+  EXPECT_EQ(refusal(disc("web", "head = \"bottom\"\n")),
+            "x.toml:10:1: body.web.head: has an effect only with body.web.replaces = \"rail\"");
+  EXPECT_EQ(refusal(rail("web", "axle = \"edge\"\n")),
+            "x.toml:10:1: body.web.axle: has an effect only with body.web.replaces = \"disc\"");
+  EXPECT_EQ(
+      refusal("[body.web]\nreplaces = \"rail\"\nfile = \"bar.inp\"\nunit = \"mm\"\nhead = \"bottom\"\n"),
+      "x.toml:4:7: body.web.foot: is missing; [body.web] needs a value: Set of the file's nodes that "
+      "stand on the fastenings");
+}
+
+TEST_F(BodyScene, AnUnclearKindIsTheOnlyProblem) {
+  EXPECT_EQ(refusal(rail("web"), {"body.web.replaces=raill"}),
+            "--set: body.web.replaces: \"raill\" is unknown; did you mean \"rail\"? choose from: disc, rail");
+  EXPECT_EQ(refusal("[body.web]\nfile = \"bar.inp\"\nunit = \"mm\"\n" + disc("other"))
+                .find("x.toml:4:7: body.web.replaces: is missing; [body.web] needs a value: Part "),
+            0U);
+}
+
+TEST_F(BodyScene, APartIsReplacedOnce) {
+  EXPECT_EQ(refusal(disc("a") + rail("b")), "accepted");
+  EXPECT_EQ(refusal(disc("a") + disc("b")),
+            "x.toml:11:1: body.b.replaces: \"disc\" is replaced by [body.a] too; state body.b.present = "
+            "false, or one mesh of both in one table");
+}
+
+TEST_F(BodyScene, NeedsThePartThatItReplaces) {
+  EXPECT_EQ(
+      refusal(disc("web") + "[wheel]\nshape = \"tyre\"\nprofile = \"cylinder\"\n"),
+      "x.toml:5:1: body.web.replaces: \"disc\" is a part of a half wheelset, and wheel.shape is \"tyre\", "
+      "a ring without a disc; state wheel.shape = \"half_wheelset\"");
+  const std::string struck =
+      "[hammer]\nposition = \"0 m\"\nforce = \"1 kN\"\nduration = \"20 us\"\n[wheel]\npresent = false\n"
+      "[vehicle]\npresent = false\n[contact]\npresent = false\n";
+  EXPECT_EQ(refusal(rail("web") + struck), "accepted");
+  EXPECT_EQ(refusal(disc("web") + struck),
+            "x.toml:5:1: body.web.replaces: \"disc\" is a part of the wheel, and there is none; add [wheel], "
+            "or state body.web.present = false");
+  EXPECT_NE(
+      refusal(rail("web") + "[rail]\nprofile = \"box\"\ninclination = 0\nwidth = \"150 mm\"\n")
+          .find("x.toml:5:1: body.web.replaces: \"rail\" is the rail below its head, and rail.profile is "
+                "\"box\", which has no head; state a rail such as rail.profile = \"CN60\""),
+      std::string::npos);
+}
+
+TEST_F(BodyScene, UnknownKeysAndNames) {
+  EXPECT_EQ(refusal(disc("web", "tred = \"edge\"\n")),
+            "x.toml:10:1: body.web.tred: unknown key (did you mean body.web.tread?)");
+  EXPECT_EQ(refusal("[body.\"my web\"]\nreplaces = \"disc\"\n"),
+            "x.toml:4:7: body.my web: a body's name consists of letters, digits, _ and -");
+}
+
+}  // namespace
+}  // namespace tread
