@@ -59,48 +59,28 @@ Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
 
 namespace {
 
-/// y of the middle of the foot [m].
-double middle_of_foot(const SweptBlock& rail) {
-  const std::vector<int>& foot = rail.section.paths.at("foot");
-  return 0.5 * (rail.section.p[static_cast<std::size_t>(foot.front())] +
-                rail.section.p[static_cast<std::size_t>(foot.back())]);
-}
-
-/// Calls `act` with the number of the fastening, x and y [m] of each of its spring-dampers.
+/// Calls `act` with the number of the fastening, x and y [m] of each of its spring-dampers. `middle`: y of
+/// the foot's [m].
 template <class Act>
-void each_spring_damper(const Scene& scene, const SweptBlock& rail, const Act& act) {
+void each_spring_damper(const Scene& scene, double middle, const Act& act) {
   const FasteningSpec& f = *scene.fastenings;
-  const double middle = middle_of_foot(rail);
   for (int i = 0; i < f.count; ++i)
     for (int column = 0; column < f.columns; ++column)
       for (int row = 0; row < f.rows; ++row)
         act(i, scene.fastening_x(i) + f.column_offset(column), middle + f.row_offset(row));
 }
 
-/// Indices of the values within `reach` of `at`; where there are none, that of the nearest.
-template <class Value>
-std::vector<int> within(int count, const Value& value, double at, double reach) {
-  std::vector<int> found;
-  int nearest = 0;
-  for (int i = 0; i < count; ++i) {
-    if (std::abs(value(i) - at) <= reach) found.push_back(i);
-    if (std::abs(value(i) - at) < std::abs(value(nearest) - at)) nearest = i;
-  }
-  if (found.empty()) found.push_back(nearest);
-  return found;
-}
-
 }  // namespace
 
-std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
+std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const RailFoot& rail,
                                                        const std::vector<const SweptBlock*>& below) {
   const FasteningSpec& f = *scene.fastenings;
   const int groups = f.columns * f.rows;
   std::vector<SpringDampers::Element> elements;
-  each_spring_damper(scene, rail, [&](int i, double x, double y) {
+  each_spring_damper(scene, rail.middle(), [&](int i, double x, double y) {
     const SupportSpec own = scene.support(i);
     const SweptBlock* under = below[static_cast<std::size_t>(i)];
-    const Attachment foot = attach(rail, "foot", x, y);
+    const Attachment foot = rail.attach(x, y);
     const Attachment support = under ? attach(*under, "top", x, y) : Attachment{};
     elements.push_back(
         {foot, support, own.stiffness * f.stiffness / groups, own.damping * f.damping / groups, 2});
@@ -139,29 +119,22 @@ std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double
   return elements;
 }
 
-std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail) {
+std::vector<FootNode> held_foot_nodes(const Scene& scene, const RailFoot& foot) {
   constexpr double kRounding = 1e-9;
   const FasteningSpec& f = *scene.fastenings;
-  const std::vector<int>& foot = rail.section.paths.at("foot");
-  const auto y = [&](int i) {
-    return rail.section.p[static_cast<std::size_t>(foot[static_cast<std::size_t>(i)])];
-  };
-  const auto x = [&](int station) { return rail.stations[static_cast<std::size_t>(station)]; };
   std::vector<FootNode> nodes;
-  const auto hold = [&](double at_x, double at_y, double half_length, double half_width) {
-    for (const int i : within(static_cast<int>(foot.size()), y, at_y, half_width))
-      for (const int station : within(rail.station_count(), x, at_x, half_length))
-        nodes.push_back({foot[static_cast<std::size_t>(i)], station});
+  const auto hold = [&](double x, double y, double half_length, double half_width) {
+    for (const FootNode& node : foot.within(x, y, half_length, half_width)) nodes.push_back(node);
   };
   if (f.held_at == "springs") {
-    each_spring_damper(scene, rail, [&](int i, double at_x, double at_y) {
-      if (scene.support(i).holds) hold(at_x, at_y, 0, 0);
+    each_spring_damper(scene, foot.middle(), [&](int i, double x, double y) {
+      if (scene.support(i).holds) hold(x, y, 0, 0);
     });
     return nodes;
   }
   for (int i = 0; i < f.count; ++i)
     if (scene.support(i).holds)
-      hold(scene.fastening_x(i), middle_of_foot(rail), 0.5 * f.pad_length + kRounding,
+      hold(scene.fastening_x(i), foot.middle(), 0.5 * f.pad_length + kRounding,
            0.5 * f.pad_width + kRounding);
   return nodes;
 }

@@ -6,6 +6,7 @@
 
 #include "core/mesh/swept_block.hpp"
 #include "core/scene.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "kernels/connectors/connectors.hpp"
 
 namespace tread {
@@ -17,10 +18,10 @@ Attachment attach(const SweptBlock& block, const std::string& path, double x, do
 /// Attachment at (x, y) [m] on the running surface. InputError if it lies beyond the block.
 Attachment attach_to_surface(const SweptBlock& block, double x, double y);
 
-/// Spring-dampers of the scene's fastenings under the block `rail`, fastening by fastening: vertical ones on
+/// Spring-dampers of the scene's fastenings under the rail's foot, fastening by fastening: vertical ones on
 /// the block `below` of each or, if that is null, on rigid ground; along and across where they are elastic,
 /// to the ground.
-std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const SweptBlock& rail,
+std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const RailFoot& rail,
                                                        const std::vector<const SweptBlock*>& below);
 
 /// Number of spring-dampers of a fastening.
@@ -31,13 +32,8 @@ std::size_t elements_of_fastening(const FasteningSpec& fastening);
 std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double share,
                                                  const SweptBlock& sleeper);
 
-/// A node of the rail's foot: of the section, and its station.
-struct FootNode {
-  int node = 0, station = 0;
-};
-
-/// Nodes of the foot of the block `rail` that the fastenings hold (FasteningSpec::held_at); of each fastening
-/// at least one.
-std::vector<FootNode> held_foot_nodes(const Scene& scene, const SweptBlock& rail);
+/// Nodes of the rail's foot that the fastenings hold (FasteningSpec::held_at); of each fastening at least
+/// one.
+std::vector<FootNode> held_foot_nodes(const Scene& scene, const RailFoot& foot);
 
 }  // namespace tread

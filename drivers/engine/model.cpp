@@ -110,7 +110,7 @@ void Model::build_connectors() {
                                          block(index.slab));
     for (std::size_t i = 0; i < index.sleepers.size(); ++i) below[i] = block(index.sleepers[i]);
     std::vector<SpringDampers::Element> elements =
-        fastening_elements(scene, *block(index.rail_foot()), below);
+        fastening_elements(scene, foot_of_rail(scene, mesh, index), below);
     if (scene.sleepers)
       for (std::size_t i = 0; i < below.size(); ++i)
         for (SpringDampers::Element& element :
@@ -145,9 +145,24 @@ void Model::build_rail() {
   RailSections sections = rail_sections(scene, sizes);
   index.rail_cap = add(make_swept_block("rail head", Sweep::extruded, std::move(sections.cap),
                                         {scene.head_material()}, length.first, plan.fine));
+  if (scene.body_replacing("rail")) return;
   index.rail_base = add(make_swept_block("rail", Sweep::extruded, std::move(sections.base), {material},
                                          length.first, plan.coarse));
   tie_specs.push_back({index.rail_cap, "tie", index.rail_base, "tie"});
+}
+
+double Model::foot_height() const {
+  double lowest = 0;
+  if (const auto* body = scene.body_replacing("rail")) {
+    const HexMesh& file = *body->second.mesh;
+    for (const std::int32_t node : file.node_sets.at(body->second.foot))
+      lowest = std::min(lowest, file.nodes[static_cast<std::size_t>(node)].z);
+    return lowest;
+  }
+  const Section& rail = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
+  for (const int node : rail.paths.at("foot"))
+    lowest = std::min(lowest, rail.q[static_cast<std::size_t>(node)]);
+  return lowest;
 }
 
 void Model::build_slab() {
@@ -170,20 +185,18 @@ void Model::build_slab() {
     at = last;
   }
   stretch(rail.length - at, 0);
-  const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
   const Material& mortar = scene.material(slab.mortar_material);
   const std::vector<Material> materials = {scene.material(slab.material), scene.material(slab.gap_material),
                                            mortar, mortar};
-  SweptBlock block =
-      make_swept_block("slab", Sweep::extruded, slab_section(slab, foot, sizes), materials, left, segments);
+  SweptBlock block = make_swept_block("slab", Sweep::extruded, slab_section(slab, foot_height(), sizes),
+                                      materials, left, segments);
   block.vertical_only = true;
   index.slab = add(std::move(block));
 }
 
 void Model::build_sleepers() {
   const SleeperSpec& spec = *scene.sleepers;
-  const Section& foot = mesh.blocks[static_cast<std::size_t>(index.rail_foot())].section;
-  const Section section = sleeper_section(spec, foot, sizes);
+  const Section section = sleeper_section(spec, foot_height(), sizes);
   const int elements = std::max(2, static_cast<int>(std::lround(spec.width / sizes.slab)));
   for (int i = 0; i < scene.fastenings->count; ++i) {
     const double middle = scene.fastening_x(i);

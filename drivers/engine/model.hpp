@@ -100,6 +100,7 @@ struct Model {
   void build_operators();
   void build_connectors();
   Corrugation corrugate(double centre);
+  double foot_height() const;  ///< of the lowest point of the rail's foot [m]
   void build_rail();
   void build_wheel();
   void build_slab();

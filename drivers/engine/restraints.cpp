@@ -15,8 +15,7 @@ class Restraints {
   Restraints(const Scene& scene, const TiedBodies& bodies) : scene_(scene), bodies_(bodies) {}
 
   std::vector<std::int64_t> collect() {
-    for (const int b : bodies_.index.rail())
-      if (!scene_.pulse) hold_rail(block(b));  // under a pulse it is a free bar
+    if (!scene_.pulse) hold_rail();  // under a pulse it is a free bar
     if (bodies_.index.slab >= 0) hold_slab(block(bodies_.index.slab));
     for (const int b : bodies_.index.sleepers) hold_sleeper(block(b));
     if (scene_.plane_strain)
@@ -46,21 +45,42 @@ class Restraints {
       for (int station = 0; station < body.station_count(); ++station) hold(body, node, station, component);
   }
 
-  void hold_rail(const SweptBlock& body) {
-    for (int node = 0; node < body.section.nodes(); ++node)
-      for (const int station : {0, body.station_count() - 1}) hold(body, node, station, 0);
-    if (body.section.paths.count("foot") == 0) return;
-    if (scene_.rail->support == "rigid") {
-      for (int c = 0; c < 3; ++c) hold_path(body, "foot", c);
+  void hold(std::int64_t slot, int component) { unknowns_.push_back(dof(slot, component)); }
+
+  void hold_rail() {
+    for (const int b : bodies_.index.rail())
+      for (int node = 0; node < block(b).section.nodes(); ++node)
+        for (const int station : {0, block(b).station_count() - 1}) hold(block(b), node, station, 0);
+    if (bodies_.index.base_body >= 0)
+      hold_ends(bodies_.mesh.bodies[static_cast<std::size_t>(bodies_.index.base_body)]);
+    if (bodies_.index.rail_cap >= 0) hold_foot();
+  }
+
+  /// Nodes of a body in the planes of its ends.
+  void hold_ends(const HexBody& body) {
+    const auto along = [](const Vec3& a, const Vec3& b) { return a.x < b.x; };
+    const auto [first, last] = std::minmax_element(body.mesh.nodes.begin(), body.mesh.nodes.end(), along);
+    const double digits = 1e-6 * (last->x - first->x);
+    for (std::int64_t node = 0; node < body.nodes(); ++node) {
+      const double x = body.mesh.nodes[static_cast<std::size_t>(node)].x;
+      if (x < first->x + digits || x > last->x - digits) hold(body.slot(node), 0);
+    }
+  }
+
+  void hold_foot() {
+    const bool rigid = scene_.rail->support == "rigid";
+    const bool along = scene_.fastenings && scene_.fastenings->along.kind == "held";
+    const bool across = scene_.fastenings && scene_.fastenings->across.kind == "held";
+    if (!rigid && !along && !across) return;
+    const RailFoot foot = foot_of_rail(scene_, bodies_.mesh, bodies_.index);
+    if (rigid) {
+      for (const FootNode& node : foot.nodes())
+        for (int c = 0; c < 3; ++c) hold(node.slot, c);
       return;
     }
-    if (!scene_.fastenings) return;
-    const bool along = scene_.fastenings->along.kind == "held";
-    const bool across = scene_.fastenings->across.kind == "held";
-    if (!along && !across) return;
-    for (const FootNode& at : held_foot_nodes(scene_, body)) {
-      if (along) hold(body, at.node, at.station, 0);
-      if (across) hold(body, at.node, at.station, 1);
+    for (const FootNode& node : held_foot_nodes(scene_, foot)) {
+      if (along) hold(node.slot, 0);
+      if (across) hold(node.slot, 1);
     }
   }
 

@@ -94,30 +94,16 @@ Section tyre_section(const Scene& scene, const MeshSizes& sizes) {
                            section_size(sizes, sizes.section, 0));
 }
 
-namespace {
-
-/// Height of the lowest point of a rail's foot [m].
-double foot_height(const Section& rail) {
-  double lowest = 0;
-  for (const int node : rail.paths.at("foot"))
-    lowest = std::min(lowest, rail.q[static_cast<std::size_t>(node)]);
-  return lowest;
-}
-
-}  // namespace
-
-Section sleeper_section(const SleeperSpec& sleeper, const Section& rail, const MeshSizes& sizes) {
+Section sleeper_section(const SleeperSpec& sleeper, double top, const MeshSizes& sizes) {
   constexpr int kLayers = 2;
   constexpr int kLeastColumns = 8;
-  const double top = foot_height(rail);
   const int columns =
       std::max(kLeastColumns, static_cast<int>(std::lround(sleeper.length / (1.5 * sizes.slab))));
   return rectangle(sleeper.offset - 0.5 * sleeper.length, sleeper.offset + 0.5 * sleeper.length, columns,
                    top - sleeper.height, top, kLayers);
 }
 
-Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes) {
-  const double top = foot_height(rail);
+Section slab_section(const SlabSpec& slab, double top, const MeshSizes& sizes) {
   const double left = slab.offset - 0.5 * slab.width;
   const int columns = std::max(2, static_cast<int>(std::lround(slab.width / (1.5 * sizes.slab))));
   const int layers = std::max(2, static_cast<int>(std::lround(slab.thickness / sizes.slab)));

@@ -12,11 +12,12 @@ namespace tread {
 
 RailSections rail_sections(const Scene& scene, const MeshSizes& sizes);
 Section box_rail_section(const Scene& scene, const MeshSizes& sizes);
-/// A half sleeper under the lowest point of the foot of `rail`; its path "left" lies in the track's middle.
-Section sleeper_section(const SleeperSpec& sleeper, const Section& rail, const MeshSizes& sizes);
+/// A half sleeper; its path "left" lies in the track's middle. `top`: height of the rail's foot [m].
+Section sleeper_section(const SleeperSpec& sleeper, double top, const MeshSizes& sizes);
 
-/// The slab's top touches the lowest point of the foot of `rail`; the fastenings span what is left.
-Section slab_section(const SlabSpec& slab, const Section& rail, const MeshSizes& sizes);
+/// `top`: height of the lowest point of the rail's foot, which the slab touches; the fastenings span what is
+/// left [m].
+Section slab_section(const SlabSpec& slab, double top, const MeshSizes& sizes);
 Section tyre_section(const Scene& scene, const MeshSizes& sizes);
 
 struct SizedWheel {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tread {
 
@@ -74,13 +75,13 @@ FaceFinder::Cell FaceFinder::cell_of(const Vec3& point) const {
   return cell;
 }
 
-FaceFinder::FaceFinder(const std::vector<FaceCorners>& faces, double reach) : faces_(&faces) {
+FaceFinder::FaceFinder(std::vector<FaceCorners> faces, double reach) : faces_(std::move(faces)) {
   double longest = reach;
-  for (const FaceCorners& face : faces) longest = std::max(longest, longest_edge(face));
+  for (const FaceCorners& face : faces_) longest = std::max(longest, longest_edge(face));
   if (longest > 0) size_ = longest;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    Vec3 low = faces[i][0], high = low;
-    for (const Vec3& corner : faces[i])
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    Vec3 low = faces_[i][0], high = low;
+    for (const Vec3& corner : faces_[i])
       for (int c = 0; c < 3; ++c) {
         low[c] = std::min(low[c], corner[c] - reach);
         high[c] = std::max(high[c], corner[c] + reach);
@@ -97,7 +98,7 @@ FacePlace FaceFinder::nearest(const Vec3& point) const {
   const auto found = cells_.find(cell_of(point));
   if (found == cells_.end()) return best;
   for (const std::size_t i : found->second) {
-    FacePlace place = place_on((*faces_)[i], point);
+    FacePlace place = place_on(faces_[i], point);
     if (best.face >= 0 && best.distance <= place.distance) continue;
     best = place;
     best.face = static_cast<std::ptrdiff_t>(i);

@@ -30,8 +30,8 @@ struct FacePlace {
 
 class FaceFinder {
  public:
-  /// Keeps a reference. `reach`: faces further away than this need not be found [m].
-  FaceFinder(const std::vector<FaceCorners>& faces, double reach);
+  /// `reach`: faces further away than this need not be found [m].
+  FaceFinder(std::vector<FaceCorners> faces, double reach);
 
   /// The nearest point of the faces.
   FacePlace nearest(const Vec3& point) const;
@@ -43,7 +43,7 @@ class FaceFinder {
   };
   Cell cell_of(const Vec3& point) const;
 
-  const std::vector<FaceCorners>* faces_;
+  std::vector<FaceCorners> faces_;
   double size_ = 1;  ///< of a cell [m]
   std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
 };

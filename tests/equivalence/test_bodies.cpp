@@ -85,6 +85,21 @@ TEST(Bodies, HaveTheMassesOfTheSweptDisc) {
   EXPECT_NEAR(stable_step_of(model) / stable_step_of(swept), 1, 1e-4);
 }
 
+/// The scene with the model's swept rail below the head as a body.
+Scene with_base(const Model& model, Scene scene) {
+  const SweptBlock& base = model.mesh.blocks[index(model.index.rail_base)];
+  HexMesh mesh = hexahedra_of(base);
+  mesh.node_sets["top"] = nodes_on(base, "tie");
+  mesh.node_sets["bottom"] = nodes_on(base, "foot");
+  BodySpec spec;
+  spec.replaces = "rail";
+  spec.head = "top";
+  spec.foot = "bottom";
+  spec.mesh = std::make_shared<const HexMesh>(std::move(mesh));
+  scene.bodies["base"] = spec;
+  return scene;
+}
+
 /// The field of the swept model in the fields of the model with the body.
 AlignedVector<double> carried_over(const Model& swept, const Model& model,
                                    const AlignedVector<double>& field) {
@@ -137,6 +152,25 @@ TEST(Bodies, HaveTheForcesAndTheMotionOfTheSweptDisc) {
   EXPECT_LT(difference(g, carried_over(swept, model, f)), 1e-12);
 }
 
+TEST(Bodies, HaveTheForcesOfTheSweptRail) {
+  const Scene scene = wheelset_scene({});
+  Model swept(scene);
+  Model model(with_base(swept, scene));
+  EXPECT_EQ(model.restrained.size(), swept.restrained.size());
+  AlignedVector<double> u = smooth_field(swept.mesh), f(u.size());
+  swept.ties->follow({u.data()});
+  const AlignedVector<double> u2 = carried_over(swept, model, u);
+  AlignedVector<double> g(u2.size(), 0.0), followed = u2;
+  model.ties->follow({followed.data()});
+  EXPECT_LT(difference(followed, u2), 1e-12);
+  swept.internal_force(u.data(), f.data());
+  model.internal_force(u2.data(), g.data());
+  EXPECT_LT(difference(g, carried_over(swept, model, f)), 1e-11);
+  swept.ties->gather(f.data());
+  model.ties->gather(g.data());
+  EXPECT_LT(difference(g, carried_over(swept, model, f)), 1e-11);
+}
+
 /// F_N and F_L of every step, and the results of the preload.
 struct Passage {
   Preload preload;
@@ -174,7 +208,7 @@ TEST(Bodies, RollAsTheSweptDiscDoes) {
   }
   const Scene scene = wheelset_scene(o);
   Model swept(scene);
-  Model model(with_body(swept, scene));
+  Model model(std::getenv("RAIL") ? with_base(swept, scene) : with_body(swept, scene));
   const double dt = 0.9 * stable_step_of(swept);
   const Passage expected = pass(swept, dt, 400);
   const Passage passage = pass(model, dt, 400);

@@ -109,9 +109,8 @@ TEST(HeldFoot, IsThatOfThePadOrOfTheSprings) {
   rail.section.paths["foot"] = rail.section.paths.at("bottom");
   const auto places = [&] {
     std::set<std::pair<long, long>> mm;
-    for (const FootNode& at : held_foot_nodes(scene, rail))
-      mm.insert({std::lround(1e3 * (rail.stations[index(at.station)] + 0.5)),
-                 std::lround(1e3 * rail.section.p[index(at.node)])});
+    for (const FootNode& at : held_foot_nodes(scene, RailFoot(rail)))
+      mm.insert({std::lround(1e3 * (at.x + 0.5)), std::lround(1e3 * at.y)});
     return mm;
   };
   std::set<std::pair<long, long>> pad;

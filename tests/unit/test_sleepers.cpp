@@ -155,10 +155,10 @@ TEST(Supports, ABrokenOneLeavesTheRailToItsNeighbours) {
   const std::vector<double> forces = bed_forces(model, after);
   EXPECT_NEAR(forces[1], model.scene.gravity * mass_of(model, {model.index.sleepers[1]}), 1e-3 * forces[0]);
   EXPECT_GT(after.rail_deflection, 1.2 * at_rest(whole).rail_deflection);
-  EXPECT_LT(held_foot_nodes(model.scene, model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())])
-                .size(),
-            held_foot_nodes(whole.scene, whole.mesh.blocks[static_cast<std::size_t>(whole.index.rail_foot())])
-                .size());
+  const auto held = [](const Model& of) {
+    return held_foot_nodes(of.scene, foot_of_rail(of.scene, of.mesh, of.index)).size();
+  };
+  EXPECT_LT(held(model), held(whole));
 }
 
 TEST(Supports, AShiftedOneTakesItsSleeperAlong) {
@@ -168,11 +168,11 @@ TEST(Supports, AShiftedOneTakesItsSleeperAlong) {
   const SweptBlock& sleeper = model.mesh.blocks[static_cast<std::size_t>(model.index.sleepers[0])];
   EXPECT_NEAR(0.5 * (sleeper.stations.front() + sleeper.stations.back()), place, 1e-12);
   // Its held nodes lie on the shifted pad.
-  const SweptBlock& rail = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_foot())];
   double left = 0;
   double right = -1;
-  for (const FootNode& node : held_foot_nodes(model.scene, rail)) {
-    const double x = rail.stations[static_cast<std::size_t>(node.station)];
+  for (const FootNode& node :
+       held_foot_nodes(model.scene, foot_of_rail(model.scene, model.mesh, model.index))) {
+    const double x = node.x;
     if (x > place + 0.3) continue;
     left = std::min(left, x);
     right = std::max(right, x);
