@@ -52,22 +52,23 @@ HexMesh hexahedra_of(const SweptBlock& block) {
   return mesh;
 }
 
-std::vector<std::array<std::int32_t, 4>> outer_faces(const HexMesh& mesh,
-                                                     const std::vector<std::int32_t>& set) {
-  using Face = std::array<std::int32_t, 4>;
-  const auto is_member = [&](std::int32_t node) { return std::binary_search(set.begin(), set.end(), node); };
-  std::vector<std::pair<Face, Face>> faces;  // nodes ascending, and as the element has them
-  for (const HexCorners& corners : mesh.elements)
+namespace {
+
+template <class Takes>
+std::vector<OuterFace> outer_faces_where(const HexMesh& mesh, const Takes& takes) {
+  using Nodes = std::array<std::int32_t, 4>;
+  std::vector<std::pair<Nodes, OuterFace>> faces;  // by their nodes, ascending
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     for (const auto& of : kHexFaces) {
-      Face face;
-      for (std::size_t k = 0; k < 4; ++k) face[k] = corners[of[k]];
-      if (!std::all_of(face.begin(), face.end(), is_member)) continue;
-      Face sorted = face;
+      OuterFace face{{}, static_cast<std::int32_t>(e)};
+      for (std::size_t k = 0; k < 4; ++k) face.nodes[k] = mesh.elements[e][of[k]];
+      if (!std::all_of(face.nodes.begin(), face.nodes.end(), takes)) continue;
+      Nodes sorted = face.nodes;
       std::sort(sorted.begin(), sorted.end());
       faces.emplace_back(sorted, face);
     }
-  std::sort(faces.begin(), faces.end());
-  std::vector<Face> outer;
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<OuterFace> outer;
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t end = i + 1;
     while (end < faces.size() && faces[end].first == faces[i].first) ++end;
@@ -75,6 +76,17 @@ std::vector<std::array<std::int32_t, 4>> outer_faces(const HexMesh& mesh,
     i = end;
   }
   return outer;
+}
+
+}  // namespace
+
+std::vector<OuterFace> outer_faces(const HexMesh& mesh) {
+  return outer_faces_where(mesh, [](std::int32_t) { return true; });
+}
+
+std::vector<OuterFace> outer_faces(const HexMesh& mesh, const std::vector<std::int32_t>& set) {
+  return outer_faces_where(
+      mesh, [&](std::int32_t node) { return std::binary_search(set.begin(), set.end(), node); });
 }
 
 HexShape hex_shape(const std::array<Vec3, 8>& corners) {

@@ -47,10 +47,14 @@ inline constexpr std::array<std::array<std::size_t, 4>, 6> kHexFaces = {
 inline constexpr std::array<std::array<std::size_t, 3>, 8> kHexNeighbours = {
     {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
 
-/// Faces of one element alone all of whose nodes belong to a set (indices, ascending); each as indices of
-/// nodes about it, its normal pointing outwards.
-std::vector<std::array<std::int32_t, 4>> outer_faces(const HexMesh& mesh,
-                                                     const std::vector<std::int32_t>& set);
+/// A face of one element alone. Its nodes run about it, its normal points outwards.
+struct OuterFace {
+  std::array<std::int32_t, 4> nodes;
+  std::int32_t element = -1;
+};
+/// All outer faces, or those all of whose nodes belong to a set (indices, ascending).
+std::vector<OuterFace> outer_faces(const HexMesh& mesh);
+std::vector<OuterFace> outer_faces(const HexMesh& mesh, const std::vector<std::int32_t>& set);
 
 /// Shape of an element by its corners.
 struct HexShape {

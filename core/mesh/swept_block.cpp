@@ -104,6 +104,11 @@ int Mesh::add(SweptBlock block) {
   return static_cast<int>(blocks.size()) - 1;
 }
 
+const std::string& Mesh::part_name(int part) const {
+  const HexBody* body = body_of(part);
+  return body != nullptr ? body->name : blocks[static_cast<std::size_t>(part)].name;
+}
+
 int Mesh::add(HexBody body) {
   body.base = slots;
   slots += body.slots();

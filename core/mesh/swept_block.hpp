@@ -140,6 +140,15 @@ struct Mesh {
   /// Appends a block or a body, gives it its base and returns its index.
   int add(SweptBlock block);
   int add(HexBody body);
+
+  /// Number of blocks and bodies, and the name of one: blocks come first.
+  int parts() const { return static_cast<int>(blocks.size() + bodies.size()); }
+  const std::string& part_name(int part) const;
+  /// The body that a part is; null: a block.
+  const HexBody* body_of(int part) const {
+    const auto b = static_cast<std::size_t>(part);
+    return b < blocks.size() ? nullptr : &bodies[b - blocks.size()];
+  }
 };
 
 /// Index of a component of a node in a vector field of 3 * mesh.slots values. Within a group of kLanes slots

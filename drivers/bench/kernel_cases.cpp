@@ -135,12 +135,12 @@ void add_updates(std::vector<KernelCase>& cases) {
 template <class Real, class U>
 struct TieData {
   explicit TieData(std::int64_t elements)
-      : blocks(made_up_tied_blocks(elements)),
+      : blocks(made_up_tie(elements)),
         ties(blocks.mesh, {blocks.tie}),
         u(made_up_field<U>(blocks.mesh, kDisplacement)),
         v(made_up_field<Real>(blocks.mesh, kVelocity)),
         f(u.size(), 0) {}
-  TiedBlocks blocks;
+  MadeUpTie blocks;
   Ties ties;
   AlignedVector<U> u;
   AlignedVector<Real> v, f;

@@ -73,12 +73,12 @@ Mesh made_up_mesh(Sweep sweep, bool shifted, std::int64_t elements) {
   return mesh;
 }
 
-TiedBlocks made_up_tied_blocks(std::int64_t elements) {
+MadeUpTie made_up_tie(std::int64_t elements) {
   const double coarse = kTieRatio * kSize;
   Section above = grid_section(kColumns, kRows, kSize, 0);
   Section below = grid_section(kColumns / kTieRatio, kTieRatio, coarse, -kTieRatio * coarse);
   const int along = (stations_for(elements, above) + kTieRatio - 1) / kTieRatio;
-  TiedBlocks blocks;
+  MadeUpTie blocks;
   blocks.tie.secondary = blocks.mesh.add(make_swept_block("fine", Sweep::extruded, std::move(above),
                                                           {steel()}, 0, {{kTieRatio * along, kSize, 0}}));
   blocks.tie.secondary_path = "bottom";

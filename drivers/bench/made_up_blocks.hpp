@@ -17,11 +17,11 @@ inline constexpr double kDampedBeta = 1e-10;  ///< beta of damped blocks [s]
 Mesh made_up_mesh(Sweep sweep, bool shifted, std::int64_t elements);
 
 /// Two straight blocks of about `elements` elements in all, tied one to three.
-struct TiedBlocks {
+struct MadeUpTie {
   Mesh mesh;
   TieSpec tie;
 };
-TiedBlocks made_up_tied_blocks(std::int64_t elements);
+MadeUpTie made_up_tie(std::int64_t elements);
 
 /// A smooth vector field of about the given size: 3 * mesh.slots values, zero in unused lanes.
 template <class Real>

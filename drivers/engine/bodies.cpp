@@ -23,6 +23,12 @@ std::int64_t moved_nodes(const Model& model) {
   return count;
 }
 
+std::int64_t bytes_of_bodies(const Model& model) {
+  std::int64_t sum = 0;
+  for (const auto& body : model.body_forces) sum += body->bytes();
+  return sum;
+}
+
 template <class T>
 std::int64_t bytes_of(const T& array) {
   return static_cast<std::int64_t>(array.size() * sizeof(array[0]));
@@ -66,7 +72,7 @@ std::vector<FieldBytes> Bodies::fields() const {
   const std::int64_t components = 3 * model_->mesh.slots;
   const bool copied = rounded(*model_);
   std::vector<FieldBytes> list = {
-      {RunField::coefficients, model_->internal->bytes()},
+      {RunField::coefficients, model_->internal->bytes() + bytes_of_bodies(*model_)},
       {RunField::mass, bytes_of(model_->mass) + bytes_of(model_->inverse_mass)},
       {RunField::displacement, components * static_cast<std::int64_t>(sizeof(double)), !copied},
       {RunField::velocity, components * bytes.other, true},

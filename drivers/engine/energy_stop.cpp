@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <string>
 
 #include "drivers/engine/static_system.hpp"
 
@@ -11,23 +12,30 @@ namespace tread {
 namespace {
 
 struct Place {
-  const SweptBlock* block = nullptr;
-  int node = 0, station = 0;
+  std::string part;
+  Vec3 at;            ///< of its undeformed shape [m]
   double speed = -1;  ///< against its body's frame [m/s]
 };
 
 /// Returns the fastest node. A speed that is not finite exceeds all others.
 Place fastest_node(const Model& model, ConstNodeField velocity) {
   Place fastest;
+  const auto look_at = [&](const std::string& part, std::int64_t slot, const auto& place) {
+    const double speed = norm(velocity.at(slot));
+    if (speed > fastest.speed || !std::isfinite(speed)) fastest = {part, place(), speed};
+    return std::isfinite(speed);
+  };
   for (const SweptBlock& block : model.mesh.blocks)
     for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const std::int64_t slot = block.base + block.slot(node, station);
-        const double speed =
-            std::hypot(velocity[dof(slot, 0)], velocity[dof(slot, 1)], velocity[dof(slot, 2)]);
-        if (speed > fastest.speed || !std::isfinite(speed)) fastest = {&block, node, station, speed};
-        if (!std::isfinite(speed)) return fastest;
-      }
+      for (int node = 0; node < block.section.nodes(); ++node)
+        if (!look_at(block.name, block.base + block.slot(node, station),
+                     [&] { return position(block, node, station); }))
+          return fastest;
+  for (const HexBody& body : model.mesh.bodies)
+    for (std::int64_t node = 0; node < body.nodes(); ++node)
+      if (!look_at(body.name, body.slot(node),
+                   [&] { return body.mesh.nodes[static_cast<std::size_t>(node)]; }))
+        return fastest;
   return fastest;
 }
 
@@ -62,10 +70,9 @@ std::string energy_stop_text(const Model& model, const EnergyStop& stop) {
   else
     text += "the motion is no longer finite";
   const Place place = fastest_node(model, stop.velocity);
-  const Vec3 at = position(*place.block, place.node, place.station);
   text +=
-      fmt::format("; fastest: block '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
-                  place.block->name, at.x, at.y, at.z, place.speed);
+      fmt::format("; fastest: part '{}' at ({:.4f}, {:.4f}, {:.4f}) m of its undeformed shape, {:.3g} m/s. ",
+                  place.part, place.at.x, place.at.y, place.at.z, place.speed);
   return text + cause(stop.dt, stable_step_of(model));
 }
 

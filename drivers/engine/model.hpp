@@ -78,6 +78,10 @@ struct Model {
   std::int64_t elements() const;
   std::int64_t nodes() const;
 
+  /// Blocks and bodies of the wheel, of the rail (Mesh::parts).
+  std::vector<int> wheel_parts() const;
+  std::vector<int> rail_parts() const;
+  DeformationEnergy energy(int part, const double* u) const;  ///< of a linear law's part [J]
   /// f = F(u) of all blocks and bodies at rest, and f = K u; vector fields of 3 * mesh.slots values [N].
   void internal_force(const double* u, double* f) const;
   void apply_stiffness(const double* u, double* f) const;

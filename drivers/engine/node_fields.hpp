@@ -70,8 +70,8 @@ class NodeFields : public WholeFields {
   /// The lag follows the motion of a step of dt [s].
   virtual void advance_lag(double dt) = 0;
 
-  /// Energy in a block's elements, Maxwell branches aside [J].
-  virtual DeformationEnergy energy(int block) const = 0;
+  /// Energy in the elements of a part of the mesh, Maxwell branches aside [J].
+  virtual DeformationEnergy energy(int part) const = 0;
   /// The same in all blocks, in a measured step before nodes move; cheaper than element by element where the
   /// forces are precise enough for it [J].
   virtual ElementEnergy element_energy() = 0;

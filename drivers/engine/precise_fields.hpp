@@ -106,8 +106,10 @@ class PreciseFields : public NodeFields {
     if (q_) q_->advance(v_.data(), dt);
   }
 
-  DeformationEnergy energy(int block) const override {
-    return parts_.internal().energy(block, u_.data(), state());
+  DeformationEnergy energy(int part) const override {
+    const auto blocks = static_cast<int>(mesh().blocks.size());
+    if (part >= blocks) return model_->body_forces[index(part - blocks)]->energy(displacement_);
+    return parts_.internal().energy(part, u_.data(), state());
   }
 
   ElementEnergy element_energy() override {

@@ -29,7 +29,7 @@ RailFoot::RailFoot(const HexBody& body, const std::string& set, const std::strin
   }
   middle_ = 0.5 * (low + high);
   std::vector<FaceCorners> faces;
-  for (const auto& face : outer_faces(body.mesh, members)) {
+  for (const auto& [face, element] : outer_faces(body.mesh, members)) {
     FaceCorners& corners = faces.emplace_back();
     auto& slots = at_.emplace_back();
     for (std::size_t k = 0; k < 4; ++k) {

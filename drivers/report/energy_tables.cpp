@@ -8,7 +8,7 @@
 namespace tread {
 
 Table body_energy_table(const Model& model, const RunResults& r) {
-  Table table{r.block_energy.empty() ? "Energy of deformation" : "Energy of deformation at the end",
+  Table table{r.part_energy.empty() ? "Energy of deformation" : "Energy of deformation at the end",
               {{"Body"},
                {"One-point stress [J]", Align::right},
                {"Hourglass [J]", Align::right},
@@ -17,9 +17,8 @@ Table body_energy_table(const Model& model, const RunResults& r) {
   for (const BlockGroup& group : block_groups(model)) {
     DeformationEnergy sum;
     for (const int b : group.blocks) {
-      const DeformationEnergy energy = r.block_energy.empty()
-                                           ? model.internal->energy(b, r.preload.displacement.data())
-                                           : r.block_energy[static_cast<std::size_t>(b)];
+      const DeformationEnergy energy = r.part_energy.empty() ? model.energy(b, r.preload.displacement.data())
+                                                             : r.part_energy[static_cast<std::size_t>(b)];
       sum.strain += energy.strain;
       sum.hourglass += energy.hourglass;
     }

@@ -42,8 +42,10 @@ BodyMass sum_of(const std::string& name, const std::vector<int>& indices,
 std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasures>& blocks) {
   std::vector<BodyMass> bodies;
   if (model.wheelset) {
-    BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.index.wheel(), blocks);
-    if (model.index.axle >= 0) {
+    BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.wheel_parts(), blocks);
+    if (model.index.disc_body >= 0) {
+      wheel.remark = fmt::format("with the disc of {}", model.scene.body_replacing("disc")->second.file);
+    } else if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
       wheel.remark = fmt::format("with a web of {:.2f} mm{}", 1e3 * model.web_thickness,
                                  model.scene.wheel->web == "stated" ? "" : " where it is thinnest");
@@ -53,11 +55,13 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
     bodies.push_back(wheel);
   }
   if (model.scene.rail) {
-    BodyMass rail = sum_of("rail", model.index.rail(), blocks);
+    BodyMass rail = sum_of("rail", model.rail_parts(), blocks);
     double volume = 0;
-    for (const int b : model.index.rail()) {
-      const auto block = static_cast<std::size_t>(b);
-      volume += blocks[block].mass / model.mesh.blocks[block].materials.front().density;
+    for (const int part : model.rail_parts()) {
+      const HexBody* body = model.mesh.body_of(part);
+      const auto b = static_cast<std::size_t>(part);
+      const Material& material = body ? body->materials.front() : model.mesh.blocks[b].materials.front();
+      volume += blocks[b].mass / material.density;
     }
     rail.remark = fmt::format("{:.3f} kg/m, {:.2f} cm2", rail.mass / model.scene.rail->length,
                               1e4 * volume / model.scene.rail->length);
@@ -150,7 +154,7 @@ std::string mesh_json(const Model& model, const std::vector<BlockMeasures>& bloc
     wheelset["polar_inertia_kg_m2"] = model.wheelset->inertia();
     wheelset["transverse_inertia_kg_m2"] = model.wheelset->transverse_inertia();
     wheelset["centre_y_m"] = model.wheelset->centre_y();
-    if (model.index.axle >= 0) {
+    if (model.index.disc >= 0) {
       wheelset["web_thickness_m"] = model.web_thickness;
       wheelset["brake_ring_thickness_m"] = model.brake_ring_thickness;
     }

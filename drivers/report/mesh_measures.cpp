@@ -112,7 +112,7 @@ std::string place(const Vec3& at) {
 
 std::vector<BlockMeasures> measure_blocks(const Model& model) {
   AlignedVector<double> mass(static_cast<std::size_t>(model.mesh.slots), 0.0);
-  model.internal->lumped_mass(mass.data());
+  model.add_lumped_mass(mass.data());
   std::vector<BlockMeasures> list;
   for (const SweptBlock& block : model.mesh.blocks) {
     BlockMeasures out;
@@ -128,17 +128,29 @@ std::vector<BlockMeasures> measure_blocks(const Model& model) {
     out.swept_mass = swept_mass(block);
     list.push_back(out);
   }
+  for (const HexBody& body : model.mesh.bodies) {
+    BlockMeasures out;
+    out.name = body.name;
+    out.elements = body.elements();
+    out.nodes = body.nodes();
+    out.shortest_edge.value = out.worst_quality.value = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < body.mesh.elements.size(); ++e) measure_element(body.mesh.corners(e), out);
+    for (std::int64_t slot = body.base; slot < body.base + body.slots(); ++slot)
+      out.mass += mass[static_cast<std::size_t>(slot)];
+    out.swept_mass = out.mass;
+    list.push_back(out);
+  }
   return list;
 }
 
 std::vector<BlockGroup> block_groups(const Model& model) {
   const std::vector<int>& sleepers = model.index.sleepers;
   std::vector<BlockGroup> groups;
-  for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
+  for (int b = 0; b < model.mesh.parts(); ++b) {
     if (!sleepers.empty() && b == sleepers.front())
       groups.push_back({fmt::format("{} half sleepers", sleepers.size()), sleepers});
     else if (std::find(sleepers.begin(), sleepers.end(), b) == sleepers.end())
-      groups.push_back({model.mesh.blocks[static_cast<std::size_t>(b)].name, {b}});
+      groups.push_back({model.mesh.part_name(b), {b}});
   }
   return groups;
 }
@@ -174,8 +186,9 @@ Table count_table(const std::vector<BlockMeasures>& blocks) {
   std::int64_t elements = 0;
   std::int64_t nodes = 0;
   for (const BlockMeasures& b : blocks) {
-    table.rows.push_back(
-        {b.name, grouped(b.elements), grouped(b.nodes), grouped(b.quads), grouped(b.stations)});
+    const bool swept = b.stations > 0;
+    table.rows.push_back({b.name, grouped(b.elements), grouped(b.nodes), swept ? grouped(b.quads) : "",
+                          swept ? grouped(b.stations) : ""});
     elements += b.elements;
     nodes += b.nodes;
   }

@@ -20,21 +20,22 @@ struct Extreme {
 struct BlockMeasures {
   std::string name;
   std::int64_t elements = 0, nodes = 0;
-  int quads = 0, stations = 0;
-  Extreme shortest_edge;  ///< [m]
-  Extreme longest_edge;   ///< [m]
-  Extreme worst_quality;  ///< smallest corner Jacobian over the mean of the element's eight: 1 for a
-                          ///< parallelepiped [-]
-  double mass = 0;        ///< of the elements [kg]
-  double swept_mass = 0;  ///< of the section swept without facets or moved nodes [kg]
+  int quads = 0, stations = 0;  ///< 0: not swept
+  Extreme shortest_edge;        ///< [m]
+  Extreme longest_edge;         ///< [m]
+  Extreme worst_quality;        ///< smallest corner Jacobian over the mean of the element's eight: 1 for a
+                                ///< parallelepiped [-]
+  double mass = 0;              ///< of the elements [kg]
+  double swept_mass = 0;        ///< of the section swept without facets or moved nodes [kg]
 };
 
+/// By part of the mesh.
 std::vector<BlockMeasures> measure_blocks(const Model& model);
 
-/// Blocks that tables show as one: all sleepers; every other block by itself.
+/// Parts that tables show as one: all sleepers; every other block or body by itself.
 struct BlockGroup {
   std::string name;
-  std::vector<int> blocks;  ///< indices into Mesh::blocks
+  std::vector<int> blocks;  ///< parts of the mesh
 };
 std::vector<BlockGroup> block_groups(const Model& model);
 

@@ -40,7 +40,7 @@ std::vector<Layer> layers_of(const Model& model, const View& view) {
       {"sleepers", index.sleepers},
       {index.slab >= 0 ? "slab and rail" : "rail", {index.slab, index.rail_base}},
       {index.rail_base >= 0 ? "rail head" : "rail", {index.rail_cap}},
-      {"disc and axle", {index.axle, index.disc}},
+      {index.disc >= 0 ? "disc and axle" : "axle", {index.axle, index.disc}},
       {"tread", {index.tread}}};
   std::vector<Layer> layers;
   for (const auto& [label, blocks] : groups) {

@@ -67,6 +67,11 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
     line("",
          fmt::format("replaces the surface of the head; the section below stays that of {}", rail->section));
   }
+  const char* of_body = "Body";
+  for (const auto& [name, spec] : model.scene.bodies) {
+    line(of_body, fmt::format("{}: {}, {}", name, spec.file, spec.reading));
+    of_body = "";
+  }
   const char* head = "Surface";
   for (const auto& [name, spec] : model.scene.surfaces) {
     line(head, surface_text(model.scene, name, spec));
@@ -99,9 +104,11 @@ Json check_json(const Model& model, const Estimate& e) {
   json["elements"] = model.elements();
   json["nodes"] = model.nodes();
   json["blocks"] = Json::array();
-  for (const SweptBlock& block : model.mesh.blocks)
-    json["blocks"].push_back(
-        {{"name", block.name}, {"elements", block.elements()}, {"nodes", block.nodes()}});
+  const auto add_part = [&](const auto& part) {
+    json["blocks"].push_back({{"name", part.name}, {"elements", part.elements()}, {"nodes", part.nodes()}});
+  };
+  for (const SweptBlock& block : model.mesh.blocks) add_part(block);
+  for (const HexBody& body : model.mesh.bodies) add_part(body);
   if (e.steps > 0) {
     json["dt_s"] = e.dt;
     json["stable_step_s"] = e.limit.stable_step;

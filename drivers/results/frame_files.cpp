@@ -53,6 +53,30 @@ void append(std::vector<float>& values, const Vec3& vector) {
   for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(vector[i]));
 }
 
+/// Slot of a point's node and the axes of its vectors.
+struct PointBasis {
+  std::int64_t slot;
+  bool spins;
+  double angle;  ///< of its station [rad]
+
+  PointBasis(const Mesh& mesh, const VtkGrid::Point& point) {
+    if (const HexBody* body = mesh.body_of(point.block)) {
+      slot = body->slot(point.node);
+      spins = body->spins;
+      angle = kCartesianAngle;
+      return;
+    }
+    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(point.block)];
+    slot = block.base + block.slot(point.node, point.station);
+    spins = block.sweep == Sweep::revolved;
+    angle = spins ? block.stations[static_cast<std::size_t>(point.station)] : 0;
+  }
+  /// `frame`: angle of the wheel's frame [rad].
+  Vec3 turned(const Vec3& value, double frame) const {
+    return spins ? cylindrical_to_cartesian(angle + frame, value) : value;
+  }
+};
+
 template <class Real>
 Vec3 local_vector(const FieldCopy<Real>& field, std::int64_t slot) {
   Vec3 value;
@@ -73,9 +97,9 @@ void FieldCopy<Real>::take(ConstNodeField from, std::int64_t slots) {
 }
 
 std::vector<Placement> resting_places(const Model& model) {
-  std::vector<Placement> places(model.mesh.blocks.size());
+  std::vector<Placement> places(static_cast<std::size_t>(model.mesh.parts()));
   const double height = model.contact ? model.contact->touching_height() : 0;
-  for (const int b : model.index.wheel()) places[static_cast<std::size_t>(b)].origin = {0, 0, height};
+  for (const int b : model.wheel_parts()) places[static_cast<std::size_t>(b)].origin = {0, 0, height};
   return places;
 }
 
@@ -160,8 +184,8 @@ void FrameFiles::write() {
 
 void FrameFiles::write_copy() {
   begin();
-  places_.assign(model_->mesh.blocks.size(), {});
-  for (const int block : model_->index.wheel())
+  places_.assign(static_cast<std::size_t>(model_->mesh.parts()), {});
+  for (const int block : model_->wheel_parts())
     places_[static_cast<std::size_t>(block)] = {at_.wheel.origin, at_.wheel.angle};
   write_vtk_frame(step_file(folder(), at_.steps, kSuffix),
                   {mesh_name(grid_.kind), at_.time, points(), arrays(), root_attributes(model_->scene)});
@@ -179,10 +203,8 @@ void FrameFiles::write_series() const {
 std::vector<float> FrameFiles::points() const {
   std::vector<float> values;
   values.reserve(3 * grid_.points.size());
-  for (const VtkGrid::Point& point : grid_.points) {
-    const auto b = static_cast<std::size_t>(point.block);
-    append(values, placed(places_[b], position(model_->mesh.blocks[b], point.node, point.station)));
-  }
+  for (const VtkGrid::Point& point : grid_.points)
+    append(values, placed(places_[static_cast<std::size_t>(point.block)], position(model_->mesh, point)));
   return values;
 }
 
@@ -194,17 +216,12 @@ std::vector<VtkArray> FrameFiles::arrays() const {
   displacement.values.reserve(3 * grid_.points.size());
   velocity.values.reserve(3 * grid_.points.size());
   for (const VtkGrid::Point& point : grid_.points) {
-    const auto b = static_cast<std::size_t>(point.block);
-    const SweptBlock& block = model_->mesh.blocks[b];
-    const Placement& place = places_[b];
-    const std::int64_t slot = block.base + block.slot(point.node, point.station);
-    const auto turned = [&](const auto& field) {
-      return to_cartesian(block, point.station, place.angle, local_vector(field, slot));
-    };
-    const Vec3 u = turned(at_.displacement);
-    Vec3 v = turned(at_.velocity);
-    if (block.sweep == Sweep::revolved) {
-      const Vec3 arm = placed({{}, place.angle}, position(block, point.node, point.station)) + u;
+    const Placement& place = places_[static_cast<std::size_t>(point.block)];
+    const PointBasis basis(model_->mesh, point);
+    const Vec3 u = basis.turned(local_vector(at_.displacement, basis.slot), place.angle);
+    Vec3 v = basis.turned(local_vector(at_.velocity, basis.slot), place.angle);
+    if (basis.spins) {
+      const Vec3 arm = placed({{}, place.angle}, position(model_->mesh, point)) + u;
       v += at_.wheel.velocity + at_.wheel.spin * Vec3{arm.z, 0, -arm.x};
     }
     append(displacement.values, u);
@@ -255,9 +272,15 @@ VtkArray FrameFiles::von_mises_stress() const {
   array.values.reserve(grid_.cells.size());
   const ConstNodeField lag = at_.lag.data();
   const ConstLawState laws = at_.laws ? ConstLawState(*at_.laws) : nullptr;
-  for (const VtkGrid::Cell& cell : grid_.cells)
-    array.values.push_back(static_cast<float>(von_mises(
-        model_->internal->stress(cell.block, cell.quad, cell.station, at_.displacement.data(), lag, laws))));
+  const ConstNodeField u = at_.displacement.data();
+  const auto blocks = static_cast<int>(model_->mesh.blocks.size());
+  for (const VtkGrid::Cell& cell : grid_.cells) {
+    const std::array<double, 6> stress =
+        cell.block < blocks ? model_->internal->stress(cell.block, cell.quad, cell.station, u, lag, laws)
+                            : model_->body_forces[static_cast<std::size_t>(cell.block - blocks)]->stress(
+                                  static_cast<std::size_t>(cell.quad), u, lag);
+    array.values.push_back(static_cast<float>(von_mises(stress)));
+  }
   return array;
 }
 

@@ -371,10 +371,10 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   json["energy_error"] = r.energy_error;
   if (model.contact) json["energy_error_over_frictional_work"] = r.energy_error_of_work;
   json["energy_by_body_J"] = Json::array();
-  for (std::size_t b = 0; b < r.block_energy.size(); ++b)
-    json["energy_by_body_J"].push_back({{"body", model.mesh.blocks[b].name},
-                                        {"strain", r.block_energy[b].strain},
-                                        {"hourglass", r.block_energy[b].hourglass}});
+  for (std::size_t b = 0; b < r.part_energy.size(); ++b)
+    json["energy_by_body_J"].push_back({{"body", model.mesh.part_name(static_cast<int>(b))},
+                                        {"strain", r.part_energy[b].strain},
+                                        {"hourglass", r.part_energy[b].hourglass}});
   json["state_hash"] = fmt::format("{:016x}", r.state_hash);
   return json_text(json);
 }

@@ -48,7 +48,7 @@ struct RunResults {
   std::int64_t preload_cached = 0;  ///< 1: an earlier run had found it
   std::uint64_t state_hash = 0;
   MomentumCheck momentum;
-  std::vector<DeformationEnergy> block_energy;  ///< at the end, by block [J]
+  std::vector<DeformationEnergy> part_energy;   ///< at the end, by part of the mesh [J]
   std::optional<SurfaceFields> surface_fields;  ///< none without contact
   SurfaceResults surface;                       ///< from surface_fields
   std::optional<RailLine> rail_line;            ///< none without contact

@@ -46,9 +46,9 @@ std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
   std::vector<std::string> warnings = resolution_warnings(model);
   if (r.samples.empty()) return warnings;
   if (model.contact) warnings.push_back(steadiness_warning(model, r));
-  for (std::size_t b = 0; b < r.block_energy.size(); ++b)
+  for (std::size_t b = 0; b < r.part_energy.size(); ++b)
     if (!is_plate(model.index, static_cast<int>(b)))
-      warnings.push_back(hourglass_warning(model.mesh.blocks[b].name, r.block_energy[b]));
+      warnings.push_back(hourglass_warning(model.mesh.part_name(static_cast<int>(b)), r.part_energy[b]));
   std::erase(warnings, "");
   return warnings;
 }

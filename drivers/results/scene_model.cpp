@@ -6,7 +6,9 @@
 #include <string>
 
 #include "core/mesh/grading.hpp"
+#include "core/parallel/ranks.hpp"
 #include "drivers/results/memory_need.hpp"
+#include "kernels/device/device.hpp"
 
 namespace tread {
 
@@ -22,9 +24,19 @@ std::string size_and_place(const ResolvedScene& origin) {
   return origin.name;
 }
 
+/// Steps on a device and those of several ranks know swept blocks alone.
+void require_one_processor(const Scene& scene) {
+  if (scene.bodies.empty() || (!chosen_device() && !chosen_ranks())) return;
+  throw InputError(fmt::format(
+      "body.{}: the steps of a body from a file are those of one process; leave out {}, or state "
+      "body.{}.present = false",
+      scene.bodies.begin()->first, chosen_device() ? "--device" : "mpirun", scene.bodies.begin()->first));
+}
+
 }  // namespace
 
 Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional<double> corrugation_centre) {
+  require_one_processor(scene);
   try {
     return Model(scene, corrugation_centre, require_memory);
   } catch (const MeshSizeError& error) {

@@ -337,8 +337,8 @@ void Rolling::fill_results() {
   results_->momentum = simulation_->momentum_check();
   if (const SurfaceFields* surface = simulation_->surface()) results_->surface_fields = *surface;
   if (const RailLine* line = simulation_->rail_line()) results_->rail_line = *line;
-  for (int b = 0; b < static_cast<int>(model_->mesh.blocks.size()); ++b)
-    results_->block_energy.push_back(simulation_->fields().energy(b));
+  for (int part = 0; part < model_->mesh.parts(); ++part)
+    results_->part_energy.push_back(simulation_->fields().energy(part));
 }
 
 }  // namespace tread

@@ -162,8 +162,8 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   adopt_later_values(model, session.resolved.scene);
   const double seconds_mesh = session.progress.seconds();
   if (!checkpoint) results.seconds_mesh = seconds_mesh;
-  session.enter("mesh", fmt::format("{} elements, {} nodes, {} blocks, {}", model.elements(), model.nodes(),
-                                    model.mesh.blocks.size(), duration_text(seconds_mesh)));
+  session.enter("mesh", fmt::format("{} elements, {} nodes, {} parts, {}", model.elements(), model.nodes(),
+                                    model.mesh.parts(), duration_text(seconds_mesh)));
   const std::vector<std::string> of_mesh = resolution_warnings(model);
   for (const std::string& warning : of_mesh) session.progress.say("[warning] " + warning);
   const Scene& scene = model.scene;

@@ -39,7 +39,7 @@ duration = "{} s"
   return resolve_scene(SceneSource{"verify", text, {}}).scene;
 }
 
-ForceCurve rolled(Model& model, const Preload& preload, const ProgressText& progress) {
+ForceHistory rolled(Model& model, const Preload& preload, const ProgressText& progress) {
   const MotionSpec& motion = *model.scene.motion;
   const double stable = motion.step_safety * step_limit(model).stable_step;
   // The run is a little longer than the distance, so that it covers the distance.
@@ -47,7 +47,7 @@ ForceCurve rolled(Model& model, const Preload& preload, const ProgressText& prog
   Simulation simulation(model, preload, stable);
   constexpr double kInterval = 1e-5;
   simulation.set_sampling_interval(std::max<std::int64_t>(1, std::llround(kInterval / stable)));
-  ForceCurve curve;
+  ForceHistory curve;
   while (simulation.steps() < steps) {
     simulation.step();
     if (!simulation.sampled()) continue;
@@ -62,10 +62,10 @@ ForceCurve rolled(Model& model, const Preload& preload, const ProgressText& prog
 }
 
 /// The passage on the beam, started far enough behind to have settled.
-ForceCurve rolled_on_beam(const MotionSpec& motion, const BeamVehicle& vehicle, const TrackBeam& beam) {
+ForceHistory rolled_on_beam(const MotionSpec& motion, const BeamVehicle& vehicle, const TrackBeam& beam) {
   const double start = beam.left() + kEndOfRail;
   BeamPassage passage(beam, vehicle, start, kBeamStep);
-  ForceCurve curve;
+  ForceHistory curve;
   const double end = motion.speed * motion.duration + 0.01;
   for (double x = start; x < end;) {
     x = start + motion.speed * (passage.time() + kBeamStep);
@@ -87,9 +87,9 @@ CaseResult fastening_passing(const VerifyInputs& inputs, const ProgressText& pro
   const Preload preload = solve_preload(model, steady_motion(model), progress);
   const BeamVehicle vehicle =
       beam_vehicle(model, axle_bending(model, preload.displacement.data(), preload.wheel));
-  const ForceCurve ours = rolled(model, preload, progress);
+  const ForceHistory ours = rolled(model, preload, progress);
   const TrackBeam beam = rail_beam(scene, timoshenko(rail_beam_section(scene), scene.rail_material()));
-  const ForceCurve theory = rolled_on_beam(*scene.motion, vehicle, beam);
+  const ForceHistory theory = rolled_on_beam(*scene.motion, vehicle, beam);
 
   constexpr int kHarmonics = 3;
   const Harmonics a = harmonics(ours, spacing, 2, last, kHarmonics);

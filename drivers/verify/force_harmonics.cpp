@@ -9,7 +9,7 @@
 
 namespace tread {
 
-Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count) {
+Harmonics harmonics(const ForceHistory& curve, double period, int periods, double last, int count) {
   const double first = last - periods * period;
   if (curve.x.empty() || curve.x.front() > first || curve.x.back() < last)
     throw NumericalError("verify: the wheel's way does not cover the periods to evaluate");

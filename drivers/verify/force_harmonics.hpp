@@ -6,7 +6,7 @@
 namespace tread {
 
 /// F_N at times and places of a passage [N].
-struct ForceCurve {
+struct ForceHistory {
   std::vector<double> time;   ///< [s]
   std::vector<double> x;      ///< place of the wheel [m]
   std::vector<double> force;  ///< [N]
@@ -22,6 +22,6 @@ struct Harmonics {
 
 /// Harmonics over [last - periods * period, last], by trapezoids. Throws NumericalError if the curve does not
 /// cover that range.
-Harmonics harmonics(const ForceCurve& curve, double period, int periods, double last, int count);
+Harmonics harmonics(const ForceHistory& curve, double period, int periods, double last, int count);
 
 }  // namespace tread

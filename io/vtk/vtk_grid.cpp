@@ -107,7 +107,38 @@ class BlockCells {
   std::vector<std::int64_t> place_;  ///< [station][node]: index in grid_.points, -1: not used so far
 };
 
+/// Adds the elements of a body, or its outer faces.
+void add_body(VtkGrid& grid, const HexBody& body, int part) {
+  constexpr int kNoStation = 0;
+  std::vector<std::int64_t> place(body.mesh.nodes.size(), -1);
+  const auto use = [&](std::int32_t node) {
+    std::int64_t& at = place[static_cast<std::size_t>(node)];
+    if (at < 0) {
+      at = static_cast<std::int64_t>(grid.points.size());
+      grid.points.push_back({part, node, kNoStation});
+    }
+    grid.connectivity.push_back(at);
+  };
+  if (grid.kind == VtkCells::elements) {
+    for (std::size_t e = 0; e < body.mesh.elements.size(); ++e) {
+      for (const std::int32_t node : body.mesh.elements[e]) use(node);
+      grid.cells.push_back({part, static_cast<int>(e), kNoStation});
+    }
+    return;
+  }
+  for (const OuterFace& face : outer_faces(body.mesh)) {
+    for (const std::int32_t node : face.nodes) use(node);
+    grid.cells.push_back({part, face.element, kNoStation});
+  }
+}
+
 }  // namespace
+
+Vec3 position(const Mesh& mesh, const VtkGrid::Point& point) {
+  if (const HexBody* body = mesh.body_of(point.block))
+    return body->mesh.nodes[static_cast<std::size_t>(point.node)];
+  return position(mesh.blocks[static_cast<std::size_t>(point.block)], point.node, point.station);
+}
 
 VtkGrid make_vtk_grid(const Mesh& mesh, VtkCells kind) {
   VtkGrid grid;
@@ -119,6 +150,8 @@ VtkGrid make_vtk_grid(const Mesh& mesh, VtkCells kind) {
     else
       cells.add_faces();
   }
+  for (std::size_t b = 0; b < mesh.bodies.size(); ++b)
+    add_body(grid, mesh.bodies[b], static_cast<int>(mesh.blocks.size() + b));
   return grid;
 }
 

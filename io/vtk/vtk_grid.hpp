@@ -20,10 +20,11 @@ struct Placement {
 enum class VtkCells { elements, faces };
 
 struct VtkGrid {
+  /// A node of a block; or of a body, a part of the mesh behind its blocks, whose nodes have no station.
   struct Point {
     int block, node, station;
   };
-  /// An element, or the element behind a face.
+  /// An element, or the element behind a face. Of a body `quad` is the element's index.
   struct Cell {
     int block, quad, station;
   };
@@ -36,9 +37,12 @@ struct VtkGrid {
   int corners() const { return kind == VtkCells::elements ? 8 : 4; }
 };
 
-/// Grid of the given kind of cells, for every block of the mesh. Faces by which blocks are tied to one
-/// another count as outer ones.
+/// Grid of the given kind of cells, for every block and body of the mesh. Faces by which blocks are tied to
+/// one another count as outer ones.
 VtkGrid make_vtk_grid(const Mesh& mesh, VtkCells kind);
+
+/// Position of a point in the frame of its body [m].
+Vec3 position(const Mesh& mesh, const VtkGrid::Point& point);
 
 /// Position of a point of an undeformed body [m].
 Vec3 placed(const Placement& placement, const Vec3& at);

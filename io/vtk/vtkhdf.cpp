@@ -60,7 +60,7 @@ void write_points(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid,
   std::vector<double> points;
   for (const VtkGrid::Point& point : grid.points) {
     const auto b = static_cast<std::size_t>(point.block);
-    const Vec3 at = placed(placements[b], position(mesh.blocks[b], point.node, point.station));
+    const Vec3 at = placed(placements[b], position(mesh, point));
     points.insert(points.end(), {at.x, at.y, at.z});
   }
   write_number(file, "NumberOfPoints", grid.points.size());
@@ -87,15 +87,23 @@ void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
   std::vector<std::int32_t> blocks, materials;
   std::vector<double> pitches;
   std::vector<std::string> block_names, material_names;
-  for (const SweptBlock& block : mesh.blocks) block_names.push_back(block.name);
+  for (int part = 0; part < mesh.parts(); ++part) block_names.push_back(mesh.part_name(part));
   for (const VtkGrid::Cell& cell : grid.cells) {
-    const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(cell.block)];
-    const int tile = block.tile_of_station[static_cast<std::size_t>(cell.station)];
-    const int pitch_class = block.tiles[static_cast<std::size_t>(tile)].pitch_class;
-    const double pitch = block.pitch(cell.station);
     blocks.push_back(cell.block);
-    materials.push_back(index_of(material_names, block.material(cell.quad, pitch_class).name));
-    pitches.push_back(block.sweep == Sweep::extruded ? pitch : pitch * mean_radius(block.section, cell.quad));
+    const Material* material = nullptr;
+    if (const HexBody* body = mesh.body_of(cell.block)) {
+      const auto element = static_cast<std::size_t>(cell.quad);
+      material = &body->materials[static_cast<std::size_t>(body->mesh.part[element])];
+      pitches.push_back(hex_shape(body->mesh.corners(element)).longest_edge);
+    } else {
+      const SweptBlock& block = mesh.blocks[static_cast<std::size_t>(cell.block)];
+      const int tile = block.tile_of_station[static_cast<std::size_t>(cell.station)];
+      const double pitch = block.pitch(cell.station);
+      material = &block.material(cell.quad, block.tiles[static_cast<std::size_t>(tile)].pitch_class);
+      pitches.push_back(block.sweep == Sweep::extruded ? pitch
+                                                       : pitch * mean_radius(block.section, cell.quad));
+    }
+    materials.push_back(index_of(material_names, material->name));
   }
   file.write<std::int32_t>("/VTKHDF/CellData/block", blocks);
   write_names(file, "/VTKHDF/CellData/block", block_names);
@@ -103,6 +111,8 @@ void write_cell_arrays(Hdf5File& file, const Mesh& mesh, const VtkGrid& grid) {
   write_names(file, "/VTKHDF/CellData/material", material_names);
   file.write<double>("/VTKHDF/CellData/pitch [m]", pitches);
   file.write_attribute("/VTKHDF/CellData/pitch [m]", "unit", "m");
+  if (!mesh.bodies.empty())
+    file.write_attribute("/VTKHDF/CellData/pitch [m]", "of bodies", "longest edge of the element");
 }
 
 /// Writes the values in one chunk: coordinates repeat along the sweep, and most of a surface is out of
@@ -128,10 +138,10 @@ void write_array(Hdf5File& file, const VtkArray& array) {
 
 void write_vtk_mesh(const std::filesystem::path& path, const Mesh& mesh, const VtkGrid& grid,
                     const std::vector<Placement>& placements, const Hdf5Attributes& attributes) {
-  if (!placements.empty() && placements.size() != mesh.blocks.size())
-    throw std::logic_error("write_vtk_mesh: one placement per block");
+  if (!placements.empty() && placements.size() != static_cast<std::size_t>(mesh.parts()))
+    throw std::logic_error("write_vtk_mesh: one placement per part");
   const std::vector<Placement> places =
-      placements.empty() ? std::vector<Placement>(mesh.blocks.size()) : placements;
+      placements.empty() ? std::vector<Placement>(static_cast<std::size_t>(mesh.parts())) : placements;
   Hdf5File file = begin(attributes);
   write_points(file, mesh, grid, places);
   write_topology(file, grid);

@@ -5,6 +5,7 @@
 
 #include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
+#include "kernels/element/hexahedron.hpp"
 
 namespace tread {
 
@@ -83,6 +84,19 @@ double BodyForce::linear_energy(ConstNodeField u) const {
   double twice = 0;
   for (std::size_t i = 0; i < u_.size(); ++i) twice += u_[i] * f_[i];
   return 0.5 * twice;
+}
+
+std::array<double, 6> BodyForce::stress(std::size_t element, ConstNodeField u, ConstNodeField q) const {
+  const HexMesh& mesh = body_->mesh;
+  const std::array<Vec3, 8> corners = mesh.corners(element);
+  std::array<Vec3, 8> moved;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const std::int64_t slot = body_->slot(mesh.elements[element][k]);
+    moved[k] = u.at(slot);
+    if (branch_ && q) moved[k] += branch_->strength * q.at(slot);
+  }
+  return hexahedron_stress(
+      {corners, corners, body_->materials[index(mesh.part[element])], elements_.finite_rotation()}, moved);
 }
 
 void BodyForce::add_mass(double* mass) const {

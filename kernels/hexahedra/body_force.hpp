@@ -2,7 +2,7 @@
 // The element forces of a body of hexahedra on the fields of a mesh, and the motion of its nodes.
 // [theory.md, Bodies from files]
 
-#include <memory>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -41,6 +41,9 @@ class BodyForce {
   /// Energy of u; of the linear operator where `linear` [J].
   DeformationEnergy energy(ConstNodeField u) const;
   double linear_energy(ConstNodeField u) const;
+
+  /// Stress at the centre of an element, as hexahedron_stress(); of u + g q with a branch [Pa].
+  std::array<double, 6> stress(std::size_t element, ConstNodeField u, ConstNodeField q) const;
 
   void add_mass(double* mass) const;          ///< lumped; scalar field of mesh.slots values [kg]
   void add_diagonal(double* diagonal) const;  ///< of K [N/m]

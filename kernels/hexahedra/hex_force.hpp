@@ -34,6 +34,7 @@ class HexForce {
   double beta() const { return beta_; }
   /// Green-Lagrange strain in the one-point stress, as in BasicInternalForce.
   void set_finite_rotation(bool on) { finite_rotation_ = on; }
+  bool finite_rotation() const { return finite_rotation_; }
 
   /// f = F(u + beta v), overwritten; v may be null. [N]
   void internal_force(const double* u, const double* v, double* f) const {

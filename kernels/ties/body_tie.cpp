@@ -62,7 +62,7 @@ Side side_of(const HexBody& body, const std::vector<std::int32_t>& set) {
   const auto place = [&](std::int32_t node) {
     return index(std::lower_bound(set.begin(), set.end(), node) - set.begin());
   };
-  for (const auto& face : outer_faces(body.mesh, set))
+  for (const auto& [face, element] : outer_faces(body.mesh, set))
     side.faces.push_back({place(face[0]), place(face[1]), place(face[2]), place(face[3])});
   list_corners(side);
   return side;

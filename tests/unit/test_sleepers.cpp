@@ -129,7 +129,7 @@ TEST(Sleepers, TheirBendingNeedsNoFinerMesh) {
   const Model model(samples::tyre_scene(ballasted()));
   RunResults results;
   results.samples.resize(1);
-  results.block_energy.assign(model.mesh.blocks.size(), {.strain = 3, .hourglass = 1});
+  results.part_energy.assign(model.mesh.blocks.size(), {.strain = 3, .hourglass = 1});
   const std::vector<std::string> warnings = run_warnings(model, results);
   const auto of_energy = [](const std::string& warning) { return samples::has(warning, "hourglass"); };
   EXPECT_EQ(std::ranges::count_if(warnings, of_energy),

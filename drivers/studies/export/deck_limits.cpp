@@ -16,6 +16,11 @@ void require_deck_can_hold(const Model& model) {
     throw InputError(
         "[motion] is missing: a keyword deck needs a time to end; add motion.duration, or set "
         "motion.present = true");
+  if (!scene.bodies.empty())
+    throw InputError(
+        fmt::format("body.{}: its mesh is another program's already, and is not written again; state "
+                    "body.{}.present = false",
+                    scene.bodies.begin()->first, scene.bodies.begin()->first));
   if (model.guide)
     throw InputError(
         "wheel.bore = \"guided\": a keyword deck has no carrier that turns freely and rolls at a stated "
