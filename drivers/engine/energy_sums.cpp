@@ -23,13 +23,8 @@ double weighted_sum(const SweptBlock& block, int tile, int first_component, cons
   return sum;
 }
 
-double square(double value) {
-  return value * value;
-}
-
-double itself(double value) {
-  return value;
-}
+constexpr auto square = [](double value) { return value * value; };
+constexpr auto itself = [](double value) { return value; };
 
 /// The same of a body's slots.
 template <class Term>

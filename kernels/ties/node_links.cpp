@@ -21,7 +21,8 @@ NodeLinks::NodeLinks(const std::vector<FollowingNode>& tied) {
   std::vector<Entry> of_secondary, of_primary;
   const auto link = [](const BasedNode& own, const BasedNode& other, double share) {
     const double turn = own.angle - other.angle;
-    return Entry{own.slot, {other.slot, share, share * std::cos(turn), share * std::sin(turn)}};
+    return Entry{own.slot,
+                 {other.slot, dof(other.slot, 0), share, share * std::cos(turn), share * std::sin(turn)}};
   };
   for (const FollowingNode& node : tied)
     for (std::size_t k = 0; k < 4; ++k) {
@@ -48,21 +49,22 @@ NodeLinks::Sums NodeLinks::sums_of(std::vector<Entry> entries) {
 }
 
 void NodeLinks::sum_up(const Sums& sums, bool add, NodeField field) {
-  parallel_ranges(std::ssize(sums.rows), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t i = first; i < last; ++i) {
-      const Row& row = sums.rows[index(i)];
-      double sum[3] = {};
-      for (std::size_t k = row.first; k < row.last; ++k) {
-        const Link& link = sums.links[k];
-        const Vec3 other = field.at(link.slot);
-        add_station_values(link.share, link.cosine, link.sine, other.x, other.y, other.z, sum);
+  field.visit([&]<class Real>(Real* values) {
+    parallel_ranges(std::ssize(sums.rows), [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t i = first; i < last; ++i) {
+        const Row& row = sums.rows[index(i)];
+        double sum[3] = {};
+        for (std::size_t k = row.first; k < row.last; ++k) {
+          const Link& link = sums.links[k];
+          const Real* other = values + link.at;
+          add_station_values<double>(link.share, link.cosine, link.sine, other[0], other[kLanes],
+                                     other[2 * kLanes], sum);
+        }
+        Real* own = values + dof(row.slot, 0);
+        for (int c = 0; c < 3; ++c)
+          own[c * kLanes] = static_cast<Real>(add ? own[c * kLanes] + sum[c] : sum[c]);
       }
-      const Vec3 value{sum[0], sum[1], sum[2]};
-      if (add)
-        field.add(row.slot, value);
-      else
-        field.set(row.slot, value);
-    }
+    });
   });
 }
 

@@ -50,6 +50,7 @@ class NodeLinks {
  private:
   struct Link {
     std::int64_t slot = -1;
+    std::int64_t at = -1;  ///< dof(slot, 0)
     double share = 0;
     double cosine = 1, sine = 0;  ///< of the turn from the other's basis to the own, times the share
   };
