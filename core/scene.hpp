@@ -16,6 +16,7 @@
 #include "core/body_spec.hpp"
 #include "core/material.hpp"
 #include "core/math/elastic_pair.hpp"
+#include "core/surface_spec.hpp"
 
 namespace tread {
 
@@ -242,26 +243,6 @@ struct CorrugationSpec {
   bool in_file() const { return kind == "table" || kind == "map"; }
 };
 
-/// [surface.NAME]: a shape of depth on the running surface of rail or wheel; all of them are added
-struct SurfaceSpec {
-  std::string kind = "dip";      ///< "dip", "dent", "waves", "polygon", "flat", "profile" or "map"
-  std::string on = "rail";       ///< "rail" or "wheel"; waves are on the rail, polygon and flat on the wheel
-  double at = 0;                 ///< x of the middle, or of the zero of waves, profile and map [m]
-  double depth = 1e-3;           ///< dip, dent; from crest to trough: waves, polygon [m]
-  double length = 0.1;           ///< along: dip, dent, chord of the flat, all waves together [m]
-  double width = 0.03;           ///< dent: across [m]
-  double centre = 0;             ///< dent, map: y of the middle [m]
-  std::string shape = "smooth";  ///< dip: "smooth" or "pointed"
-  double wavelength = 1;         ///< waves [m]
-  int order = 1;                 ///< polygon: waves around the wheel
-  std::string file;              ///< profile: x (or angle) and depth; map: x, y and depth
-  std::vector<double> file_x;    ///< profile: increasing; map: each value once, increasing [m]
-  std::vector<double> file_y;    ///< map: each value once, increasing [m]
-  std::vector<double> file_depth;  ///< positive into the body; map: by row of y [m]
-
-  bool on_wheel() const { return kind == "flat" || kind == "polygon" || (kind != "waves" && on == "wheel"); }
-};
-
 /// [wear]: how passages change the rail's profile
 struct WearSpec {
   double coefficient = 2.5e-9;  ///< mass worn off per frictional work [kg/(N m)]
@@ -374,7 +355,7 @@ struct Scene {
   const Material& rail_material() const;   ///< InputError without [rail]
   const Material& head_material() const;   ///< of the rail's running surface; InputError without [rail]
   ElasticPair elastic_pair() const;        ///< of the running surfaces; InputError without [wheel] or [rail]
-  /// The body of a file that replaces a part, "disc" or "rail", and its name; null: none does.
+  /// The body that replaces a part, "disc" or "rail", and its name; null: none does.
   const std::pair<const std::string, BodySpec>* body_replacing(std::string_view part) const;
   /// Names of all materials, "mortar, slab, steel"; "none" where there are none.
   std::string material_names() const;

@@ -15,8 +15,9 @@
 namespace tread::samples {
 
 /// An Abaqus file of the block's hexahedra in lengths of `unit` [m]. The nodes of these paths of its section
-/// are sets: "tread", and "most of tread" without those of the first tenth of the stations. The elements but
-/// one are the set "holed". Nodes of no set are moved across by `shift` [m].
+/// are sets: "tread", the same as "all of tread", and "most of tread" without those of the first node of the
+/// path. The
+/// elements but one are the set "holed". Nodes of no set are moved across by `shift` [m].
 inline std::string body_file(const SweptBlock& block,
                              const std::vector<std::pair<std::string, std::string>>& sets, double unit,
                              double shift) {
@@ -25,12 +26,12 @@ inline std::string body_file(const SweptBlock& block,
   std::vector<char> in_set(static_cast<std::size_t>(nodes), 0);
   std::string text, lists;
   for (const auto& [path, name] : sets) {
-    const int skipped = block.station_count() / 10;
-    for (const int first : {0, skipped}) {
-      lists += fmt::format("*NSET, NSET={}{}\n", first > 0 ? "most of " : "", name);
-      for (int station = first; station < block.station_count(); ++station)
+    for (const std::string kind : {"", "all of ", "most of "}) {
+      lists += fmt::format("*NSET, NSET={}{}\n", kind, name);
+      for (int station = 0; station < block.station_count(); ++station)
         for (const int node : block.section.paths.at(path))
-          lists += fmt::format("{}\n", station * nodes + node + 1);
+          if (kind != "most of " || node != block.section.paths.at(path).front())
+            lists += fmt::format("{}\n", station * nodes + node + 1);
     }
     for (const int node : block.section.paths.at(path)) in_set[static_cast<std::size_t>(node)] = 1;
   }

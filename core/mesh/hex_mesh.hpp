@@ -11,8 +11,6 @@
 
 namespace tread {
 
-struct SweptBlock;
-
 /// Indices of an element's nodes: 0 ... 3 run about one face, counter-clockwise seen from the face opposite;
 /// 4 ... 7 are the nodes opposite to them.
 using HexCorners = std::array<std::int32_t, 8>;
@@ -34,10 +32,6 @@ struct HexMesh {
     return at;
   }
 };
-
-/// The elements of a swept block one by one: node `station * section nodes + section node`, parts by the
-/// block's materials.
-HexMesh hexahedra_of(const SweptBlock& block);
 
 /// Corners of the six faces. Normals point outwards.
 inline constexpr std::array<std::array<std::size_t, 4>, 6> kHexFaces = {

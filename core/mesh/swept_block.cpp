@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 
 namespace tread {
 
@@ -95,6 +96,30 @@ Vec3 position(const SweptBlock& block, int section_node, int station) {
   const auto shift = block.node_shift.find(block.slot(section_node, station));
   if (shift != block.node_shift.end()) local += shift->second;
   return to_cartesian(block, station, 0, local);
+}
+
+HexMesh hexahedra_of(const SweptBlock& block) {
+  HexMesh mesh;
+  const int stations = block.station_count();
+  for (int station = 0; station < stations; ++station)
+    for (int node = 0; node < block.section.nodes(); ++node) {
+      mesh.nodes.push_back(position(block, node, station));
+      mesh.node_number.push_back(static_cast<std::int64_t>(mesh.nodes.size()));
+    }
+  for (const Material& material : block.materials) mesh.parts.push_back(material.name);
+  for (const Tile& tile : block.tiles)
+    for (int station = tile.first_station; station < tile.first_station + tile.elements; ++station)
+      for (std::size_t quad = 0; quad < block.section.quads.size(); ++quad) {
+        HexCorners corners;
+        for (std::size_t k = 0; k < 8; ++k)
+          corners[k] = (station + (k < 4 ? 0 : 1)) % stations * block.section.nodes() +
+                       block.section.quads[quad][k % 4];
+        mesh.elements.push_back(corners);
+        mesh.element_number.push_back(static_cast<std::int64_t>(mesh.elements.size()));
+        mesh.part.push_back(block.section.quad_material[quad] +
+                            block.classes[index(tile.pitch_class)].material_offset);
+      }
+  return mesh;
 }
 
 int Mesh::add(SweptBlock block) {

@@ -112,6 +112,10 @@ Vec3 position(const SweptBlock& block, int section_node, int station);
 Vec3 to_cartesian(const SweptBlock& block, int station, double angle, const Vec3& local);
 Vec3 to_local(const SweptBlock& block, int station, double angle, const Vec3& cartesian);
 
+/// The elements of a swept block one by one: node `station * section nodes + section node`, parts by the
+/// block's materials.
+HexMesh hexahedra_of(const SweptBlock& block);
+
 /// A body of hexahedra of another program beside the swept blocks. Components of vector fields are Cartesian,
 /// in the axes of the body: of a wheel's those of the frame at angle 0.
 struct HexBody {

@@ -57,48 +57,6 @@ Attachment attach_to_surface(const SweptBlock& block, double x, double y) {
   return attach_to_line(block, nodes, "running surface", {x, y});
 }
 
-namespace {
-
-/// Calls `act` with the number of the fastening, x and y [m] of each of its spring-dampers. `middle`: y of
-/// the foot's [m].
-template <class Act>
-void each_spring_damper(const Scene& scene, double middle, const Act& act) {
-  const FasteningSpec& f = *scene.fastenings;
-  for (int i = 0; i < f.count; ++i)
-    for (int column = 0; column < f.columns; ++column)
-      for (int row = 0; row < f.rows; ++row)
-        act(i, scene.fastening_x(i) + f.column_offset(column), middle + f.row_offset(row));
-}
-
-}  // namespace
-
-std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const RailFoot& rail,
-                                                       const std::vector<const SweptBlock*>& below) {
-  const FasteningSpec& f = *scene.fastenings;
-  const int groups = f.columns * f.rows;
-  std::vector<SpringDampers::Element> elements;
-  each_spring_damper(scene, rail.middle(), [&](int i, double x, double y) {
-    const SupportSpec own = scene.support(i);
-    const SweptBlock* under = below[static_cast<std::size_t>(i)];
-    const Attachment foot = rail.attach(x, y);
-    const Attachment support = under ? attach(*under, "top", x, y) : Attachment{};
-    elements.push_back(
-        {foot, support, own.stiffness * f.stiffness / groups, own.damping * f.damping / groups, 2});
-    const double share = own.holds ? 1.0 / groups : 0;
-    for (const auto& [component, hold] : {std::pair(0, &f.along), std::pair(1, &f.across)})
-      if (hold->kind == "elastic")
-        elements.push_back({foot, {}, share * hold->stiffness, share * hold->damping, component});
-  });
-  return elements;
-}
-
-std::size_t elements_of_fastening(const FasteningSpec& f) {
-  std::size_t directions = 1;
-  for (const FootHold* hold : {&f.along, &f.across})
-    if (hold->kind == "elastic") ++directions;
-  return directions * static_cast<std::size_t>(f.columns * f.rows);
-}
-
 std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double share,
                                                  const SweptBlock& sleeper) {
   const std::vector<int>& bottom = sleeper.section.paths.at("bottom");
@@ -117,26 +75,6 @@ std::vector<SpringDampers::Element> bed_elements(const SleeperSpec& spec, double
                           2});
   }
   return elements;
-}
-
-std::vector<FootNode> held_foot_nodes(const Scene& scene, const RailFoot& foot) {
-  constexpr double kRounding = 1e-9;
-  const FasteningSpec& f = *scene.fastenings;
-  std::vector<FootNode> nodes;
-  const auto hold = [&](double x, double y, double half_length, double half_width) {
-    for (const FootNode& node : foot.within(x, y, half_length, half_width)) nodes.push_back(node);
-  };
-  if (f.held_at == "springs") {
-    each_spring_damper(scene, foot.middle(), [&](int i, double x, double y) {
-      if (scene.support(i).holds) hold(x, y, 0, 0);
-    });
-    return nodes;
-  }
-  for (int i = 0; i < f.count; ++i)
-    if (scene.support(i).holds)
-      hold(scene.fastening_x(i), foot.middle(), 0.5 * f.pad_length + kRounding,
-           0.5 * f.pad_width + kRounding);
-  return nodes;
 }
 
 }  // namespace tread

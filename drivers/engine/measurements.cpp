@@ -6,6 +6,7 @@
 #include <array>
 
 #include "drivers/engine/attachments.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "drivers/engine/sampling.hpp"
 #include "kernels/blocks/internal_force.hpp"
 

@@ -17,6 +17,7 @@
 #include "core/travel.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/lateral_gap.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "drivers/engine/restraints.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/engine/surfaces.hpp"

@@ -11,6 +11,7 @@
 #include "core/parallel/parallel.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/moving_deflection.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "drivers/engine/static_loads.hpp"
 #include "drivers/engine/static_system.hpp"
 #include "drivers/engine/traction.hpp"
@@ -187,7 +188,7 @@ void Equilibrium::residual(Preload& state, double* r) {
     for (std::int64_t i = first; i < last; ++i) r[i] = -r[i];
   });
   add_load(state, r);
-  add_steady_inertia(*model_, motion_, u, r);
+  add_steady_inertia(*model_, motion_.speed, motion_.spin, u, r);
   finish(state, r);
   if (!held_) return;
   const auto work = held_->work(r);

@@ -47,4 +47,17 @@ class RailFoot {
 /// The foot of the rail's part that stands on fastenings or ground.
 RailFoot foot_of_rail(const Scene& scene, const Mesh& mesh, const BlockIndex& index);
 
+/// Spring-dampers of the scene's fastenings under the rail's foot, fastening by fastening: vertical ones on
+/// the block `below` of each or, if that is null, on rigid ground; along and across where they are elastic,
+/// to the ground.
+std::vector<SpringDampers::Element> fastening_elements(const Scene& scene, const RailFoot& rail,
+                                                       const std::vector<const SweptBlock*>& below);
+
+/// Number of spring-dampers of a fastening.
+std::size_t elements_of_fastening(const FasteningSpec& fastening);
+
+/// Nodes of the rail's foot that the fastenings hold (FasteningSpec::held_at); of each fastening at least
+/// one.
+std::vector<FootNode> held_foot_nodes(const Scene& scene, const RailFoot& foot);
+
 }  // namespace tread

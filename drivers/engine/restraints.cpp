@@ -5,6 +5,7 @@
 
 #include "core/mesh/node_field.hpp"
 #include "drivers/engine/attachments.hpp"
+#include "drivers/engine/rail_foot.hpp"
 
 namespace tread {
 

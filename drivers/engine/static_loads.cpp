@@ -55,9 +55,9 @@ void add_centrifugal(const Model& model, const SweptBlock& block, double spin, d
 }
 
 /// Adds -m rate^2 d2u/ds2, s the station coordinate.
-void add_inertia_of_blocks(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
+void add_inertia_of_blocks(const Model& model, double speed, double spin, const double* u, double* load) {
   for (const SweptBlock& block : model.mesh.blocks) {
-    const double rate = block.sweep == Sweep::revolved ? motion.spin : motion.speed;
+    const double rate = block.sweep == Sweep::revolved ? spin : speed;
     if (rate == 0) continue;
     parallel_ranges(block.station_count(), [&](std::int64_t first, std::int64_t last) {
       for (int station = static_cast<int>(first); station < last; ++station) {
@@ -84,9 +84,9 @@ void add_inertia_of_blocks(const Model& model, const SteadyMotion& motion, const
 }
 
 /// The same of bodies, by the change along the motion twice.
-void add_inertia_of_bodies(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
+void add_inertia_of_bodies(const Model& model, double speed, double spin, const double* u, double* load) {
   for (const HexBody& body : model.mesh.bodies) {
-    const double rate = body.spins ? motion.spin : motion.speed;
+    const double rate = body.spins ? spin : speed;
     if (rate == 0) continue;
     AlignedVector<double> change(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
     const auto differentiate = [&](const double* field) {
@@ -124,9 +124,9 @@ void add_carrier_load(const Model& model, const BodyFrame& frame, double spin, d
       (model.guide->counterweight(spin, frame.angle) - model.journal_load()) / model.guide->per_rise();
 }
 
-void add_steady_inertia(const Model& model, const SteadyMotion& motion, const double* u, double* load) {
-  add_inertia_of_blocks(model, motion, u, load);
-  add_inertia_of_bodies(model, motion, u, load);
+void add_steady_inertia(const Model& model, double speed, double spin, const double* u, double* load) {
+  add_inertia_of_blocks(model, speed, spin, u, load);
+  add_inertia_of_bodies(model, speed, spin, u, load);
 }
 
 void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load) {

@@ -3,7 +3,7 @@
 
 #include "core/body_frame.hpp"
 #include "drivers/engine/model.hpp"
-#include "drivers/engine/preload.hpp"
+#include "drivers/engine/run_in.hpp"
 
 namespace tread {
 
@@ -14,8 +14,9 @@ void add_external_load(const Model& model, const BodyFrame& frame, double spin, 
 /// The forces on a carrier, at its unknown, after StaticSystem::reduce.
 void add_carrier_load(const Model& model, const BodyFrame& frame, double spin, double* load);
 
-/// The inertia of material that passes through the steady deflection u [m].
-void add_steady_inertia(const Model& model, const SteadyMotion& motion, const double* u, double* load);
+/// The inertia of material that passes through the steady deflection u [m]: at a speed along the track [m/s],
+/// at a spin in the wheel [rad/s].
+void add_steady_inertia(const Model& model, double speed, double spin, const double* u, double* load);
 
 /// The forces that press on a wheelset which has been rolling.
 void add_run_in(const Model& model, const RunIn& run_in, const BodyFrame& frame, double* load);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
-#include "io/scene/scene_reader.hpp"
+#include "io/scene/entry.hpp"
 #include "io/scene/setting.hpp"
 
 namespace tread {

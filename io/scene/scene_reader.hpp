@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene.hpp"
+#include "io/scene/entry.hpp"
 
 namespace tread {
 
@@ -21,16 +22,6 @@ struct SceneSource {
 
 /// Reads the file's text. Throws InputError when it is missing, unreadable, not text, or larger than 1 MB.
 SceneSource load_scene_source(const std::filesystem::path& path);
-
-/// One value of a scene.
-struct Entry {
-  std::string path;         ///< "rail.length"
-  std::string value;        ///< in SI, "15.2"
-  std::string unit;         ///< "m"; empty for texts and pure numbers
-  std::string source;       ///< "scenes/x.toml:12", "--set", "highspeed-slab-2014: Table 1", or "default"
-  std::string description;  ///< what the key means
-  std::string shown;        ///< the value for readers, in the unit of documentation: "15.2 m", "205.9 GPa"
-};
 
 struct ResolvedScene {
   Scene scene;

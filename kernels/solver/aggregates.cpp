@@ -7,168 +7,14 @@
 #include <set>
 
 #include "core/parallel/parallel.hpp"
+#include "kernels/solver/aggregate_parts.hpp"
 
 namespace tread {
-
-namespace {
-
-/// Neighbours of every section node along the edges of the quads.
-std::vector<std::vector<int>> node_graph(const Section& section) {
-  std::vector<std::set<int>> neighbours(section.p.size());
-  for (const auto& quad : section.quads)
-    for (std::size_t e = 0; e < 4; ++e) {
-      const int a = quad[e];
-      const int b = quad[(e + 1) % 4];
-      neighbours[static_cast<std::size_t>(a)].insert(b);
-      neighbours[static_cast<std::size_t>(b)].insert(a);
-    }
-  std::vector<std::vector<int>> graph;
-  graph.reserve(neighbours.size());
-  for (const auto& set : neighbours) graph.emplace_back(set.begin(), set.end());
-  return graph;
-}
-
-/// Cuts section nodes across their longer side until they are close together and few enough. (A graph
-/// partition balances areas instead and makes long parts of thin plates: four times the iterations on a
-/// disc.)
-void cut(const Section& section, std::vector<int> nodes, const AggregateOptions& options,
-         std::vector<std::vector<int>>& parts) {
-  const std::vector<double>* along = nullptr;
-  double extent = -1, start = 0;
-  for (const auto* axis : {&section.p, &section.q}) {
-    const auto less = [&](int a, int b) {
-      return (*axis)[static_cast<std::size_t>(a)] < (*axis)[static_cast<std::size_t>(b)];
-    };
-    const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), less);
-    const double length = (*axis)[static_cast<std::size_t>(*high)] - (*axis)[static_cast<std::size_t>(*low)];
-    if (length <= extent) continue;
-    along = axis;
-    extent = length;
-    start = (*axis)[static_cast<std::size_t>(*low)];
-  }
-  const auto least = static_cast<std::size_t>(options.least_across * options.least_across);
-  const std::size_t slices =
-      std::min(nodes.size() / least, static_cast<std::size_t>(std::ceil(extent / options.size)));
-  if (slices > 1) {
-    std::vector<std::vector<int>> slice(slices);
-    for (const int node : nodes) {
-      const double place =
-          ((*along)[static_cast<std::size_t>(node)] - start) / extent * static_cast<double>(slices);
-      slice[std::min(slices - 1, static_cast<std::size_t>(place))].push_back(node);
-    }
-    for (auto& piece : slice)
-      if (!piece.empty()) cut(section, std::move(piece), options, parts);
-  } else if (nodes.size() > static_cast<std::size_t>(options.nodes_across * options.nodes_across)) {
-    std::stable_sort(nodes.begin(), nodes.end(), [&](int a, int b) {
-      return (*along)[static_cast<std::size_t>(a)] < (*along)[static_cast<std::size_t>(b)];
-    });
-    const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-    cut(section, {nodes.begin(), middle}, options, parts);
-    cut(section, {middle, nodes.end()}, options, parts);
-  } else {
-    parts.push_back(std::move(nodes));
-  }
-}
-
-/// Connected parts of the section, each about one aggregate in extent.
-std::vector<std::vector<int>> section_parts(const Section& section, const AggregateOptions& options) {
-  std::vector<int> all(section.p.size());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<std::vector<int>> pieces;
-  cut(section, std::move(all), options, pieces);
-
-  const auto graph = node_graph(section);
-  std::vector<int> piece_of(graph.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (const int node : pieces[i]) piece_of[static_cast<std::size_t>(node)] = static_cast<int>(i);
-  std::vector<std::vector<int>> parts;
-  std::vector<bool> taken(graph.size(), false);
-  for (std::size_t seed = 0; seed < graph.size(); ++seed) {
-    if (taken[seed]) continue;
-    std::vector<int> members{static_cast<int>(seed)};
-    taken[seed] = true;
-    for (std::size_t i = 0; i < members.size(); ++i)
-      for (const int next : graph[static_cast<std::size_t>(members[i])]) {
-        const auto n = static_cast<std::size_t>(next);
-        if (taken[n] || piece_of[n] != piece_of[seed]) continue;
-        taken[n] = true;
-        members.push_back(next);
-      }
-    parts.push_back(std::move(members));
-  }
-  return parts;
-}
-
-/// Ends of the runs of stations at mean distance `radius` [m] from the axis (1 for extruded blocks).
-std::vector<int> station_runs(const SweptBlock& block, double radius, const AggregateOptions& options) {
-  std::vector<int> ends;
-  double begin = block.stations.front();
-  int first = 0;
-  for (int s = 1; s < block.station_count(); ++s) {
-    const double at = block.stations[static_cast<std::size_t>(s)];
-    const int stations = s - first;
-    if (stations < options.least_across ||
-        (stations < options.nodes_across && radius * (at - begin) < options.size))
-      continue;
-    ends.push_back(s);
-    first = s;
-    begin = at;
-  }
-  ends.push_back(block.station_count());
-  return ends;
-}
-
-/// Mean distance of the nodes from the axis [m]; 1 for extruded blocks.
-double mean_radius(const SweptBlock& block, const std::vector<int>& nodes) {
-  if (block.sweep != Sweep::revolved) return 1;
-  double sum = 0;
-  for (const int node : nodes) sum += block.section.q[static_cast<std::size_t>(node)];
-  return sum / static_cast<double>(nodes.size());
-}
-
-/// Halves a body's nodes across the longest side of their box until they are close together and few enough;
-/// calls visit(nodes) for each part.
-template <class Visit>
-void cut_body(const HexBody& body, std::vector<std::int32_t> nodes, const AggregateOptions& options,
-              const Visit& visit) {
-  const auto at = [&](std::int32_t node) -> const Vec3& {
-    return body.mesh.nodes[static_cast<std::size_t>(node)];
-  };
-  Vec3 low = at(nodes.front()), high = low;
-  for (const std::int32_t node : nodes)
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], at(node)[c]);
-      high[c] = std::max(high[c], at(node)[c]);
-    }
-  int axis = 0;
-  for (int c = 1; c < 3; ++c)
-    if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
-  const auto cube = [](int n) { return static_cast<std::size_t>(n * n * n); };
-  const bool wide = high[axis] - low[axis] > options.size && nodes.size() >= 2 * cube(options.least_across);
-  if (!wide && nodes.size() <= cube(options.nodes_across)) {
-    visit(std::move(nodes));
-    return;
-  }
-  const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-  std::nth_element(nodes.begin(), middle, nodes.end(), [&](std::int32_t a, std::int32_t b) {
-    return std::pair(at(a)[axis], a) < std::pair(at(b)[axis], b);
-  });
-  cut_body(body, {nodes.begin(), middle}, options, visit);
-  cut_body(body, {middle, nodes.end()}, options, visit);
-}
-
-std::vector<std::int32_t> all_nodes(const HexBody& body) {
-  std::vector<std::int32_t> nodes(body.mesh.nodes.size());
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
-
-}  // namespace
 
 std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options) {
   std::int64_t count = 0;
   for (const HexBody& body : mesh.bodies)
-    cut_body(body, all_nodes(body), options, [&](std::vector<std::int32_t> /*nodes*/) { ++count; });
+    count += static_cast<std::int64_t>(body_parts(body, options).size());
   for (const SweptBlock& block : mesh.blocks)
     for (const auto& nodes : section_parts(block.section, options))
       count += static_cast<std::int64_t>(station_runs(block, mean_radius(block, nodes), options).size());
@@ -194,7 +40,8 @@ Aggregates::Aggregates(const Mesh& mesh, const AlignedVector<double>& free, cons
       add_part(block, std::move(nodes), options);
     }
   }
-  for (const HexBody& body : mesh.bodies) add_boxes(body, all_nodes(body), options);
+  for (const HexBody& body : mesh.bodies)
+    for (const std::vector<std::int32_t>& nodes : body_parts(body, options)) add_box(body, nodes);
   sums_.resize(slices_.size());
 }
 
@@ -244,20 +91,17 @@ void Aggregates::add_stations(int part, int first_station, int last_station) {
         count() - 1;
 }
 
-void Aggregates::add_boxes(const HexBody& body, std::vector<std::int32_t> all,
-                           const AggregateOptions& options) {
-  cut_body(body, std::move(all), options, [&](const std::vector<std::int32_t>& nodes) {
-    Patch patch;
-    patch.first_node = body_nodes_.size();
-    for (const std::int32_t node : nodes)
-      body_nodes_.push_back({body.slot(node), body.mesh.nodes[static_cast<std::size_t>(node)]});
-    patch.last_node = body_nodes_.size();
-    const bool moves = add_patch(patch);
-    for (std::size_t i = patch.first_node; moves && i < patch.last_node; ++i)
-      of_body_slots_[static_cast<std::size_t>(body_nodes_[i].slot - first_body_slot_)] =
-          static_cast<std::int32_t>(i);
-    body_patches_.resize(body_nodes_.size(), moves ? count() - 1 : -1);
-  });
+void Aggregates::add_box(const HexBody& body, const std::vector<std::int32_t>& nodes) {
+  Patch patch;
+  patch.first_node = body_nodes_.size();
+  for (const std::int32_t node : nodes)
+    body_nodes_.push_back({body.slot(node), body.mesh.nodes[static_cast<std::size_t>(node)]});
+  patch.last_node = body_nodes_.size();
+  const bool moves = add_patch(patch);
+  for (std::size_t i = patch.first_node; moves && i < patch.last_node; ++i)
+    of_body_slots_[static_cast<std::size_t>(body_nodes_[i].slot - first_body_slot_)] =
+        static_cast<std::int32_t>(i);
+  body_patches_.resize(body_nodes_.size(), moves ? count() - 1 : -1);
 }
 
 /// Returns false where nothing of the patch is free.

@@ -7,15 +7,10 @@
 
 #include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/solver/aggregate_parts.hpp"
 #include "kernels/solver/rigid_motion.hpp"
 
 namespace tread {
-
-struct AggregateOptions {
-  double size = 0.05;     ///< approximate largest extent of an aggregate [m]
-  int nodes_across = 16;  ///< approximate largest number of nodes along one direction
-  int least_across = 3;   ///< number of nodes along one direction that `size` does not split
-};
 
 /// Number of aggregates of a mesh whose nodes are all free.
 std::int64_t aggregate_count(const Mesh& mesh, const AggregateOptions& options = {});
@@ -80,7 +75,7 @@ class Aggregates {
 
   void add_part(const SweptBlock& block, std::vector<int> nodes, const AggregateOptions& options);
   void add_stations(int part, int first_station, int last_station);
-  void add_boxes(const HexBody& body, std::vector<std::int32_t> nodes, const AggregateOptions& options);
+  void add_box(const HexBody& body, const std::vector<std::int32_t>& nodes);
   bool add_patch(Patch patch);
   void orthonormalise(Patch& patch) const;
   template <class Visit>

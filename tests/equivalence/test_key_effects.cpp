@@ -252,7 +252,9 @@ const std::map<std::string, std::string>& body_files() {
         {"/nowhere/disc.inp", samples::body_file(disc, ends, kMm, 0)},
         {"/nowhere/other_disc.inp", samples::body_file(disc, ends, kMm, 1e-4)},
         {"/nowhere/other_disc_cm.inp", samples::body_file(disc, ends, kCm, 1e-4)},
-        {"/nowhere/base.inp", samples::body_file(base, {{"tie", "head"}, {"foot", "foot"}}, kMm, 0)}};
+        {"/nowhere/base.inp", samples::body_file(base, {{"tie", "head"}, {"foot", "foot"}}, kMm, 0)},
+        {"/nowhere/other_base.inp",
+         samples::body_file(base, {{"tie", "head"}, {"foot", "foot"}}, kMm, 1e-4)}};
   }();
   return kFiles;
 }
@@ -281,6 +283,15 @@ std::uint64_t mesh_bits(const Model& model) {
       hash.add(static_cast<std::uint64_t>(
           block.classes[static_cast<std::size_t>(tile.pitch_class)].material_offset));
   }
+  for (const HexBody& body : model.mesh.bodies) {
+    for (const Vec3& at : body.mesh.nodes) add(hash, at);
+    for (const HexCorners& corners : body.mesh.elements) hash.add(std::as_bytes(std::span(corners)));
+  }
+  if (model.ties)
+    for (const TiedSlot& tied : model.ties->tied_slots()) {
+      hash.add(static_cast<std::uint64_t>(tied.secondary));
+      hash.add(static_cast<std::uint64_t>(tied.primary));
+    }
   return hash.value();
 }
 
@@ -522,9 +533,9 @@ const std::vector<Change>& changes() {
       {"body.web.origin_x", "0.01 mm", "webbed"},
       {"body.web.origin_y", "0.01 mm", "webbed"},
       {"body.web.origin_z", "0.01 mm", "webbed"},
-      {"body.web.tread", "most of tread", "webbed"},
+      {"body.web.tread", "all of tread", "webbed", {}, {"body.web.file=other_disc.inp"}},
       {"body.web.axle", "most of axle", "webbed"},
-      {"body.web.head", "most of head", "footed"},
+      {"body.web.head", "all of head", "footed", {}, {"body.web.file=other_base.inp"}},
       {"body.web.foot", "most of foot", "footed"},
       {"wear.coefficient", "3e-9 kg/N/m"},
       {"wear.change", "0.1"},

@@ -8,6 +8,7 @@
 #include "core/mesh/structured.hpp"
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "kernels/blocks/time_update.hpp"
 #include "kernels/connectors/connectors.hpp"
 #include "kernels/update/body_motion.hpp"

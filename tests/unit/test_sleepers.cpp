@@ -15,6 +15,7 @@
 #include "drivers/engine/attachments.hpp"
 #include "drivers/engine/beam/track_beam.hpp"
 #include "drivers/engine/preload.hpp"
+#include "drivers/engine/rail_foot.hpp"
 #include "drivers/results/run_warnings.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
