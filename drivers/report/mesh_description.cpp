@@ -95,6 +95,20 @@ Table mass_table(const std::vector<BodyMass>& bodies) {
   return table;
 }
 
+/// Surfaces to which a body from a file may be tied in place of the block below.
+Table tied_surface_table(const Model& model) {
+  Table table{"Tied surfaces", {{"Block"}, {"Surface"}}, {}};
+  const auto add = [&](int block, const char* path) {
+    const SweptBlock& of = model.mesh.blocks[static_cast<std::size_t>(block)];
+    table.rows.push_back({of.name, surface_extents(of, path)});
+  };
+  const bool base = model.index.rail_base >= 0 || model.index.base_body >= 0;
+  if (base) add(model.index.rail_cap, "tie");
+  if (model.index.axle >= 0)
+    for (const int block : {model.index.tread, model.index.axle}) add(block, "tie");
+  return table;
+}
+
 Table inertia_table(const SpinningBody& wheelset) {
   return {"Wheelset",
           {{"Quantity"}, {"Value", Align::right}, {"Unit"}},
@@ -179,6 +193,7 @@ void describe_mesh(const ResolvedScene& resolved, const MeshOptions& options) {
   const std::vector<BlockMeasures> groups = by_group(model, blocks);
   fmt::print("{}\n{}\n{}\n{}\n", plain_text(count_table(groups)), plain_text(quality_table(groups)),
              plain_text(step_table(limit)), plain_text(mass_table(bodies_of(model, blocks))));
+  if (const Table tied = tied_surface_table(model); !tied.rows.empty()) fmt::print("{}\n", plain_text(tied));
   if (model.wheelset) fmt::print("{}\n", plain_text(inertia_table(*model.wheelset)));
   fmt::print("Stable step  {:.4e} s: {}\n", limit.stable_step, limit.reason);
   if (!options.output.empty()) fmt::print("Mesh         {}\n", (options.output / "mesh.hdf").string());

@@ -74,21 +74,6 @@ double area_of(const Side& side) {
   return sum;
 }
 
-/// The surface of a swept block's line, in words.
-std::string surface_text(const SweptBlock& block, const std::string& path) {
-  double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
-  for (const int node : path_of(block, path)) {
-    const double at[2] = {block.section.p[index(node)], block.section.q[index(node)]};
-    for (int i = 0; i < 2; ++i) {
-      low[i] = std::min(low[i], at[i]);
-      high[i] = std::max(high[i], at[i]);
-    }
-  }
-  return fmt::format(
-      "the tied surface of the {} reaches from y = {:.3f} to {:.3f} mm, {} = {:.3f} to {:.3f} mm", block.name,
-      low[0] / mm, high[0] / mm, block.sweep == Sweep::revolved ? "radius" : "z", low[1] / mm, high[1] / mm);
-}
-
 /// Secondary nodes may lie off the primary faces by this share of a face's longest edge, and are moved onto
 /// them: chords of a ring of 30 elements are off by 3 % of their length.
 constexpr double kFarthest = 0.1;
@@ -143,10 +128,14 @@ class BodyTie {
                       spec_.key, spec_.set, of_body_.nodes.size()));
     const double cover = area_of(of_body_) / area_of(of_block_);
     if (spec_.whole && cover < kLeastCover)
-      throw InputError(fmt::format(
-          "{} = \"{}\": its faces cover {:.1f} % of the surface that they are tied to, at least "
-          "{:.0f} % are needed; {}; see the keys unit and origin_x, origin_y, origin_z",
-          spec_.key, spec_.set, 100 * cover, 100 * kLeastCover, surface_text(block_, spec_.path)));
+      throw InputError(
+          fmt::format("{} = \"{}\": its faces cover {:.1f} % of the surface that they are tied to, at least "
+                      "{:.0f} % are needed; {}; see the keys unit and origin_x, origin_y, origin_z",
+                      spec_.key, spec_.set, 100 * cover, 100 * kLeastCover, surface_text()));
+  }
+
+  std::string surface_text() const {
+    return fmt::format("the tied surface of the {} has {}", block_.name, surface_extents(block_, spec_.path));
   }
 
   /// Mean size of the faces [m].
@@ -165,8 +154,7 @@ class BodyTie {
         "it is to be tied; at most a tenth of a face's edge is bridged; {}; see the keys unit and origin_x, "
         "origin_y, origin_z",
         spec_.key, spec_.set, who, node.at.x / mm, node.at.y / mm, node.at.z / mm,
-        body_.spins ? "wheel" : "rail", off, body_leads ? fmt::format("set") : block_.name,
-        surface_text(block_, spec_.path)));
+        body_.spins ? "wheel" : "rail", off, body_leads ? fmt::format("set") : block_.name, surface_text()));
   }
 
   /// Moves the i-th secondary node.
@@ -188,6 +176,23 @@ class BodyTie {
 };
 
 }  // namespace
+
+std::string surface_extents(const SweptBlock& block, const std::string& path) {
+  double low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30};
+  for (const int node : path_of(block, path)) {
+    const double at[2] = {block.section.p[index(node)], block.section.q[index(node)]};
+    for (int i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], at[i]);
+      high[i] = std::max(high[i], at[i]);
+    }
+  }
+  const auto span = [](double from, double to) {
+    return to - from < 1e-9 ? fmt::format("{:.6g} mm", from / mm)
+                            : fmt::format("{:.6g} to {:.6g} mm", from / mm, to / mm);
+  };
+  return fmt::format("y = {}, {} = {}", span(low[0], high[0]),
+                     block.sweep == Sweep::revolved ? "radius" : "z", span(low[1], high[1]));
+}
 
 std::vector<FollowingNode> tie_body(Mesh& mesh, const BodyTieSpec& spec) {
   return BodyTie(mesh, spec).tie();

@@ -10,6 +10,9 @@
 
 namespace tread {
 
+/// Extents of the surface that a line of a block's section sweeps: "y = -76.5 to 58.5 mm, radius = 407 mm".
+std::string surface_extents(const SweptBlock& block, const std::string& path);
+
 struct BodyTieSpec {
   int body = -1;
   std::string set;  ///< of the body's nodes
