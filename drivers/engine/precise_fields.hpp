@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "core/index.hpp"
 #include "core/page_vector.hpp"
@@ -72,6 +73,7 @@ class PreciseFields : public NodeFields {
     }
     if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
     update_.defer(model.loaded_slots());
+    for (const auto& body : model.body_forces) bodies_.emplace_back(*body, parts_.inverse_mass());
   }
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
@@ -88,7 +90,7 @@ class PreciseFields : public NodeFields {
   }
   void move_rest(const StepLoads& loads, bool measured) override {
     const BasicUpdateFields<Real, U> fields = {u_.data(), v_.data(), f_.data()};
-    for (const HexBody& body : mesh().bodies) move_body(body, loads, parts_.inverse_mass(), fields);
+    for (const BodyMotion<Real, U>& body : bodies_) body.move(loads, fields);
     if (measured)
       update_.move_all(loads, fields);
     else
@@ -227,6 +229,7 @@ class PreciseFields : public NodeFields {
   EnergySums sums_;
   std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
   BasicTimeUpdate<Real, U> update_;
+  std::vector<BodyMotion<Real, U>> bodies_;
   PageVector<U> u_;
   PageVector<Real> v_, f_;
   std::optional<BranchLag<Real>> q_;

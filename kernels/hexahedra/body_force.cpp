@@ -9,42 +9,8 @@
 
 namespace tread {
 
-namespace {
-
-constexpr std::int64_t kRow = kHexNodeValues;
-
-/// Copies the body's values from a field to rows.
-template <class Real>
-void read_rows(const HexBody& body, const Real* field, double* rows) {
-  parallel_ranges(body.nodes(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t node = first; node < last; ++node)
-      for (int c = 0; c < 3; ++c) rows[kRow * node + c] = static_cast<double>(field[dof(body.slot(node), c)]);
-  });
-}
-
-template <class Real>
-void write_rows(const HexBody& body, const double* rows, Real* field) {
-  parallel_ranges(body.nodes(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t node = first; node < last; ++node)
-      for (int c = 0; c < 3; ++c) field[dof(body.slot(node), c)] = static_cast<Real>(rows[kRow * node + c]);
-  });
-}
-
-void read_rows(const HexBody& body, ConstNodeField field, double* rows) {
-  for (std::int64_t node = 0; node < body.nodes(); ++node) {
-    const Vec3 value = field.at(body.slot(node));
-    for (int c = 0; c < 3; ++c) rows[kRow * node + c] = value[c];
-  }
-}
-
-}  // namespace
-
 BodyForce::BodyForce(const HexBody& body, bool deforms_finitely)
-    : body_(&body),
-      elements_(body.mesh, body.materials),
-      u_(index(kRow * body.nodes()), 0.0),
-      v_(u_.size(), 0.0),
-      f_(u_.size(), 0.0) {
+    : body_(&body), elements_(body.mesh, body.materials) {
   elements_.set_finite_rotation(deforms_finitely);
 }
 
@@ -53,36 +19,16 @@ void BodyForce::set_damping(double beta, const std::optional<MaxwellBranch>& bra
   elements_.set_beta(branch ? branch->strength : beta);
 }
 
-template <class U, class Real>
-void BodyForce::internal_force(const U* u, const Real* v, const Real* q, Real* f) const {
-  const Real* const damped = branch_ ? q : v;
-  const bool is_damped = damped != nullptr && elements_.beta() != 0;
-  read_rows(*body_, u, u_.data());
-  if (is_damped) read_rows(*body_, damped, v_.data());
-  elements_.internal_force(u_.data(), is_damped ? v_.data() : nullptr, f_.data());
-  write_rows(*body_, f_.data(), f);
-}
-
-template void BodyForce::internal_force(const double*, const double*, const double*, double*) const;
-template void BodyForce::internal_force(const double*, const float*, const float*, float*) const;
-template void BodyForce::internal_force(const float*, const float*, const float*, float*) const;
-
-void BodyForce::apply(const double* u, double* f) const {
-  read_rows(*body_, u, u_.data());
-  elements_.apply(u_.data(), f_.data());
-  write_rows(*body_, f_.data(), f);
-}
-
-DeformationEnergy BodyForce::energy(ConstNodeField u) const {
-  read_rows(*body_, u, u_.data());
-  return elements_.energy(u_.data());
-}
-
 double BodyForce::linear_energy(ConstNodeField u) const {
-  read_rows(*body_, u, u_.data());
-  elements_.apply(u_.data(), f_.data());
+  constexpr std::int64_t kRow = kHexNodeValues;
+  AlignedVector<double> rows(index(kRow * body_->nodes()), 0.0), force(rows.size(), 0.0);
+  for (std::int64_t node = 0; node < body_->nodes(); ++node) {
+    const Vec3 value = u.at(body_->slot(node));
+    for (int c = 0; c < 3; ++c) rows[index(kRow * node + c)] = value[c];
+  }
+  elements_.apply(rows.data(), force.data());
   double twice = 0;
-  for (std::size_t i = 0; i < u_.size(); ++i) twice += u_[i] * f_[i];
+  for (std::size_t i = 0; i < rows.size(); ++i) twice += rows[i] * force[i];
   return 0.5 * twice;
 }
 
@@ -107,49 +53,49 @@ void BodyForce::add_mass(double* mass) const {
 void BodyForce::add_diagonal(double* diagonal) const {
   const std::vector<double> own = elements_.diagonal();
   for (std::int64_t node = 0; node < body_->nodes(); ++node)
-    for (int c = 0; c < 3; ++c) diagonal[dof(body_->slot(node), c)] += own[index(kRow * node + c)];
-}
-
-std::int64_t BodyForce::bytes() const {
-  return elements_.bytes() + static_cast<std::int64_t>(3 * u_.size() * sizeof(double));
+    for (int c = 0; c < 3; ++c)
+      diagonal[dof(body_->slot(node), c)] += own[index(std::int64_t{kHexNodeValues} * node + c)];
 }
 
 template <class Real, class U>
-void move_body(const HexBody& body, const StepLoads& loads, const Real* inverse_mass,
-               const BasicUpdateFields<Real, U>& fields) {
-  const auto step = step_constants<Real>(body.spins ? Sweep::revolved : Sweep::extruded, loads);
+BodyMotion<Real, U>::BodyMotion(const BodyForce& force, const Real* inverse_mass)
+    : force_(&force), inverse_mass_(inverse_mass) {
+  const HexBody& body = force.body();
+  if (!body.spins) return;
+  x_.assign(index(body.slots()), Real{0});
+  z_.assign(index(body.slots()), Real{0});
+  for (std::size_t node = 0; node < body.mesh.nodes.size(); ++node) {
+    x_[node] = static_cast<Real>(body.mesh.nodes[node].x);
+    z_[node] = static_cast<Real>(body.mesh.nodes[node].z);
+  }
+}
+
+template <class Real, class U>
+void BodyMotion<Real, U>::move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const {
+  const HexBody& body = force_->body();
   const GravityInSweep gravity = gravity_in_sweep(loads.gravity, kCartesianAngle + loads.frame.angle);
-  const auto outwards = static_cast<Real>(gravity.outwards);
-  const auto along = static_cast<Real>(gravity.along);
-  parallel_ranges(body.nodes(), [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t node = first; node < last; ++node) {
-      const std::int64_t slot = body.slot(node);
-      const Vec3& place = body.mesh.nodes[index(node)];
-      Real f[3], v[3];
-      U u[3];
-      for (int c = 0; c < 3; ++c) {
-        f[c] = fields.force[dof(slot, c)];
-        v[c] = fields.velocity[dof(slot, c)];
-        u[c] = fields.displacement[dof(slot, c)];
-      }
-      if (body.spins) {
-        const Real weight[2] = {along + product(step.spin2, static_cast<Real>(place.x)), outwards};
-        move_spinning(step, weight, static_cast<Real>(place.z), inverse_mass[slot], f, u, v);
-      } else {
-        move_fixed<0>(step, inverse_mass[slot], f, u, v);
-      }
-      for (int c = 0; c < 3; ++c) {
-        fields.velocity[dof(slot, c)] = v[c];
-        fields.displacement[dof(slot, c)] = u[c];
-      }
-    }
+  BodyGroups<Real, U> groups;
+  groups.step = step_constants<Real>(body.spins ? Sweep::revolved : Sweep::extruded, loads);
+  groups.gravity[0] = static_cast<Real>(gravity.along);
+  groups.gravity[1] = static_cast<Real>(gravity.outwards);
+  groups.x = x_.data();
+  groups.z = z_.data();
+  groups.inverse_mass = inverse_mass_ + body.base;
+  groups.u = fields.displacement + dof(body.base, 0);
+  groups.v = fields.velocity + dof(body.base, 0);
+  groups.f = fields.force + dof(body.base, 0);
+  const auto move = force_->elements().instruction_set().moves<Real, U>().move[body.spins ? 1 : 0];
+  parallel_ranges(body.slots() / kLanes, [&](std::int64_t first, std::int64_t last) {
+    BodyGroups<Real, U> some = groups;
+    some.first = first;
+    some.last = last;
+    move(some);
   });
 }
 
-template void move_body(const HexBody&, const StepLoads&, const double*, const BasicUpdateFields<double>&);
-template void move_body(const HexBody&, const StepLoads&, const float*,
-                        const BasicUpdateFields<float, double>&);
-template void move_body(const HexBody&, const StepLoads&, const float*, const BasicUpdateFields<float>&);
+template class BodyMotion<double, double>;
+template class BodyMotion<float, double>;
+template class BodyMotion<float, float>;
 
 namespace {
 

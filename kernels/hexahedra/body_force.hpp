@@ -17,7 +17,7 @@ namespace tread {
 
 /// Vector fields hold 3 * mesh.slots values in the order of dof(); all but the body's own are left alone.
 /// Forces are computed in double for fields of either precision. Results are the same bits for any number of
-/// threads. One object serves one caller at a time: it computes in buffers of its own.
+/// threads. One object serves one caller at a time.
 class BodyForce {
  public:
   /// Keeps a reference. A body that `deforms_finitely` turns or deflects beyond small strain.
@@ -34,12 +34,14 @@ class BodyForce {
   /// f = F(u + beta v), or F(u + g q) with a branch of strength g and lag q; f is overwritten. `v`, `q`: null
   /// where they do not matter. [N]
   template <class U, class Real>
-  void internal_force(const U* u, const Real* v, const Real* q, Real* f) const;
+  void internal_force(const U* u, const Real* v, const Real* q, Real* f) const {
+    elements_.internal_force_at(body_->base, u, branch_ ? q : v, f);
+  }
   /// f = K u: linear, without damping. [N]
-  void apply(const double* u, double* f) const;
+  void apply(const double* u, double* f) const { elements_.apply_at(body_->base, u, f); }
 
-  /// Energy of u; of the linear operator where `linear` [J].
-  DeformationEnergy energy(ConstNodeField u) const;
+  DeformationEnergy energy(ConstNodeField u) const { return elements_.energy_at(body_->base, u); }  ///< [J]
+  /// Energy of the linear operator [J].
   double linear_energy(ConstNodeField u) const;
 
   /// Stress at the centre of an element, as hexahedron_stress(); of u + g q with a branch [Pa].
@@ -48,19 +50,32 @@ class BodyForce {
   void add_mass(double* mass) const;          ///< lumped; scalar field of mesh.slots values [kg]
   void add_diagonal(double* diagonal) const;  ///< of K [N/m]
 
-  std::int64_t bytes() const;
+  std::int64_t bytes() const { return elements_.bytes(); }
 
  private:
   const HexBody* body_;
   HexForce elements_;
   std::optional<MaxwellBranch> branch_;
-  mutable AlignedVector<double> u_, v_, f_;  ///< rows of the nodes
 };
 
-/// Moves the nodes of a body by a step. `inverse_mass`: mesh.slots values, 0 where nothing moves [1/kg].
+/// Moves the nodes of a body.
 template <class Real, class U>
-void move_body(const HexBody& body, const StepLoads& loads, const Real* inverse_mass,
-               const BasicUpdateFields<Real, U>& fields);
+class BodyMotion {
+ public:
+  /// Keeps references; `inverse_mass`: mesh.slots values, 0 where nothing moves [1/kg].
+  BodyMotion(const BodyForce& force, const Real* inverse_mass);
+
+  void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
+
+ private:
+  const BodyForce* force_;
+  const Real* inverse_mass_;
+  AlignedVector<Real> x_, z_;  ///< places of the nodes [m]
+};
+
+extern template class BodyMotion<double, double>;
+extern template class BodyMotion<float, double>;
+extern template class BodyMotion<float, float>;
 
 /// By node, the change of a vector field's Cartesian components per way along x [m], or per angle about the
 /// axle [rad] in a body that spins.

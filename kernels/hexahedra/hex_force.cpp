@@ -41,6 +41,44 @@ void set_row(double* field, std::int64_t node, const Row& row) {
   std::memcpy(field + kRow * node, &row, sizeof row);
 }
 
+/// Values of a node, one by one: a register made of three places would wait for all of them.
+using NodeValues = double[3];
+
+/// A field of rows.
+template <class Value>
+struct Rows {
+  Value* values;
+  void get(std::int64_t node, NodeValues& to) const {
+    for (int c = 0; c < 3; ++c) to[c] = values[kRow * node + c];
+  }
+  void set(std::int64_t node, const double* row) const { std::copy_n(row, kRow, values + kRow * node); }
+};
+
+/// A field of a mesh, from a slot on.
+template <class Value>
+struct Slots {
+  Value* values;
+  std::int64_t first;
+  void get(std::int64_t node, NodeValues& to) const {
+    const Value* const of = values + dof(first + node, 0);
+    for (int c = 0; c < 3; ++c) to[c] = static_cast<double>(of[c * kLanes]);
+  }
+  void set(std::int64_t node, const double* row) const {
+    Value* const of = values + dof(first + node, 0);
+    for (int c = 0; c < 3; ++c) of[c * kLanes] = static_cast<Value>(row[c]);
+  }
+};
+
+/// The same through a view.
+struct ViewedSlots {
+  ConstNodeField values;
+  std::int64_t first;
+  void get(std::int64_t node, NodeValues& to) const {
+    const Vec3 of = values.at(first + node);
+    for (int c = 0; c < 3; ++c) to[c] = of[c];
+  }
+};
+
 HexMaterial constants_of(const Material& material) {
   HexMaterial constants;
   constants.point.lambda = material.lame_lambda();
@@ -228,15 +266,19 @@ HexView HexForce::view(const Chunk& chunk) const {
   return view;
 }
 
-void HexForce::load(const Chunk& chunk, const double* u, const double* v, double* values) const {
+template <class U, class V>
+void HexForce::load(const Chunk& chunk, const U& u, const V* v, double* values) const {
   const NodePlace* const places = places_.data() + chunk.first_node;
   const double* const positions = positions_.data() + index(kRow) * chunk.first_position;
   const auto nodes = static_cast<std::int64_t>(chunk.nodes);
   for (std::int64_t n = 0; n < nodes; ++n) {
-    Row row = row_at(u, places[n].node);
-    if (v != nullptr) row += beta_ * row_at(v, places[n].node);
+    NodeValues moved, rate = {};
+    u.get(places[n].node, moved);
+    if (v != nullptr) v->get(places[n].node, rate);
     set_row(values, 2 * n, row_at(positions, n));
-    set_row(values, 2 * n + 1, row);
+    double* const to = values + kRow * (2 * n + 1);
+    for (int c = 0; c < 3; ++c) to[c] = v != nullptr ? moved[c] + beta_ * rate[c] : moved[c];
+    to[3] = 0;
   }
   for (std::int64_t n = nodes; n < nodes + static_cast<std::int64_t>(kIdleNodes); ++n) {
     set_row(values, 2 * n, row_at(positions, n));
@@ -244,15 +286,16 @@ void HexForce::load(const Chunk& chunk, const double* u, const double* v, double
   }
 }
 
-void HexForce::evaluate(const double* u, const double* v, double* f, bool finite_rotation) const {
-  const double* damped = beta_ != 0 ? v : nullptr;
+/// `v`: null where there is no damping.
+template <class U, class V, class F>
+void HexForce::evaluate(const U& u, const V* v, const F& f, bool finite_rotation) const {
   parallel_ranges(static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t first, std::int64_t last) {
     const std::size_t values = kHexNodeValues * largest_chunk_;
     double* const nodes = scratch(3 * values);
     double* const force = nodes + 2 * values;
     for (std::int64_t i = first; i < last; ++i) {
       const Chunk& chunk = chunks_[index(i)];
-      load(chunk, u, damped, nodes);
+      load(chunk, u, v, nodes);
       std::fill_n(force, kHexNodeValues * (chunk.nodes + kIdleNodes), 0.0);
       HexView at = view(chunk);
       at.nodes = nodes;
@@ -263,7 +306,7 @@ void HexForce::evaluate(const double* u, const double* v, double* f, bool finite
         if (places[n].partial >= 0)
           set_row(partial_.data(), places[n].partial, row_at(force, n));
         else
-          set_row(f, places[n].node, row_at(force, n));
+          f.set(places[n].node, force + kRow * n);
     }
   });
   parallel_ranges(static_cast<std::int64_t>(shared_.size()), [&](std::int64_t first, std::int64_t last) {
@@ -271,17 +314,46 @@ void HexForce::evaluate(const double* u, const double* v, double* f, bool finite
       const SharedNode& node = shared_[index(i)];
       Row sum{};
       for (std::int64_t k = node.first; k < node.last; ++k) sum += row_at(partial_.data(), k);
-      set_row(f, node.node, sum);
+      double row[kRow];
+      std::memcpy(row, &sum, sizeof row);
+      f.set(node.node, row);
     }
   });
 }
 
-DeformationEnergy HexForce::energy(const double* u) const {
+void HexForce::internal_force(const double* u, const double* v, double* f) const {
+  const Rows<const double> damped{v};
+  evaluate(Rows<const double>{u}, v != nullptr && beta_ != 0 ? &damped : nullptr, Rows<double>{f},
+           finite_rotation_);
+}
+
+void HexForce::apply(const double* u, double* f) const {
+  evaluate<Rows<const double>, Rows<const double>>({u}, nullptr, Rows<double>{f}, false);
+}
+
+template <class U, class Real>
+void HexForce::internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const {
+  const Slots<const Real> damped{v, slot};
+  evaluate(Slots<const U>{u, slot}, v != nullptr && beta_ != 0 ? &damped : nullptr, Slots<Real>{f, slot},
+           finite_rotation_);
+}
+
+template void HexForce::internal_force_at(std::int64_t, const double*, const double*, double*) const;
+template void HexForce::internal_force_at(std::int64_t, const double*, const float*, float*) const;
+template void HexForce::internal_force_at(std::int64_t, const float*, const float*, float*) const;
+
+void HexForce::apply_at(std::int64_t slot, const double* u, double* f) const {
+  using Field = Slots<const double>;
+  evaluate<Field, Field>({u, slot}, nullptr, Slots<double>{f, slot}, false);
+}
+
+template <class U>
+DeformationEnergy HexForce::energy_of(const U& u) const {
   std::vector<DeformationEnergy> parts(chunks_.size());
   parallel_ranges(static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t first, std::int64_t last) {
     double* const nodes = scratch(2 * kHexNodeValues * largest_chunk_);
     for (std::int64_t i = first; i < last; ++i) {
-      load(chunks_[index(i)], u, nullptr, nodes);
+      load<U, U>(chunks_[index(i)], u, nullptr, nodes);
       HexView at = view(chunks_[index(i)]);
       at.nodes = nodes;
       parts[index(i)] = forces_->energy[finite_rotation_ ? 1 : 0](at);
@@ -293,6 +365,14 @@ DeformationEnergy HexForce::energy(const double* u) const {
     sum.hourglass += part.hourglass;
   }
   return sum;
+}
+
+DeformationEnergy HexForce::energy(const double* u) const {
+  return energy_of(Rows<const double>{u});
+}
+
+DeformationEnergy HexForce::energy_at(std::int64_t slot, ConstNodeField u) const {
+  return energy_of(ViewedSlots{u, slot});
 }
 
 std::vector<double> HexForce::lumped_mass() const {

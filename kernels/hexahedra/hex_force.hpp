@@ -9,6 +9,7 @@
 #include "core/aligned.hpp"
 #include "core/material.hpp"
 #include "core/mesh/hex_mesh.hpp"
+#include "core/mesh/node_field.hpp"
 #include "kernels/hexahedra/hex_rows.hpp"
 #include "kernels/lanes/hex_force.hpp"
 
@@ -20,13 +21,15 @@ struct HexFrequency {
   std::size_t element = 0;  ///< index in the mesh
 };
 
-/// Vector fields hold 3 * nodes values, [node][component] in Cartesian axes. Results are the same bits for
-/// any number of threads. One object serves one caller at a time: applying it uses buffers of its own.
+/// Vector fields hold kHexNodeValues values a node, [node][component] in Cartesian axes, the last not used;
+/// or they are those of a mesh in the order of dof(), from the slot of node 0 on. Results are the same bits
+/// for any number of threads. One object serves one caller at a time: applying it uses buffers of its own.
 class HexForce {
  public:
   /// Keeps a reference to the mesh. `materials`: by part of the mesh, of a linear law.
   HexForce(const HexMesh& mesh, std::vector<Material> materials);
 
+  const HexForces& instruction_set() const { return *forces_; }
   std::int64_t nodes() const { return static_cast<std::int64_t>(mesh_->nodes.size()); }
 
   /// Stiffness-proportional damping: forces are those of u + beta v. [s]
@@ -37,14 +40,17 @@ class HexForce {
   bool finite_rotation() const { return finite_rotation_; }
 
   /// f = F(u + beta v), overwritten; v may be null. [N]
-  void internal_force(const double* u, const double* v, double* f) const {
-    evaluate(u, v, f, finite_rotation_);
-  }
+  void internal_force(const double* u, const double* v, double* f) const;
   /// f = K u, overwritten: the linear operator, without damping. [N]
-  void apply(const double* u, double* f) const { evaluate(u, nullptr, f, false); }
-
+  void apply(const double* u, double* f) const;
   /// Energy of u, whose gradient is F. [J]
   DeformationEnergy energy(const double* u) const;
+
+  /// The same on fields of a mesh, of either precision; what is not the body's is left alone.
+  template <class U, class Real>
+  void internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const;
+  void apply_at(std::int64_t slot, const double* u, double* f) const;
+  DeformationEnergy energy_at(std::int64_t slot, ConstNodeField u) const;
 
   /// Row sums of the mass matrix by node [kg].
   std::vector<double> lumped_mass() const;
@@ -88,8 +94,12 @@ class HexForce {
   void add_row(const ElementRow& row, const std::vector<std::int32_t>& nodes);
   void add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
   void share_nodes();
-  void evaluate(const double* u, const double* v, double* f, bool finite_rotation) const;
-  void load(const Chunk& chunk, const double* u, const double* v, double* values) const;
+  template <class U, class V, class F>
+  void evaluate(const U& u, const V* v, const F& f, bool finite_rotation) const;
+  template <class U, class V>
+  void load(const Chunk& chunk, const U& u, const V* v, double* values) const;
+  template <class U>
+  DeformationEnergy energy_of(const U& u) const;
   HexView view(const Chunk& chunk) const;
 
   const HexMesh* mesh_;

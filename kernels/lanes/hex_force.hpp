@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "kernels/element/element.hpp"
+#include "kernels/lanes/body_motion.hpp"
 #include "kernels/lanes/tile_force.hpp"
 
 namespace tread {
@@ -60,11 +62,25 @@ using HexChunkForce = void (*)(const HexView& view);
 /// Strain and hourglass energy of the chunk's elements; `f` is not used. [J]
 using HexChunkEnergy = DeformationEnergy (*)(const HexView& view);
 
-/// One instruction set's versions, by finite rotation: 0 small strain, 1 Green-Lagrange strain.
+/// One instruction set's versions; forces and energies by finite rotation: 0 small strain, 1 Green-Lagrange
+/// strain.
 struct HexForces {
   const char* name;
   HexChunkForce force[2];
   HexChunkEnergy energy[2];
+  BodyMoves<double, double> moves_double;
+  BodyMoves<float, double> moves_mixed;
+  BodyMoves<float, float> moves_single;
+
+  template <class Real, class U>
+  const BodyMoves<Real, U>& moves() const {
+    if constexpr (std::is_same_v<Real, double>)
+      return moves_double;
+    else if constexpr (std::is_same_v<U, double>)
+      return moves_mixed;
+    else
+      return moves_single;
+  }
 };
 
 /// In the order of tile_forces(), which says what the choice depends on.

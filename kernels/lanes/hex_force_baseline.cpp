@@ -1,9 +1,14 @@
+#include "kernels/lanes/body_motion_body.hpp"
 #include "kernels/lanes/hex_force_body.hpp"
 
 namespace tread {
 
 extern const HexForces hex_forces_baseline;
-const HexForces hex_forces_baseline = {
-    "baseline", {hex_force<false>, hex_force<true>}, {hex_energy<false>, hex_energy<true>}};
+const HexForces hex_forces_baseline = {"baseline",
+                                       {hex_force<false>, hex_force<true>},
+                                       {hex_energy<false>, hex_energy<true>},
+                                       kBodyMoves<double, double>,
+                                       kBodyMoves<float, double>,
+                                       kBodyMoves<float, float>};
 
 }  // namespace tread

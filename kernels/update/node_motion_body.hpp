@@ -77,9 +77,10 @@ TREAD_INLINE GravityInSweep gravity_in_sweep(Real gravity, Real angle) {
 
 /// Computes the motion in a spinning frame: forces, gravity and centrifugal term act half before and half
 /// after the turn of the relative velocity by the Coriolis term, which does no work: three shears, because a
-/// rounded cosine next to 1 would let every velocity grow. `weight`: gravity along t and r [m/s2].
-template <class V, class U, class Real>
-TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weight)[2], Real radius,
+/// rounded cosine next to 1 would let every velocity grow. `weight`: gravity along t and r, and the
+/// centrifugal term of a place along t [m/s2]; `radius`: place along r, a number or one by lane [m].
+template <class V, class U, class Real, class Radius>
+TREAD_INLINE void move_spinning(const StepConstants<Real>& step, const V (&weight)[2], const Radius& radius,
                                 const V& inverse_mass, const V (&f)[3], U (&u)[3], V (&w)[3]) {
   const V one = V{} + Real{1};
   const V moves = inverse_mass > 0 ? one : V{};
