@@ -7,6 +7,7 @@
 
 #include "core/mesh/hex_mesh.hpp"
 #include "drivers/engine/model.hpp"
+#include "kernels/hexahedra/hex_chunks.hpp"
 
 namespace tread {
 
@@ -14,6 +15,7 @@ int Model::add_body(const std::string& name, const BodySpec& spec, const Materia
   HexBody body;
   body.name = name;
   body.mesh = *spec.mesh;
+  number_by_chunks(body.mesh);
   body.materials.assign(body.mesh.parts.size(),
                         spec.material.empty() ? material : scene.material(spec.material));
   body.spins = spec.on_wheel();

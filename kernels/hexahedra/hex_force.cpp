@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -13,15 +12,13 @@
 #include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/element/hexahedron.hpp"
+#include "kernels/hexahedra/hex_chunks.hpp"
 
 namespace tread {
 
 namespace {
 
-/// Elements and nodes of a chunk at the most. Large chunks share few nodes; places of nodes have 16 bits.
-constexpr std::size_t kChunkElements = 4096;
-constexpr std::size_t kChunkNodes = 8000;
-static_assert(kHexPlace * (kChunkNodes + 8) < (1U << 16U));
+static_assert(kHexPlace * (kChunkNodes + 8) < (1U << 16U));  // places of nodes have 16 bits
 
 /// Nodes behind those of a chunk, for lanes without an element: a cube at rest.
 constexpr std::size_t kIdleNodes = 8;
@@ -125,50 +122,10 @@ HexForce::HexForce(const HexMesh& mesh, std::vector<Material> materials)
 }
 
 void HexForce::cut_into_chunks() {
-  std::vector<std::int32_t> elements(mesh_->elements.size());
-  std::iota(elements.begin(), elements.end(), 0);
-  if (!elements.empty()) cut(elements, 0, elements.size());
+  for (const std::vector<std::int32_t>& elements : hex_chunks(*mesh_))
+    add_chunk(elements, nodes_of(*mesh_, elements));
   largest_chunk_ = kIdleNodes;
   for (const Chunk& chunk : chunks_) largest_chunk_ = std::max(largest_chunk_, chunk.nodes + kIdleNodes);
-}
-
-/// Halves elements across their longest side until they are few.
-void HexForce::cut(std::vector<std::int32_t>& elements, std::size_t first, std::size_t last) {
-  if (last - first <= kChunkElements) {
-    const std::span<const std::int32_t> chunk(elements.data() + first, last - first);
-    const std::vector<std::int32_t> nodes = nodes_of(chunk);
-    if (nodes.size() <= kChunkNodes) return add_chunk(chunk, nodes);
-  }
-  const auto middle = [&](std::int32_t e) {
-    const HexCorners& corners = mesh_->elements[index(e)];
-    return mesh_->nodes[index(corners[0])] + mesh_->nodes[index(corners[6])];
-  };
-  Vec3 low = middle(elements[first]), high = low;
-  for (std::size_t i = first; i < last; ++i)
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], middle(elements[i])[c]);
-      high[c] = std::max(high[c], middle(elements[i])[c]);
-    }
-  int axis = 0;
-  for (int c = 1; c < 3; ++c)
-    if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
-  const std::size_t half = first + (last - first) / 2 / kLanes * kLanes;
-  const auto at = [&](std::size_t i) { return elements.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(half), at(last), [&](std::int32_t a, std::int32_t b) {
-    return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b);
-  });
-  cut(elements, first, half);
-  cut(elements, half, last);
-}
-
-/// Nodes of elements, ascending.
-std::vector<std::int32_t> HexForce::nodes_of(std::span<const std::int32_t> elements) const {
-  std::vector<std::int32_t> nodes;
-  for (const std::int32_t e : elements)
-    nodes.insert(nodes.end(), mesh_->elements[index(e)].begin(), mesh_->elements[index(e)].end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  return nodes;
 }
 
 void HexForce::add_chunk(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes) {

@@ -88,8 +88,6 @@ class HexForce {
   };
 
   void cut_into_chunks();
-  void cut(std::vector<std::int32_t>& elements, std::size_t first, std::size_t last);
-  std::vector<std::int32_t> nodes_of(std::span<const std::int32_t> elements) const;
   void add_chunk(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);
   void add_row(const ElementRow& row, const std::vector<std::int32_t>& nodes);
   void add_pack(std::span<const std::int32_t> elements, const std::vector<std::int32_t>& nodes);

@@ -113,14 +113,16 @@ AlignedVector<double> carried_over(const Model& swept, const Model& model,
     const auto same = std::find_if(model.mesh.blocks.begin(), model.mesh.blocks.end(),
                                    [&](const SweptBlock& other) { return other.name == block.name; });
     for (int station = 0; station < block.station_count(); ++station)
-      for (int node = 0; node < block.section.nodes(); ++node) {
-        const Vec3 value = from.at(block.base + block.slot(node, station));
-        if (same != model.mesh.blocks.end())
-          to.set(same->base + same->slot(node, station), value);
-        else
-          to.set(model.mesh.bodies[0].slot(std::int64_t{station} * block.section.nodes() + node),
-                 to_cartesian(block, station, 0, value));
-      }
+      for (int node = 0; node < block.section.nodes() && same != model.mesh.blocks.end(); ++node)
+        to.set(same->base + same->slot(node, station), from.at(block.base + block.slot(node, station)));
+    if (same != model.mesh.blocks.end()) continue;
+    const HexBody& body = model.mesh.bodies[0];
+    for (std::int64_t n = 0; n < body.nodes(); ++n) {
+      const auto number = static_cast<int>(body.mesh.node_number[index(n)] - 1);  // of hexahedra_of()
+      const int station = number / block.section.nodes();
+      const std::int64_t slot = block.base + block.slot(number % block.section.nodes(), station);
+      to.set(body.slot(n), to_cartesian(block, station, 0, from.at(slot)));
+    }
   }
   return out;
 }
