@@ -1,5 +1,5 @@
 #pragma once
-// Loads of the static state: vector fields of 3 * mesh.slots values, added to. [theory.md, Static preload]
+// Loads of the static state: vector fields of 3 * mesh.slots values, added to. [theory.md, Preload]
 
 #include "core/body_frame.hpp"
 #include "drivers/engine/model.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Preloads that earlier runs have found. [long-runs.md, Preload cache]
+// Preloads that earlier runs have found. [robustness.md, Preload cache]
 
 #include <functional>
 #include <optional>
