@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
@@ -44,7 +45,9 @@ std::vector<BodyMass> bodies_of(const Model& model, const std::vector<BlockMeasu
   if (model.wheelset) {
     BodyMass wheel = sum_of(model.index.axle >= 0 ? "half wheelset" : "tyre", model.wheel_parts(), blocks);
     if (model.index.disc_body >= 0) {
-      wheel.remark = fmt::format("with the disc of {}", model.scene.body_replacing("disc")->second.file);
+      wheel.remark = fmt::format(
+          "with the disc of {}",
+          std::filesystem::path(model.scene.body_replacing("disc")->second.file).filename().string());
     } else if (model.index.axle >= 0) {
       wheel.nominal = model.scene.wheel->mass;
       wheel.remark = fmt::format("with a web of {:.2f} mm{}", 1e3 * model.web_thickness,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/parallel/parallel.hpp"
@@ -69,7 +70,8 @@ std::string check_text(const Model& model, const ResolvedScene& resolved, const 
   }
   const char* of_body = "Body";
   for (const auto& [name, spec] : model.scene.bodies) {
-    line(of_body, fmt::format("{}: {}, {}", name, spec.file, spec.reading));
+    line(of_body,
+         fmt::format("{}: {}, {}", name, std::filesystem::path(spec.file).filename().string(), spec.reading));
     of_body = "";
   }
   const char* head = "Surface";

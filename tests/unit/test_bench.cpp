@@ -66,7 +66,7 @@ TEST(MadeUpBlocks, HaveTheWantedSize) {
     for (const Sweep sweep : {Sweep::extruded, Sweep::revolved})
       EXPECT_NEAR(static_cast<double>(made_up_mesh(sweep, false, elements).blocks.front().elements()),
                   static_cast<double>(elements), 300);
-  const TiedBlocks tied = made_up_tied_blocks(10000);
+  const MadeUpTie tied = made_up_tie(10000);
   EXPECT_GT(Ties(tied.mesh, {tied.tie}).secondary_count(), 400);
 }
 

@@ -32,6 +32,11 @@ void require_parts(const Scene& scene) {
           "on fastenings, and [motion] with a speed",
           what));
   };
+  if (!scene.bodies.empty())
+    throw InputError(
+        fmt::format("tread multibody: body.{} has no section, from which masses and modes are made; state "
+                    "body.{}.present = false",
+                    scene.bodies.begin()->first, scene.bodies.begin()->first));
   need(scene.wheel && scene.wheel->shape == "half_wheelset", "half wheelset ([wheel])");
   need(scene.rail && scene.fastenings, "rail on fastenings ([rail], [fastenings])");
   need(scene.contact.has_value(), "[contact]");
