@@ -46,6 +46,7 @@ struct ReadDeck {
       masses;                              ///< fields by number
   std::map<std::int64_t, double> damping;  ///< by part
   std::map<std::int64_t, std::vector<std::int64_t>> node_sets;
+  std::map<std::string, std::vector<std::int64_t>> titled_sets;  ///< node sets, by title
   std::map<std::int64_t, std::vector<std::array<std::int64_t, 4>>> segment_sets;
   std::map<std::int64_t, std::vector<std::array<double, 2>>> curves;
   std::map<std::int64_t, Vec3> orientations;
@@ -180,12 +181,14 @@ class DeckParser {
         points.push_back({real(f[0]), real(f[1])});
       }
       add_new(deck_.curves, whole(tens(cards_.at(0))[0]), points);
-    } else if (keyword_ == "*SET_NODE_LIST") {
+    } else if (keyword_ == "*SET_NODE_LIST" || keyword_ == "*SET_NODE_LIST_TITLE") {
+      const std::size_t head = keyword_ == "*SET_NODE_LIST" ? 0 : 1;
       std::vector<std::int64_t> nodes;
-      for (std::size_t i = 1; i < cards_.size(); ++i)
+      for (std::size_t i = head + 1; i < cards_.size(); ++i)
         for (const std::string& field : tens(cards_[i]))
           if (!field.empty()) nodes.push_back(whole(field));
-      add_new(deck_.node_sets, whole(tens(cards_.at(0))[0]), nodes);
+      if (head > 0) deck_.titled_sets[cards_.at(0)] = nodes;
+      add_new(deck_.node_sets, whole(tens(cards_.at(head))[0]), nodes);
     } else if (keyword_ == "*SET_SEGMENT") {
       std::vector<std::array<std::int64_t, 4>> faces;
       for (std::size_t i = 1; i < cards_.size(); ++i) {

@@ -89,7 +89,7 @@ void describe(const Model& model, Preload& out) {
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const double x = out.wheel.origin.x;
   if (model.index.rail_cap >= 0 && model.index.tread >= 0)
-    out.rail_deflection = -foot_of_rail(model.scene, model.mesh, model.index).attach(x, 0).value(u, 2);
+    out.rail_deflection = -foot_of_rail(model.scene, model.mesh, model.index).attach_near(x, 0).value(u, 2);
   if (model.index.slab >= 0)
     out.slab_deflection =
         -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", x, 0).value(u, 2);

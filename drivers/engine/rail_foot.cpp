@@ -56,11 +56,14 @@ std::vector<FootNode> RailFoot::nodes() const {
   return list;
 }
 
+namespace {
+constexpr double kBeyond = 1e-6;  ///< a point may lie beyond a face by this [m]
+}  // namespace
+
 Attachment RailFoot::attach(double x, double y) const {
   if (block_) return tread::attach(*block_, "foot", x, y);
-  constexpr double kBeyond = 1e-6;  // [m]
   const FacePlace place = faces_->nearest({x, y, 0});
-  if (place.face < 0 || place.distance > kBeyond)
+  if (!place.is_within(kBeyond))
     throw InputError(
         fmt::format("a fastening acts at x = {:.4f} m, y = {:.4f} m, beyond the set of {}; "
                     "extend the set, or move the fastenings",
@@ -68,6 +71,14 @@ Attachment RailFoot::attach(double x, double y) const {
   Attachment at;
   at.slot = at_[index(place.face)];
   at.weight = place.share;
+  return at;
+}
+
+Attachment RailFoot::attach_near(double x, double y) const {
+  if (block_ || faces_->nearest({x, y, 0}).is_within(kBeyond)) return attach(x, y);
+  Attachment at;
+  at.slot[0] = within(x, y, 0, 0).front().slot;
+  at.weight[0] = 1;
   return at;
 }
 

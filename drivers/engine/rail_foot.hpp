@@ -32,6 +32,8 @@ class RailFoot {
 
   /// InputError if (x, y) [m] lies beyond the foot.
   Attachment attach(double x, double y) const;
+  /// The same on a node beside it where (x, y) lies beyond a body's set.
+  Attachment attach_near(double x, double y) const;
   /// Nodes within half lengths of (x, y) [m]; where there are none, the nearest.
   std::vector<FootNode> within(double x, double y, double half_length, double half_width) const;
 

@@ -107,8 +107,8 @@ class BodyTie {
     for (std::size_t i = 0; i < secondary.nodes.size(); ++i) {
       const SideNode& node = secondary.nodes[i];
       const FacePlace place = finder.nearest(node.at);
-      if (place.face < 0 || place.distance > kFarthest * longest_edge(primary.corners[index(place.face)]))
-        refuse(node, place, body_leads);
+      if (!place.is_within(place.face < 0 ? 0 : kFarthest * longest_edge(primary.corners[index(place.face)])))
+        refuse(node, place, kFarthest * longest, body_leads);
       if (place.distance > kDigits * longest) move(i, place.at - node.at, body_leads);
       FollowingNode& made = tied.emplace_back();
       made.node = node.node;
@@ -143,8 +143,10 @@ class BodyTie {
     return std::sqrt(area_of(side) / static_cast<double>(side.faces.size()));
   }
 
-  [[noreturn]] void refuse(const SideNode& node, const FacePlace& place, bool body_leads) const {
-    const std::string off = place.face < 0 ? "far" : fmt::format("{:.3f} mm", place.distance / mm);
+  [[noreturn]] void refuse(const SideNode& node, const FacePlace& place, double reach,
+                           bool body_leads) const {
+    const std::string off = place.face < 0 ? fmt::format("more than {:.3f} mm", reach / mm)
+                                           : fmt::format("{:.3f} mm", place.distance / mm);
     const std::string who =
         body_leads
             ? fmt::format("a node of the {}", block_.name)

@@ -26,6 +26,8 @@ struct FacePlace {
   std::array<double, 4> share = {};  ///< of the corners
   Vec3 at;                           ///< [m]
   double distance = 0;               ///< from the sought point [m]
+
+  bool is_within(double reach) const { return face >= 0 && distance <= reach; }
 };
 
 class FaceFinder {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,9 @@
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
+#include "drivers/results/frame_files.hpp"
+#include "drivers/studies/export/keyword_export.hpp"
+#include "io/mesh/imported_mesh.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "kernels/hexahedra/body_force.hpp"
 #include "tests/swept_samples.hpp"
@@ -240,6 +244,38 @@ TEST(Bodies, RollAsTheSweptPartsDoInEveryPrecision) {
   expect_same_passage({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-6 s\" }",
                        "material.steel.damping_up_to=30 kHz"},
                       with_both, {{"double", 1e-4}, {"mixed", 1e-4}, {"single", 1e-3}});
+}
+
+/// The scene with disc and rail of the deck that `tread export` writes.
+Scene with_exported(const Model& model, Scene scene) {
+  std::string text;
+  KeywordDeck deck([&](std::string_view piece) { text += piece; });
+  write_keyword_deck(model, {}, "test", deck);
+  const auto body = [&](const std::string& part) {
+    MeshFaults faults;
+    ImportedMesh imported = mesh_of(text, "scene.k", {1e-3, {part + ", steel"}, 1}, faults);
+    for (const LineFault& fault : faults.list()) ADD_FAILURE() << fault.line << ": " << fault.message;
+    return imported.mesh;
+  };
+  HexMesh disc = body("wheel disc");
+  const Vec3 axle = resting_places(model)[index(model.index.tread)].origin;
+  for (Vec3& at : disc.nodes) at = at - axle;
+  BodySpec& on_wheel = scene.bodies["disc"];
+  on_wheel.tread = "disc on tread";
+  on_wheel.axle = "disc on axle";
+  on_wheel.mesh = std::make_shared<const HexMesh>(std::move(disc));
+  BodySpec& on_rail = scene.bodies["base"];
+  on_rail.replaces = "rail";
+  on_rail.head = "rail under head";
+  on_rail.foot = "rail on fastenings";
+  on_rail.mesh = std::make_shared<const HexMesh>(body("rail"));
+  scene.wheel->web_thickness = model.web_thickness;
+  return scene;
+}
+
+TEST(Bodies, RollAsTheSceneFromWhichTheyWereExported) {
+  expect_same_passage({"motion.start=rigid", "motion.spin_in_preload=false"}, with_exported,
+                      {{"double", 3e-5}});
 }
 
 TEST(Bodies, HaveTheSameBitsForAnyNumberOfThreads) {

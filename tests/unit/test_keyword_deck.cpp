@@ -185,6 +185,16 @@ TEST(KeywordDeck, HoldsAWheelsetOnFasteningsAndSlab) {
   EXPECT_NEAR(torque_of(deck, axis_height(deck, tread)) / full_torque(model), 1, 1e-4);
   for (const auto& [part, coefficient] : deck.damping) EXPECT_LT(coefficient, 0);
   EXPECT_FALSE(deck.damping.empty());
+
+  const auto nodes_on = [&](int part, const char* path) {
+    const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(part)];
+    return block.stations.size() * block.section.paths.at(path).size();
+  };
+  ASSERT_EQ(deck.titled_sets.size(), 4U);
+  EXPECT_EQ(deck.titled_sets.at("disc on tread").size(), nodes_on(model.index.disc, "tie_outer"));
+  EXPECT_EQ(deck.titled_sets.at("disc on axle").size(), nodes_on(model.index.disc, "tie_inner"));
+  EXPECT_EQ(deck.titled_sets.at("rail under head").size(), nodes_on(model.index.rail_base, "tie"));
+  EXPECT_EQ(deck.titled_sets.at("rail on fastenings").size(), nodes_on(model.index.rail_base, "foot"));
 }
 
 TEST(KeywordDeck, HoldsSleepers) {

@@ -105,6 +105,29 @@ void write_ties(DeckModel& deck, KeywordDeck& out) {
   }
 }
 
+void write_part_sets(DeckModel& deck, KeywordDeck& out) {
+  const BlockIndex& index = deck.model().index;
+  const auto write = [&](int part, const char* path, const char* title) {
+    if (part < 0) return;
+    const SweptBlock& block = block_of(deck, part);
+    const auto found = block.section.paths.find(path);
+    if (found == block.section.paths.end()) return;
+    out.keyword("*SET_NODE_LIST_TITLE");
+    out.title(title);
+    out.names({"sid"});
+    out.card({++deck.numbers.set});
+    out.list(nodes_of(deck, block, found->second));
+  };
+  if (index.disc < 0 && index.rail_base < 0) return;
+  out.remark("Sets by which tread ties parts of this deck as bodies from a file; no card uses them.");
+  const Vec3 axle = deck_unit::kLength * deck.wheel().origin;
+  if (index.disc >= 0) out.remark(fmt::format("The axle lies at x = {:.12g}, z = {:.12g}.", axle.x, axle.z));
+  write(index.disc, "tie_outer", "disc on tread");
+  write(index.disc, "tie_inner", "disc on axle");
+  write(index.rail_base, "tie", "rail under head");
+  write(index.rail_base, "foot", "rail on fastenings");
+}
+
 void write_contact(DeckModel& deck, KeywordDeck& out) {
   if (!deck.model().contact) return;
   const ContactSpec& spec = *deck.scene().contact;

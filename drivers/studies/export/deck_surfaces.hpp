@@ -35,6 +35,10 @@ void write_tie_contact(DeckModel& deck, const std::string& title, const ContactS
 /// Writes the ties of blocks: nodes of the fine side on the faces of the coarse side.
 void write_ties(DeckModel& deck, KeywordDeck& out);
 
+/// Writes sets of the surfaces by which a part of the deck may be tied as a body from a file; nothing where
+/// there is neither disc nor rail below a head.
+void write_part_sets(DeckModel& deck, KeywordDeck& out);
+
 /// Writes the contact of the running surfaces of wheel and rail; nothing without contact.
 void write_contact(DeckModel& deck, KeywordDeck& out);
 

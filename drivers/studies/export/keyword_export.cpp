@@ -120,6 +120,7 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
   write_restraints(deck, out);
   write_loads(deck, out);
   write_velocities(deck, out);
+  write_part_sets(deck, out);
   out.keyword("*END");
   out.finish();
   return summary;
