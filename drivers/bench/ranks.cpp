@@ -14,6 +14,7 @@
 #include "drivers/engine/node_fields.hpp"
 #include "drivers/engine/rank_fields.hpp"
 #include "drivers/results/memory_need.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
 
@@ -161,6 +162,7 @@ void bench_ranks(const ResolvedScene& resolved, const BenchRanksOptions& options
     if (part >= options.ranks)
       throw InputError(fmt::format("bench ranks: --parts {}: there are the ranks 0 to {}; state some of them",
                                    part, options.ranks - 1));
+  require_no_bodies(scene, "bench ranks");
   const Model model(scene, std::nullopt, require_memory);
   const StepLoads loads = loads_of(model);
   const std::vector<TileWork> work = tile_work(model, *model.internal);

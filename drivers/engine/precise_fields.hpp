@@ -133,7 +133,7 @@ class PreciseFields : public NodeFields {
       return energy_of(*branch, parts_.internal().linear_energy(block, tile, q_->data()));
     });
     for (const auto& body : model_->body_forces)
-      if (body->branch()) sum += energy_of(*body->branch(), body->linear_energy(q_->data()));
+      if (body->branch()) sum += energy_of(*body->branch(), whole(body->linear_energy(q_->data())));
     return sum;
   }
 

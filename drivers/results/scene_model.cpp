@@ -24,19 +24,20 @@ std::string size_and_place(const ResolvedScene& origin) {
   return origin.name;
 }
 
-/// Steps on a device and those of several ranks know swept blocks alone.
-void require_one_processor(const Scene& scene) {
-  if (scene.bodies.empty() || (!chosen_device() && !chosen_ranks())) return;
-  throw InputError(fmt::format(
-      "body.{}: the steps of a body from a file are those of one process; leave out {}, or state "
-      "body.{}.present = false",
-      scene.bodies.begin()->first, chosen_device() ? "--device" : "mpirun", scene.bodies.begin()->first));
-}
-
 }  // namespace
 
+void require_no_bodies(const Scene& scene, const char* of_others) {
+  if (scene.bodies.empty()) return;
+  const std::string& name = scene.bodies.begin()->first;
+  throw InputError(
+      fmt::format("body.{}: the steps of a body from a file are those of one process; leave out {}, or state "
+                  "body.{}.present = false",
+                  name, of_others, name));
+}
+
 Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional<double> corrugation_centre) {
-  require_one_processor(scene);
+  if (chosen_device()) require_no_bodies(scene, "--device");
+  if (chosen_ranks()) require_no_bodies(scene, "mpirun");
   try {
     return Model(scene, corrugation_centre, require_memory);
   } catch (const MeshSizeError& error) {

@@ -19,19 +19,6 @@ void BodyForce::set_damping(double beta, const std::optional<MaxwellBranch>& bra
   elements_.set_beta(branch ? branch->strength : beta);
 }
 
-double BodyForce::linear_energy(ConstNodeField u) const {
-  constexpr std::int64_t kRow = kHexNodeValues;
-  AlignedVector<double> rows(index(kRow * body_->nodes()), 0.0), force(rows.size(), 0.0);
-  for (std::int64_t node = 0; node < body_->nodes(); ++node) {
-    const Vec3 value = u.at(body_->slot(node));
-    for (int c = 0; c < 3; ++c) rows[index(kRow * node + c)] = value[c];
-  }
-  elements_.apply(rows.data(), force.data());
-  double twice = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) twice += rows[i] * force[i];
-  return 0.5 * twice;
-}
-
 std::array<double, 6> BodyForce::stress(std::size_t element, ConstNodeField u, ConstNodeField q) const {
   const HexMesh& mesh = body_->mesh;
   const std::array<Vec3, 8> corners = mesh.corners(element);

@@ -40,9 +40,11 @@ class BodyForce {
   /// f = K u: linear, without damping. [N]
   void apply(const double* u, double* f) const { elements_.apply_at(body_->base, u, f); }
 
-  DeformationEnergy energy(ConstNodeField u) const { return elements_.energy_at(body_->base, u); }  ///< [J]
-  /// Energy of the linear operator [J].
-  double linear_energy(ConstNodeField u) const;
+  /// Energy of u, and that of the linear operator [J].
+  DeformationEnergy energy(ConstNodeField u) const { return elements_.energy_at(body_->base, u); }
+  DeformationEnergy linear_energy(ConstNodeField u) const {
+    return elements_.linear_energy_at(body_->base, u);
+  }
 
   /// Stress at the centre of an element, as hexahedron_stress(); of u + g q with a branch [Pa].
   std::array<double, 6> stress(std::size_t element, ConstNodeField u, ConstNodeField q) const;

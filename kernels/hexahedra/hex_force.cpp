@@ -305,7 +305,7 @@ void HexForce::apply_at(std::int64_t slot, const double* u, double* f) const {
 }
 
 template <class U>
-DeformationEnergy HexForce::energy_of(const U& u) const {
+DeformationEnergy HexForce::energy_of(const U& u, bool finite_rotation) const {
   std::vector<DeformationEnergy> parts(chunks_.size());
   parallel_ranges(static_cast<std::int64_t>(chunks_.size()), [&](std::int64_t first, std::int64_t last) {
     double* const nodes = scratch(2 * kHexNodeValues * largest_chunk_);
@@ -313,7 +313,7 @@ DeformationEnergy HexForce::energy_of(const U& u) const {
       load<U, U>(chunks_[index(i)], u, nullptr, nodes);
       HexView at = view(chunks_[index(i)]);
       at.nodes = nodes;
-      parts[index(i)] = forces_->energy[finite_rotation_ ? 1 : 0](at);
+      parts[index(i)] = forces_->energy[finite_rotation ? 1 : 0](at);
     }
   });
   DeformationEnergy sum;
@@ -325,11 +325,15 @@ DeformationEnergy HexForce::energy_of(const U& u) const {
 }
 
 DeformationEnergy HexForce::energy(const double* u) const {
-  return energy_of(Rows<const double>{u});
+  return energy_of(Rows<const double>{u}, finite_rotation_);
 }
 
 DeformationEnergy HexForce::energy_at(std::int64_t slot, ConstNodeField u) const {
-  return energy_of(ViewedSlots{u, slot});
+  return energy_of(ViewedSlots{u, slot}, finite_rotation_);
+}
+
+DeformationEnergy HexForce::linear_energy_at(std::int64_t slot, ConstNodeField u) const {
+  return energy_of(ViewedSlots{u, slot}, false);
 }
 
 std::vector<double> HexForce::lumped_mass() const {

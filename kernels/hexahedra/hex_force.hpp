@@ -51,6 +51,7 @@ class HexForce {
   void internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const;
   void apply_at(std::int64_t slot, const double* u, double* f) const;
   DeformationEnergy energy_at(std::int64_t slot, ConstNodeField u) const;
+  DeformationEnergy linear_energy_at(std::int64_t slot, ConstNodeField u) const;  ///< of the linear operator
 
   /// Row sums of the mass matrix by node [kg].
   std::vector<double> lumped_mass() const;
@@ -97,7 +98,7 @@ class HexForce {
   template <class U, class V>
   void load(const Chunk& chunk, const U& u, const V* v, double* values) const;
   template <class U>
-  DeformationEnergy energy_of(const U& u) const;
+  DeformationEnergy energy_of(const U& u, bool finite_rotation) const;
   HexView view(const Chunk& chunk) const;
 
   const HexMesh* mesh_;
