@@ -49,6 +49,7 @@ struct Model {
   BlockIndex index;
   std::vector<TieSpec> tie_specs;
   std::vector<BodyTieSpec> body_ties;
+  std::vector<BodyTie> made_ties;  ///< by body_ties, their nodes in `ties`
   std::optional<Ties> ties;
   std::unique_ptr<InternalForce> internal;              ///< of the blocks
   std::vector<std::unique_ptr<BodyForce>> body_forces;  ///< by Mesh::bodies

@@ -44,8 +44,10 @@ void Model::tie_blocks() {
   if (tie_specs.empty() && body_ties.empty()) return;
   for (const TieSpec& spec : tie_specs) place_on_chords(mesh, spec);
   std::vector<FollowingNode> tied;
-  for (const BodyTieSpec& spec : body_ties)
-    for (FollowingNode& node : tie_body(mesh, spec)) tied.push_back(node);
+  for (const BodyTieSpec& spec : body_ties) {
+    const BodyTie& made = made_ties.emplace_back(tie_body(mesh, spec));
+    tied.insert(tied.end(), made.nodes.begin(), made.nodes.end());
+  }
   ties.emplace(mesh, tie_specs, tied);
 }
 

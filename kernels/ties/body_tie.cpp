@@ -84,9 +84,9 @@ constexpr double kDigits = 1e-6;
 /// Share of the block's surface that a set must cover which is to cover it.
 constexpr double kLeastCover = 0.95;
 
-class BodyTie {
+class TieMaker {
  public:
-  BodyTie(Mesh& mesh, const BodyTieSpec& spec)
+  TieMaker(Mesh& mesh, const BodyTieSpec& spec)
       : spec_(spec),
         block_(mesh.blocks[index(spec.block)]),
         body_(mesh.bodies[index(spec.body)]),
@@ -96,21 +96,22 @@ class BodyTie {
     require_faces();
   }
 
-  std::vector<FollowingNode> tie() {
-    const bool body_leads = coarseness(of_body_) > 1.001 * coarseness(of_block_);
+  BodyTie tie() {
+    BodyTie tied;
+    const bool body_leads = tied.body_leads = coarseness(of_body_) > 1.001 * coarseness(of_block_);
     const Side& secondary = body_leads ? of_block_ : of_body_;
     const Side& primary = body_leads ? of_body_ : of_block_;
     double longest = 0;
     for (const FaceCorners& face : primary.corners) longest = std::max(longest, longest_edge(face));
     const FaceFinder finder(primary.corners, kFarthest * longest);
-    std::vector<FollowingNode> tied;
     for (std::size_t i = 0; i < secondary.nodes.size(); ++i) {
       const SideNode& node = secondary.nodes[i];
       const FacePlace place = finder.nearest(node.at);
       if (!place.is_within(place.face < 0 ? 0 : kFarthest * longest_edge(primary.corners[index(place.face)])))
         refuse(node, place, kFarthest * longest, body_leads);
       if (place.distance > kDigits * longest) move(i, place.at - node.at, body_leads);
-      FollowingNode& made = tied.emplace_back();
+      tied.farthest = std::max(tied.farthest, place.distance);
+      FollowingNode& made = tied.nodes.emplace_back();
       made.node = node.node;
       made.share = place.share;
       for (std::size_t k = 0; k < 4; ++k)
@@ -196,8 +197,8 @@ std::string surface_extents(const SweptBlock& block, const std::string& path) {
                      block.sweep == Sweep::revolved ? "radius" : "z", span(low[1], high[1]));
 }
 
-std::vector<FollowingNode> tie_body(Mesh& mesh, const BodyTieSpec& spec) {
-  return BodyTie(mesh, spec).tie();
+BodyTie tie_body(Mesh& mesh, const BodyTieSpec& spec) {
+  return TieMaker(mesh, spec).tie();
 }
 
 }  // namespace tread

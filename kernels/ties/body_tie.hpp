@@ -22,8 +22,15 @@ struct BodyTieSpec {
   bool whole = false;  ///< the set must cover the block's line
 };
 
+/// A tie that was made.
+struct BodyTie {
+  std::vector<FollowingNode> nodes;
+  bool body_leads = false;  ///< the block's nodes follow the body's faces
+  double farthest = 0;      ///< way by which a node was moved onto a face, at the most [m]
+};
+
 /// Locates and moves the secondary nodes; call it before coefficients are made. Throws InputError if they lie
 /// further off the primary faces than a tenth of these, if the set has no faces or does not cover the line.
-std::vector<FollowingNode> tie_body(Mesh& mesh, const BodyTieSpec& spec);
+BodyTie tie_body(Mesh& mesh, const BodyTieSpec& spec);
 
 }  // namespace tread

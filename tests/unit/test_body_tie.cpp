@@ -86,9 +86,11 @@ std::string refusal(Mesh mesh, const BodyTieSpec& spec) {
 TEST(BodyTie, FollowsLinearFields) {
   for (const auto& [elements, body_elements] : {std::pair(12, 5), {5, 12}}) {
     Mesh mesh = block_on_body(elements, body_elements, 0.001);
-    const std::vector<FollowingNode> tied = tie_body(mesh, {0, "top", "body.x.set", 0, "bottom", true});
-    const Ties ties(mesh, {}, tied);
+    const BodyTie tied = tie_body(mesh, {0, "top", "body.x.set", 0, "bottom", true});
+    const Ties ties(mesh, {}, tied.nodes);
     const bool body_leads = elements > body_elements;
+    EXPECT_EQ(tied.body_leads, body_leads);
+    EXPECT_NEAR(tied.farthest, 0.001, 1e-12);
     EXPECT_EQ(ties.secondary_count(), body_leads ? 13 * 6 : 13 * 5);
     std::vector<double> field(index(3 * mesh.slots), 0.0);
     const auto value = [](const Vec3& at) { return Vec3{at.x + 2 * at.y, 3 - at.z, at.y - at.x + at.z}; };
