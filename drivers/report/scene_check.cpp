@@ -50,14 +50,14 @@ std::string surface_text(const Scene& scene, const std::string& name, const Surf
   return text;
 }
 
-/// "body.disc.tread: 4,200 nodes of the tread follow its faces, moved by up to 0.231 mm"
+/// "body.disc.tread: 4,200 nodes of the tread follow its faces, 0.231 mm off before at the most"
 std::string tie_text(const Model& model, std::size_t i) {
   const BodyTieSpec& spec = model.body_ties[i];
   const BodyTie& made = model.made_ties[i];
   const std::string& block = model.mesh.blocks[static_cast<std::size_t>(spec.block)].name;
   const std::string who = made.body_leads ? fmt::format("nodes of the {} follow its faces", block)
                                           : fmt::format("of its nodes follow the faces of the {}", block);
-  return fmt::format("{}: {} {}, moved by up to {:.3g} mm", spec.key,
+  return fmt::format("{}: {} {}, {:.3g} mm off before at the most", spec.key,
                      grouped(static_cast<std::int64_t>(made.nodes.size())), who, 1e3 * made.farthest);
 }
 

@@ -26,7 +26,7 @@ struct BodyTieSpec {
 struct BodyTie {
   std::vector<FollowingNode> nodes;
   bool body_leads = false;  ///< the block's nodes follow the body's faces
-  double farthest = 0;      ///< way by which a node was moved onto a face, at the most [m]
+  double farthest = 0;      ///< distance of a node from its face before, at the most [m]
 };
 
 /// Locates and moves the secondary nodes; call it before coefficients are made. Throws InputError if they lie

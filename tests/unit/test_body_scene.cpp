@@ -9,8 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/mesh/hex_mesh.hpp"
+#include "drivers/results/scene_model.hpp"
 #include "drivers/run/scene_content.hpp"
+#include "drivers/studies/multibody/multibody_model.hpp"
 #include "io/scene/scene_reader.hpp"
+#include "kernels/device/device.hpp"
 #include "tests/mesh_files.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -210,6 +213,29 @@ TEST_F(BodyScene, NeedsThePartThatItReplaces) {
           .find("x.toml:5:1: body.web.replaces: \"rail\" is the rail below its head, and rail.profile is "
                 "\"box\", which has no head; state a rail such as rail.profile = \"CN60\""),
       std::string::npos);
+}
+
+/// Steps on a device, decks and the multi-body approach know swept parts alone.
+TEST_F(BodyScene, IsRefusedWhereItCannotBeUsed) {
+  const ResolvedScene scene = resolved(disc("web"));
+  const auto message = [](const auto& act) -> std::string {
+    try {
+      act();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  choose_device("emulated");
+  const std::string on_device = message([&] { scene_model(scene.scene, scene); });
+  choose_device("cpu");
+  EXPECT_EQ(
+      on_device,
+      "body.web: the steps of a body from a file are those of one process; leave out --device, or state "
+      "body.web.present = false");
+  EXPECT_EQ(message([&] { multibody_model(scene.scene, BeamTheory::timoshenko); }),
+            "tread multibody: body.web has no section, from which masses and modes are made; state "
+            "body.web.present = false");
 }
 
 TEST_F(BodyScene, UnknownKeysAndNames) {
