@@ -23,10 +23,6 @@ double volume_of(const std::array<Vec3, 8>& x) {
   return sum / 3;
 }
 
-}  // namespace
-
-namespace {
-
 template <class Takes>
 std::vector<OuterFace> outer_faces_where(const HexMesh& mesh, const Takes& takes) {
   using Nodes = std::array<std::int32_t, 4>;

@@ -155,6 +155,15 @@ struct Mesh {
   }
 };
 
+/// Calls visit(slot, place in the body frame [m]) for the nodes of the bodies that spin, or of those that do
+/// not.
+template <class Visit>
+void for_each_body_node(const Mesh& mesh, bool spinning, const Visit& visit) {
+  for (const HexBody& body : mesh.bodies)
+    for (std::int64_t node = 0; body.spins == spinning && node < body.nodes(); ++node)
+      visit(body.slot(node), body.mesh.nodes[static_cast<std::size_t>(node)]);
+}
+
 /// Index of a component of a node in a vector field of 3 * mesh.slots values. Within a group of kLanes slots
 /// the components follow one another, lanes contiguous.
 TREAD_BODY std::int64_t dof(std::int64_t slot, int component) {

@@ -1,5 +1,5 @@
 #pragma once
-// Points of a model's blocks to which connectors and loads attach. [of the rail's foot: rail_foot.hpp]
+// Points of a model's blocks to which connectors and loads attach; those of the rail's foot: rail_foot.hpp.
 
 #include <string>
 #include <vector>

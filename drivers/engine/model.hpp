@@ -82,6 +82,7 @@ struct Model {
   /// Blocks and bodies of the wheel, of the rail (Mesh::parts).
   std::vector<int> wheel_parts() const;
   std::vector<int> rail_parts() const;
+  const BodyForce* body_force_of(int part) const;             ///< null: a block
   DeformationEnergy energy(int part, const double* u) const;  ///< of a linear law's part [J]
   /// f = F(u) of all blocks and bodies at rest, and f = K u; vector fields of 3 * mesh.slots values [N].
   void internal_force(const double* u, double* f) const;

@@ -66,22 +66,33 @@ void Model::apply_stiffness(const double* u, double* f) const {
   for (const auto& body : body_forces) body->apply(u, f);
 }
 
-std::vector<int> Model::wheel_parts() const {
-  std::vector<int> parts = index.wheel();
-  if (index.disc_body >= 0) parts.push_back(static_cast<int>(mesh.blocks.size()) + index.disc_body);
+namespace {
+
+/// The blocks as parts of a mesh, with a body where there is one.
+std::vector<int> with_body(std::vector<int> parts, const Mesh& mesh, int body) {
+  if (body >= 0) parts.push_back(static_cast<int>(mesh.blocks.size()) + body);
   return parts;
+}
+
+}  // namespace
+
+std::vector<int> Model::wheel_parts() const {
+  return with_body(index.wheel(), mesh, index.disc_body);
 }
 
 std::vector<int> Model::rail_parts() const {
-  std::vector<int> parts = index.rail();
-  if (index.base_body >= 0) parts.push_back(static_cast<int>(mesh.blocks.size()) + index.base_body);
-  return parts;
+  return with_body(index.rail(), mesh, index.base_body);
+}
+
+const BodyForce* Model::body_force_of(int part) const {
+  const std::size_t blocks = mesh.blocks.size();
+  const auto at = static_cast<std::size_t>(part);
+  return at < blocks ? nullptr : body_forces[at - blocks].get();
 }
 
 DeformationEnergy Model::energy(int part, const double* u) const {
-  const auto blocks = static_cast<int>(mesh.blocks.size());
-  return part < blocks ? internal->energy(part, u)
-                       : body_forces[static_cast<std::size_t>(part - blocks)]->energy(u);
+  const BodyForce* body = body_force_of(part);
+  return body != nullptr ? body->energy(u) : internal->energy(part, u);
 }
 
 }  // namespace tread

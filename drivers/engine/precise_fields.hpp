@@ -109,8 +109,7 @@ class PreciseFields : public NodeFields {
   }
 
   DeformationEnergy energy(int part) const override {
-    const auto blocks = static_cast<int>(mesh().blocks.size());
-    if (part >= blocks) return model_->body_forces[index(part - blocks)]->energy(displacement_);
+    if (const BodyForce* body = model_->body_force_of(part)) return body->energy(displacement_);
     return parts_.internal().energy(part, u_.data(), state());
   }
 

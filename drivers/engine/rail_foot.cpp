@@ -56,30 +56,27 @@ std::vector<FootNode> RailFoot::nodes() const {
   return list;
 }
 
-namespace {
-constexpr double kBeyond = 1e-6;  ///< a point may lie beyond a face by this [m]
-}  // namespace
+std::optional<Attachment> RailFoot::on_faces(double x, double y) const {
+  constexpr double kBeyond = 1e-6;  // a point may lie beyond a face by this [m]
+  const FacePlace place = faces_->nearest({x, y, 0});
+  if (!place.is_within(kBeyond)) return std::nullopt;
+  return Attachment{at_[index(place.face)], place.share};
+}
 
 Attachment RailFoot::attach(double x, double y) const {
   if (block_) return tread::attach(*block_, "foot", x, y);
-  const FacePlace place = faces_->nearest({x, y, 0});
-  if (!place.is_within(kBeyond))
+  const std::optional<Attachment> at = on_faces(x, y);
+  if (!at)
     throw InputError(
         fmt::format("a fastening acts at x = {:.4f} m, y = {:.4f} m, beyond the set of {}; "
                     "extend the set, or move the fastenings",
                     x, y, key_));
-  Attachment at;
-  at.slot = at_[index(place.face)];
-  at.weight = place.share;
-  return at;
+  return *at;
 }
 
 Attachment RailFoot::attach_near(double x, double y) const {
-  if (block_ || faces_->nearest({x, y, 0}).is_within(kBeyond)) return attach(x, y);
-  Attachment at;
-  at.slot[0] = within(x, y, 0, 0).front().slot;
-  at.weight[0] = 1;
-  return at;
+  if (block_) return attach(x, y);
+  return on_faces(x, y).value_or(Attachment{{within(x, y, 0, 0).front().slot, -1, -1, -1}, {1, 0, 0, 0}});
 }
 
 namespace {

@@ -38,6 +38,9 @@ class RailFoot {
   std::vector<FootNode> within(double x, double y, double half_length, double half_width) const;
 
  private:
+  /// On the set's faces of a body; empty beyond them.
+  std::optional<Attachment> on_faces(double x, double y) const;
+
   const SweptBlock* block_ = nullptr;  ///< null: of a body
   std::string key_;
   double middle_ = 0;

@@ -13,7 +13,7 @@
 
 namespace tread {
 
-/// What one rank sends another in a step: forces of whole groups, then those at joints.
+/// Values that one rank sends another in a step: forces of whole groups, then those at joints.
 struct RankMessage {
   /// About the station of a joint: the force of the element, or of all others there.
   struct JointPart {

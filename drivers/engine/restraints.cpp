@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/mesh/node_field.hpp"
-#include "drivers/engine/attachments.hpp"
 #include "drivers/engine/rail_foot.hpp"
 
 namespace tread {

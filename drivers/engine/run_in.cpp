@@ -24,14 +24,6 @@ void visit_nodes(const SweptBlock& block, ConstNodeField u, const BodyFrame& whe
     }
 }
 
-/// The same of a body.
-template <class Visit>
-void visit_nodes(const HexBody& body, ConstNodeField u, const BodyFrame& wheel, const Visit& visit) {
-  const Turn turn(kCartesianAngle + wheel.angle);
-  for (std::int64_t node = 0; node < body.nodes(); ++node)
-    visit(body.slot(node), turn.to_cartesian(u.at(body.slot(node))));
-}
-
 }  // namespace
 
 Vec3 rim_displacement(const Model& model, ConstNodeField displacement, const BodyFrame& wheel) {
@@ -61,8 +53,10 @@ AxleBending axle_bending(const Model& model, ConstNodeField displacement, const 
   };
   for (const int b : model.index.wheel())
     visit_nodes(model.mesh.blocks[static_cast<std::size_t>(b)], displacement, wheel, add);
-  for (const HexBody& body : model.mesh.bodies)
-    if (body.spins) visit_nodes(body, displacement, wheel, add);
+  const Turn turn(kCartesianAngle + wheel.angle);
+  for_each_body_node(model.mesh, true, [&](std::int64_t slot, const Vec3& /*at*/) {
+    add(slot, turn.to_cartesian(displacement.at(slot)));
+  });
   const double added = model.scene.vehicle ? model.scene.vehicle->unsprung_mass : 0;
   axle.journal = journal;
   axle.bending.coupling = axle.wheelset_share + added;

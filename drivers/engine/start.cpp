@@ -27,12 +27,11 @@ void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<doubl
     }
   }
   const double length = model.scene.rail->length;
-  for (const HexBody& body : model.mesh.bodies)
-    for (std::int64_t node = 0; !body.spins && node < body.nodes(); ++node) {
-      const double m = model.mass[static_cast<std::size_t>(body.slot(node))] / length;
-      mass += m;
-      moment += m * body.mesh.nodes[static_cast<std::size_t>(node)].z;
-    }
+  for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
+    const double m = model.mass[static_cast<std::size_t>(slot)] / length;
+    mass += m;
+    moment += m * at.z;
+  });
   const double centroid = moment / mass;
   for (const int b : model.index.rail()) {
     const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(b)];
@@ -46,14 +45,11 @@ void add_to_rail(const Model& model, const MotionAt& motion, AlignedVector<doubl
       }
     }
   }
-  for (const HexBody& body : model.mesh.bodies)
-    for (std::int64_t node = 0; !body.spins && node < body.nodes(); ++node) {
-      const Vec3& at = body.mesh.nodes[static_cast<std::size_t>(node)];
-      const SectionMotion section = motion(at.x);
-      NodeField(field.data())
-          .add(body.slot(node),
-               {section.axial + (at.z - centroid) * section.rotation, 0, -section.deflection});
-    }
+  for_each_body_node(model.mesh, false, [&](std::int64_t slot, const Vec3& at) {
+    const SectionMotion section = motion(at.x);
+    NodeField(field.data())
+        .add(slot, {section.axial + (at.z - centroid) * section.rotation, 0, -section.deflection});
+  });
   for (const std::int64_t unknown : model.restrained) field[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({field.data()});
 }
@@ -85,12 +81,10 @@ void bend_axle(const Model& model, double rate, const StartFields& fields) {
     }
   }
   const Vec3 carried = Turn(kCartesianAngle + fields.wheel.angle).to_cylindrical(rim);
-  for (const HexBody& body : model.mesh.bodies)
-    for (std::int64_t node = 0; body.spins && node < body.nodes(); ++node) {
-      const std::int64_t slot = body.slot(node);
-      const Vec3 beyond = ConstNodeField(fields.displacement.data()).at(slot) - carried;
-      NodeField(fields.velocity.data()).add(slot, rate * beyond);
-    }
+  for_each_body_node(model.mesh, true, [&](std::int64_t slot, const Vec3& /*at*/) {
+    const Vec3 beyond = ConstNodeField(fields.displacement.data()).at(slot) - carried;
+    NodeField(fields.velocity.data()).add(slot, rate * beyond);
+  });
   for (const std::int64_t unknown : model.restrained) fields.velocity[static_cast<std::size_t>(unknown)] = 0;
   if (model.ties) model.ties->follow({fields.velocity.data()});
 }

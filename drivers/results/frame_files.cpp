@@ -273,12 +273,11 @@ VtkArray FrameFiles::von_mises_stress() const {
   const ConstNodeField lag = at_.lag.data();
   const ConstLawState laws = at_.laws ? ConstLawState(*at_.laws) : nullptr;
   const ConstNodeField u = at_.displacement.data();
-  const auto blocks = static_cast<int>(model_->mesh.blocks.size());
   for (const VtkGrid::Cell& cell : grid_.cells) {
+    const BodyForce* body = model_->body_force_of(cell.block);
     const std::array<double, 6> stress =
-        cell.block < blocks ? model_->internal->stress(cell.block, cell.quad, cell.station, u, lag, laws)
-                            : model_->body_forces[static_cast<std::size_t>(cell.block - blocks)]->stress(
-                                  static_cast<std::size_t>(cell.quad), u, lag);
+        body != nullptr ? body->stress(static_cast<std::size_t>(cell.quad), u, lag)
+                        : model_->internal->stress(cell.block, cell.quad, cell.station, u, lag, laws);
     array.values.push_back(static_cast<float>(von_mises(stress)));
   }
   return array;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/index.hpp"
+#include "core/mesh/bisection.hpp"
 #include "core/mesh/swept_block.hpp"
 
 namespace tread {
@@ -30,20 +31,8 @@ void cut(const HexMesh& mesh, std::span<std::int32_t> elements,
     const HexCorners& corners = mesh.elements[index(e)];
     return mesh.nodes[index(corners[0])] + mesh.nodes[index(corners[6])];
   };
-  Vec3 low = middle(elements[0]), high = low;
-  for (const std::int32_t e : elements)
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], middle(e)[c]);
-      high[c] = std::max(high[c], middle(e)[c]);
-    }
-  int axis = 0;
-  for (int c = 1; c < 3; ++c)
-    if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
   const std::size_t half = elements.size() / 2 / kLanes * kLanes;
-  std::nth_element(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(half), elements.end(),
-                   [&](std::int32_t a, std::int32_t b) {
-                     return std::pair(middle(a)[axis], a) < std::pair(middle(b)[axis], b);
-                   });
+  part_along(elements, half, longest_side(elements, middle).axis, middle);
   cut(mesh, elements.first(half), chunks);
   cut(mesh, elements.subspan(half), chunks);
 }

@@ -13,6 +13,7 @@
 #include "core/parallel/parallel.hpp"
 #include "kernels/element/hexahedron.hpp"
 #include "kernels/hexahedra/hex_chunks.hpp"
+#include "kernels/hexahedra/hex_fields.hpp"
 
 namespace tread {
 
@@ -25,7 +26,6 @@ constexpr std::size_t kIdleNodes = 8;
 constexpr std::array<std::array<double, kHexNodeValues>, kIdleNodes> kIdleCorners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-/// Values of a node.
 constexpr std::int64_t kRow = kHexNodeValues;
 typedef double Row __attribute__((vector_size(kRow * sizeof(double))));
 
@@ -37,44 +37,6 @@ Row row_at(const double* field, std::int64_t node) {
 void set_row(double* field, std::int64_t node, const Row& row) {
   std::memcpy(field + kRow * node, &row, sizeof row);
 }
-
-/// Values of a node, one by one: a register made of three places would wait for all of them.
-using NodeValues = double[3];
-
-/// A field of rows.
-template <class Value>
-struct Rows {
-  Value* values;
-  void get(std::int64_t node, NodeValues& to) const {
-    for (int c = 0; c < 3; ++c) to[c] = values[kRow * node + c];
-  }
-  void set(std::int64_t node, const double* row) const { std::copy_n(row, kRow, values + kRow * node); }
-};
-
-/// A field of a mesh, from a slot on.
-template <class Value>
-struct Slots {
-  Value* values;
-  std::int64_t first;
-  void get(std::int64_t node, NodeValues& to) const {
-    const Value* const of = values + dof(first + node, 0);
-    for (int c = 0; c < 3; ++c) to[c] = static_cast<double>(of[c * kLanes]);
-  }
-  void set(std::int64_t node, const double* row) const {
-    Value* const of = values + dof(first + node, 0);
-    for (int c = 0; c < 3; ++c) of[c * kLanes] = static_cast<Value>(row[c]);
-  }
-};
-
-/// The same through a view.
-struct ViewedSlots {
-  ConstNodeField values;
-  std::int64_t first;
-  void get(std::int64_t node, NodeValues& to) const {
-    const Vec3 of = values.at(first + node);
-    for (int c = 0; c < 3; ++c) to[c] = of[c];
-  }
-};
 
 HexMaterial constants_of(const Material& material) {
   HexMaterial constants;
@@ -229,7 +191,7 @@ void HexForce::load(const Chunk& chunk, const U& u, const V* v, double* values) 
   const double* const positions = positions_.data() + index(kRow) * chunk.first_position;
   const auto nodes = static_cast<std::int64_t>(chunk.nodes);
   for (std::int64_t n = 0; n < nodes; ++n) {
-    NodeValues moved, rate = {};
+    HexValues moved, rate = {};
     u.get(places[n].node, moved);
     if (v != nullptr) v->get(places[n].node, rate);
     set_row(values, 2 * n, row_at(positions, n));
@@ -279,20 +241,20 @@ void HexForce::evaluate(const U& u, const V* v, const F& f, bool finite_rotation
 }
 
 void HexForce::internal_force(const double* u, const double* v, double* f) const {
-  const Rows<const double> damped{v};
-  evaluate(Rows<const double>{u}, v != nullptr && beta_ != 0 ? &damped : nullptr, Rows<double>{f},
+  const HexRows<const double> damped{v};
+  evaluate(HexRows<const double>{u}, v != nullptr && beta_ != 0 ? &damped : nullptr, HexRows<double>{f},
            finite_rotation_);
 }
 
 void HexForce::apply(const double* u, double* f) const {
-  evaluate<Rows<const double>, Rows<const double>>({u}, nullptr, Rows<double>{f}, false);
+  evaluate<HexRows<const double>, HexRows<const double>>({u}, nullptr, HexRows<double>{f}, false);
 }
 
 template <class U, class Real>
 void HexForce::internal_force_at(std::int64_t slot, const U* u, const Real* v, Real* f) const {
-  const Slots<const Real> damped{v, slot};
-  evaluate(Slots<const U>{u, slot}, v != nullptr && beta_ != 0 ? &damped : nullptr, Slots<Real>{f, slot},
-           finite_rotation_);
+  const HexSlots<const Real> damped{v, slot};
+  evaluate(HexSlots<const U>{u, slot}, v != nullptr && beta_ != 0 ? &damped : nullptr,
+           HexSlots<Real>{f, slot}, finite_rotation_);
 }
 
 template void HexForce::internal_force_at(std::int64_t, const double*, const double*, double*) const;
@@ -300,8 +262,8 @@ template void HexForce::internal_force_at(std::int64_t, const double*, const flo
 template void HexForce::internal_force_at(std::int64_t, const float*, const float*, float*) const;
 
 void HexForce::apply_at(std::int64_t slot, const double* u, double* f) const {
-  using Field = Slots<const double>;
-  evaluate<Field, Field>({u, slot}, nullptr, Slots<double>{f, slot}, false);
+  using Field = HexSlots<const double>;
+  evaluate<Field, Field>({u, slot}, nullptr, HexSlots<double>{f, slot}, false);
 }
 
 template <class U>
@@ -325,15 +287,15 @@ DeformationEnergy HexForce::energy_of(const U& u, bool finite_rotation) const {
 }
 
 DeformationEnergy HexForce::energy(const double* u) const {
-  return energy_of(Rows<const double>{u}, finite_rotation_);
+  return energy_of(HexRows<const double>{u}, finite_rotation_);
 }
 
 DeformationEnergy HexForce::energy_at(std::int64_t slot, ConstNodeField u) const {
-  return energy_of(ViewedSlots{u, slot}, finite_rotation_);
+  return energy_of(HexViewedSlots{u, slot}, finite_rotation_);
 }
 
 DeformationEnergy HexForce::linear_energy_at(std::int64_t slot, ConstNodeField u) const {
-  return energy_of(ViewedSlots{u, slot}, false);
+  return energy_of(HexViewedSlots{u, slot}, false);
 }
 
 std::vector<double> HexForce::lumped_mass() const {

@@ -49,7 +49,7 @@ class BranchLag {
 
  private:
   static LagAdvance<Real> advance_of(const MaxwellBranch& branch, double dt);
-  /// Of the slots in [first, last) and in those of a part.
+  /// The same for those of the slots that are a part's.
   template <class Part>
   void advance(const Part& part, const std::optional<MaxwellBranch>& branch, const Real* v, double dt,
                std::int64_t first, std::int64_t last);

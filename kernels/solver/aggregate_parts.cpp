@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
+
+#include "core/mesh/bisection.hpp"
 
 namespace tread {
 
@@ -126,32 +129,22 @@ double mean_radius(const SweptBlock& block, const std::vector<int>& nodes) {
 namespace {
 
 /// Halves a body's nodes across the longest side of their box until they are close together and few enough.
-void cut_body(const HexBody& body, std::vector<std::int32_t> nodes, const AggregateOptions& options,
+void cut_body(const HexBody& body, std::span<std::int32_t> nodes, const AggregateOptions& options,
               std::vector<std::vector<std::int32_t>>& parts) {
   const auto at = [&](std::int32_t node) -> const Vec3& {
     return body.mesh.nodes[static_cast<std::size_t>(node)];
   };
-  Vec3 low = at(nodes.front()), high = low;
-  for (const std::int32_t node : nodes)
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], at(node)[c]);
-      high[c] = std::max(high[c], at(node)[c]);
-    }
-  int axis = 0;
-  for (int c = 1; c < 3; ++c)
-    if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
+  const LongestSide side = longest_side(nodes, at);
   const auto cube = [](int n) { return static_cast<std::size_t>(n * n * n); };
-  const bool wide = high[axis] - low[axis] > options.size && nodes.size() >= 2 * cube(options.least_across);
+  const bool wide = side.length > options.size && nodes.size() >= 2 * cube(options.least_across);
   if (!wide && nodes.size() <= cube(options.nodes_across)) {
-    parts.push_back(std::move(nodes));
+    parts.emplace_back(nodes.begin(), nodes.end());
     return;
   }
-  const auto middle = nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2);
-  std::nth_element(nodes.begin(), middle, nodes.end(), [&](std::int32_t a, std::int32_t b) {
-    return std::pair(at(a)[axis], a) < std::pair(at(b)[axis], b);
-  });
-  cut_body(body, {nodes.begin(), middle}, options, parts);
-  cut_body(body, {middle, nodes.end()}, options, parts);
+  const std::size_t half = nodes.size() / 2;
+  part_along(nodes, half, side.axis, at);
+  cut_body(body, nodes.first(half), options, parts);
+  cut_body(body, nodes.subspan(half), options, parts);
 }
 
 }  // namespace
@@ -160,7 +153,7 @@ std::vector<std::vector<std::int32_t>> body_parts(const HexBody& body, const Agg
   std::vector<std::int32_t> all(body.mesh.nodes.size());
   std::iota(all.begin(), all.end(), 0);
   std::vector<std::vector<std::int32_t>> parts;
-  if (!all.empty()) cut_body(body, std::move(all), options, parts);
+  if (!all.empty()) cut_body(body, all, options, parts);
   return parts;
 }
 

@@ -241,7 +241,7 @@ void Aggregates::restrict_to_modes(const double* fine, double* coarse) const {
   });
 }
 
-/// Of the forces at a patch's nodes; those of blocks are summed up in sums_.
+/// Resultant of the forces at a patch's nodes; those of blocks are summed up in sums_.
 RigidMotion Aggregates::resultant(const Patch& patch, const double* fine) const {
   RigidMotion sum;
   for (std::size_t i = patch.first_node; i < patch.last_node; ++i) {

@@ -21,14 +21,6 @@ void for_each_node(const SweptBlock& block, int tile, const Visit& visit) {
           block.base + (std::int64_t{tile} * block.section.nodes() + node) * kLanes);
 }
 
-/// Calls visit(slot, place) for the nodes of spinning bodies that are not swept.
-template <class Visit>
-void for_each_body_node(const Mesh& mesh, const Visit& visit) {
-  for (const HexBody& body : mesh.bodies)
-    for (std::int64_t node = 0; body.spins && node < body.nodes(); ++node)
-      visit(body.slot(node), body.mesh.nodes[static_cast<std::size_t>(node)]);
-}
-
 }  // namespace
 
 HeldMotions::HeldMotions(const Mesh& mesh, const std::vector<int>& blocks, const double* mass,
@@ -76,7 +68,7 @@ RigidMotion HeldMotions::resultant(const double* field, bool weighted) const {
   });
   RigidMotion sum;
   for (const RigidMotion& part : partial_) sum += part;
-  for_each_body_node(*mesh_, [&](std::int64_t slot, const Vec3& at) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
     const Vec3 value = (weighted ? mass_[slot] : 1.0) * ConstNodeField(field).at(slot);
     sum += RigidMotion{value, cross(at, value)};
   });
@@ -97,7 +89,7 @@ void HeldMotions::add(const RigidMotion& motion, bool weighted, double* field) c
       });
     }
   });
-  for_each_body_node(*mesh_, [&](std::int64_t slot, const Vec3& at) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
     const double scale = weighted || mass_[slot] == 0 ? mass_[slot] : 1.0;
     NodeField(field).add(slot, scale * (motion.translation + cross(motion.rotation, at)));
   });

@@ -89,13 +89,6 @@ struct MotionSums {
 
 }  // namespace
 
-template <class Visit>
-void SpinningBody::for_each_body_node(const Visit& visit) const {
-  for (const HexBody& body : mesh_->bodies)
-    for (std::int64_t node = 0; body.spins && node < body.nodes(); ++node)
-      visit(body.slot(node), body.mesh.nodes[index(node)], nodal_mass_[body.slot(node)]);
-}
-
 SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass)
     : mesh_(&mesh), blocks_(std::move(blocks)), nodal_mass_(mass) {
   auto sums = sum_views<Moments>(mesh, blocks_, nullptr, [mass](const TileView& view) {
@@ -108,7 +101,8 @@ SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const doub
       }
     return m;
   });
-  for_each_body_node([&](std::int64_t /*slot*/, const Vec3& at, double m) {
+  for_each_body_node(mesh, true, [&](std::int64_t slot, const Vec3& at) {
+    const double m = mass[slot];
     sums += Moments{m, m * at.y, m * at.y * at.y, m * (at.x * at.x + at.z * at.z)};
   });
   mass_ = sums.mass;
@@ -144,7 +138,8 @@ MeanMotion SpinningBody::mean_motion(ConstNodeField u, ConstNodeField w, const B
     return sum;
   });
   const Turn turn(kCartesianAngle + frame.angle);
-  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
+    const double m = nodal_mass_[slot];
     const Vec3 moved = m * u.at(slot);
     const Vec3 velocity = m * w.at(slot);
     const auto about_axle = [&](const Vec3& of) { return at.z * of.x - at.x * of.z; };
@@ -179,7 +174,8 @@ double SpinningBody::kinetic_energy(ConstNodeField u, ConstNodeField w, const Bo
     return sum;
   });
   const Vec3 carried = Turn(kCartesianAngle + frame.angle).to_cylindrical(frame.velocity);
-  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
+    const double m = nodal_mass_[slot];
     const Vec3 v = carried + w.at(slot) + spin_cross(frame.spin, at + u.at(slot));
     energy += 0.5 * m * dot(v, v);
   });
@@ -207,7 +203,8 @@ Vec3 SpinningBody::momentum(ConstNodeField u, ConstNodeField w, const BodyFrame&
     return sum;
   });
   const Turn turn(kCartesianAngle + frame.angle);
-  for_each_body_node([&](std::int64_t slot, const Vec3& at, double m) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
+    const double m = nodal_mass_[slot];
     const Vec3 relative = w.at(slot) + spin_cross(frame.spin, at + u.at(slot));
     momentum += m * (frame.velocity + turn.to_cartesian(relative));
   });
@@ -235,7 +232,7 @@ void SpinningBody::anchor(const MeanMotion& mean, NodeField u, NodeField w, Body
     }
   });
   const Anchoring::Station station = anchoring.at(kCartesianAngle);
-  for_each_body_node([&](std::int64_t slot, const Vec3& at, double /*mass*/) {
+  for_each_body_node(*mesh_, true, [&](std::int64_t slot, const Vec3& at) {
     Vec3 displacement = u.at(slot);
     Vec3 velocity = w.at(slot);
     anchoring.move(station, at, displacement, velocity);

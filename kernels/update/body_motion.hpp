@@ -44,10 +44,6 @@ class SpinningBody {
               const unsigned char* groups = nullptr) const;
 
  private:
-  /// Calls visit(slot, place, mass) for the nodes of bodies that are not swept.
-  template <class Visit>
-  void for_each_body_node(const Visit& visit) const;
-
   const Mesh* mesh_ = nullptr;
   std::vector<int> blocks_;
   const double* nodal_mass_ = nullptr;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <string>
@@ -62,18 +63,35 @@ AlignedVector<double> smooth_field(const Mesh& mesh) {
   return field;
 }
 
-/// The scene with the model's swept disc as a body.
-Scene with_disc(const Model& model, Scene scene) {
-  const SweptBlock& disc = model.mesh.blocks[index(model.index.disc)];
-  HexMesh mesh = hexahedra_of(disc);
-  mesh.node_sets["outer"] = nodes_on(disc, "tie_outer");
-  mesh.node_sets["inner"] = nodes_on(disc, "tie_inner");
+/// A set of a body's nodes: where the spec has its name, and the path of the block that they are.
+struct SetOfPath {
+  std::string BodySpec::*name;
+  const char* path;
+};
+
+/// A model's swept block as a body.
+BodySpec swept_body(const SweptBlock& block, const char* replaces, std::initializer_list<SetOfPath> sets) {
   BodySpec spec;
-  spec.tread = "outer";
-  spec.axle = "inner";
+  spec.replaces = replaces;
+  HexMesh mesh = hexahedra_of(block);
+  for (const SetOfPath& set : sets) {
+    spec.*set.name = set.path;
+    mesh.node_sets[set.path] = nodes_on(block, set.path);
+  }
   spec.mesh = std::make_shared<const HexMesh>(std::move(mesh));
-  scene.bodies["disc"] = spec;
+  return spec;
+}
+
+Scene with_disc(const Model& model, Scene scene) {
+  scene.bodies["disc"] = swept_body(model.mesh.blocks[index(model.index.disc)], "disc",
+                                    {{&BodySpec::tread, "tie_outer"}, {&BodySpec::axle, "tie_inner"}});
   scene.wheel->web_thickness = model.web_thickness;  // lines of the tread meet those of the web
+  return scene;
+}
+
+Scene with_base(const Model& model, Scene scene) {
+  scene.bodies["base"] = swept_body(model.mesh.blocks[index(model.index.rail_base)], "rail",
+                                    {{&BodySpec::head, "tie"}, {&BodySpec::foot, "foot"}});
   return scene;
 }
 
@@ -90,21 +108,6 @@ TEST(Bodies, HaveTheMassesOfTheSweptDisc) {
   EXPECT_EQ(model.ties->secondary_count(), swept.ties->secondary_count());
   EXPECT_EQ(model.ties->primary_count(), swept.ties->primary_count());
   EXPECT_NEAR(stable_step_of(model) / stable_step_of(swept), 1, 1e-4);
-}
-
-/// The scene with the model's swept rail below the head as a body.
-Scene with_base(const Model& model, Scene scene) {
-  const SweptBlock& base = model.mesh.blocks[index(model.index.rail_base)];
-  HexMesh mesh = hexahedra_of(base);
-  mesh.node_sets["top"] = nodes_on(base, "tie");
-  mesh.node_sets["bottom"] = nodes_on(base, "foot");
-  BodySpec spec;
-  spec.replaces = "rail";
-  spec.head = "top";
-  spec.foot = "bottom";
-  spec.mesh = std::make_shared<const HexMesh>(std::move(mesh));
-  scene.bodies["base"] = spec;
-  return scene;
 }
 
 /// The field of the swept model in the fields of the model with the body.
