@@ -53,6 +53,9 @@ inline Exported exported(const Model& model, const DeckOptions& options = {}) {
   result.summary = write_keyword_deck(model, options, "test", deck);
   result.deck = DeckParser().read(text);
   expect_whole(result.deck);
+  for (const ReadDeck::Load& load : result.deck.loads) {
+    EXPECT_TRUE(load.axis == 2 || options.preload) << load.node;
+  }
   return result;
 }
 

@@ -35,12 +35,14 @@ struct ReadDeck {
   struct Load {
     std::int64_t node = 0, curve = 0;
     double value = 0;
-    bool turns = false;  ///< with the plane of three nodes; otherwise vertical
+    int axis = 2;
+    bool turns = false;  ///< with the plane of three nodes; otherwise along an axis of the deck
     std::array<std::int64_t, 3> plane = {};
   };
 
   std::map<std::string, int> keywords;  ///< how often each occurs
   std::map<std::int64_t, Vec3> nodes, velocities;
+  std::map<std::int64_t, std::array<double, 6>> stresses;  ///< xx, yy, zz, xy, yz, zx
   std::map<std::int64_t, Solid> solids;
   std::map<std::int64_t, Card> parts, sections, materials, hourglass, discretes,
       masses;                              ///< fields by number
@@ -216,14 +218,30 @@ class DeckParser {
     } else if (keyword_ == "*LOAD_NODE_POINT") {
       for (const std::string& card : cards_) {
         const auto f = tens(card);
-        EXPECT_EQ(f[1], "3");
-        ReadDeck::Load load{whole(f[0]), whole(f[2]), real(f[3]), whole(f[4]) > 0, {}};
+        EXPECT_TRUE(f[1] == "1" || f[1] == "2" || f[1] == "3") << card;
+        ReadDeck::Load load{whole(f[0]), whole(f[2]), real(f[3]), std::stoi(f[1]) - 1, whole(f[4]) > 0, {}};
         if (load.turns) load.plane = deck_.coordinates.at(whole(f[4]));
         deck_.loads.push_back(load);
       }
     } else if (keyword_ == "*LOAD_BODY_Z") {
       deck_.gravity = real(tens(cards_.at(0))[1]);
       EXPECT_EQ(deck_.curves.count(whole(tens(cards_.at(0))[0])), 1U);
+    } else if (keyword_ == "*INITIAL_VELOCITY_NODE") {
+      for (const std::string& card : cards_) {
+        const auto f = tens(card);
+        add_new(deck_.velocities, whole(f[0]), Vec3{real(f[1]), real(f[2]), real(f[3])});
+      }
+    } else if (keyword_ == "*INITIAL_STRESS_SOLID") {
+      EXPECT_EQ(cards_.size() % 3, 0U);
+      for (std::size_t i = 0; i + 2 < cards_.size(); i += 3) {
+        const auto head = tens(cards_[i]);
+        EXPECT_EQ(head[3], "1");  // fields of sixteen characters
+        const auto first = fields(cards_[i + 1], 16, 5, 16);
+        const auto second = fields(cards_[i + 2], 16, 2, 16);
+        add_new(deck_.stresses, whole(head[0]),
+                std::array{real(first[0]), real(first[1]), real(first[2]), real(first[3]), real(first[4]),
+                           real(second[0])});
+      }
     } else if (keyword_ == "*INITIAL_VELOCITY_GENERATION") {
       const auto f = tens(cards_.at(0));
       const auto axis = tens(cards_.at(1));
@@ -295,6 +313,7 @@ inline void expect_whole(const ReadDeck& deck) {
     if (load.turns)
       for (const std::int64_t corner : load.plane) node(corner);
   }
+  for (const auto& [number, stress] : deck.stresses) EXPECT_EQ(deck.solids.count(number), 1U);
   for (const auto& [number, velocity] : deck.velocities) EXPECT_EQ(deck.nodes.count(number), 1U);
   EXPECT_EQ(used.size(), deck.nodes.size());
 }

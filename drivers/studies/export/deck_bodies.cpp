@@ -57,7 +57,10 @@ class DeckBodies {
   DeckBodies(DeckModel& deck, KeywordDeck& out) : deck_(deck), out_(out) {
     for (const VtkGrid::Cell& cell : deck.grid().cells)
       parts_.try_emplace({cell.block, material_index(block(cell.block), cell)}, 0);
-    for (auto& [part, number] : parts_) number = ++deck.numbers.part;
+    for (auto& [part, number] : parts_) {
+      number = ++deck.numbers.part;
+      deck.parts.emplace_back(number, part.block);
+    }
   }
 
   void write() {

@@ -114,6 +114,14 @@ class Differences {
   }
 
   void add_preload() {
+    if (options_.preload) {
+      add("Start: the static state of the scene, by places, stresses and velocities. The stresses are "
+          "one-point "
+          "ones: the hourglass forces of this program are missing.");
+      if (model_.contact)
+        add("Contact: the bodies overlap as here; the reader begins without the force of that overlap.");
+      return;
+    }
     add(fmt::format(
         "Preload: none. The bodies are undeformed{}; gravity and static loads {}. The deck settles by "
         "itself while it runs.",
@@ -135,7 +143,8 @@ class Differences {
   }
 
   void add_wheel() {
-    add("Motion at t = 0: the wheel rolls rigidly without creepage other than motion.creepage.");
+    if (!options_.preload)
+      add("Motion at t = 0: the wheel rolls rigidly without creepage other than motion.creepage.");
     if (model_.scene.vehicle)
       add(fmt::format(
           "Axle box: held across, and in the middle of the journal by spokes of {:.0f} Hz. Here the "

@@ -9,8 +9,11 @@
 
 #include "core/aligned.hpp"
 #include "core/body_frame.hpp"
+#include "drivers/engine/features/feature.hpp"
 #include "drivers/engine/model.hpp"
+#include "drivers/engine/preload.hpp"
 #include "drivers/studies/export/deck_options.hpp"
+#include "io/deck/radioss_file.hpp"
 #include "io/vtk/vtk_grid.hpp"
 
 namespace tread {
@@ -21,16 +24,28 @@ struct DeckNumbers {
                coordinates = 0;
 };
 
+/// What OpenRadioss reads beside a preloaded deck, because no keyword of it would do.
+struct RadiossCards {
+  std::vector<RadiossTie> ties;
+  std::vector<RadiossContact> contacts;
+  std::vector<RadiossReference> references;
+  std::vector<std::pair<std::int64_t, Vec3>> velocities;  ///< of each node at t = 0 [mm/ms]
+};
+
 class DeckModel {
  public:
-  /// Keeps a reference. The scene has [motion], and its motion starts rigidly.
-  DeckModel(const Model& model, const DeckOptions& options);
+  /// Keeps a reference. The scene has [motion]; without a preload its motion starts rigidly. `step`: of this
+  /// program [s].
+  DeckModel(const Model& model, const DeckOptions& options, double step);
 
   const Model& model() const { return *model_; }
   const Scene& scene() const { return model_->scene; }
   const DeckOptions& options() const { return options_; }
   const VtkGrid& grid() const { return grid_; }
   const BodyFrame& wheel() const { return wheel_; }  ///< at t = 0
+  bool preloaded() const { return options_.preload != nullptr; }
+  /// Displacements from the undeformed places at t = 0, by slot, in the nodes' bases [m].
+  ConstNodeField displacement() const { return displacement_.data(); }
 
   /// Number of the node in a slot of the mesh.
   std::int64_t node(std::int64_t slot) const { return node_of_slot_[static_cast<std::size_t>(slot)]; }
@@ -47,28 +62,42 @@ class DeckModel {
 
   /// Place of a node in space at t = 0 [m].
   Vec3 place(const VtkGrid::Point& point) const;
+  /// The same without its displacement.
+  Vec3 undeformed_place(const VtkGrid::Point& point) const;
   Vec3 place(std::int64_t node) const { return place(grid_.points[static_cast<std::size_t>(node - 1)]); }
   /// Returns true if the node moves rigidly with wheel() at t = 0.
   bool rolls(const VtkGrid::Point& point) const;
   /// Its velocity in space [m/s].
   Vec3 velocity(const VtkGrid::Point& point) const;
+  Vec3 velocity(std::int64_t node) const {
+    return velocity(grid_.points[static_cast<std::size_t>(node - 1)]);
+  }
+  /// Motion of the sprung mass at t = 0 against that at rest.
+  SprungStart sprung_start() const;
 
   /// Time at which the deck ends [s].
   double duration() const { return scene().motion->duration; }
 
-  DeckNumbers numbers;  ///< nodes of the mesh are numbered
-  double step = 0;      ///< of this program [s]
+  /// True if contacts, ties and velocities stand in RadiossCards.
+  bool has_radioss_cards() const { return preloaded() && options_.reader == DeckReader::openradioss; }
+
+  RadiossCards radioss;
+  std::vector<std::pair<std::int64_t, int>> parts;  ///< of the bodies, and their blocks
+  DeckNumbers numbers;                              ///< nodes of the mesh are numbered
+  double step = 0;                                  ///< of this program [s]
   /// Nodes that are held, by their directions: 1 along, 2 across, 4 vertical, added up.
   std::map<int, std::vector<std::int64_t>> held;
-  std::int64_t sprung = 0;                            ///< node of the sprung mass; 0: there is none
+  std::int64_t sprung = 0, unsprung = 0;              ///< nodes of these masses; 0: there are none
   std::vector<std::pair<std::int64_t, Vec3>> moving;  ///< nodes beside the mesh and their velocities [m/s]
+  /// Constant forces on nodes beside the mesh, those of springs at t = 0 [N].
+  std::vector<std::pair<std::int64_t, Vec3>> spring_forces;
 
  private:
   const Model* model_;
   DeckOptions options_;
   VtkGrid grid_;
   std::vector<std::int32_t> node_of_slot_;
-  AlignedVector<double> velocity_;  ///< relative to the frames [m/s]
+  AlignedVector<double> displacement_, velocity_;  ///< relative to the frames [m], [m/s]
   BodyFrame wheel_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/engine/traction.hpp"
+#include "drivers/studies/export/deck_start.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/deck_vehicle.hpp"
@@ -26,19 +27,19 @@ std::map<std::int64_t, int> held_directions(const DeckModel& deck) {
   return directions;
 }
 
-/// A force on a node along the third axis of coordinates, which are 0 for those of the deck.
+/// A force on a node along an axis of coordinates, which are 0 for those of the deck.
 struct NodeForce {
   std::int64_t node = 0;
   std::int64_t curve = 0;
   double share = 0;  ///< of the curve [kN per its unit]
   std::int64_t coordinates = 0;
+  int axis = 2;
 };
 
 /// A keyword for each: readers may take the first card alone.
 void write_force(const NodeForce& force, KeywordDeck& out) {
-  constexpr int kThird = 3;
   out.keyword("*LOAD_NODE_POINT");
-  out.card({force.node, kThird, force.curve, force.share, force.coordinates});
+  out.card({force.node, force.axis + 1, force.curve, force.share, force.coordinates});
 }
 
 /// Coordinates that turn with three nodes and whose third axis is normal to their plane. Follower forces
@@ -109,17 +110,33 @@ void write_gravity(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
 }
 
 /// The weight of a sprung mass stands in its spring from the start: its share on the journal, and a force
-/// that carries the mass.
+/// that carries the mass. In a preloaded deck the spokes of the axle box begin with that of the box.
 void write_journal_load(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
   const Model& model = deck.model();
   if (model.journal.empty()) return;
   double load = model.journal_load();
-  if (deck.scene().vehicle) load = deck.scene().vehicle->sprung_mass * deck.scene().gravity;
+  double sprung = 0, unsprung = 0;  // upwards, on these masses
+  if (const auto& vehicle = deck.scene().vehicle) {
+    sprung = vehicle->sprung_mass * deck.scene().gravity +
+             vehicle->suspension_stiffness * deck.sprung_start().drop;
+    unsprung = deck.preloaded() ? vehicle->unsprung_mass * deck.scene().gravity : 0;
+    load = sprung + unsprung;
+  }
   if (load == 0) return;
   out.remark("Static load on the journal. The weight of a sprung mass is in its spring from the start.");
   for (const auto& [node, share] : journal_shares(deck))
     write_force({node, curve, -deck_unit::kForce * load * share}, out);
-  if (deck.sprung > 0) write_force({deck.sprung, curve, deck_unit::kForce * load}, out);
+  if (deck.sprung > 0) write_force({deck.sprung, curve, deck_unit::kForce * sprung}, out);
+  if (unsprung > 0) write_force({deck.unsprung, curve, deck_unit::kForce * unsprung}, out);
+}
+
+/// Those of fastenings and bed at t = 0: the springs of the deck begin without a force.
+void write_spring_forces(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
+  if (!deck.preloaded()) return;
+  out.remark("Forces of the fastenings at t = 0.");
+  for (const auto& [node, force] : deck.spring_forces)
+    for (int axis = 0; axis < 3; ++axis)
+      if (force[axis] != 0) write_force({node, curve, deck_unit::kForce * force[axis], 0, axis}, out);
 }
 
 /// Three nodes of the section at a node's station whose plane has the tangent as its normal, by node of the
@@ -129,6 +146,45 @@ std::vector<std::array<int, 3>> planes_across(const Section& section) {
   for (const std::array<int, 4>& quad : section.quads)
     for (const int node : quad) planes[static_cast<std::size_t>(node)] = {quad[0], quad[1], quad[2]};
   return planes;
+}
+
+/// Three nodes of the wheel's innermost part that turn with it.
+std::array<std::int64_t, 3> turning_plane(const DeckModel& deck) {
+  const BlockIndex& index = deck.model().index;
+  const int part = index.axle >= 0 ? index.axle : index.tread;
+  const SweptBlock& block = deck.model().mesh.blocks[static_cast<std::size_t>(part)];
+  const auto node = [&](int third) { return deck.node(block, 0, block.station_count() * third / 3); };
+  return {node(0), node(1), node(2)};
+}
+
+/// Axes of the coordinates of three nodes at t = 0.
+std::array<Vec3, 3> axes_of(const DeckModel& deck, const std::array<std::int64_t, 3>& plane) {
+  const auto unit = [](const Vec3& v) { return (1 / norm(v)) * v; };
+  const Vec3 origin = deck.place(plane[0]);
+  const Vec3 first = unit(deck.place(plane[1]) - origin);
+  const Vec3 third = unit(cross(first, deck.place(plane[2]) - origin));
+  return {first, cross(third, first), third};
+}
+
+/// See hourglass_forces().
+void write_hourglass_forces(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
+  if (!deck.preloaded()) return;
+  out.remark("Forces in place of those of the hourglass stiffness at t = 0.");
+  TurningCoordinates coordinates(deck, out);
+  for (const auto& [node, force] : hourglass_forces(deck)) {
+    const VtkGrid::Point& point = deck.grid().points[static_cast<std::size_t>(node - 1)];
+    NodeForce load{node, curve};
+    std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    if (deck.model().mesh.blocks[static_cast<std::size_t>(point.block)].sweep == Sweep::revolved) {
+      const std::array<std::int64_t, 3> plane = turning_plane(deck);
+      load.coordinates = coordinates.of(plane);
+      axes = axes_of(deck, plane);
+    }
+    for (load.axis = 0; load.axis < 3; ++load.axis) {
+      load.share = deck_unit::kForce * dot(force, axes[static_cast<std::size_t>(load.axis)]);
+      if (load.share != 0) write_force(load, out);
+    }
+  }
 }
 
 /// Tangential forces that turn with the wheel.
@@ -191,6 +247,8 @@ void write_loads(DeckModel& deck, KeywordDeck& out) {
   const std::int64_t curve = write_static_curve(deck, out);
   write_gravity(deck, curve, out);
   write_journal_load(deck, curve, out);
+  write_spring_forces(deck, curve, out);
+  write_hourglass_forces(deck, curve, out);
   write_torque(deck, out);
   write_hammer(deck, out);
 }

@@ -3,12 +3,16 @@
 
 namespace tread {
 
+struct Preload;
+
 /// Solver that reads the deck: both take the same cards, but for the hourglass control.
 enum class DeckReader { openradioss, ls_dyna };
 
 struct DeckOptions {
   DeckReader reader = DeckReader::openradioss;
-  double ramp = 0;  ///< over which gravity and static loads grow to their full values [s]
+  double ramp = 0;                   ///< over which gravity and static loads grow to their full values [s]
+  double overlap = 0;                ///< by which the wheelset sits deeper at t = 0 [m]
+  const Preload* preload = nullptr;  ///< static state in which the deck starts; null: undeformed
 };
 
 }  // namespace tread

@@ -81,6 +81,9 @@ class SpringEnds {
     End& upper = on_face(element.upper, nullptr);
     End& lower = grounded(element.lower) ? on_ground(upper) : on_face(element.lower, &upper.at);
     for (End* end : {&upper, &lower}) end->mass += spring.end_mass(deck_.step);
+    const double pull = spring.stiffness * element.stretch(deck_.displacement());
+    upper.force[spring.component] -= pull;
+    lower.force[spring.component] += pull;
     return {upper.node, lower.node};
   }
 
@@ -95,6 +98,7 @@ class SpringEnds {
     out.keyword("*ELEMENT_MASS");
     out.names(kMassCard, {"eid", "nid", "mass"});
     for_each_end([&](const End& end) { out.card(kMassCard, {++deck_.numbers.element, end.node, end.mass}); });
+    for (const auto& [point, end] : points_) deck_.spring_forces.emplace_back(end.node, end.force);
     write_ties(out);
   }
 
@@ -105,6 +109,7 @@ class SpringEnds {
     Vec3 at;              ///< [m]
     double distance = 0;  ///< from its face [m]
     double mass = 0;      ///< [kg]
+    Vec3 force;           ///< of its springs at t = 0 [N]
   };
 
   static bool grounded(const Attachment& point) {

@@ -82,6 +82,10 @@ void write_tie_contact(DeckModel& deck, const std::string& title, const ContactS
                        KeywordDeck& out) {
   // A negative thickness is a distance up to which nodes are tied. [mm]
   const double reach = -(0.1 + deck_unit::kLength * distance);
+  if (deck.has_radioss_cards()) {
+    deck.radioss.ties.push_back({"tie of " + title, sides.secondary, sides.primary, -reach});
+    return;
+  }
   begin_contact(deck, "*CONTACT_TIED_NODES_TO_SURFACE_ID", "tie of " + title, sides, out);
   out.names({"fs", "fd"});
   out.card({0.0, 0.0});
@@ -137,12 +141,18 @@ void write_contact(DeckModel& deck, KeywordDeck& out) {
   ContactSides sides;
   sides.secondary = write_segment_set(deck, faces_over(deck, wheel, running_surface(wheel)), out);
   sides.primary = write_segment_set(deck, faces_over(deck, rail, running_surface(rail)), out);
-  begin_contact(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_ID", "wheel on rail", sides, out);
   // f = FD + (FS - FD) exp(-DC |v|)
   const bool falls = spec.friction_law == "falling";
+  const double fast = falls ? spec.friction_fast : spec.friction;
+  const double decay = falls ? 1 / spec.friction_speed : 0.0;  // s/m = ms/mm
+  if (deck.has_radioss_cards()) {
+    deck.radioss.contacts.push_back(
+        {"wheel on rail", sides.secondary, sides.primary, fast, spec.friction - fast, decay});
+    return;
+  }
+  begin_contact(deck, "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_ID", "wheel on rail", sides, out);
   out.names({"fs", "fd", "dc"});
-  out.card({spec.friction, falls ? spec.friction_fast : spec.friction,
-            falls ? 1 / spec.friction_speed : 0.0});  // s/m = ms/mm
+  out.card({spec.friction, fast, decay});
   out.names({"sfs", "sfm"});
   out.card({1.0, 1.0});
 }

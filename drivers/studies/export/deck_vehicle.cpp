@@ -8,11 +8,21 @@ namespace tread {
 
 namespace {
 
-/// The axle box's place: on the axle, over the middle of the journal [m].
+/// The axle box's place: on the axle, in the middle of the journal [m].
 Vec3 axle_box(const DeckModel& deck, const std::vector<std::pair<std::int64_t, double>>& ring) {
-  double across = 0;
-  for (const auto& [node, share] : ring) across += share * deck.place(node).y;
-  return {deck.wheel().origin.x, across, deck.wheel().origin.z};
+  Vec3 middle;
+  for (const auto& [node, share] : ring) middle += share * deck.place(node);
+  // Of a deflected axle: else the spokes, which turn with it, would swing the box about.
+  if (deck.preloaded()) return middle;
+  return {deck.wheel().origin.x, middle.y, deck.wheel().origin.z};
+}
+
+/// Its velocity at t = 0 [m/s].
+Vec3 box_velocity(const DeckModel& deck, const std::vector<std::pair<std::int64_t, double>>& ring) {
+  if (!deck.preloaded()) return deck.wheel().velocity;
+  Vec3 mean;
+  for (const auto& [node, share] : ring) mean += share * deck.velocity(node);
+  return {mean.x, 0, mean.z};
 }
 
 /// Stiffness by which two masses [kg] swing against each other at a frequency [Hz]. [N/m]
@@ -47,7 +57,8 @@ void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
   const std::int64_t unsprung = ++deck.numbers.node;
   const std::int64_t sprung = ++deck.numbers.node;
   deck.sprung = sprung;
-  deck.moving.emplace_back(unsprung, deck.wheel().velocity);
+  deck.unsprung = unsprung;
+  deck.moving.emplace_back(unsprung, box_velocity(deck, ring));
 
   out.remark("Axle box with the unsprung mass, and the sprung mass.");
   out.keyword("*NODE");
@@ -73,9 +84,10 @@ void write_vehicle(DeckModel& deck, DiscreteParts& parts, KeywordDeck& out) {
     link.component = 0;
     link.stiffness = stiffness_of(vehicle.sprung_mass, pulling, kLinkFrequency);
     parts.add(sprung, unsprung, link);
-    deck.moving.emplace_back(sprung, Vec3{deck.wheel().velocity.x, 0, 0});
+    deck.moving.emplace_back(sprung, Vec3{deck.wheel().velocity.x, 0, deck.sprung_start().speed});
     deck.held[2].push_back(sprung);
   } else {
+    deck.moving.emplace_back(sprung, Vec3{0, 0, deck.sprung_start().speed});
     deck.held[1 + 2].push_back(sprung);
   }
   // Spokes of equal stiffness k hold a ring of n nodes by n k / 2 in each direction of its plane.

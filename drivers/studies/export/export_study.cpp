@@ -4,12 +4,18 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "drivers/engine/lateral_gap.hpp"
+#include "drivers/process/progress.hpp"
 #include "drivers/results/scene_model.hpp"
+#include "drivers/run/preload_cache.hpp"
+#include "drivers/studies/export/deck_limits.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/keyword_export.hpp"
+#include "io/deck/radioss_file.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
 #include "io/text/units.hpp"
@@ -28,34 +34,59 @@ void corrugate(Model& model) {
   model.apply_corrugation(model.scene.corrugation->centre.value_or(touching));
 }
 
+/// Beside a deck: the file of OpenRadioss's starter (0) or engine (1).
+std::filesystem::path radioss_file(std::filesystem::path deck, int number) {
+  return deck.replace_filename(fmt::format("{}_{:04}.rad", deck.stem().string(), number));
+}
+
+void close_whole(std::ofstream& file, const std::filesystem::path& path) {
+  file.close();
+  if (!file) throw ResourceError(fmt::format("cannot write {}: is the disk full?", path.string()));
+}
+
+double quantity_of(const char* option, const std::string& text, const Quantity& expected) {
+  try {
+    return parse_quantity(text, expected);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} \"{}\": {}", option, text, error.what()));
+  }
+}
+
 DeckOptions deck_options(const ExportOptions& options) {
   DeckOptions deck;
   if (options.reader == "ls-dyna") deck.reader = DeckReader::ls_dyna;
+  if (!options.overlap.empty()) deck.overlap = quantity_of("--overlap", options.overlap, kLength);
   if (options.ramp.empty()) return deck;
-  try {
-    deck.ramp = parse_quantity(options.ramp, kTime);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--ramp \"{}\": {}", options.ramp, error.what()));
-  }
+  deck.ramp = quantity_of("--ramp", options.ramp, kTime);
+  if (options.preload)
+    throw InputError(
+        "--ramp and --preload: a deck that starts in the static state bears its loads from the start; leave "
+        "one "
+        "out");
   if (deck.ramp < 0)
     throw InputError(fmt::format("--ramp \"{}\" is negative; state a time such as \"0.5 ms\"", options.ramp));
   return deck;
 }
 
 Json summary_json(const DeckSummary& summary, const ExportOptions& options) {
-  return {{"file", options.output.string()},
-          {"units", deck_unit::kNames},
-          {"nodes", summary.nodes},
-          {"elements", summary.elements},
-          {"discrete_elements", summary.discrete_elements},
-          {"mass_kg", summary.mass},
-          {"step_s", summary.step},
-          {"duration_s", summary.duration},
-          {"differences", summary.differences}};
+  return {
+      {"file", options.output.string()},
+      {"radioss_file", summary.radioss.velocities.empty() ? "" : radioss_file(options.output, 0).string()},
+      {"units", deck_unit::kNames},
+      {"nodes", summary.nodes},
+      {"elements", summary.elements},
+      {"discrete_elements", summary.discrete_elements},
+      {"mass_kg", summary.mass},
+      {"step_s", summary.step},
+      {"duration_s", summary.duration},
+      {"differences", summary.differences}};
 }
 
 void print_summary(const DeckSummary& summary, const ExportOptions& options) {
   fmt::print("File      {}\n", options.output.string());
+  if (!summary.radioss.velocities.empty())
+    fmt::print("Start     {}, for OpenRadioss's starter, and {} for its engine\n",
+               radioss_file(options.output, 0).string(), radioss_file(options.output, 1).string());
   fmt::print("Units     {}\n", deck_unit::kNames);
   fmt::print("Bodies    {} nodes, {} hexahedra, {:.6g} kg\n", summary.nodes, summary.elements, summary.mass);
   fmt::print("Discrete  {} springs and dampers\n", summary.discrete_elements);
@@ -64,23 +95,65 @@ void print_summary(const DeckSummary& summary, const ExportOptions& options) {
   for (const std::string& sentence : summary.differences) fmt::print("* {}\n", sentence);
 }
 
+/// The static state of the model, as `tread run` finds it, and the corrugation in its middle.
+Preload preload_of(const ResolvedScene& resolved, Model& model, bool quiet) {
+  const Progress progress(quiet);
+  const auto say = [&](const std::string& text) { progress.say("[preload] " + text); };
+  FoundPreload found = find_preload(
+      preload_cache(""), resolved, model, [&] { return solve_preload(model, steady_motion(model), say); },
+      say, [] {});
+  if (const auto& corrugation = model.scene.corrugation)
+    model.apply_corrugation(corrugation->centre.value_or(found.preload.contact.pressure_peak.y));
+  return std::move(found.preload);
+}
+
+/// The files of OpenRadioss: that of the starter names the deck.
+void write_radioss_files(const std::filesystem::path& deck, const Scene& scene, const DeckSummary& summary) {
+  RadiossRun run;
+  run.name = deck.stem().string();
+  run.end = deck_unit::kTime * summary.duration;
+  run.histories = deck_unit::kTime * scene.output.history_interval;
+  if (scene.output.frames > 0) run.frames = run.end / scene.output.frames;
+  run.step = deck_unit::kTime * summary.step;
+  run.factor = summary.step_factor;
+  write_text_file(radioss_file(deck, 1), radioss_run(run));
+  replace_file(radioss_file(deck, 0), [&](const std::filesystem::path& part) {
+    std::ofstream file(part, std::ios::binary);
+    RadiossFile out([&](std::string_view text) { file << text; });
+    out.begin(run.name, deck.filename().string());
+    for (const RadiossTie& tie : summary.radioss.ties) out.tie(tie);
+    for (const RadiossContact& contact : summary.radioss.contacts) out.contact(contact);
+    for (const RadiossReference& reference : summary.radioss.references) out.reference(reference);
+    out.velocities(summary.radioss.velocities);
+    out.end();
+    close_whole(file, part);
+  });
+}
+
 }  // namespace
 
 void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
   use_threads(options.threads);
-  const DeckOptions deck_choice = deck_options(options);
+  DeckOptions deck_choice = deck_options(options);
   Scene scene = resolved.scene;
-  if (scene.motion) scene.motion->start = "rigid";  // a deck starts without a preload
+  if (scene.motion && !options.preload) scene.motion->start = "rigid";
   Model model = scene_model(scene, resolved);
-  corrugate(model);
+  std::optional<Preload> preload;
+  if (options.preload) {
+    require_deck_can_hold(model);
+    preload = preload_of(resolved, model, options.quiet);
+    deck_choice.preload = &*preload;
+  } else {
+    corrugate(model);
+  }
   DeckSummary summary;
   replace_file(options.output, [&](const std::filesystem::path& part) {
     std::ofstream file(part, std::ios::binary);
     KeywordDeck deck([&](std::string_view text) { file << text; });
     summary = write_keyword_deck(model, deck_choice, options.program, deck);
-    file.close();
-    if (!file) throw ResourceError(fmt::format("cannot write {}: is the disk full?", part.string()));
+    close_whole(file, part);
   });
+  if (!summary.radioss.velocities.empty()) write_radioss_files(options.output, scene, summary);
   if (options.json)
     fmt::print("{}", json_text(summary_json(summary, options)));
   else

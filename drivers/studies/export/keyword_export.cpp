@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/contract.hpp"
 #include "core/error.hpp"
@@ -12,6 +13,7 @@
 #include "drivers/studies/export/deck_model.hpp"
 #include "drivers/studies/export/deck_motion.hpp"
 #include "drivers/studies/export/deck_springs.hpp"
+#include "drivers/studies/export/deck_start.hpp"
 #include "drivers/studies/export/deck_surfaces.hpp"
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/deck_vehicle.hpp"
@@ -88,9 +90,12 @@ void write_output(const DeckModel& deck, KeywordDeck& out) {
 DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, const std::string& origin,
                                KeywordDeck& out) {
   require_deck_can_hold(model);
-  TREAD_EXPECT(!model.wheelset || model.scene.start() == "rigid");
-  DeckModel deck(model, options);
+  TREAD_EXPECT(!model.wheelset || options.preload || model.scene.start() == "rigid");
+  const StepLimit limit = step_limit(model);
+  const double safety = model.scene.motion->step_safety;
   DeckSummary summary;
+  summary.step = safety * limit.stable_step;
+  DeckModel deck(model, options, summary.step);
   summary.nodes = deck.numbers.node;
   summary.elements = model.elements();
   if (std::max(2 * summary.nodes, 2 * summary.elements) > kLargestDeckNumber)
@@ -98,10 +103,6 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
         "the mesh has {} nodes and {} elements: a keyword deck numbers up to {}; make the elements larger",
         summary.nodes, summary.elements, kLargestDeckNumber));
   for (const double mass : model.mass) summary.mass += mass;
-  const StepLimit limit = step_limit(model);
-  const double safety = deck.scene().motion->step_safety;
-  summary.step = safety * limit.stable_step;
-  deck.step = summary.step;
   summary.step_factor =
       safety * std::min(1.0, limit.stable_step / limit.stiffest[limit.stiffest_block()].step);
   summary.duration = deck.duration();
@@ -119,10 +120,19 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
   write_contact(deck, out);
   write_restraints(deck, out);
   write_loads(deck, out);
-  write_velocities(deck, out);
+  if (!deck.preloaded()) {
+    write_velocities(deck, out);
+  } else if (deck.has_radioss_cards()) {
+    deck.radioss.references = references(deck);
+    deck.radioss.velocities = node_velocities(deck);
+  } else {
+    write_stresses(deck, out);
+    write_node_velocities(deck, out);
+  }
   write_part_sets(deck, out);
   out.keyword("*END");
   out.finish();
+  summary.radioss = std::move(deck.radioss);
   return summary;
 }
 

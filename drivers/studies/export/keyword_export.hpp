@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/engine/model.hpp"
+#include "drivers/studies/export/deck_model.hpp"
 #include "drivers/studies/export/deck_options.hpp"
 #include "io/deck/keyword_deck.hpp"
 
@@ -19,11 +20,12 @@ struct DeckSummary {
   double step = 0;                       ///< this program's step [s]
   double step_factor = 0;                ///< of the reader's own step, which knows no damping [-]
   double duration = 0;                   ///< [s]
+  RadiossCards radioss;                  ///< beside the deck; empty where that holds all
   std::vector<std::string> differences;  ///< sentences on what the deck leaves out or states in another way
 };
 
-/// Writes the model. Its motion starts rigidly: MotionSpec::start is "rigid". `origin`: program that writes
-/// the deck. Throws InputError for models that the deck would falsify.
+/// Writes the model. Without a preload its motion starts rigidly: MotionSpec::start is "rigid". `origin`:
+/// program that writes the deck. Throws InputError for models that the deck would falsify.
 DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, const std::string& origin,
                                KeywordDeck& out);
 
