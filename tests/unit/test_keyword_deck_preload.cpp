@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -171,6 +172,25 @@ TEST(PreloadedDeck, TheSpringsBearTheRail) {
     if (load.node > bodies && load.axis == 2 && load.value > 0 && load.value < 40) up += load.value;
   // Wheel load and the rail's own weight, but for the dampers' share of a moving load.
   EXPECT_GT(up, 0.7e-3 * at.model.wheel_load());
+}
+
+TEST(PreloadedDeck, TheAxleBoxSitsInTheDeflectedJournal) {
+  // Spokes turn with the wheel: about another place they would swing the box.
+  const Preloaded& at = wheelset();
+  const DeckModel deck(at.model, at.options(DeckReader::ls_dyna), at.step);
+  const ReadDeck read = exported(at.model, at.options(DeckReader::ls_dyna)).deck;
+  Vec3 sum;
+  int spokes = 0;
+  double deflection = 0;  // of the journal against the wheel's axis
+  for (const auto& [number, card] : read.discretes) {
+    if (samples::whole(card[4]) > 0) continue;
+    const Vec3 box = read.nodes.at(samples::whole(card[2]));
+    sum += read.nodes.at(samples::whole(card[3])) - box;
+    deflection = std::abs(box.z - 1e3 * deck.wheel().origin.z);
+    ++spokes;
+  }
+  ASSERT_GT(spokes, 0);
+  EXPECT_LT(std::hypot(sum.x, sum.z) / spokes, 0.05 * deflection);
 }
 
 TEST(PreloadedDeck, OverlapLowersTheWheelset) {

@@ -60,9 +60,7 @@ DeckOptions deck_options(const ExportOptions& options) {
   deck.ramp = quantity_of("--ramp", options.ramp, kTime);
   if (options.preload)
     throw InputError(
-        "--ramp and --preload: a deck that starts in the static state bears its loads from the start; leave "
-        "one "
-        "out");
+        "--ramp and --preload: in its static state a deck bears its loads from the start; leave one out");
   if (deck.ramp < 0)
     throw InputError(fmt::format("--ramp \"{}\" is negative; state a time such as \"0.5 ms\"", options.ramp));
   return deck;
