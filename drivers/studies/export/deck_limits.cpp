@@ -55,8 +55,10 @@ class Differences {
     add_element();
     add_damping();
     if (!model_.tie_specs.empty())
-      add("Ties: the reader's own; nodes of the fine side follow the faces of the coarse side. That of "
-          "OpenRadioss (Spotflag 28) adds mass to those faces.");
+      add(options_.radioss_cards()
+              ? "Ties: nodes of the fine side follow the faces of the coarse side; no mass is added."
+              : "Ties: the reader's own; nodes of the fine side follow the faces of the coarse side. "
+                "That of OpenRadioss (Spotflag 28) adds mass to those faces.");
     add_springs();
     if (model_.wheelset || model_.scene.gravity != 0) add_preload();
     if (model_.contact) add_contact();
@@ -115,11 +117,11 @@ class Differences {
 
   void add_preload() {
     if (options_.preload) {
-      add("Start: the static state of the scene, by places, stresses and velocities. The stresses are "
-          "one-point "
-          "ones: the hourglass forces of this program are missing.");
-      if (model_.contact)
-        add("Contact: the bodies overlap as here; the reader begins without the force of that overlap.");
+      add(
+          fmt::format("Start: the static state of the scene, by places, velocities, {}, forces of springs "
+                      "and nodal loads for "
+                      "the hourglass forces; loads on the wheel turn with it.",
+                      options_.radioss_cards() ? "places free of stress" : "stresses"));
       return;
     }
     add(fmt::format(
@@ -134,7 +136,10 @@ class Differences {
     const Scene& scene = model_.scene;
     if (scene.contact->surface == "exact")
       add("Contact surfaces: the faces of the elements. Here contact uses the curves of the profiles.");
-    add("Contact stiffness: the reader's own.");
+    add(options_.radioss_cards()
+            ? "Contact stiffness: four times the reader's own. Overlap at the start pushes; --overlap "
+              "deepens it until F_N is that of the static state."
+            : "Contact stiffness: the reader's own.");
     if (scene.contact->friction_law == "falling" && scene.contact->friction_memory > 0)
       add("contact.friction_memory: left out.");
     if (scene.corrugation && !scene.corrugation->centre)

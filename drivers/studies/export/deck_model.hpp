@@ -78,9 +78,6 @@ class DeckModel {
   /// Time at which the deck ends [s].
   double duration() const { return scene().motion->duration; }
 
-  /// True if contacts, ties and velocities stand in RadiossCards.
-  bool has_radioss_cards() const { return preloaded() && options_.reader == DeckReader::openradioss; }
-
   RadiossCards radioss;
   std::vector<std::pair<std::int64_t, int>> parts;  ///< of the bodies, and their blocks
   DeckNumbers numbers;                              ///< nodes of the mesh are numbered

@@ -13,6 +13,9 @@ struct DeckOptions {
   double ramp = 0;                   ///< over which gravity and static loads grow to their full values [s]
   double overlap = 0;                ///< by which the wheelset sits deeper at t = 0 [m]
   const Preload* preload = nullptr;  ///< static state in which the deck starts; null: undeformed
+
+  /// True if contacts, ties and the start stand in cards of OpenRadioss beside the deck.
+  bool radioss_cards() const { return preload != nullptr && reader == DeckReader::openradioss; }
 };
 
 }  // namespace tread

@@ -82,7 +82,7 @@ void write_tie_contact(DeckModel& deck, const std::string& title, const ContactS
                        KeywordDeck& out) {
   // A negative thickness is a distance up to which nodes are tied. [mm]
   const double reach = -(0.1 + deck_unit::kLength * distance);
-  if (deck.has_radioss_cards()) {
+  if (deck.options().radioss_cards()) {
     deck.radioss.ties.push_back({"tie of " + title, sides.secondary, sides.primary, -reach});
     return;
   }
@@ -145,7 +145,7 @@ void write_contact(DeckModel& deck, KeywordDeck& out) {
   const bool falls = spec.friction_law == "falling";
   const double fast = falls ? spec.friction_fast : spec.friction;
   const double decay = falls ? 1 / spec.friction_speed : 0.0;  // s/m = ms/mm
-  if (deck.has_radioss_cards()) {
+  if (deck.options().radioss_cards()) {
     deck.radioss.contacts.push_back(
         {"wheel on rail", sides.secondary, sides.primary, fast, spec.friction - fast, decay});
     return;

@@ -122,7 +122,7 @@ DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, c
   write_loads(deck, out);
   if (!deck.preloaded()) {
     write_velocities(deck, out);
-  } else if (deck.has_radioss_cards()) {
+  } else if (deck.options().radioss_cards()) {
     deck.radioss.references = references(deck);
     deck.radioss.velocities = node_velocities(deck);
   } else {
