@@ -27,9 +27,7 @@ void RadiossFile::begin(std::string_view name, std::string_view deck) {
 void RadiossFile::tie(const RadiossTie& tie) {
   constexpr int kNoMass = 5, kNearest = 2;
   sink_(fmt::format("/INTER/TYPE2/{}\n{}\n", ++next_, tie.title));
-  sink_(
-      "# grnd_IDs  surf_IDm    Ignore  Spotflag     Level   Isearch     Idel2  surf_IDs             "
-      "dsearch\n");
+  sink_("# grnd_IDs surf_IDm Ignore Spotflag Level Isearch Idel2 surf_IDs dsearch\n");
   sink_(fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>20.12g}\n", tie.nodes, tie.faces, 2,
                     kNoMass, 0, kNearest, 1, 0, tie.reach));
 }
@@ -43,37 +41,23 @@ void RadiossFile::contact(const RadiossContact& contact) {
   constexpr double kDamping = 0.05;    // VISs
   const int law = contact.more_friction > 0 ? 2 : 0;  // Ifric: C5 exp(C6 v) beyond Fric
   sink_(fmt::format("/INTER/TYPE25/{}\n{}\n", ++next_, contact.title));
-  sink_(
-      "# surf_ID1  surf_ID2      Istf      Ithe      Igap   Irem_i2                Idel     Iedge    "
-      "IPSTIF\n");
+  sink_("# surf_ID1 surf_ID2 Istf Ithe Igap Irem_i2 Idel Iedge IPSTIF\n");
   sink_(fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>20}{:>10}{:>10}\n", contact.secondary,
                     contact.primary, kByMeanStiffness, 0, kGapByNode, 0, 1, 0, 0));
-  sink_(
-      "# grnd_IDs                     Gap_scale          %mesh_size           Gap_max_s           "
-      "Gap_max_m\n");
+  sink_("# grnd_IDs Gap_scale %mesh_size Gap_max_s Gap_max_m\n");
   sink_(fmt::format("{:>10}{:>30}{:>20}{:>20}{:>20}\n", 0, 1, 0, 0, 0));
-  sink_(
-      "#              Stmin               Stmax     Igap0    Ishape          Edge_angle          "
-      "STFAC_MDT\n");
+  sink_("# Stmin Stmax Igap0 Ishape Edge_angle STFAC_MDT\n");
   sink_(fmt::format("{:>20}{:>20}{:>10}{:>10}{:>20}{:>20}\n", 0, 0, 0, 0, 0, 0));
-  sink_(
-      "#              Stfac                Fric           Tpressfit              Tstart               "
-      "Tstop\n");
+  sink_("# Stfac Fric Tpressfit Tstart Tstop\n");
   sink_(fmt::format("{:>20}{:>20.12g}{:>20}{:>20}{:>20}\n", kStiffness, contact.friction, kPressedIn, 0, 0));
-  sink_(
-      "#      IBC               IVIS2    Inacti                VISs    Ithick                          "
-      "Pmax\n");
+  sink_("# IBC IVIS2 Inacti VISs Ithick Pmax\n");
   sink_(fmt::format("{:>10}{:>20}{:>10}{:>20}{:>10}{:>30}\n", "000", 0, kOverlapPushes, kDamping, 0, 0));
-  sink_(
-      "#    Ifric    Ifiltr               Xfreq             sens_ID                                 "
-      "fric_ID\n");
+  sink_("# Ifric Ifiltr Xfreq sens_ID fric_ID\n");
   sink_(fmt::format("{:>10}{:>10}{:>20}{:>20}{:>40}\n", law, 0, 0, 0, 0));
   if (law > 0) {
-    sink_(
-        "#                 C1                  C2                  C3                  C4                  "
-        "C5\n");
+    sink_("# C1 C2 C3 C4 C5\n");
     sink_(fmt::format("{:>20}{:>20}{:>20}{:>20}{:>20.12g}\n", 0, 0, 0, 0, contact.more_friction));
-    sink_("#                 C6\n");
+    sink_("# C6\n");
     sink_(fmt::format("{:>20.12g}\n", -contact.decay));
   }
   const std::int64_t watched = next_;
@@ -82,14 +66,14 @@ void RadiossFile::contact(const RadiossContact& contact) {
 
 void RadiossFile::reference(const RadiossReference& reference) {
   sink_(fmt::format("/XREF/{}\nfree of stress\n#    Nitrs\n{:>10}\n", reference.part, 1));
-  sink_("#  node_ID                   X                   Y                   Z\n");
+  sink_("# node_ID X Y Z\n");
   for (const auto& [node, at] : reference.nodes)
     sink_(fmt::format("{:>10}{:>20.14g}{:>20.14g}{:>20.14g}\n", node, at.x, at.y, at.z));
 }
 
 void RadiossFile::velocities(std::span<const std::pair<std::int64_t, Vec3>> nodes) {
   sink_(fmt::format("/INIVEL/NODE/{}\nvelocities at t = 0\n", ++next_));
-  sink_("#  node_ID   skew_ID                 Vxt                 Vyt                 Vzt\n");
+  sink_("# node_ID skew_ID Vxt Vyt Vzt\n");
   for (const auto& [node, v] : nodes)
     sink_(fmt::format("{:>10}{:>10}{:>20.12g}{:>20.12g}{:>20.12g}\n{:>40}{:>20}{:>20}\n", node, 0, v.x, v.y,
                       v.z, 0, 0, 0));

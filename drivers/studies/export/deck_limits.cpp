@@ -10,8 +10,25 @@
 
 namespace tread {
 
-void require_deck_can_hold(const Model& model) {
+namespace {
+
+/// OpenRadioss takes places free of stress for elastic parts alone.
+void require_elastic_parts(const Model& model) {
+  for (const SweptBlock& block : model.mesh.blocks)
+    for (const Material& material : block.materials)
+      if (material.law == "j2")
+        throw InputError(
+            fmt::format("--preload: material.{}.law = \"j2\", and OpenRadioss has no static state for it; "
+                        "leave out --preload, "
+                        "or state --for ls-dyna",
+                        material.name));
+}
+
+}  // namespace
+
+void require_deck_can_hold(const Model& model, const DeckOptions& options) {
   const Scene& scene = model.scene;
+  if (options.radioss_cards()) require_elastic_parts(model);
   if (!scene.motion)
     throw InputError(
         "[motion] is missing: a keyword deck needs a time to end; add motion.duration, or set "

@@ -11,7 +11,7 @@ namespace tread {
 
 /// InputError for scenes whose deck would be wrong: a guided bore, a corrugation in the gap alone, friction
 /// by place, an axle box without mass, no time to end.
-void require_deck_can_hold(const Model& model);
+void require_deck_can_hold(const Model& model, const DeckOptions& options);
 
 /// Sentences on all that the deck leaves out or states in another way.
 std::vector<std::string> deck_differences(const Model& model, const DeckOptions& options, double step);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 
 #include "core/body_frame.hpp"
@@ -35,10 +36,6 @@ std::array<Vec3, 3> bases_of(const SweptBlock& block, int station) {
     for (Vec3& base : bases) base = cylindrical_to_cartesian(middle, base);
   return bases;
 }
-
-}  // namespace
-
-namespace {
 
 /// Stress of an element in the deck's axes [Pa].
 Tensor stress_of(const DeckModel& deck, const VtkGrid::Cell& cell) {
@@ -105,23 +102,25 @@ double largest_of(const CornerForces& forces) {
 
 }  // namespace
 
-std::vector<std::pair<std::int64_t, Vec3>> hourglass_forces(const DeckModel& deck, double smallest) {
+std::vector<std::pair<std::int64_t, Vec3>> hourglass_forces(const DeckModel& deck,
+                                                            const KeptHourglass& keep) {
   std::vector<CornerForces> elements;
-  double largest = 0;
+  std::vector<double> sizes;
   const std::int64_t* corner = deck.grid().connectivity.data();
   for (const VtkGrid::Cell& cell : deck.grid().cells) {
     elements.push_back(hourglass_of(deck, cell, corner));
-    largest = std::max(largest, largest_of(elements.back()));
+    sizes.push_back(largest_of(elements.back()));
     corner += deck.grid().corners();
   }
+  std::vector<double> descending = sizes;
+  std::sort(descending.begin(), descending.end(), std::greater<>());
+  double bound = keep.smallest * descending.front();
+  if (descending.size() > keep.elements) bound = std::max(bound, descending[keep.elements]);
   // Whole elements are kept or left out, so that what is kept balances.
   std::map<std::int64_t, Vec3> kept;
-  corner = deck.grid().connectivity.data();
-  for (const CornerForces& forces : elements) {
-    if (largest_of(forces) > smallest * largest)
-      for (int node = 0; node < 8; ++node) kept[corner[node] + 1] -= forces[static_cast<std::size_t>(node)];
-    corner += deck.grid().corners();
-  }
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (std::size_t node = 0; node < 8; ++node)
+      if (sizes[i] > bound) kept[deck.grid().connectivity[8 * i + node] + 1] -= elements[i][node];
   return {kept.begin(), kept.end()};
 }
 

@@ -138,9 +138,9 @@ void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
   Model model = scene_model(scene, resolved);
   std::optional<Preload> preload;
   if (options.preload) {
-    require_deck_can_hold(model);
-    preload = preload_of(resolved, model, options.quiet);
-    deck_choice.preload = &*preload;
+    deck_choice.preload = &preload.emplace();
+    require_deck_can_hold(model, deck_choice);
+    *preload = preload_of(resolved, model, options.quiet);
   } else {
     corrugate(model);
   }

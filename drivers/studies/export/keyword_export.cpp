@@ -89,7 +89,7 @@ void write_output(const DeckModel& deck, KeywordDeck& out) {
 
 DeckSummary write_keyword_deck(const Model& model, const DeckOptions& options, const std::string& origin,
                                KeywordDeck& out) {
-  require_deck_can_hold(model);
+  require_deck_can_hold(model, options);
   TREAD_EXPECT(!model.wheelset || options.preload || model.scene.start() == "rigid");
   const StepLimit limit = step_limit(model);
   const double safety = model.scene.motion->step_safety;
