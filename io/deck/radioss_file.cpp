@@ -37,7 +37,7 @@ void RadiossFile::contact(const RadiossContact& contact) {
   constexpr double kPressedIn = 1e-6;  // Tpressfit: the overlap pushes in full from there on [ms]
   constexpr int kByMeanStiffness = 2;  // Istf
   constexpr int kGapByNode = 2;        // Igap: none on solids
-  constexpr int kStiffness = 4;        // Stfac: at 1 the overlap exceeds the approach, at 10 nodes chatter
+  constexpr int kStiffness = 4;        // Stfac; 10 made nodes chatter
   constexpr double kDamping = 0.05;    // VISs
   const int law = contact.more_friction > 0 ? 2 : 0;  // Ifric: C5 exp(C6 v) beyond Fric
   sink_(fmt::format("/INTER/TYPE25/{}\n{}\n", ++next_, contact.title));
