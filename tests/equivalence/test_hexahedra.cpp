@@ -246,7 +246,8 @@ void expect_same_scene(const Scene& scene, int pieces) {
   for (const LineFault& fault : faults.list()) ADD_FAILURE() << fault.line << ": " << fault.message;
   const HexMesh& mesh = imported.mesh;
 
-  const DeckModel numbered(model, {});
+  const double step = 1e-6;  // no matter here
+  const DeckModel numbered(model, {}, step);
   const VtkGrid& grid = numbered.grid();
   ASSERT_EQ(mesh.nodes.size(), grid.points.size());
   ASSERT_EQ(8 * mesh.elements.size(), grid.connectivity.size());
