@@ -17,12 +17,7 @@ RollingScene::RollingScene(const ResolvedScene& resolved, const Progress& progre
     throw InputError("bench: the scene has no [motion], so there are no steps to time; add one");
   model_ = std::make_unique<Model>(scene, std::nullopt, require_memory);
   const auto say = [&](const std::string& text) { progress.say(fmt::format("[{}]", text)); };
-  preload_ = find_preload(
-                 preload_cache(""), resolved, *model_,
-                 [&] { return solve_preload(*model_, steady_motion(*model_), say); }, say, [] {})
-                 .preload;
-  if (scene.corrugation)
-    model_->apply_corrugation(scene.corrugation->centre.value_or(preload_.contact.pressure_peak.y));
+  preload_ = preload_and_corrugate(resolved, *model_, say);
   dt_ = scene.motion->step_safety * step_limit(*model_).stable_step;
 }
 

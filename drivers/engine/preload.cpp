@@ -113,6 +113,11 @@ double wheel_tilt(const Model& model, ConstNodeField displacement, double angle)
   return moment / second;
 }
 
+double deepest_line(const Scene& scene, const Preload& preload) {
+  const double peak = preload.contact.pressure_peak.y;
+  return scene.corrugation ? scene.corrugation->centre.value_or(peak) : peak;
+}
+
 SteadyMotion steady_motion(const Model& model) {
   SteadyMotion out;
   if (!model.scene.motion || !model.scene.wheel) return out;

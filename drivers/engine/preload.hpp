@@ -58,6 +58,9 @@ struct Preload {
   }
 };
 
+/// y of the corrugation's deepest line; without corrugation it matters to nothing [m].
+double deepest_line(const Scene& scene, const Preload& preload);
+
 using ProgressText = std::function<void(const std::string&)>;
 
 /// Motion that the scene starts with: speed / radius by its creepage, as far as it wants them in the static

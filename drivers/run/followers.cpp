@@ -94,7 +94,7 @@ class FollowedRun {
     const RunOrder order = unpack_order(content);
     unpack_results(content, results_);
     const ResolvedScene made = resolve_scene(order.scene, order.overrides);
-    model_.emplace(made.scene, deepest_line(made.scene, results_), require_memory);
+    model_.emplace(made.scene, deepest_line(made.scene, results_.preload), require_memory);
     adopt_later_values(*model_, resolve_with_later(order).scene);
     if (const std::string other = other_origin(content, *model_); !other.empty())
       throw ResourceError(fmt::format(

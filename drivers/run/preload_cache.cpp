@@ -173,4 +173,12 @@ FoundPreload find_preload(const std::optional<ContentCache>& cache, const Resolv
   return found;
 }
 
+Preload preload_and_corrugate(const ResolvedScene& resolved, Model& model, const ProgressText& say) {
+  FoundPreload found = find_preload(
+      preload_cache(""), resolved, model, [&] { return solve_preload(model, steady_motion(model), say); },
+      say, [] {});
+  if (model.scene.corrugation) model.apply_corrugation(deepest_line(model.scene, found.preload));
+  return std::move(found.preload);
+}
+
 }  // namespace tread

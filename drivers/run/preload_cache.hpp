@@ -28,4 +28,8 @@ FoundPreload find_preload(const std::optional<ContentCache>& cache, const Resolv
                           Model& model, const std::function<Preload()>& solve, const ProgressText& say,
                           const std::function<void()>& wait);
 
+/// The model's preload, from the default cache or solved, and the model with its corrugation, as a run has it
+/// before its first step.
+Preload preload_and_corrugate(const ResolvedScene& resolved, Model& model, const ProgressText& say);
+
 }  // namespace tread

@@ -12,11 +12,6 @@ ResolvedScene resolve_with_later(const RunOrder& order) {
   return resolve_scene(order.scene, all);
 }
 
-double deepest_line(const Scene& scene, const RunResults& results) {
-  const double peak = results.preload.contact.pressure_peak.y;
-  return scene.corrugation ? scene.corrugation->centre.value_or(peak) : peak;
-}
-
 void adopt_later_values(Model& model, const Scene& later) {
   model.scene.output = later.output;
   model.scene.stop = later.stop;

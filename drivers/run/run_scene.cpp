@@ -157,7 +157,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
   results.origin = session.order.origin;
   if (checkpoint) unpack_results(*checkpoint, results);
   const std::optional<double> deepest =
-      checkpoint ? std::optional(deepest_line(made.scene, results)) : std::nullopt;
+      checkpoint ? std::optional(deepest_line(made.scene, results.preload)) : std::nullopt;
   Model model = scene_model(made.scene, made, deepest);
   adopt_later_values(model, session.resolved.scene);
   const double seconds_mesh = session.progress.seconds();
@@ -172,7 +172,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
   } else {
     find_statics(session, made, model, results);
-    model.apply_corrugation(deepest_line(scene, results));
+    model.apply_corrugation(deepest_line(scene, results.preload));
   }
   if (fork) begin_fork(session, *fork, model, results);
   if (scene.motion) {

@@ -11,8 +11,7 @@ RunResults ride(Model& model, int samples, const ProgressText& progress) {
   const Scene& scene = model.scene;
   RunResults results;
   results.preload = solve_preload(model, steady_motion(model), progress);
-  if (scene.corrugation)
-    model.apply_corrugation(scene.corrugation->centre.value_or(results.preload.contact.pressure_peak.y));
+  if (scene.corrugation) model.apply_corrugation(deepest_line(scene, results.preload));
   results.limit = step_limit(model);
   results.dt = scene.motion->step_safety * results.limit.stable_step;
   const std::int64_t steps = step_count(scene, results.dt);

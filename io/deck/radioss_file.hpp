@@ -32,7 +32,7 @@ struct RadiossReference {
   std::vector<std::pair<std::int64_t, Vec3>> nodes;
 };
 
-/// What the engine of OpenRadioss is told.
+/// Orders to the engine of OpenRadioss.
 struct RadiossRun {
   std::string name;      ///< of the model
   double end = 0;        ///< [ms]

@@ -24,7 +24,7 @@ struct DeckNumbers {
                coordinates = 0;
 };
 
-/// What OpenRadioss reads beside a preloaded deck, because no keyword of it would do.
+/// Cards that OpenRadioss reads beside a preloaded deck, because no keyword of it would do.
 struct RadiossCards {
   std::vector<RadiossTie> ties;
   std::vector<RadiossContact> contacts;

@@ -170,18 +170,22 @@ std::array<Vec3, 3> axes_of(const DeckModel& deck, const std::array<std::int64_t
 void write_hourglass_forces(DeckModel& deck, std::int64_t curve, KeywordDeck& out) {
   if (!deck.preloaded()) return;
   out.remark("Forces in place of those of the hourglass stiffness at t = 0.");
-  TurningCoordinates coordinates(deck, out);
+  std::int64_t turning = 0;
+  std::array<Vec3, 3> axes;  // of the wheel
+  if (deck.model().index.tread >= 0) {
+    const std::array<std::int64_t, 3> plane = turning_plane(deck);
+    turning = TurningCoordinates(deck, out).of(plane);
+    axes = axes_of(deck, plane);
+  }
   for (const auto& [node, force] : hourglass_forces(deck)) {
     const VtkGrid::Point& point = deck.grid().points[static_cast<std::size_t>(node - 1)];
+    const bool turns =
+        deck.model().mesh.blocks[static_cast<std::size_t>(point.block)].sweep == Sweep::revolved;
     NodeForce load{node, curve};
-    std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-    if (deck.model().mesh.blocks[static_cast<std::size_t>(point.block)].sweep == Sweep::revolved) {
-      const std::array<std::int64_t, 3> plane = turning_plane(deck);
-      load.coordinates = coordinates.of(plane);
-      axes = axes_of(deck, plane);
-    }
+    if (turns) load.coordinates = turning;
     for (load.axis = 0; load.axis < 3; ++load.axis) {
-      load.share = deck_unit::kForce * dot(force, axes[static_cast<std::size_t>(load.axis)]);
+      const double along = turns ? dot(force, axes[static_cast<std::size_t>(load.axis)]) : force[load.axis];
+      load.share = deck_unit::kForce * along;
       if (load.share != 0) write_force(load, out);
     }
   }

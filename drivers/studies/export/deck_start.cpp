@@ -46,7 +46,7 @@ Tensor stress_of(const DeckModel& deck, const VtkGrid::Cell& cell) {
 
 using CornerForces = std::array<Vec3, 8>;
 
-/// What a displacement of an element's corners has beyond the linear field of its mean gradients.
+/// The part of a displacement of an element's corners beyond the linear field of its mean gradients.
 std::array<Vec3, 8> beyond_linear(const HexNodes& places, const std::array<Vec3, 8>& displacement) {
   const ElementGeometry geometry = element_geometry(places);
   std::array<Vec3, 3> gradient;  // of each component

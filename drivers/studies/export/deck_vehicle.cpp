@@ -8,20 +8,28 @@ namespace tread {
 
 namespace {
 
+using Ring = std::vector<std::pair<std::int64_t, double>>;
+
+/// Mean over the journal's nodes of `value(node)`.
+template <class Value>
+Vec3 mean_of(const Ring& ring, const Value& value) {
+  Vec3 mean;
+  for (const auto& [node, share] : ring) mean += share * value(node);
+  return mean;
+}
+
 /// The axle box's place: on the axle, in the middle of the journal [m].
-Vec3 axle_box(const DeckModel& deck, const std::vector<std::pair<std::int64_t, double>>& ring) {
-  Vec3 middle;
-  for (const auto& [node, share] : ring) middle += share * deck.place(node);
-  // Of a deflected axle: else the spokes, which turn with it, would swing the box about.
+Vec3 axle_box(const DeckModel& deck, const Ring& ring) {
+  const Vec3 middle = mean_of(ring, [&](std::int64_t node) { return deck.place(node); });
+  // The spokes turn with the axle: about another place than its deflected middle they would swing the box.
   if (deck.preloaded()) return middle;
   return {deck.wheel().origin.x, middle.y, deck.wheel().origin.z};
 }
 
 /// Its velocity at t = 0 [m/s].
-Vec3 box_velocity(const DeckModel& deck, const std::vector<std::pair<std::int64_t, double>>& ring) {
+Vec3 box_velocity(const DeckModel& deck, const Ring& ring) {
   if (!deck.preloaded()) return deck.wheel().velocity;
-  Vec3 mean;
-  for (const auto& [node, share] : ring) mean += share * deck.velocity(node);
+  const Vec3 mean = mean_of(ring, [&](std::int64_t node) { return deck.velocity(node); });
   return {mean.x, 0, mean.z};
 }
 

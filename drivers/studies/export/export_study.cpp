@@ -5,7 +5,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "core/error.hpp"
 #include "drivers/engine/lateral_gap.hpp"
@@ -93,18 +92,6 @@ void print_summary(const DeckSummary& summary, const ExportOptions& options) {
   for (const std::string& sentence : summary.differences) fmt::print("* {}\n", sentence);
 }
 
-/// The static state of the model, as `tread run` finds it, and the corrugation in its middle.
-Preload preload_of(const ResolvedScene& resolved, Model& model, bool quiet) {
-  const Progress progress(quiet);
-  const auto say = [&](const std::string& text) { progress.say("[preload] " + text); };
-  FoundPreload found = find_preload(
-      preload_cache(""), resolved, model, [&] { return solve_preload(model, steady_motion(model), say); },
-      say, [] {});
-  if (const auto& corrugation = model.scene.corrugation)
-    model.apply_corrugation(corrugation->centre.value_or(found.preload.contact.pressure_peak.y));
-  return std::move(found.preload);
-}
-
 /// The files of OpenRadioss: that of the starter names the deck.
 void write_radioss_files(const std::filesystem::path& deck, const Scene& scene, const DeckSummary& summary) {
   RadiossRun run;
@@ -140,7 +127,9 @@ void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
   if (options.preload) {
     deck_choice.preload = &preload.emplace();
     require_deck_can_hold(model, deck_choice);
-    *preload = preload_of(resolved, model, options.quiet);
+    const Progress progress(options.quiet);
+    *preload = preload_and_corrugate(resolved, model,
+                                     [&](const std::string& text) { progress.say("[preload] " + text); });
   } else {
     corrugate(model);
   }
