@@ -45,6 +45,11 @@ struct Tile {
   int next = -1;  ///< tile that holds the station after this one's last element; -1 if none
 };
 
+/// Successive tiles of a block, which may pass the end of a full turn.
+struct TileSpan {
+  int first = 0, count = 0;
+};
+
 /// Pitch and material of the elements of a tile. All elements of (quad, class) share their coefficients.
 struct PitchClass {
   double pitch = 0;

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
 #include <string>
 #include <utility>
 
+#include "core/contract.hpp"
 #include "core/error.hpp"
 #include "core/parallel/parallel_backend.hpp"
 
@@ -19,6 +21,7 @@ namespace tread {
 namespace {
 
 constexpr int kRangesPerThread = 8;
+constexpr int kRangesOfFirstLink = 2;  ///< by thread
 /// TBB is the default: its idle threads sleep soon. OpenMP's spin, which takes the cores from other programs
 /// and, on busy cores, slows a run by more than ten times.
 constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &openmp_backend};
@@ -26,9 +29,7 @@ constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &open
 int g_threads = 1;
 std::vector<int> g_cores;  ///< bind_threads
 ParallelTimes* g_times = nullptr;
-/// For this thread's next call of parallel_ranges, to run too.
-thread_local const FunctionRef<void()>* t_beside = nullptr;
-thread_local bool t_alone = false;  ///< this thread runs what beside() has given it
+thread_local bool t_in_link = false;  ///< this thread is in a link after the first of a chain
 
 /// Backend with the given name. Throws InputError for an unknown name; its message cites `where`, the place
 /// of the name.
@@ -53,12 +54,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Adds what a thread has done from `start` on to its times; `items`: how many it was.
-void add_time(int thread, std::chrono::steady_clock::time_point start, std::int64_t items) {
+/// Adds what a thread has done from `start` on to its times and returns it; `items`: how many it was.
+double add_time(int thread, std::chrono::steady_clock::time_point start, std::int64_t items) {
   const double seconds = seconds_since(start);
   ParallelTimes::Thread& of = g_times->by_thread[static_cast<std::size_t>(thread)];
   of.busy += seconds;
   of.longest = std::max(of.longest, seconds / static_cast<double>(items));
+  return seconds;
 }
 
 /// Keeps this thread, by its number, on its core. Where the machine does not let it, it goes on anywhere.
@@ -72,27 +74,111 @@ void stay_on_core(int thread) {
   ::sched_setaffinity(0, sizeof(core), &core);
 }
 
+/// Where a part of n items begins. There are many items a part: the parts shrink, so that threads end at the
+/// same time, also on cores that other processes use.
+std::int64_t begin_of(std::int64_t part, std::int64_t parts, std::int64_t n) {
+  if (n < parts * parts) return n * part / parts;
+  const std::int64_t left = parts - part;
+  return n - n * left / parts * left / parts;
+}
+
+/// The links of a chain, as threads reach them.
+class RunningChain {
+ public:
+  explicit RunningChain(const Chain& chain)
+      : chain_(&chain),
+        ranges_(std::clamp(chain.n, std::int64_t{1}, std::int64_t{kRangesOfFirstLink} * g_threads)),
+        left_(ranges_) {}
+
+  std::int64_t ranges() const { return ranges_; }
+
+  /// Runs one of ranges() of the first link; after the last of them the others.
+  void run(std::int64_t range, int thread) {
+    const auto from = std::chrono::steady_clock::now();
+    const std::int64_t first = chain_->n * range / ranges_;
+    const std::int64_t last = chain_->n * (range + 1) / ranges_;
+    if (first < last) chain_->first(first, last);
+    if (g_times) seconds_of_first_ += add_time(thread, from, std::max<std::int64_t>(last - first, 1));
+    if (left_.fetch_sub(1) == 1) run_others(thread);
+  }
+
+  /// Throws what a link has thrown; adds the times.
+  void end() {
+    if (g_times) {
+      g_times->links[0] += seconds_of_first_;
+      for (std::size_t link = 1; link < kMostLinks; ++link) g_times->links[link] += seconds_[link];
+    }
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+ private:
+  void run_others(int thread) {
+    const auto from = std::chrono::steady_clock::now();
+    t_in_link = true;
+    try {
+      std::size_t link = 0;
+      for (const FunctionRef<void()>& then : chain_->then) {
+        const auto begun = std::chrono::steady_clock::now();
+        then();
+        seconds_[++link] = seconds_since(begun);
+      }
+    } catch (...) {  // thread libraries do not carry it on
+      thrown_ = std::current_exception();
+    }
+    t_in_link = false;
+    if (g_times) add_time(thread, from, 1);
+  }
+
+  const Chain* chain_;
+  std::int64_t ranges_;
+  std::atomic<std::int64_t> left_;  ///< ranges of the first link
+  std::atomic<double> seconds_of_first_ = 0;
+  std::array<double, kMostLinks> seconds_{};
+  std::exception_ptr thrown_;
+};
+
 /// Runs several ranges per thread, taken as threads become free. A core that another process uses then slows
-/// the rest little. `alone` goes first.
-void run_ranges(std::int64_t n, const FunctionRef<void()>* alone,
+/// the rest little. A chain goes first.
+void run_ranges(std::int64_t n, RunningChain* chain,
                 FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
+  const std::int64_t first = chain != nullptr ? chain->ranges() : 0;
   if (g_threads == 1) {
+    for (std::int64_t range = 0; range < first; ++range) chain->run(range, 0);
     body(0, n, 0);
     return;
   }
   const std::int64_t ranges = std::min(n, std::int64_t{kRangesPerThread} * g_threads);
-  const std::int64_t first = alone != nullptr ? 1 : 0;
   chosen()->run(first + ranges, g_threads, [&](std::int64_t item, int thread) {
     stay_on_core(thread);
     if (item < first) {
-      const auto from = std::chrono::steady_clock::now();
-      (*alone)();
-      if (g_times) add_time(thread, from, 1);
+      chain->run(item, thread);
       return;
     }
     const std::int64_t range = item - first;
-    body(n * range / ranges, n * (range + 1) / ranges, thread);
+    body(begin_of(range, ranges, n), begin_of(range + 1, ranges, n), thread);
   });
+}
+
+/// Runs ranges, beside a chain or null, and adds their times.
+void run_timed(std::int64_t n, RunningChain* chain, FunctionRef<void(std::int64_t, std::int64_t)> body) {
+  if (!g_times) {
+    run_ranges(n, chain, [&](std::int64_t first, std::int64_t last, int /*thread*/) { body(first, last); });
+    return;
+  }
+  if (g_times->by_thread.size() < static_cast<std::size_t>(g_threads))
+    g_times->by_thread.resize(static_cast<std::size_t>(g_threads));
+  const auto started = std::chrono::steady_clock::now();
+  run_ranges(n, chain, [&](std::int64_t first, std::int64_t last, int thread) {
+    const auto from = std::chrono::steady_clock::now();
+    body(first, last);
+    add_time(thread, from, last - first);
+  });
+  g_times->wall += seconds_since(started);
+  double longest = 0;
+  for (ParallelTimes::Thread& of : g_times->by_thread)
+    longest = std::max(longest, std::exchange(of.longest, 0.0));
+  g_times->longest += longest;
+  ++g_times->calls;
 }
 
 }  // namespace
@@ -123,59 +209,17 @@ std::string_view backend() {
 
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
   if (n <= 0) return;
-  if (t_alone) {
+  if (t_in_link)
     body(0, n);
-    return;
-  }
-  const FunctionRef<void()>* const alone = std::exchange(t_beside, nullptr);
-  if (!g_times) {
-    run_ranges(n, alone, [&](std::int64_t first, std::int64_t last, int /*thread*/) { body(first, last); });
-    return;
-  }
-  if (g_times->by_thread.size() < static_cast<std::size_t>(g_threads))
-    g_times->by_thread.resize(static_cast<std::size_t>(g_threads));
-  const auto started = std::chrono::steady_clock::now();
-  run_ranges(n, alone, [&](std::int64_t first, std::int64_t last, int thread) {
-    const auto from = std::chrono::steady_clock::now();
-    body(first, last);
-    add_time(thread, from, last - first);
-  });
-  g_times->wall += seconds_since(started);
-  double longest = 0;
-  for (ParallelTimes::Thread& of : g_times->by_thread)
-    longest = std::max(longest, std::exchange(of.longest, 0.0));
-  g_times->longest += longest;
-  ++g_times->calls;
+  else
+    run_timed(n, nullptr, body);
 }
 
-void beside(FunctionRef<void()> alone, FunctionRef<void()> shared) {
-  if (g_threads == 1 || t_alone) {
-    alone();
-    shared();
-    return;
-  }
-  std::exception_ptr thrown;
-  const auto run_alone = [&] {
-    const auto from = std::chrono::steady_clock::now();
-    t_alone = true;
-    try {
-      alone();
-    } catch (...) {  // thread libraries do not carry it on
-      thrown = std::current_exception();
-    }
-    t_alone = false;
-    if (g_times) g_times->alone += seconds_since(from);
-  };
-  const FunctionRef<void()> waiting(run_alone);
-  t_beside = &waiting;
-  try {
-    shared();
-  } catch (...) {
-    t_beside = nullptr;
-    throw;
-  }
-  if (std::exchange(t_beside, nullptr)) run_alone();
-  if (thrown) std::rethrow_exception(thrown);
+void ranges_beside(const Chain& chain, std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
+  TREAD_EXPECT(n > 0 && chain.then.size() < kMostLinks && !t_in_link);
+  RunningChain running(chain);
+  run_timed(n, &running, body);
+  running.end();
 }
 
 double ParallelTimes::busy() const {

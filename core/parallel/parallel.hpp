@@ -3,7 +3,10 @@
 // threads. Every item writes only its own data, so results are bit-identical for any number of threads and
 // for either backend.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -33,22 +36,33 @@ void bind_threads(std::vector<int> cores);
 /// this function.
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
 
-/// Calls `shared`, and `alone` beside its first call of parallel_ranges: one thread takes `alone` while the
-/// others begin with the ranges. Neither may touch what the other writes. In `alone`, calls of
-/// parallel_ranges stay on its thread. What it throws is thrown once `shared` is done.
-void beside(FunctionRef<void()> alone, FunctionRef<void()> shared);
+/// Work that goes on beside ranges.
+struct Chain {
+  std::int64_t n;                                       ///< items of its first link
+  FunctionRef<void(std::int64_t, std::int64_t)> first;  ///< on ranges of them, by several threads
+  /// The other links, in their order, once the first one is done, by one thread. Calls of parallel_ranges
+  /// stay on it.
+  std::span<const FunctionRef<void()>> then;
+};
+inline constexpr std::size_t kMostLinks = 3;
+
+/// parallel_ranges(n, body) beside a chain, which begins first. Neither may touch what the other writes. What
+/// a link after the first throws is thrown once all is done, and ends the chain.
+void ranges_beside(const Chain& chain, std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
 
 /// Times spent inside parallel_ranges.
 struct ParallelTimes {
   struct alignas(64) Thread {
-    double busy = 0;     ///< time in bodies, and in what ran beside them [s]
+    double busy = 0;     ///< time in bodies and links [s]
     double longest = 0;  ///< item of this call [s]
   };
   std::vector<Thread> by_thread;
   std::int64_t calls = 0;
   double wall = 0;     ///< time of all calls [s]
-  double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range [s]
-  double alone = 0;    ///< time of what ran beside the calls, by beside() [s]
+  double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range, the links
+                       ///< after the first are one [s]
+  /// Core-time of chains that ran beside the calls, by link [s].
+  std::array<double, kMostLinks> links{};
 
   double busy() const;  ///< of all threads [s]
 };

@@ -3,6 +3,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include "core/parallel/parallel_backend.hpp"
@@ -52,12 +54,13 @@ void run(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> t
   }
   static char begun, ended;
   release(begun);
+  std::atomic<std::int64_t> next = 0;
   team->arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::int64_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::int64_t>& range) {
+        tbb::blocked_range<std::int64_t>(0, std::min<std::int64_t>(threads, count), 1),
+        [&](const tbb::blocked_range<std::int64_t>& /*threads*/) {
           acquire(begun);
-          for (std::int64_t i = range.begin(); i < range.end(); ++i)
+          for (std::int64_t i; (i = next.fetch_add(1)) < count;)
             task(i, tbb::this_task_arena::current_thread_index());
           release(ended);
         },

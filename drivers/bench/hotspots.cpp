@@ -33,7 +33,7 @@ constexpr std::int64_t kWarmUpSteps = 20;
 struct Hotspot {
   const char* name;
   double seconds;         ///< of a step [s]
-  double beside;          ///< of these, beside another phase [s]
+  double beside;          ///< of these, beside the elements [s]
   double parallel_share;  ///< of it, in parallel calls [-]
   double imbalance;       ///< slowest thread's busy time over the mean; 0: never parallel
   Load load;
@@ -331,8 +331,8 @@ void bench_hotspots(const ResolvedScene& resolved, const BenchHotspotsOptions& o
       "{}\n",
       on_device.any()
           ? "Work on a device overlaps: a phase holds what the processor does, and waits for, in it."
-          : "Beside: by one thread, beside the phase of the row above, whose time holds it. All other phases "
-            "run one after the other.");
+          : "Beside: core-time beside the elements, whose time holds it. All other phases run one after the "
+            "other.");
   if (on_device.any()) fmt::print("{}", on_device.text());
   if (!options.cores.empty()) fmt::print("\n{}", projection.text(static_cast<double>(elements)));
   if (!counters.available()) fmt::print("Hardware counters are not at hand ({}).\n", counters.reason());

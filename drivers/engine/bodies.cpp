@@ -97,7 +97,10 @@ void Bodies::apply(StepPhase phase, StepState& step) {
 }
 
 void Bodies::internal_force(StepState& step) const {
-  step.fields.internal_force_and_move(loads(step), step.measured);
+  if (step.contact_beside)
+    step.fields.move_with_contact(loads(step), step.time);
+  else
+    step.fields.internal_force_and_move(loads(step), step.measured);
 }
 
 void Bodies::update(StepState& step) const {

@@ -1,7 +1,7 @@
 #include "drivers/engine/chosen_fields.hpp"
 
 #include "drivers/engine/device_fields.hpp"
-#include "drivers/engine/precise_fields.hpp"
+#include "drivers/engine/processor_fields.hpp"
 #include "drivers/engine/rank_fields.hpp"
 
 namespace tread {
@@ -18,7 +18,7 @@ std::unique_ptr<NodeFields> fields_of(const Model& model) {
     return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
   if (std::shared_ptr<Ranks> ranks = chosen_ranks())
     return std::make_unique<RankFields<Real, U>>(model, std::move(ranks));
-  return std::make_unique<PreciseFields<Real, U>>(model);
+  return std::make_unique<ProcessorFields<Real, U>>(model);
 }
 
 }  // namespace

@@ -37,7 +37,6 @@ class DeviceFields final : public PreciseFields<Real, U>, private ContactSteps {
   void fetch() override;
   void changed() override;
   bool elsewhere() const override { return !host_whole_; }
-  bool by_processor() const override { return false; }
   void show(const WatchedNodes& nodes) override {
     send();
     shown_.fetch(nodes.groups(), now_.u.data(), now_.v.data(), this->u(), this->v());

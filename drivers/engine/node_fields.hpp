@@ -62,6 +62,12 @@ class NodeFields : public WholeFields {
   /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step. Nodes on which
   /// nothing else acts may move, unless the step is measured: energies want the forces of all nodes.
   virtual void internal_force_and_move(const StepLoads& loads, bool measured) = 0;
+  /// True if move_with_contact() can take the place of internal_force_and_move() in a step that is not
+  /// measured.
+  virtual bool parts_patch(const BodyFrame& /*wheel*/, double /*dt*/) { return false; }
+  /// Does so, and solves the contact beside the elements away from the patch. The contact's search is aimed.
+  /// `time`: at the start of the step [s]. Only after parts_patch() of this step.
+  virtual void move_with_contact(const StepLoads& /*loads*/, double /*time*/) {}
   /// Moves those that have not moved, in the same step.
   virtual void move_rest(const StepLoads& loads, bool measured) = 0;
   /// Lets the unknowns, which have moved, stand still at zero.
@@ -80,8 +86,6 @@ class NodeFields : public WholeFields {
   /// Gives other ranks what they hold of rank 0's values.
   virtual void spread() {}
 
-  /// True where the processor takes the steps.
-  virtual bool by_processor() const { return true; }
   virtual bool finite() const = 0;
   virtual void list_state(StateList& list) = 0;
 

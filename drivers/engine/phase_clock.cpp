@@ -8,7 +8,7 @@ void PhaseClock::enter(StepPhase phase) {
   close();
   list(phase);
   current_ = &times_[static_cast<std::size_t>(phase)];
-  alone_before_ = current_->parallel.alone;
+  links_before_ = current_->parallel.links;
   measure_parallel(&current_->parallel);
   if (counters_) counted_ = counters_();
   entered_ = std::chrono::steady_clock::now();
@@ -19,10 +19,10 @@ void PhaseClock::list(StepPhase phase) {
     entered_phases_.push_back(phase);
 }
 
-void PhaseClock::had_beside(StepPhase phase) {
+void PhaseClock::had_beside(StepPhase phase, std::size_t link) {
   list(phase);
   PhaseTimes& times = times_[static_cast<std::size_t>(phase)];
-  const double seconds = current_->parallel.alone - alone_before_;
+  const double seconds = current_->parallel.links[link] - links_before_[link];
   times.seconds += seconds;
   times.beside += seconds;
 }

@@ -37,8 +37,9 @@ class PhaseClock {
   PhaseClock& operator=(const PhaseClock&) = delete;
 
   void enter(StepPhase phase);
-  /// The phase entered last has run beside this one since; its own time is what one thread has spent in it.
-  void had_beside(StepPhase phase);
+  /// This phase was a link of the chain beside the one entered last; its own time is the core-time of the
+  /// link.
+  void had_beside(StepPhase phase, std::size_t link);
   void stop();
 
   /// Phases that were entered, in the order of their first time.
@@ -53,7 +54,7 @@ class PhaseClock {
   std::vector<StepPhase> entered_phases_;
   std::array<PhaseTimes, kStepPhases> times_;
   PhaseTimes* current_ = nullptr;
-  double alone_before_ = 0;  ///< ParallelTimes::alone when the phase was entered [s]
+  std::array<double, kMostLinks> links_before_{};  ///< ParallelTimes::links when the phase was entered [s]
   std::chrono::steady_clock::time_point entered_;
   CounterValues counted_;
 };

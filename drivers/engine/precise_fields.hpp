@@ -82,7 +82,7 @@ class PreciseFields : public NodeFields {
   }
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override {
-    for (const auto& body : model_->body_forces) body->internal_force(u_.data(), v_.data(), lag(), f_.data());
+    force_bodies();
     if (measured)
       parts_.internal().internal_force(force_fields());
     else
@@ -187,6 +187,10 @@ class PreciseFields : public NodeFields {
   const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
 
+  /// Forces of bodies from files.
+  void force_bodies() {
+    for (const auto& body : model_->body_forces) body->internal_force(u_.data(), v_.data(), lag(), f_.data());
+  }
   BasicTimeUpdate<Real, U>& update() { return update_; }
   PageVector<U>& u() { return u_; }
   PageVector<Real>& v() { return v_; }

@@ -24,11 +24,6 @@ std::int64_t watch_interval(std::int64_t sampling) {
   return (sampling + looks - 1) / looks;
 }
 
-/// True if there are ties, and no node of them is the patch's.
-bool ties_are_apart(const Model& model) {
-  return model.contact && model.ties && !meet(surface_groups(model), tied_groups(model));
-}
-
 }  // namespace
 
 Simulation::Simulation(const Model& model, double patch_y, double dt)
@@ -39,8 +34,7 @@ Simulation::Simulation(const Model& model, double patch_y, double dt)
       v_(fields_->velocity()),
       force_(fields_->force()),
       features_(model, patch_y),
-      watched_(model.mesh),
-      apart_(ties_are_apart(model)) {}
+      watched_(model.mesh) {}
 
 Simulation::Simulation(const Model& model, const Preload& preload, double dt)
     : Simulation(model, preload.contact.centre.y, dt) {
@@ -84,7 +78,8 @@ StateList Simulation::nodal_state() {
 void Simulation::step() {
   using enum StepPhase;
   StepState s = begin_step();
-  // 1  gap of the points that touch or may touch
+  // 1  gap of the points that touch or may touch. Where nothing else acts on the patch, search and tractions
+  // go on beside the elements away from it, in 2
   apply(contact_search, s);
   // 2  internal force K (u + beta v) or K (u + g q) of every block, and motion of nodes on which nothing else
   // acts; tied nodes hand their forces to the primary nodes
@@ -100,10 +95,11 @@ void Simulation::step() {
   apply(hammer, s);
   apply(unsprung_mass, s);
   // 5  velocities and displacements of the other nodes, restraints; pressure and friction of the middle of
-  // the step; followers: tied nodes (beside the tractions), lag q of Maxwell branches, frame
+  // the step; followers: tied nodes, lag q of Maxwell branches, frame
   apply(update, s);
   apply(guided_bore, s);
-  apply_beside(contact_tractions, tied_motion, s);
+  apply(contact_tractions, s);
+  apply(tied_motion, s);
   apply(branch_lag, s);
   apply(frame, s);
   advance_time();
@@ -117,35 +113,39 @@ void Simulation::step() {
 StepState Simulation::begin_step() {
   sampled_ = steps_ % sampling_interval_ == 0;
   const bool measured = steps_ % sampling_interval_ % watch_interval(sampling_interval_) == 0;
-  return {*fields_, *fields_, u_,    v_,  force_, fields_->lag(),     fields_->laws(), frame_,
-          impulse_, *this,    time_, dt_, steps_, sampling_interval_, sampled_,        measured};
-}
-
-void Simulation::apply(StepPhase phase, StepState& step) {
-  if (clock_ && !features_.in(phase).empty()) clock_->enter(phase);
-  call_features(phase, step);
-}
-
-/// One virtual call for each feature that the phase has.
-void Simulation::call_features(StepPhase phase, StepState& step) {
-  for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
-}
-
-/// One thread takes the first phase, the others begin with the second. Neither touches what the other does.
-void Simulation::apply_beside(StepPhase alone, StepPhase shared, StepState& step) {
-  if (!ties_beside_patch()) {
-    apply(alone, step);
-    apply(shared, step);
-    return;
-  }
-  if (clock_) clock_->enter(shared);
-  beside([&] { call_features(alone, step); }, [&] { call_features(shared, step); });
-  if (clock_) clock_->had_beside(alone);
+  return {.fields = *fields_,
+          .whole = *fields_,
+          .displacement = u_,
+          .velocity = v_,
+          .force = force_,
+          .lag = fields_->lag(),
+          .laws = fields_->laws(),
+          .wheel = frame_,
+          .impulse = impulse_,
+          .end = *this,
+          .time = time_,
+          .dt = dt_,
+          .steps = steps_,
+          .sampling = sampling_interval_,
+          .sampled = sampled_,
+          .measured = measured,
+          .contact_beside = contact_beside(measured)};
 }
 
 /// A patch of many points is better solved by all threads.
-bool Simulation::ties_beside_patch() const {
-  return apart_ && threads() > 1 && fields_->by_processor() && !model_->contact->shares_patch();
+bool Simulation::contact_beside(bool measured) const {
+  return !measured && model_->contact && !model_->contact->shares_patch() &&
+         fields_->parts_patch(frame_, dt_);
+}
+
+/// One virtual call for each feature that the phase has.
+void Simulation::apply(StepPhase phase, StepState& step) {
+  const bool timed = clock_ != nullptr && !features_.in(phase).empty();
+  if (timed) clock_->enter(phase);
+  for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
+  if (!timed || phase != StepPhase::internal_force || !step.contact_beside) return;
+  clock_->had_beside(StepPhase::contact_search, 0);
+  clock_->had_beside(StepPhase::contact_tractions, 2);
 }
 
 void Simulation::advance_time() {

@@ -74,9 +74,7 @@ class Simulation final : private RunEnd {
   void start(const Preload& preload);
   StepState begin_step();
   void apply(StepPhase phase, StepState& step);
-  void call_features(StepPhase phase, StepState& step);
-  void apply_beside(StepPhase alone, StepPhase shared, StepState& step);
-  bool ties_beside_patch() const;
+  bool contact_beside(bool measured) const;
   void advance_time();
   /// Brings nodes that samples read to the views.
   void show_watched(StepState& step);
@@ -104,7 +102,6 @@ class Simulation final : private RunEnd {
   Vec3 start_momentum_;
   StepFeatures features_;
   WatchedNodes watched_;
-  bool apart_ = false;  ///< tied nodes are none of the patch's
 };
 
 }  // namespace tread

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -79,7 +80,7 @@ BasicInternalForce<Real, U>::BasicInternalForce(const Mesh& mesh)
       cost_.push_back(cost_.back() + (swept.tiles[index(tile)].elements > 0 ? cost : 1));
     }
   }
-  pending_.resize(items_.size(), 0);
+  halves_.resize(items_.size(), 0);
   unmoved_.resize(items_.size(), 0);
 }
 
@@ -119,40 +120,65 @@ void BasicInternalForce<Real, U>::move(std::span<const TileStretch> stretches,
   evaluate(stretches, moved_fields(update, loads, at));
 }
 
-/// Each thread gets successive items of like cost.
 template <class Real, class U>
-void BasicInternalForce<Real, U>::evaluate_elements(std::span<const TileStretch> stretches,
-                                                    const Fields& fields) const {
-  const auto cost_of = [this](const TileStretch& of) { return cost_[of.last] - cost_[of.first]; };
-  std::int64_t all = 0;
-  for (const TileStretch& stretch : stretches) all += cost_of(stretch);
-  parallel_ranges(all, [&](std::int64_t from, std::int64_t to) {
-    for (const TileStretch& stretch : stretches) {
-      const std::int64_t cost = cost_of(stretch);
-      if (from < cost && to > 0) {
-        const auto item = [&](std::int64_t at) {
-          return item_at(stretch.first, stretch.last, std::clamp(at, std::int64_t{0}, cost));
-        };
-        evaluate_items(item(from), item(to), fields);
-      }
-      from -= cost;
-      to -= cost;
-    }
-  });
+void BasicInternalForce<Real, U>::move(const WorkBeside& work, const BasicTimeUpdate<Real, U>& update,
+                                       const StepLoads& loads, const ForceFields<Real, U>& at) const {
+  const Fields fields = moved_fields(update, loads, at);
+  forget_halves();
+  const auto move_near = [&] { evaluate_share(work.near, 0, cost_of(work.near), fields); };
+  const std::array<FunctionRef<void()>, 2> links = {move_near, work.then};
+  ranges_beside(
+      {work.n, work.first, links}, cost_of(work.elsewhere),
+      [&](std::int64_t from, std::int64_t to) { evaluate_share(work.elsewhere, from, to, fields); });
 }
 
 template <class Real, class U>
-void BasicInternalForce<Real, U>::add_carries(std::span<const TileStretch> stretches, Real* f) const {
-  const auto hold = [stretches](std::size_t tile) {
-    return std::any_of(stretches.begin(), stretches.end(),
-                       [tile](const TileStretch& of) { return of.holds(tile); });
-  };
-  for (const TileStretch& stretch : stretches)
-    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-      if (!pending_[i]) continue;
-      const BlockData& data = blocks_[index(items_[i].block)];
-      if (hold(data.first_item + index(data.elements.previous(items_[i].tile)))) add_carry(items_[i], f);
+void BasicInternalForce<Real, U>::evaluate(std::span<const TileStretch> stretches,
+                                           const Fields& fields) const {
+  forget_halves();
+  parallel_ranges(cost_of(stretches),
+                  [&](std::int64_t from, std::int64_t to) { evaluate_share(stretches, from, to, fields); });
+}
+
+template <class Real, class U>
+std::int64_t BasicInternalForce<Real, U>::cost_of(std::span<const TileStretch> stretches) const {
+  std::int64_t cost = 0;
+  for (const TileStretch& stretch : stretches) cost += cost_[stretch.last] - cost_[stretch.first];
+  return cost;
+}
+
+/// Successive items, by the cost before them.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::evaluate_share(std::span<const TileStretch> stretches, std::int64_t from,
+                                                 std::int64_t to, const Fields& fields) const {
+  Item before;
+  for (const TileStretch& stretch : stretches) {
+    const std::int64_t cost = cost_of({&stretch, 1});
+    if (from < cost && to > 0) {
+      const auto item = [&](std::int64_t at) {
+        return item_at(stretch.first, stretch.last, std::clamp(at, std::int64_t{0}, cost));
+      };
+      evaluate_items(item(from), item(to), before, fields);
     }
+    from -= cost;
+    to -= cost;
+  }
+  leave(before, fields.f);
+}
+
+/// An item is evaluated, and the one behind it is not next.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::leave(const Item& item, Real* f) const {
+  if (item.block < 0) return;
+  const Tile& tile = mesh_.blocks[index(item.block)].tiles[index(item.tile)];
+  if (tile.elements > 0) complete({item.block, tile.next}, f);
+}
+
+/// The item, or the one before it, is evaluated: the thread that comes second adds the force between them.
+template <class Real, class U>
+void BasicInternalForce<Real, U>::complete(const Item& item, Real* f) const {
+  unsigned char& halves = halves_[blocks_[index(item.block)].first_item + index(item.tile)];
+  if (std::atomic_ref(halves).fetch_add(1) == 1) add_carry(item, f);
 }
 
 template <class Real, class U>
@@ -165,27 +191,29 @@ void BasicInternalForce<Real, U>::add_carry(const Item& item, Real* f) const {
 }
 
 template <class Real, class U>
-void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t last,
+void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t last, Item& before,
                                                  const Fields& fields) const {
   const int most = forces_->loops<Real, U>().tiles;
   for (std::size_t i = first; i < last;) {
     const Item item = items_[i];
     const BlockData& data = blocks_[index(item.block)];
     const int previous = data.elements.previous(item.tile);
-    const bool at_hand =
-        i > first && previous >= 0 && items_[i - 1].block == item.block && items_[i - 1].tile == previous;
+    const bool at_hand = previous >= 0 && before.block == item.block && before.tile == previous;
     const bool empty = mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
     const int tiles = joined(i) ? most : 1;
-    pending_[i] = previous >= 0 && !at_hand;
-    // The tile before reads what a pending one holds, maybe later.
-    unmoved_[i] = pending_[i] || empty;
-    if (tiles > 1) pending_[i + 1] = unmoved_[i + 1] = 0;
+    const bool half = previous >= 0 && !at_hand;
+    if (!at_hand) leave(before, fields.f);
+    // The tile before reads what this one holds, maybe later.
+    unmoved_[i] = half || empty;
+    if (tiles > 1) unmoved_[i + 1] = 0;
     const Real* carry_in = at_hand ? carry({item.block, previous}) : no_carry_.data() + kLanes;
     if (empty)
       pass_carry(item, carry_in, fields.f);
     else
       evaluate_tiles(i, tiles, carry_in, fields);
+    if (half) complete(item, fields.f);
     i += static_cast<std::size_t>(tiles);
+    before = items_[i - 1];
   }
 }
 

@@ -3,12 +3,14 @@
 // damping in the same evaluation, and what follows from the same elements (mass, energies, stresses,
 // frequencies).
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/function_ref.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "core/mesh/tile_sums.hpp"
@@ -32,6 +34,15 @@ struct ForceFields {
   Real* force;                     ///< [N]
   const Real* lag = nullptr;       ///< of Maxwell branches, where there are any [m]
   LawState<Real>* laws = nullptr;  ///< advanced; null: all blocks have the linear law
+};
+
+/// Work that needs the motion of some tiles, beside the elements of the others.
+struct WorkBeside {
+  std::span<const TileStretch> near;                    ///< whose nodes it reads, in the order of the sweep
+  std::span<const TileStretch> elsewhere;               ///< all others
+  std::int64_t n;                                       ///< items of its first part
+  FunctionRef<void(std::int64_t, std::int64_t)> first;  ///< on ranges of them, before nodes of `near` move
+  FunctionRef<void()> then;                             ///< by one thread, once they have moved
 };
 
 /// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
@@ -86,6 +97,10 @@ class BasicInternalForce {
             const ForceFields<Real, U>& at) const {
     evaluate(0, items_.size(), moved_fields(update, loads, at));
   }
+  /// The same beside other work, which finds those nodes moved that `update` does not defer, but for the
+  /// first tile of each stretch that does not follow on the one before.
+  void move(const WorkBeside& work, const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
+            const ForceFields<Real, U>& at) const;
   /// Marks of the last move(), in the order of blocks and tiles.
   const std::vector<unsigned char>& unmoved_tiles() const { return unmoved_; }
 
@@ -158,8 +173,8 @@ class BasicInternalForce {
 
  private:
   struct Item {
-    int block = 0;
-    int tile = 0;
+    int block = -1;
+    int tile = -1;
   };
   struct BlockData {
     BlockData(const Mesh& mesh, int block) : elements(mesh, block) {}
@@ -207,18 +222,19 @@ class BasicInternalForce {
     const TileStretch stretch{first, last};
     evaluate({&stretch, 1}, fields);
   }
-  void evaluate(std::span<const TileStretch> stretches, const Fields& fields) const {
-    evaluate_elements(stretches, fields);
-    add_carries(stretches, fields.f);
-  }
-  void evaluate_elements(std::span<const TileStretch> stretches, const Fields& fields) const;
+  void evaluate(std::span<const TileStretch> stretches, const Fields& fields) const;
+  std::int64_t cost_of(std::span<const TileStretch> stretches) const;
+  void evaluate_share(std::span<const TileStretch> stretches, std::int64_t from, std::int64_t to,
+                      const Fields& fields) const;
   std::size_t item_at(std::size_t first, std::size_t last, std::int64_t cost) const;
-  void evaluate_items(std::size_t first, std::size_t last, const Fields& fields) const;
+  /// `before`: the item evaluated before by this thread, in this call; becomes the last one of these.
+  void evaluate_items(std::size_t first, std::size_t last, Item& before, const Fields& fields) const;
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
-  /// Adds the forces that tiles of the stretches have left for others of them.
-  void add_carries(std::span<const TileStretch> stretches, Real* f) const;
+  void forget_halves() const { std::fill(halves_.begin(), halves_.end(), 0); }
+  void leave(const Item& item, Real* f) const;
+  void complete(const Item& item, Real* f) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;
@@ -228,8 +244,9 @@ class BasicInternalForce {
   std::vector<std::int64_t> cost_;                 ///< of all tiles before each, to share the work evenly
   AlignedVector<Real> no_carry_;                   ///< zeros
   mutable std::vector<PageVector<Real>> carries_;  ///< by block: [tile][carry_stride]
-  mutable std::vector<unsigned char> pending_;     ///< items whose carry is added after the parallel part
-  mutable std::vector<unsigned char> unmoved_;     ///< those, and items without elements
+  /// By item that did not follow on the one before: how many of both are evaluated.
+  mutable std::vector<unsigned char> halves_;
+  mutable std::vector<unsigned char> unmoved_;  ///< marks of those items, and of items without elements
 };
 
 using InternalForce = BasicInternalForce<double>;

@@ -106,7 +106,7 @@ void Contact::begin() {
 
 void Contact::search(const ContactState& state, double time, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(time));
-  search_.aim(*state.wheel, dt);
+  aim(*state.wheel, dt);
   if (steps_ != nullptr)
     steps_->search(*state.wheel, time, dt);
   else

@@ -85,6 +85,15 @@ class Contact {
   /// ends.
   void search(const ContactState& state, double time, double dt);
 
+  /// search() in parts, where no one else carries it out: aim(), then search_columns() of all columns(), by
+  /// several threads, then gather_points().
+  void aim(const BodyFrame& wheel, double dt) { search_.aim(wheel, dt); }
+  int columns() const { return search_.columns(); }
+  void search_columns(const ContactState& state, double time, int first, int last) {
+    search_.visit_columns(state, history_, time, first, last);
+  }
+  void gather_points() { search_.gather(points_); }
+
   /// Sets pressure and friction of the points found last, in the middle of the step, and adds their impulses
   /// to the motion that the step has without contact.
   void resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt);

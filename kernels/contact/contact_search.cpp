@@ -47,6 +47,14 @@ SurfacePart part_of(const SweptBlock& block, const StationFinder& finder, const 
 
 }  // namespace
 
+TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part) {
+  const auto all = static_cast<int>(block.tiles.size());
+  const int first = block.tile_of_station[index(part.first)];
+  const int last = block.tile_of_station[index((part.first + part.count - 1) % block.station_count())];
+  // A stretch that begins and ends in one tile lies in it, or passes all others.
+  return {first, first == last && part.count > kLanes ? all : (last - first + all) % all + 1};
+}
+
 ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
                              Corrugation corrugation)
     : surfaces_(rail, wheel, options.surface, options.rail_depth, options.wheel_depth),
@@ -214,14 +222,18 @@ void ContactSearch::aim(const BodyFrame& wheel, double dt) {
 
 void ContactSearch::find(const ContactState& state, std::span<const PointHistory> history, double time,
                          std::vector<ContactPoint>& points) {
-  const Visit visit{&state, history, bounds(aim_, time)};
-  parallel_ranges(aim_.last_station - aim_.first_station, [&](std::int64_t first, std::int64_t last) {
-    for (int station = aim_.first_station + static_cast<int>(first);
-         station < aim_.first_station + static_cast<int>(last); ++station)
-      if (!shared_ || shared_->own(station)) visit_column(visit, station);
+  parallel_ranges(columns(), [&](std::int64_t first, std::int64_t last) {
+    visit_columns(state, history, time, static_cast<int>(first), static_cast<int>(last));
   });
   if (shared_) exchange();
   gather(points);
+}
+
+void ContactSearch::visit_columns(const ContactState& state, std::span<const PointHistory> history,
+                                  double time, int first, int last) {
+  const Visit visit{&state, history, bounds(aim_, time)};
+  for (int station = aim_.first_station + first; station < aim_.first_station + last; ++station)
+    if (!shared_ || shared_->own(station)) visit_column(visit, station);
 }
 
 /// Gives each rank the columns that all have searched.

@@ -27,6 +27,9 @@ struct SurfacePart {
   int first_node = 0, last_node = 0;
 };
 
+/// The tiles that hold a part of the surface of a block.
+TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part);
+
 /// Window of rail faces about the wheel and the integration points on them that may touch.
 class ContactSearch {
  public:
@@ -66,6 +69,12 @@ class ContactSearch {
   /// aim(), with the tractions and velocities before the step. A point that carried pressure stays.
   void find(const ContactState& state, std::span<const PointHistory> history, double time,
             std::vector<ContactPoint>& points);
+  /// Columns of faces that a search visits, after aim().
+  int columns() const { return aim_.last_station - aim_.first_station; }
+  /// find() in parts: visits of all columns, by several threads, then gather().
+  void visit_columns(const ContactState& state, std::span<const PointHistory> history, double time, int first,
+                     int last);
+  void gather(std::vector<ContactPoint>& points) const;
   /// From now on ranks share what find() searches; null: this process searches alone.
   void share_among(std::shared_ptr<Ranks> ranks) {
     shared_.reset();
@@ -115,7 +124,6 @@ class ContactSearch {
   [[noreturn]] void refuse(const BodyFrame& wheel) const;
   void visit_column(const Visit& visit, int station);
   void exchange();
-  void gather(std::vector<ContactPoint>& points) const;
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
   /// Number of a rail face among all.
   std::int64_t face_index(int station, int edge) const {

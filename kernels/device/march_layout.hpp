@@ -30,11 +30,7 @@ struct MarchQuad {
   std::uint32_t begins : 4;  ///< a bit by corner: no quad before this one adds forces to the node
 };
 
-/// Successive tiles of a block, which may pass the end of a full turn.
-struct TileSpan {
-  int first = 0, count = 0;
-};
-/// Successive runs likewise.
+/// Successive runs of a block, which may pass the end of a full turn.
 struct MarchRuns {
   int first = 0, count = 0;
 };

@@ -6,14 +6,6 @@
 
 namespace tread {
 
-TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part) {
-  const auto all = static_cast<int>(block.tiles.size());
-  const int first = block.tile_of_station[index(part.first)];
-  const int last = block.tile_of_station[index((part.first + part.count - 1) % block.station_count())];
-  // A stretch that begins and ends in one tile lies in it, or passes all others.
-  return {first, first == last && part.count > kLanes ? all : (last - first + all) % all + 1};
-}
-
 template <class Real, class U>
 SurfaceCopies<Real, U>::SurfaceCopies(Device& device, const Mesh& mesh, const Contact& contact)
     : device_(&device),

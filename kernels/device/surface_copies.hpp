@@ -11,9 +11,6 @@
 
 namespace tread {
 
-/// The tiles that hold a part of the surface of a block.
-TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part);
-
 template <class Real, class U>
 class SurfaceCopies {
  public:

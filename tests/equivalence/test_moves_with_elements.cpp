@@ -15,11 +15,12 @@ namespace {
 
 constexpr int kSteps = 70;  // some steps are measured in either run
 
-/// Bodies without strain, the wheel pressed into the rail.
-Preload pressed(const Model& model) {
+/// Bodies without strain, the wheel pressed into the rail by a place of its turn [rad].
+Preload pressed(const Model& model, double place) {
   Preload preload;
   preload.displacement.assign(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
   if (model.contact) preload.wheel.origin.z = model.contact->touching_height() - 5e-5;
+  preload.wheel.angle = -place;
   return preload;
 }
 
@@ -30,27 +31,27 @@ struct Run {
 };
 
 /// Runs the model. Measured steps move all nodes after the elements.
-Run run(Model& model, int threads, bool measure_every_step) {
+Run run(Model& model, int threads, bool measure_every_step, double place) {
   set_threads(threads);
-  Simulation simulation(model, pressed(model), 5e-8);
+  Simulation simulation(model, pressed(model, place), 5e-8);
   simulation.set_sampling_interval(measure_every_step ? 1 : kSteps - 1);
   while (simulation.steps() < kSteps) simulation.step();
   set_threads(1);
   return {simulation.state_hash(), simulation.momentum_check().contact_impulse, simulation.sample()};
 }
 
-void expect_same_bits(const Scene& scene) {
+void expect_same_bits(const Scene& scene, double place = 0) {
   const auto model = [&] {
     auto made = std::make_unique<Model>(scene);
     if (scene.corrugation) made->apply_corrugation(0);
     return made;
   };
-  const Run all_after = run(*model(), 1, true);
+  const Run all_after = run(*model(), 1, true, place);
   if (scene.contact) {
     EXPECT_GT(all_after.contact_impulse.z, 0);
   }
   for (const int threads : {1, 2, 3}) {
-    const Run with_elements = run(*model(), threads, false);
+    const Run with_elements = run(*model(), threads, false, place);
     EXPECT_EQ(with_elements.hash, all_after.hash) << threads << " threads";
     EXPECT_EQ(with_elements.last.energy.strain, all_after.last.energy.strain);
     EXPECT_EQ(with_elements.last.energy.kinetic, all_after.last.energy.kinetic);
@@ -83,6 +84,18 @@ length = "40 mm"
   ASSERT_TRUE(model.ties && model.fastenings && !model.journal.empty() && !model.torque.empty());
   ASSERT_GE(model.index.slab, 0);
   expect_same_bits(scene);
+}
+
+TEST(MovesWithElements, PatchAtTheEndOfATurn) {
+  for (const char* precision : {"scene.precision=double", "scene.precision=mixed"}) {
+    std::vector<std::string> overrides = kShortTrack;
+    overrides.insert(overrides.end(), {"motion.duration=0.05 ms", precision});
+    const Scene scene = scene_of("[scene]\nbased_on = \"highspeed-slab-2014\"\n", overrides);
+    const Model model(scene);
+    const SweptBlock& tread = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+    ASSERT_TRUE(tread.closed);
+    expect_same_bits(scene, tread.stations.front());
+  }
 }
 
 TEST(MovesWithElements, MaxwellBranchOnATiedRail) {

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -69,46 +72,69 @@ TEST_P(Parallel, BoundThreadsStayOnTheirCores) {
   EXPECT_EQ(cores_of_this_thread(), all);
 }
 
-TEST_P(Parallel, OneThreadWorksBesideTheOthers) {
-  for (const int threads : {1, 2, 3}) {
-    set_threads(threads);
-    int alone = 0;
-    std::vector<int> visits(100, 0);
-    std::vector<int> later(100, 0);
-    const auto visit = [](std::vector<int>& of) {
-      parallel_ranges(std::ssize(of), [&](std::int64_t first, std::int64_t last) {
-        for (std::int64_t i = first; i < last; ++i) ++of[static_cast<std::size_t>(i)];
-      });
-    };
-    const auto alone_too = [&] {
-      parallel_ranges(
-          7, [&](std::int64_t first, std::int64_t last) { alone += static_cast<int>(last - first); });
-    };
-    beside(alone_too, [&] {
-      visit(visits);
-      visit(later);
-    });
-    EXPECT_EQ(alone, 7);
-    EXPECT_EQ(visits, std::vector<int>(100, 1));
-    EXPECT_EQ(later, std::vector<int>(100, 1));
-    beside(alone_too, [] {});
-    EXPECT_EQ(alone, 14) << "nothing to be beside";
-  }
+TEST_P(Parallel, LinksOfAChainFollowOneAnotherBesideRanges) {
+  for (const int threads : {1, 2, 3, 8})
+    for (const std::int64_t n : {0, 1, 20}) {
+      set_threads(threads);
+      std::vector<int> first(static_cast<std::size_t>(n), 0);
+      std::vector<int> visits(100, 0);
+      std::vector<std::int64_t> order;  // items of the first link when the second begins, then its end
+      const auto mark = [](std::vector<int>& of) {
+        return [&of](std::int64_t from, std::int64_t to) {
+          for (std::int64_t i = from; i < to; ++i) ++of[static_cast<std::size_t>(i)];
+        };
+      };
+      const auto second = [&] {
+        order.push_back(std::count(first.begin(), first.end(), 1));
+        std::int64_t items = 0;  // without a lock: its own thread takes them
+        parallel_ranges(7, [&](std::int64_t from, std::int64_t to) { items += to - from; });
+        order.push_back(items);
+      };
+      const auto third = [&] { order.push_back(-1); };
+      const std::array<FunctionRef<void()>, 2> then = {second, third};
+      ranges_beside({n, mark(first), then}, 100, mark(visits));
+      EXPECT_EQ(order, (std::vector<std::int64_t>{n, 7, -1})) << threads << " threads, " << n;
+      EXPECT_EQ(visits, std::vector<int>(100, 1));
+    }
 }
 
-TEST_P(Parallel, WhatIsThrownBesideIsThrownOn) {
+TEST_P(Parallel, WhatALinkThrowsIsThrownOnceAllIsDone) {
   for (const int threads : {1, 2}) {
     set_threads(threads);
-    const auto nothing = [] { parallel_ranges(9, [](std::int64_t, std::int64_t) {}); };
-    EXPECT_THROW(beside([] { throw NumericalError("deep"); }, nothing), NumericalError);
-    EXPECT_THROW(beside([] {}, [] { throw NumericalError("shared"); }), NumericalError);
-    int calls = 0;  // and the one that waited is forgotten
-    parallel_ranges(1, [&](std::int64_t, std::int64_t) { ++calls; });
-    EXPECT_EQ(calls, 1);
+    std::atomic<std::int64_t> items = 0;
+    bool later = false;
+    const auto deep = [] { throw NumericalError("deep"); };
+    const auto not_reached = [&] { later = true; };
+    const std::array<FunctionRef<void()>, 2> then = {deep, not_reached};
+    const auto nothing = [](std::int64_t, std::int64_t) {};
+    EXPECT_THROW(
+        ranges_beside({3, nothing, then}, 9, [&](std::int64_t from, std::int64_t to) { items += to - from; }),
+        NumericalError);
+    EXPECT_EQ(items, 9);
+    EXPECT_FALSE(later);
   }
 }
 
-TEST_P(Parallel, TimesAloneAreOneItem) {
+TEST_P(Parallel, LaterRangesOfManyItemsAreSmaller) {
+  set_threads(2);
+  constexpr std::int64_t kItems = 100000;
+  std::vector<std::array<std::int64_t, 2>> ranges;
+  std::mutex lock;
+  parallel_ranges(kItems, [&](std::int64_t from, std::int64_t to) {
+    const std::lock_guard held(lock);
+    ranges.push_back({from, to});
+  });
+  std::sort(ranges.begin(), ranges.end());
+  EXPECT_EQ(ranges.front()[0], 0);
+  EXPECT_EQ(ranges.back()[1], kItems);
+  for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
+    EXPECT_EQ(ranges[i][1], ranges[i + 1][0]);
+    EXPECT_GT(ranges[i][1] - ranges[i][0], ranges[i + 1][1] - ranges[i + 1][0]);
+  }
+  EXPECT_LT(ranges.back()[1] - ranges.back()[0], kItems / 200);
+}
+
+TEST_P(Parallel, TimesOfLinksAreOneItem) {
   ParallelTimes times;
   measure_parallel(&times);
   set_threads(2);
@@ -116,12 +142,14 @@ TEST_P(Parallel, TimesAloneAreOneItem) {
     volatile double sink = 0;
     for (int i = 0; i < 2000000; ++i) sink = sink + 1;
   };
-  beside(work, [] { parallel_ranges(4, [](std::int64_t, std::int64_t) {}); });
+  const std::array<FunctionRef<void()>, 2> then = {work, work};
+  ranges_beside({1, [&](std::int64_t, std::int64_t) { work(); }, then}, 4, [](std::int64_t, std::int64_t) {});
   measure_parallel(nullptr);
   EXPECT_EQ(times.calls, 1);
-  EXPECT_GT(times.alone, 0);
-  EXPECT_GE(times.longest, 0.99 * times.alone);
-  EXPECT_GE(times.wall, times.alone);
+  for (const double seconds : times.links) EXPECT_GT(seconds, 0);
+  EXPECT_GE(times.longest, 0.99 * (times.links[1] + times.links[2]));
+  EXPECT_GE(times.wall, times.links[0] + times.links[1] + times.links[2]);
+  EXPECT_GE(times.busy(), 0.99 * (times.links[0] + times.links[1] + times.links[2]));
 }
 
 TEST_P(Parallel, TimesAddUp) {

@@ -65,6 +65,7 @@ struct StepState {
   std::int64_t sampling;   ///< steps between samples
   bool sampled;            ///< histories get a sample of this step
   bool measured;           ///< energies are looked at in this step
+  bool contact_beside;     ///< contact is solved beside the elements away from the patch
   double axle_torque = 0;  ///< of this step, once its phase is done [N m]
 
   Motion motion() const { return {displacement, velocity, wheel, dt, whole}; }

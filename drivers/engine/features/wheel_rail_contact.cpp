@@ -28,11 +28,15 @@ void WheelRailContact::apply(StepPhase phase, StepState& step) {
 
 void WheelRailContact::search(const StepState& step) {
   if (!std::isfinite(step.wheel.origin.x)) step.end.stop();
-  contact_->search({step.displacement, step.velocity, &step.wheel}, step.time, step.dt);
+  if (step.contact_beside)
+    contact_->aim(step.wheel, step.dt);
+  else
+    contact_->search({step.displacement, step.velocity, &step.wheel}, step.time, step.dt);
 }
 
 void WheelRailContact::add_tractions(StepState& step) {
-  contact_->resolve({step.displacement, step.velocity, inverse_mass_}, step.wheel, step.dt);
+  if (!step.contact_beside)
+    contact_->resolve({step.displacement, step.velocity, inverse_mass_}, step.wheel, step.dt);
   if (contact_->point_at_the_end(step.wheel)) {
     step.end.stop_if_unstable();
     contact_->require_room(step.wheel);

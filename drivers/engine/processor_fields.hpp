@@ -1,0 +1,47 @@
+#pragma once
+// The fields of a run that one process moves: contact beside the elements away from the patch.
+// [docs/architecture.md, Step]
+
+#include <vector>
+
+#include "drivers/engine/patch_tiles.hpp"
+#include "drivers/engine/precise_fields.hpp"
+
+namespace tread {
+
+template <class Real, class U>
+class ProcessorFields final : public PreciseFields<Real, U> {
+ public:
+  explicit ProcessorFields(const Model& model)
+      : PreciseFields<Real, U>(model), patch_tiles_(model, joined_tiles()) {}
+
+  bool parts_patch(const BodyFrame& wheel, double dt) override { return patch_tiles_.find(wheel, dt); }
+
+  void move_with_contact(const StepLoads& loads, double time) override {
+    this->force_bodies();
+    Contact& contact = *this->model().contact;
+    const NodeField u = this->displacement_, v = this->velocity_;
+    const auto search = [&](std::int64_t first, std::int64_t last) {
+      contact.search_columns({u, v, &loads.frame}, time, static_cast<int>(first), static_cast<int>(last));
+    };
+    const auto solve = [&] {
+      contact.gather_points();
+      contact.resolve({u, v, this->model().inverse_mass.data()}, loads.frame, loads.dt);
+    };
+    this->internal().move({patch_tiles_.near(), patch_tiles_.elsewhere(), contact.columns(), search, solve},
+                          this->update(), loads, this->force_fields());
+  }
+
+ private:
+  std::vector<unsigned char> joined_tiles() const {
+    std::vector<unsigned char> joined;
+    for (const SweptBlock& block : this->mesh().blocks)
+      for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
+        joined.push_back(this->internal().joined(joined.size()));
+    return joined;
+  }
+
+  PatchTiles patch_tiles_;
+};
+
+}  // namespace tread
