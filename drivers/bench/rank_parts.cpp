@@ -17,7 +17,8 @@ void add_tiles(const Mesh& mesh, const RankCut& cut, const std::vector<TileWork>
       RankPart& part = parts[index(cut.rank_of(tile))];
       part.elements += each.elements * std::ssize(block.section.quads);
       part.own += block.section.nodes();
-      part.cost += work[tile++].cost;
+      part.cost += work[tile].cost + work[tile].ties;
+      ++tile;
     }
 }
 

@@ -10,10 +10,7 @@ namespace {
 
 template <class Real, class U>
 std::unique_ptr<NodeFields> fields_of(const Model& model) {
-  if (model.contact) {
-    model.contact->run_on(nullptr);
-    model.contact->searching().share_among(nullptr);
-  }
+  if (model.contact) model.contact->run_on(nullptr);
   if (std::shared_ptr<Device> device = chosen_device())
     return std::make_unique<DeviceFields<Real, U>>(model, std::move(device));
   if (std::shared_ptr<Ranks> ranks = chosen_ranks())

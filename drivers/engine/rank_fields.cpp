@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -39,12 +40,28 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       forces_(cut_, shared_, held_, *ranks_) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
-  if (model.contact) model.contact->searching().share_among(ranks_);
   if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
+  if (model.contact) {
+    const GroupMarks surfaces = surface_groups(model);
+    tied_patch_ = meet(surfaces, tied_groups(model));
+    const auto surface_of = [&](const HeldGroups& held) {
+      std::vector<std::int64_t> groups;
+      for (std::int64_t group = 0; group < std::ssize(surfaces); ++group)
+        if (surfaces[index(group)] != 0 && held.moved[index(group)] != 0) groups.push_back(group);
+      return groups;
+    };
+    if (ranks_->rank() == kContactRank) {
+      for (int rank = 0; rank < ranks_->count(); ++rank)
+        if (rank != kContactRank) patch_.push_back({rank, surface_of(shared_.held_by(rank)), {}, {}, {}});
+    } else {
+      patch_.push_back({kContactRank, surface_of(held_), {}, {}, {}});
+      model.contact->run_on(&elsewhere_.emplace(&*model.contact));
+    }
+  }
   take_near();
 }
 
-/// Chooses the nodes about the patch that all ranks move, for some steps, and gives each rank their motion.
+/// Chooses the nodes about the patch that kContactRank moves, for some steps, and gives it their motion.
 template <class Real, class U>
 void RankFields<Real, U>::follow_patch(const StepLoads& loads) {
   constexpr int kSteps = 70;
@@ -60,8 +77,67 @@ template <class Real, class U>
 void RankFields<Real, U>::take_near() {
   moved_ = held_.moved;
   deferred_ = held_.deferred;
-  for (const std::int64_t group : shared_.near()) moved_[index(group)] = deferred_[index(group)] = 1;
+  const bool solves = ranks_->rank() == kContactRank;
+  for (const std::int64_t group : shared_.near()) {
+    if (solves) moved_[index(group)] = 1;
+    if (moved_[index(group)] != 0) deferred_[index(group)] = 1;  // others leave its force
+  }
   this->update().defer_only(deferred_);
+  lay_out_patch();
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::lay_out_patch() {
+  patch_segments_.clear();
+  for (PatchMotion& motion : patch_) {
+    motion.groups.clear();
+    std::set_intersection(motion.surface.begin(), motion.surface.end(), shared_.near().begin(),
+                          shared_.near().end(), std::back_inserter(motion.groups));
+    if (motion.groups.empty()) continue;
+    motion.u.resize(motion.groups.size() * kGroupValues);
+    motion.v.resize(motion.u.size());
+    patch_segments_.push_back({motion.other, std::as_writable_bytes(std::span(motion.u))});
+    patch_segments_.push_back({motion.other, std::as_writable_bytes(std::span(motion.v))});
+  }
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::spread_patch(bool before_ties, bool measured) {
+  if (!this->model().contact || before_ties != tied_patch_) return;
+  const bool solves = ranks_->rank() == kContactRank;
+  const auto copy = [&](PatchMotion& motion) {
+    for_groups(motion.groups, 0, std::ssize(motion.groups), [&](std::int64_t at, std::int64_t place) {
+      if (solves) {
+        std::copy_n(this->u().data() + place, kGroupValues, motion.u.data() + at);
+        std::copy_n(this->v().data() + place, kGroupValues, motion.v.data() + at);
+      } else {
+        std::copy_n(motion.u.data() + at, kGroupValues, this->u().data() + place);
+        std::copy_n(motion.v.data() + at, kGroupValues, this->v().data() + place);
+      }
+    });
+  };
+  if (solves)
+    for (PatchMotion& motion : patch_) copy(motion);
+  exchange_one_way(solves, patch_segments_);
+  if (!solves) copy(patch_.front());
+  if (measured) spread_points();
+}
+
+/// What looks at the energies and samples read.
+template <class Real, class U>
+void RankFields<Real, U>::spread_points() {
+  Contact& contact = *this->model().contact;
+  struct Head {
+    std::int64_t points;
+    double frictional_work, damping_work;
+  } head = {std::ssize(contact.points()), contact.frictional_work(), contact.damping_work()};
+  ranks_->broadcast(std::as_writable_bytes(std::span(&head, 1)));
+  std::vector<ContactPoint> points = contact.points();
+  points.resize(index(head.points));
+  ranks_->broadcast(std::as_writable_bytes(std::span(points)));
+  if (ranks_->rank() == kContactRank) return;
+  contact.take_points(points, head.frictional_work, head.damping_work);
+  contact.add_forces(this->force_);
 }
 
 /// Gives each rank the values of these groups, as their tiles' ranks have them.
@@ -260,7 +336,8 @@ void RankFields<Real, U>::spoil() {
     if (cut_.owner(group) == ranks_->rank()) continue;
     const int first = first_lane[index(group)];
     const bool complete =
-        held_.forced[index(group)] != 0 || std::binary_search(near.begin(), near.end(), group);
+        held_.forced[index(group)] != 0 ||
+        (ranks_->rank() == kContactRank && std::binary_search(near.begin(), near.end(), group));
     if (this->q()) spoil_lanes(this->q()->values().data(), group, first);
     if (!complete) spoil_lanes(this->f().data(), group, first);
     if (complete && moved_[index(group)] != 0) continue;

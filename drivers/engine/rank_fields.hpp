@@ -7,6 +7,7 @@
 // ones in samples and, on rank 0 after fetch(), all.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
@@ -32,6 +33,7 @@ class RankFields final : public PreciseFields<Real, U> {
 
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void move_rest(const StepLoads& loads, bool measured) override;
+  void spread_patch(bool before_ties, bool measured) override;
   void advance_lag(double dt) override;
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
   void list_state(StateList& list) override;
@@ -43,6 +45,8 @@ class RankFields final : public PreciseFields<Real, U> {
   bool whole() const { return gathered_ && ranks_->rank() == 0; }
   const TileShare* share() const override { return whole() ? nullptr : &tiles_; }
   void follow_patch(const StepLoads& loads);
+  void lay_out_patch();
+  void spread_points();
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
@@ -61,6 +65,24 @@ class RankFields final : public PreciseFields<Real, U> {
   void exchange_one_way(bool sends, const std::vector<RankSegment>& segments);
   void spoil();
 
+  /// Contact of a rank that does not solve it.
+  struct ContactElsewhere final : ContactSteps {
+    explicit ContactElsewhere(Contact* of) : contact(of) {}
+    void search(const BodyFrame& /*wheel*/, double /*time*/, double /*dt*/) override {}
+    void resolve() override { contact->take({}); }  // points come in measured steps alone
+
+    Contact* contact;
+  };
+  /// Motion of the patch that kContactRank sends another rank.
+  struct PatchMotion {
+    int other;  ///< who gets it, or sends it
+    std::vector<std::int64_t>
+        surface;  ///< groups of the running surfaces that the other rank moves, ascending
+    std::vector<std::int64_t> groups;  ///< those about the patch
+    AlignedVector<U> u;
+    AlignedVector<Real> v;
+  };
+
   std::shared_ptr<Ranks> ranks_;
   RankCut cut_;
   TileShare tiles_;
@@ -71,8 +93,12 @@ class RankFields final : public PreciseFields<Real, U> {
   GroupMarks moved_, deferred_;  ///< with the patch
   TieItems tie_items_;
   RankForces<Real> forces_;
-  int steps_left_ = 0;    ///< that the patch stays among the shared groups
-  bool gathered_ = true;  ///< rank 0 has all values of the present
+  std::optional<ContactElsewhere> elsewhere_;
+  std::vector<PatchMotion> patch_;  ///< by other rank on kContactRank, else one
+  std::vector<RankSegment> patch_segments_;
+  bool tied_patch_ = false;  ///< nodes of a running surface are tied
+  int steps_left_ = 0;       ///< that the patch stays among the shared groups
+  bool gathered_ = true;     ///< rank 0 has all values of the present
 };
 
 extern template class RankFields<double, double>;

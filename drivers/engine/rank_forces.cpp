@@ -28,7 +28,9 @@ RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const Gro
   }
 }
 
-void RankMessage::follow(const std::vector<std::int64_t>& near) {
+void RankMessage::follow(const std::vector<std::int64_t>& patch) {
+  static const std::vector<std::int64_t> none;
+  const std::vector<std::int64_t>& near = to == kContactRank ? patch : none;
   groups.assign(always.begin(), always.end());
   for (const std::int64_t group : near)
     if (cut->owner(group) == from && !std::binary_search(always.begin(), always.end(), group))

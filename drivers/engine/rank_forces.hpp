@@ -26,8 +26,8 @@ struct RankMessage {
   /// Keeps a reference to the cut. `forced`: HeldGroups::forced of the receiver.
   RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced);
 
-  /// All ranks get the forces of these groups, ascending, besides those wherever the patch is.
-  void follow(const std::vector<std::int64_t>& near);
+  /// kContactRank gets the forces of these groups, ascending, besides those wherever the patch is.
+  void follow(const std::vector<std::int64_t>& patch);
 
   const RankCut* cut;
   int from, to;
@@ -43,7 +43,7 @@ class RankForces {
   RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held, Ranks& ranks);
 
   /// RankMessage::follow of all.
-  void follow(const std::vector<std::int64_t>& near);
+  void follow(const std::vector<std::int64_t>& patch);
 
   /// Force of a tile's last element on the station behind it. [BasicInternalForce::carry]
   using Carry = FunctionRef<const Real*(std::size_t)>;

@@ -69,7 +69,8 @@ HeldGroups SharedGroups::held_by(int rank) const {
 
 std::vector<std::int64_t> SharedGroups::halo_of(int rank, const HeldGroups& held) const {
   GroupMarks moved = held.moved;
-  for (const std::int64_t group : near_) moved[index(group)] = 1;
+  if (rank == kContactRank)
+    for (const std::int64_t group : near_) moved[index(group)] = 1;
   std::vector<std::int64_t> groups = marked(moved);
   std::erase_if(groups, [&](std::int64_t group) { return cut_->owner(group) == rank; });
   return groups;

@@ -24,14 +24,14 @@ class SharedGroups {
   SharedGroups(const Model& model, const RankCut& cut);
 
   HeldGroups held_by(int rank) const;
-  /// Groups of others' tiles of which a rank moves nodes, with those about the patch, ascending. `held`: by
-  /// it.
+  /// Groups of others' tiles of which a rank moves nodes, with those about the patch that it moves,
+  /// ascending. `held`: by it.
   std::vector<std::int64_t> halo_of(int rank, const HeldGroups& held) const;
 
   /// The patch is what contact touches with the wheel's frame anywhere between now and a time of `ahead` [s]
   /// later.
   void follow(const BodyFrame& wheel, double ahead);
-  /// The groups about it, ascending. All ranks move them.
+  /// The groups about it, ascending. kContactRank moves them, and others get their motion.
   const std::vector<std::int64_t>& near() const { return near_; }
 
  private:

@@ -99,7 +99,9 @@ void Simulation::step() {
   apply(update, s);
   apply(guided_bore, s);
   apply(contact_tractions, s);
+  fields_->spread_patch(true, s.measured);
   apply(tied_motion, s);
+  fields_->spread_patch(false, s.measured);
   apply(branch_lag, s);
   apply(frame, s);
   advance_time();

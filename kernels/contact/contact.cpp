@@ -155,6 +155,12 @@ void Contact::take_points(std::span<const ContactPoint> points) {
   close_step();
 }
 
+void Contact::take_points(std::span<const ContactPoint> points, double frictional_work, double damping_work) {
+  frictional_work_ = frictional_work;
+  damping_work_ = damping_work;
+  take_points(points);
+}
+
 /// Averages and sums of the points that a step has solved; those that it opened leave.
 void Contact::close_step() {
   const ContactSearch::Aim& aim = search_.aimed();

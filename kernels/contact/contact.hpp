@@ -105,6 +105,8 @@ class Contact {
   void take(const ContactOutcome& outcome);
   /// Takes over the points that were solved elsewhere in the last step.
   void take_points(std::span<const ContactPoint> points);
+  /// The same, with the works since the start [J].
+  void take_points(std::span<const ContactPoint> points, double frictional_work, double damping_work);
   /// The record that the tractions of each step go to; whoever solves elsewhere keeps it.
   void record_in(SurfaceFields* record) { record_ = record; }
   SurfaceFields* record() const { return record_; }

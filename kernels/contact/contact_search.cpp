@@ -225,7 +225,6 @@ void ContactSearch::find(const ContactState& state, std::span<const PointHistory
   parallel_ranges(columns(), [&](std::int64_t first, std::int64_t last) {
     visit_columns(state, history, time, static_cast<int>(first), static_cast<int>(last));
   });
-  if (shared_) exchange();
   gather(points);
 }
 
@@ -233,18 +232,7 @@ void ContactSearch::visit_columns(const ContactState& state, std::span<const Poi
                                   double time, int first, int last) {
   const Visit visit{&state, history, bounds(aim_, time)};
   for (int station = aim_.first_station + first; station < aim_.first_station + last; ++station)
-    if (!shared_ || shared_->own(station)) visit_column(visit, station);
-}
-
-/// Gives each rank the columns that all have searched.
-void ContactSearch::exchange() {
-  window_.first_station = aim_.first_station;
-  window_.of_station.clear();
-  const std::size_t edges = index(surfaces_.rail_profile().edges());
-  for (int station = aim_.first_station; station < aim_.last_station; ++station)
-    window_.of_station.push_back({std::span(wake_time_).subspan(index(face_index(station, 0)), edges),
-                                  &columns_[index(station - aim_.first_station)]});
-  shared_->exchange(window_);
+    visit_column(visit, station);
 }
 
 std::array<SurfacePart, 2> ContactSearch::near(const BodyFrame& wheel, double dt) const {

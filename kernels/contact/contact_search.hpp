@@ -3,10 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/body_frame.hpp"
@@ -15,7 +13,6 @@
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/face_quadrature.hpp"
 #include "kernels/contact/search_body.hpp"
-#include "kernels/contact/shared_columns.hpp"
 #include "kernels/contact/surface_pair.hpp"
 
 namespace tread {
@@ -75,11 +72,6 @@ class ContactSearch {
   void visit_columns(const ContactState& state, std::span<const PointHistory> history, double time, int first,
                      int last);
   void gather(std::vector<ContactPoint>& points) const;
-  /// From now on ranks share what find() searches; null: this process searches alone.
-  void share_among(std::shared_ptr<Ranks> ranks) {
-    shared_.reset();
-    if (ranks) shared_.emplace(std::move(ranks));
-  }
   SearchBounds bounds(const Aim& aim, double time) const;
   SearchEnd end() const;
 
@@ -123,7 +115,6 @@ class ContactSearch {
   void make_room();
   [[noreturn]] void refuse(const BodyFrame& wheel) const;
   void visit_column(const Visit& visit, int station);
-  void exchange();
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
   /// Number of a rail face among all.
   std::int64_t face_index(int station, int edge) const {
@@ -141,8 +132,6 @@ class ContactSearch {
   Aim aim_;
   std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
-  std::optional<SharedColumns> shared_;
-  FaceColumns window_;  ///< of shared searches
 };
 
 }  // namespace tread
