@@ -20,7 +20,6 @@ namespace tread {
 
 namespace {
 
-constexpr int kRangesPerThread = 8;
 constexpr int kRangesOfFirstLink = 2;  ///< by thread
 /// TBB is the default: its idle threads sleep soon. OpenMP's spin, which takes the cores from other programs
 /// and, on busy cores, slows a run by more than ten times.
@@ -74,13 +73,45 @@ void stay_on_core(int thread) {
   ::sched_setaffinity(0, sizeof(core), &core);
 }
 
-/// Where a part of n items begins. There are many items a part: the parts shrink, so that threads end at the
-/// same time, also on cores that other processes use.
-std::int64_t begin_of(std::int64_t part, std::int64_t parts, std::int64_t n) {
-  if (n < parts * parts) return n * part / parts;
-  const std::int64_t left = parts - part;
-  return n - n * left / parts * left / parts;
-}
+/// Successive items of which each thread begins with its own part, the same in all calls, so that what it has
+/// touched lies near. A part is taken in ranges, by other threads too when they are done with theirs: a core
+/// that another process uses slows the rest little.
+class Parts {
+ public:
+  explicit Parts(std::int64_t n) : n_(n), count_(std::min(g_threads, kMostParts)) {}
+
+  /// Calls body(first, last) on ranges that no other thread has taken.
+  template <class Body>
+  void take(int thread, const Body& body) {
+    for (int i = 0; i < count_; ++i) {
+      const int part = (thread + i) % count_;
+      const std::int64_t first = n_ * part / count_;
+      const std::int64_t items = n_ * (part + 1) / count_ - first;
+      const std::int64_t ranges = std::min(items, kRangesOfPart);
+      std::atomic<std::int64_t>& next = next_[static_cast<std::size_t>(part)].range;
+      for (std::int64_t range; next.load(std::memory_order_relaxed) < ranges && (range = next++) < ranges;)
+        body(first + begin_of(range, ranges, items), first + begin_of(range + 1, ranges, items));
+    }
+  }
+
+ private:
+  static constexpr int kMostParts = 64;
+  static constexpr std::int64_t kRangesOfPart = 8;
+  struct alignas(64) Next {
+    std::atomic<std::int64_t> range = 0;
+  };
+
+  /// Where a range of n items begins. Of many items the ranges shrink, so that threads end at the same time.
+  static std::int64_t begin_of(std::int64_t range, std::int64_t ranges, std::int64_t n) {
+    if (n < ranges * ranges) return n * range / ranges;
+    const std::int64_t left = ranges - range;
+    return n - n * left / ranges * left / ranges;
+  }
+
+  std::int64_t n_;
+  int count_;
+  std::array<Next, kMostParts> next_;
+};
 
 /// The links of a chain, as threads reach them.
 class RunningChain {
@@ -90,18 +121,10 @@ class RunningChain {
         ranges_(std::clamp(chain.n, std::int64_t{1}, std::int64_t{kRangesOfFirstLink} * g_threads)),
         left_(ranges_) {}
 
-  std::int64_t ranges() const { return ranges_; }
-
-  /// Runs one of ranges() of the first link; after the last of them the others.
-  void run(std::int64_t range, int thread) {
-    const auto from = std::chrono::steady_clock::now();
-    const std::int64_t first = chain_->n * range / ranges_;
-    const std::int64_t last = chain_->n * (range + 1) / ranges_;
-    if (first < last) chain_->first(first, last);
-    if (g_times) seconds_of_first_ += add_time(thread, from, std::max<std::int64_t>(last - first, 1));
-    if (left_.fetch_sub(1) == 1) run_others(thread);
+  /// Runs ranges of the first link that no other thread has taken; after the last of them the other links.
+  void take(int thread) {
+    for (std::int64_t range; (range = next_++) < ranges_;) run(range, thread);
   }
-
   /// Throws what a link has thrown; adds the times.
   void end() {
     if (g_times) {
@@ -112,6 +135,14 @@ class RunningChain {
   }
 
  private:
+  void run(std::int64_t range, int thread) {
+    const auto from = std::chrono::steady_clock::now();
+    const std::int64_t first = chain_->n * range / ranges_;
+    const std::int64_t last = chain_->n * (range + 1) / ranges_;
+    if (first < last) chain_->first(first, last);
+    if (g_times) seconds_of_first_ += add_time(thread, from, std::max<std::int64_t>(last - first, 1));
+    if (left_.fetch_sub(1) == 1) run_others(thread);
+  }
   void run_others(int thread) {
     const auto from = std::chrono::steady_clock::now();
     t_in_link = true;
@@ -131,31 +162,26 @@ class RunningChain {
 
   const Chain* chain_;
   std::int64_t ranges_;
-  std::atomic<std::int64_t> left_;  ///< ranges of the first link
+  std::atomic<std::int64_t> next_ = 0;
+  std::atomic<std::int64_t> left_;  ///< ranges of the first link that are not done
   std::atomic<double> seconds_of_first_ = 0;
   std::array<double, kMostLinks> seconds_{};
   std::exception_ptr thrown_;
 };
 
-/// Runs several ranges per thread, taken as threads become free. A core that another process uses then slows
-/// the rest little. A chain goes first.
+/// The chain goes first.
 void run_ranges(std::int64_t n, RunningChain* chain,
                 FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
-  const std::int64_t first = chain != nullptr ? chain->ranges() : 0;
   if (g_threads == 1) {
-    for (std::int64_t range = 0; range < first; ++range) chain->run(range, 0);
+    if (chain != nullptr) chain->take(0);
     body(0, n, 0);
     return;
   }
-  const std::int64_t ranges = std::min(n, std::int64_t{kRangesPerThread} * g_threads);
-  chosen()->run(first + ranges, g_threads, [&](std::int64_t item, int thread) {
+  Parts parts(n);
+  chosen()->run(g_threads, [&](int thread) {
     stay_on_core(thread);
-    if (item < first) {
-      chain->run(item, thread);
-      return;
-    }
-    const std::int64_t range = item - first;
-    body(begin_of(range, ranges, n), begin_of(range + 1, ranges, n), thread);
+    if (chain != nullptr) chain->take(thread);
+    parts.take(thread, [&](std::int64_t first, std::int64_t last) { body(first, last, thread); });
   });
 }
 

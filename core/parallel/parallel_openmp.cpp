@@ -6,9 +6,9 @@ namespace tread {
 
 namespace {
 
-void run(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> task) {
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 1)
-  for (std::int64_t i = 0; i < count; ++i) task(i, omp_get_thread_num());
+void run(int threads, FunctionRef<void(int)> work) {
+#pragma omp parallel num_threads(threads)
+  work(omp_get_thread_num());
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
-#include <atomic>
 #include <memory>
 
 #include "core/parallel/parallel_backend.hpp"
@@ -46,7 +44,7 @@ struct Team {
   tbb::task_arena arena;
 };
 
-void run(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> task) {
+void run(int threads, FunctionRef<void(int)> work) {
   static std::unique_ptr<Team> team;
   if (!team || team->threads != threads) {
     team.reset();
@@ -54,14 +52,12 @@ void run(std::int64_t count, int threads, FunctionRef<void(std::int64_t, int)> t
   }
   static char begun, ended;
   release(begun);
-  std::atomic<std::int64_t> next = 0;
   team->arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::int64_t>(0, std::min<std::int64_t>(threads, count), 1),
-        [&](const tbb::blocked_range<std::int64_t>& /*threads*/) {
+        tbb::blocked_range<int>(0, threads, 1),
+        [&](const tbb::blocked_range<int>& /*one*/) {
           acquire(begun);
-          for (std::int64_t i; (i = next.fetch_add(1)) < count;)
-            task(i, tbb::this_task_arena::current_thread_index());
+          work(tbb::this_task_arena::current_thread_index());
           release(ended);
         },
         tbb::simple_partitioner());

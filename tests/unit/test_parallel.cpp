@@ -115,7 +115,7 @@ TEST_P(Parallel, WhatALinkThrowsIsThrownOnceAllIsDone) {
   }
 }
 
-TEST_P(Parallel, LaterRangesOfManyItemsAreSmaller) {
+TEST_P(Parallel, LaterRangesOfAPartAreSmaller) {
   set_threads(2);
   constexpr std::int64_t kItems = 100000;
   std::vector<std::array<std::int64_t, 2>> ranges;
@@ -125,13 +125,31 @@ TEST_P(Parallel, LaterRangesOfManyItemsAreSmaller) {
     ranges.push_back({from, to});
   });
   std::sort(ranges.begin(), ranges.end());
+  ASSERT_EQ(ranges.size(), 16U);
   EXPECT_EQ(ranges.front()[0], 0);
+  EXPECT_EQ(ranges[8][0], kItems / 2) << "a part for each thread";
   EXPECT_EQ(ranges.back()[1], kItems);
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
     EXPECT_EQ(ranges[i][1], ranges[i + 1][0]);
-    EXPECT_GT(ranges[i][1] - ranges[i][0], ranges[i + 1][1] - ranges[i + 1][0]);
+    if (i != 7) {
+      EXPECT_GT(ranges[i][1] - ranges[i][0], ranges[i + 1][1] - ranges[i + 1][0]);
+    }
   }
-  EXPECT_LT(ranges.back()[1] - ranges.back()[0], kItems / 200);
+}
+
+TEST_P(Parallel, AThreadBeginsWithItsOwnPart) {
+  set_threads(2);
+  const std::thread::id own = std::this_thread::get_id();
+  std::atomic<int> begun = 0;
+  std::array<std::atomic<std::int64_t>, 2> first = {-1, -1};  // of the calling thread, of the other one
+  parallel_ranges(1000, [&](std::int64_t from, std::int64_t) {
+    std::int64_t unset = -1;
+    if (!first[std::this_thread::get_id() == own ? 0 : 1].compare_exchange_strong(unset, from)) return;
+    ++begun;  // waits for the other thread, however busy the machine is
+    for (int i = 0; i < 10000 && begun < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  EXPECT_EQ(first[0], 0);
+  EXPECT_EQ(first[1], 500);
 }
 
 TEST_P(Parallel, TimesOfLinksAreOneItem) {
