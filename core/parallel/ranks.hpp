@@ -1,7 +1,8 @@
 #pragma once
 // Processes that share the steps of a run. Rank 0 leads: it alone reads, writes, prints and decides.
 //
-// All ranks make the same calls in the same order; each call returns once its data are there.
+// All ranks make the same calls in the same order, post() and receive() aside; each call returns once its data
+// are there.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,10 @@ class Ranks {
   /// Sends bytes to single ranks and receives theirs. What two ranks send one another has the order of both
   /// lists.
   virtual void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) = 0;
+  /// Begins to send bytes, which stay as they are until the next exchange(); it waits for their way.
+  virtual void post(std::span<const RankSegment> sent) = 0;
+  /// Waits for what other ranks post.
+  virtual void receive(std::span<const RankSegment> received) = 0;
   /// Gives all ranks the bytes of rank 0. A rank that has to wait long for them leaves its core to others.
   virtual void broadcast(std::span<std::byte> bytes) = 0;
 

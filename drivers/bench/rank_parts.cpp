@@ -17,8 +17,7 @@ void add_tiles(const Mesh& mesh, const RankCut& cut, const std::vector<TileWork>
       RankPart& part = parts[index(cut.rank_of(tile))];
       part.elements += each.elements * std::ssize(block.section.quads);
       part.own += block.section.nodes();
-      part.cost += work[tile].cost + work[tile].ties;
-      ++tile;
+      part.cost += work[tile++].cost;
     }
 }
 

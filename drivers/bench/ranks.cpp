@@ -30,6 +30,8 @@ class LoneRank final : public Ranks {
   int count() const override { return count_; }
   int on_host() const override { return 1; }
   void exchange(std::span<const RankSegment> /*sent*/, std::span<const RankSegment> /*received*/) override {}
+  void post(std::span<const RankSegment> /*sent*/) override {}
+  void receive(std::span<const RankSegment> /*received*/) override {}
   void broadcast(std::span<std::byte> /*bytes*/) override {}
   [[noreturn]] void end_all(int code) override { std::exit(code); }
 
@@ -43,6 +45,7 @@ template <class Real, class U>
 Measurement time_part(const Model& model, int rank, const BenchRanksOptions& options, StepLoads loads) {
   RankFields<Real, U> fields(model, std::make_shared<LoneRank>(rank, options.ranks));
   const auto step = [&] {
+    fields.follow_patch(loads.frame, loads.dt);
     fields.internal_force_and_move(loads, false);
     if (model.ties) model.ties->hand_over(fields.force(), fields.tie_items());
     fields.move_rest(loads, false);

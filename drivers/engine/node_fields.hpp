@@ -62,11 +62,11 @@ class NodeFields : public WholeFields {
   /// Internal forces of all blocks; the laws' state advances to the displacement. Once a step. Nodes on which
   /// nothing else acts may move, unless the step is measured: energies want the forces of all nodes.
   virtual void internal_force_and_move(const StepLoads& loads, bool measured) = 0;
-  /// True if move_with_contact() can take the place of internal_force_and_move() in a step that is not
-  /// measured.
-  virtual bool parts_patch(const BodyFrame& /*wheel*/, double /*dt*/) { return false; }
+  /// A step of dt [s] begins. True if move_with_contact() can take the place of internal_force_and_move()
+  /// where it is not measured.
+  virtual bool follow_patch(const BodyFrame& /*wheel*/, double /*dt*/) { return false; }
   /// Does so, and solves the contact beside the elements away from the patch. The contact's search is aimed.
-  /// `time`: at the start of the step [s]. Only after parts_patch() of this step.
+  /// `time`: at the start of the step [s].
   virtual void move_with_contact(const StepLoads& /*loads*/, double /*time*/) {}
   /// Moves those that have not moved, in the same step.
   virtual void move_rest(const StepLoads& loads, bool measured) = 0;

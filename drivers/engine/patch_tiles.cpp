@@ -46,6 +46,20 @@ bool PatchTiles::find(const BodyFrame& wheel, double dt) {
   return !elsewhere_.empty();
 }
 
+void PatchTiles::share(std::span<const TileStretch> own, std::vector<TileStretch>& near,
+                       std::vector<TileStretch>& elsewhere) const {
+  const auto common = [own](const std::vector<TileStretch>& of, std::vector<TileStretch>& found) {
+    found.clear();
+    for (const TileStretch& stretch : of)
+      for (const TileStretch& part : own) {
+        const TileStretch both{std::max(stretch.first, part.first), std::min(stretch.last, part.last)};
+        if (both.first < both.last) found.push_back(both);
+      }
+  };
+  common(near_, near);
+  common(elsewhere_, elsewhere);
+}
+
 bool PatchTiles::add(int number, const SurfaceProfile& profile, const SurfacePart& part) {
   const SweptBlock& block = model_->mesh.blocks[index(number)];
   const auto all = static_cast<int>(block.tiles.size());

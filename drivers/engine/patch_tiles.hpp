@@ -24,6 +24,9 @@ class PatchTiles {
   /// Those found, in the order of the sweep, with the tiles before them, whose elements move the first of
   /// them.
   std::span<const TileStretch> near() const { return near_; }
+  /// The parts of `own`, ascending, among them and among all others, in the same orders.
+  void share(std::span<const TileStretch> own, std::vector<TileStretch>& near,
+             std::vector<TileStretch>& elsewhere) const;
   /// All other tiles, ascending.
   std::span<const TileStretch> elsewhere() const { return elsewhere_; }
 

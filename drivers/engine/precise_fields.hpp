@@ -187,6 +187,14 @@ class PreciseFields : public NodeFields {
   const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
 
+  /// By tile: the loop takes the tile behind it along.
+  std::vector<unsigned char> joined_tiles() const {
+    std::vector<unsigned char> joined;
+    for (const SweptBlock& block : mesh().blocks)
+      for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
+        joined.push_back(parts_.internal().joined(joined.size()));
+    return joined;
+  }
   /// Forces of bodies from files.
   void force_bodies() {
     for (const auto& body : model_->body_forces) body->internal_force(u_.data(), v_.data(), lag(), f_.data());

@@ -2,8 +2,6 @@
 // The fields of a run that one process moves: contact beside the elements away from the patch.
 // [docs/architecture.md, Step]
 
-#include <vector>
-
 #include "drivers/engine/patch_tiles.hpp"
 #include "drivers/engine/precise_fields.hpp"
 
@@ -13,9 +11,13 @@ template <class Real, class U>
 class ProcessorFields final : public PreciseFields<Real, U> {
  public:
   explicit ProcessorFields(const Model& model)
-      : PreciseFields<Real, U>(model), patch_tiles_(model, joined_tiles()) {}
+      : PreciseFields<Real, U>(model), patch_tiles_(model, this->joined_tiles()) {}
 
-  bool parts_patch(const BodyFrame& wheel, double dt) override { return patch_tiles_.find(wheel, dt); }
+  /// A patch of many points is better solved by all threads.
+  bool follow_patch(const BodyFrame& wheel, double dt) override {
+    const Model& model = this->model();
+    return model.contact && !model.contact->shares_patch() && patch_tiles_.find(wheel, dt);
+  }
 
   void move_with_contact(const StepLoads& loads, double time) override {
     this->force_bodies();
@@ -33,14 +35,6 @@ class ProcessorFields final : public PreciseFields<Real, U> {
   }
 
  private:
-  std::vector<unsigned char> joined_tiles() const {
-    std::vector<unsigned char> joined;
-    for (const SweptBlock& block : this->mesh().blocks)
-      for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
-        joined.push_back(this->internal().joined(joined.size()));
-    return joined;
-  }
-
   PatchTiles patch_tiles_;
 };
 

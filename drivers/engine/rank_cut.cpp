@@ -4,8 +4,8 @@
 #include <metis.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,16 +14,12 @@ namespace tread {
 
 namespace {
 
-/// Cost for each point that the search has room for. Not a tenth of them is found. [ranks.md, The cut]
-constexpr double kSearchOfPoint = 5;
-constexpr double kTractionsOfPoint = 3;
-
-/// Kinds of work between which all ranks wait for one another: elements, tied nodes.
-constexpr std::size_t kKinds = 2;
+/// Cost of search and tractions for each point that the search has room for. [ranks.md, The cut]
+constexpr double kPointOfRoom = 12;
 
 /// Pieces of work, with the number of nodal forces that go between two of them if they part.
 struct WorkGraph {
-  std::vector<std::array<idx_t, kKinds>> cost;
+  std::vector<idx_t> cost;
   std::map<std::pair<idx_t, idx_t>, idx_t> links;  ///< both ways
 
   void link(idx_t a, idx_t b, std::int64_t forces) {
@@ -32,18 +28,18 @@ struct WorkGraph {
   }
 };
 
-/// Shares of the work of a kind. All ranks take as long, `more` of kContactRank included.
-std::vector<real_t> shares_of(double work, double more, int ranks) {
+/// Shares of the work that let all ranks take as long, the contact of kContactRank included.
+std::vector<real_t> shares_of(double work, double contact, int ranks) {
   constexpr double kLeast = 0.02;  // of an even share: METIS leaves no rank without any
   const double even = 1.0 / ranks;
-  const double own = std::max((even * (work + more) - more) / work, kLeast * even);
+  const double own = std::max((even * (work + contact) - contact) / work, kLeast * even);
   std::vector<real_t> shares(index(ranks), static_cast<real_t>((1 - own) / std::max(ranks - 1, 1)));
   shares[kContactRank] = static_cast<real_t>(own);
   return shares;
 }
 
 /// Part of each piece.
-std::vector<idx_t> parts_of(const WorkGraph& graph, int parts, const ContactWork& contact) {
+std::vector<idx_t> parts_of(WorkGraph graph, int parts, std::int64_t contact) {
   auto pieces = static_cast<idx_t>(graph.cost.size());
   std::vector<idx_t> part(graph.cost.size(), 0);
   if (pieces <= parts) {
@@ -59,27 +55,15 @@ std::vector<idx_t> parts_of(const WorkGraph& graph, int parts, const ContactWork
     weight.push_back(forces);
   }
   for (std::size_t piece = 0; piece < graph.cost.size(); ++piece) first[piece + 1] += first[piece];
-  std::array<double, kKinds> work{};
-  for (const auto& cost : graph.cost)
-    for (std::size_t kind = 0; kind < kKinds; ++kind) work[kind] += static_cast<double>(cost[kind]);
-  const std::size_t kinds = work[1] > 0 ? 2 : 1;  // METIS balances what there is
-  const std::array<double, kKinds> more = {static_cast<double>(contact.search),
-                                           static_cast<double>(contact.tractions)};
-  std::vector<idx_t> costs;
-  for (const auto& cost : graph.cost) costs.insert(costs.end(), cost.begin(), cost.begin() + kinds);
-  std::vector<real_t> shares(index(parts) * kinds);
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
-    const std::vector<real_t> of_kind = shares_of(work[kind], more[kind], parts);
-    for (std::size_t rank = 0; rank < of_kind.size(); ++rank) shares[rank * kinds + kind] = of_kind[rank];
-  }
+  const double work = std::accumulate(graph.cost.begin(), graph.cost.end(), 0.0);
+  std::vector<real_t> shares = shares_of(work, static_cast<double>(contact), parts);
   std::vector<idx_t> options(METIS_NOPTIONS);
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
-  auto constraints = static_cast<idx_t>(kinds);
-  idx_t cut = 0, wanted = parts;
+  idx_t constraints = 1, cut = 0, wanted = parts;
   const int outcome = METIS_PartGraphRecursive(&pieces, &constraints, first.data(), other.data(),
-                                               costs.data(), nullptr, weight.data(), &wanted, shares.data(),
-                                               nullptr, options.data(), &cut, part.data());
+                                               graph.cost.data(), nullptr, weight.data(), &wanted,
+                                               shares.data(), nullptr, options.data(), &cut, part.data());
   if (outcome != METIS_OK)
     throw ResourceError(
         fmt::format("METIS cannot cut {} pieces of the mesh for {} ranks (its code: {}); start "
@@ -122,14 +106,12 @@ void add_ties(const Model& model, std::vector<TileWork>& work) {
   // Both directions of a node's tie, and its late motion, take as long as half an extruded element.
   constexpr std::int64_t kTiedNode = 2;
   const std::vector<std::int64_t> first = first_groups(model.mesh);
-  for (const std::int64_t slot : model.ties->secondary_slots()) work[tile_of(first, slot)].ties += kTiedNode;
+  for (const std::int64_t slot : model.ties->secondary_slots()) work[tile_of(first, slot)].cost += kTiedNode;
 }
 
-ContactWork contact_work(const Model& model) {
-  if (!model.contact) return {};
-  const auto points = static_cast<double>(model.contact->searching().capacity());
-  return {static_cast<std::int64_t>(kSearchOfPoint * points),
-          static_cast<std::int64_t>(kTractionsOfPoint * points)};
+std::int64_t contact_cost(const Model& model) {
+  if (!model.contact) return 0;
+  return static_cast<std::int64_t>(kPointOfRoom * static_cast<double>(model.contact->searching().capacity()));
 }
 
 RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int ranks)
@@ -152,10 +134,9 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
   WorkGraph graph;
   std::vector<idx_t> piece(work.size());
   for (std::size_t tile = 0; tile < work.size(); ++tile) {
-    if (tile == 0 || !work[tile - 1].with_next) graph.cost.push_back({});
+    if (tile == 0 || !work[tile - 1].with_next) graph.cost.push_back(0);
     piece[tile] = static_cast<idx_t>(graph.cost.size()) - 1;
-    graph.cost.back()[0] += static_cast<idx_t>(work[tile].cost);
-    graph.cost.back()[1] += static_cast<idx_t>(work[tile].ties);
+    graph.cost.back() += static_cast<idx_t>(work[tile].cost);
   }
   for_each_link(model.mesh, [&](std::size_t tile, std::size_t next, std::int64_t nodes) {
     graph.link(piece[tile], piece[next], 2 * nodes);
@@ -164,7 +145,7 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
   if (model.ties)
     for (const TiedSlot& pair : model.ties->tied_slots())
       graph.link(piece_of(pair.secondary), piece_of(pair.primary), 1);
-  const std::vector<idx_t> part = parts_of(graph, ranks, contact_work(model));
+  const std::vector<idx_t> part = parts_of(std::move(graph), ranks, contact_cost(model));
   for (std::size_t tile = 0; tile < work.size(); ++tile)
     rank_[tile] = static_cast<int>(part[index(piece[tile])]);
 }

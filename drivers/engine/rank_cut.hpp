@@ -25,17 +25,12 @@ inline constexpr int kContactRank = 0;
 
 /// A tile as a piece of work.
 struct TileWork {
-  std::int64_t cost = 0;   ///< of elements
-  std::int64_t ties = 0;   ///< cost of tied nodes, once forces are exchanged
+  std::int64_t cost = 0;
   bool with_next = false;  ///< the loop takes the tile behind it along
 };
 
-/// Work of kContactRank besides that of its tiles, in the units of TileWork.
-struct ContactWork {
-  std::int64_t search = 0;     ///< beside elements
-  std::int64_t tractions = 0;  ///< beside tied nodes
-};
-ContactWork contact_work(const Model& model);
+/// Cost of the contact, in the units of TileWork.
+std::int64_t contact_cost(const Model& model);
 
 /// First group of each tile, in the order of blocks and tiles, and the number of groups.
 std::vector<std::int64_t> first_groups(const Mesh& mesh);
@@ -49,7 +44,7 @@ std::vector<TileWork> tile_work(const Model& model, const Internal& internal) {
   std::vector<TileWork> work;
   for (const SweptBlock& block : model.mesh.blocks)
     for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
-      work.push_back({internal.cost(work.size()), 0, internal.joined(work.size())});
+      work.push_back({internal.cost(work.size()), internal.joined(work.size())});
   add_ties(model, work);
   return work;
 }

@@ -37,7 +37,10 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),
       held_(shared_.held_by(ranks_->rank())),
-      forces_(cut_, shared_, held_, *ranks_) {
+      forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::all),
+      patch_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::patch),
+      other_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::without_patch),
+      patch_tiles_(model, this->joined_tiles()) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
   if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
@@ -50,40 +53,53 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
         if (surfaces[index(group)] != 0 && held.moved[index(group)] != 0) groups.push_back(group);
       return groups;
     };
-    if (ranks_->rank() == kContactRank) {
+    if (solves()) {
       for (int rank = 0; rank < ranks_->count(); ++rank)
         if (rank != kContactRank) patch_.push_back({rank, surface_of(shared_.held_by(rank)), {}, {}, {}});
     } else {
       patch_.push_back({kContactRank, surface_of(held_), {}, {}, {}});
-      model.contact->run_on(&elsewhere_.emplace(&*model.contact));
+      model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
     }
   }
   take_near();
 }
 
-/// Chooses the nodes about the patch that kContactRank moves, for some steps, and gives it their motion.
 template <class Real, class U>
-void RankFields<Real, U>::follow_patch(const StepLoads& loads) {
+bool RankFields<Real, U>::follow_patch(const BodyFrame& wheel, double dt) {
   constexpr int kSteps = 70;
-  shared_.follow(loads.frame, (kSteps + 1) * loads.dt);  // the next choice comes after the search of its step
-  steps_left_ = kSteps;
-  forces_.follow(shared_.near());
+  if (steps_left_ == 0) {
+    choose_patch(wheel, (kSteps + 1) * dt);
+    steps_left_ = kSteps;
+  }
+  --steps_left_;
+  beside_ = false;
+  return apart_;
+}
+
+/// Chooses the nodes about the patch that kContactRank moves, for some time, and gives it their motion.
+template <class Real, class U>
+void RankFields<Real, U>::choose_patch(const BodyFrame& wheel, double ahead) {
+  shared_.follow(wheel, ahead);
   take_near();
   share_groups(this->u().data(), shared_.near());
   share_groups(this->v().data(), shared_.near());
+  apart_ = patch_tiles_.find(wheel, ahead);
+  if (apart_) patch_tiles_.share(tiles_.own, near_, elsewhere_);
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::take_near() {
   moved_ = held_.moved;
   deferred_ = held_.deferred;
-  const bool solves = ranks_->rank() == kContactRank;
   for (const std::int64_t group : shared_.near()) {
-    if (solves) moved_[index(group)] = 1;
-    if (moved_[index(group)] != 0) deferred_[index(group)] = 1;  // others leave its force
+    if (solves()) moved_[index(group)] = 1;
+    deferred_[index(group)] = 1;
   }
-  this->update().defer_only(deferred_);
+  this->update().defer_only(deferred_, shared_.near());
   lay_out_patch();
+  forces_.follow(shared_.near());
+  patch_forces_.follow(shared_.near());
+  other_forces_.follow(shared_.near(), patch_segments_);
 }
 
 template <class Real, class U>
@@ -102,24 +118,29 @@ void RankFields<Real, U>::lay_out_patch() {
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::spread_patch(bool before_ties, bool measured) {
-  if (!this->model().contact || before_ties != tied_patch_) return;
-  const bool solves = ranks_->rank() == kContactRank;
-  const auto copy = [&](PatchMotion& motion) {
+void RankFields<Real, U>::pack_patch() {
+  for (PatchMotion& motion : patch_)
     for_groups(motion.groups, 0, std::ssize(motion.groups), [&](std::int64_t at, std::int64_t place) {
-      if (solves) {
-        std::copy_n(this->u().data() + place, kGroupValues, motion.u.data() + at);
-        std::copy_n(this->v().data() + place, kGroupValues, motion.v.data() + at);
-      } else {
-        std::copy_n(motion.u.data() + at, kGroupValues, this->u().data() + place);
-        std::copy_n(motion.v.data() + at, kGroupValues, this->v().data() + place);
-      }
+      std::copy_n(this->u().data() + place, kGroupValues, motion.u.data() + at);
+      std::copy_n(this->v().data() + place, kGroupValues, motion.v.data() + at);
     });
-  };
-  if (solves)
-    for (PatchMotion& motion : patch_) copy(motion);
-  exchange_one_way(solves, patch_segments_);
-  if (!solves) copy(patch_.front());
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::unpack_patch() {
+  for (const PatchMotion& motion : patch_)
+    for_groups(motion.groups, 0, std::ssize(motion.groups), [&](std::int64_t at, std::int64_t place) {
+      std::copy_n(motion.u.data() + at, kGroupValues, this->u().data() + place);
+      std::copy_n(motion.v.data() + at, kGroupValues, this->v().data() + place);
+    });
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::spread_patch(bool before_ties, bool measured) {
+  if (!this->model().contact || beside_ || before_ties != tied_patch_) return;
+  if (solves()) pack_patch();
+  exchange_one_way(solves(), patch_segments_);
+  if (!solves()) unpack_patch();
   if (measured) spread_points();
 }
 
@@ -135,7 +156,7 @@ void RankFields<Real, U>::spread_points() {
   std::vector<ContactPoint> points = contact.points();
   points.resize(index(head.points));
   ranks_->broadcast(std::as_writable_bytes(std::span(points)));
-  if (ranks_->rank() == kContactRank) return;
+  if (solves()) return;
   contact.take_points(points, head.frictional_work, head.damping_work);
   contact.add_forces(this->force_);
 }
@@ -283,22 +304,58 @@ void RankFields<Real, U>::exchange_one_way(bool sends, const std::vector<RankSeg
 
 template <class Real, class U>
 void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool measured) {
-  if (steps_left_ == 0) follow_patch(loads);
-  --steps_left_;
   if (measured)
     this->internal().internal_force(tiles_.own, this->force_fields());
   else
     this->internal().move(tiles_.own, this->update(), loads, this->force_fields());
   forces_.exchange([this](std::size_t tile) { return this->internal().carry(tile).data(); },
                    this->f().data());
+  end_of_forces();
+}
+
+/// Forces of the patch go to kContactRank before the elements elsewhere; its motion comes back with the other
+/// forces.
+template <class Real, class U>
+void RankFields<Real, U>::move_with_contact(const StepLoads& loads, double time) {
+  Contact& contact = *this->model().contact;
+  const NodeField u = this->displacement_, v = this->velocity_;
+  const auto carry = [this](std::size_t tile) { return this->internal().carry(tile).data(); };
+  const auto search = [&](std::int64_t first, std::int64_t last) {
+    contact.search_columns({u, v, &loads.frame}, time, static_cast<int>(first), static_cast<int>(last));
+  };
+  const auto then = [&] {
+    if (!solves()) {
+      patch_forces_.post(carry, this->f().data());
+      return;
+    }
+    patch_forces_.receive(carry, this->f().data());
+    this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
+    contact.gather_points();
+    contact.resolve({u, v, this->model().inverse_mass.data()}, loads.frame, loads.dt);
+    pack_patch();
+  };
+  this->internal().move({near_, elsewhere_, solves() ? contact.columns() : 0, search, then}, this->update(),
+                        loads, this->force_fields());
+  other_forces_.exchange(carry, this->f().data());
+  if (!solves()) unpack_patch();
+  beside_ = true;
+  end_of_forces();
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::end_of_forces() {
   gathered_ = false;
   if (ranks_->spoils_copies()) spoil();
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::move_rest(const StepLoads& loads, bool measured) {
-  if (!measured) return Base::move_rest(loads, false);
-  this->update().move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, own_tiles_);
+  if (measured)
+    this->update().move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, own_tiles_);
+  else
+    Base::move_rest(loads, false);
+  if (!beside_ && solves())
+    this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
 template <class Real, class U>
@@ -336,8 +393,7 @@ void RankFields<Real, U>::spoil() {
     if (cut_.owner(group) == ranks_->rank()) continue;
     const int first = first_lane[index(group)];
     const bool complete =
-        held_.forced[index(group)] != 0 ||
-        (ranks_->rank() == kContactRank && std::binary_search(near.begin(), near.end(), group));
+        held_.forced[index(group)] != 0 || (solves() && std::binary_search(near.begin(), near.end(), group));
     if (this->q()) spoil_lanes(this->q()->values().data(), group, first);
     if (!complete) spoil_lanes(this->f().data(), group, first);
     if (complete && moved_[index(group)] != 0) continue;

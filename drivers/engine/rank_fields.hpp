@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
+#include "drivers/engine/patch_tiles.hpp"
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/rank_cut.hpp"
 #include "drivers/engine/rank_forces.hpp"
@@ -31,7 +32,9 @@ class RankFields final : public PreciseFields<Real, U> {
   void show(const WatchedNodes& nodes) override;
   const TieItems* tie_items() const override { return whole() ? nullptr : &tie_items_; }
 
+  bool follow_patch(const BodyFrame& wheel, double dt) override;
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
+  void move_with_contact(const StepLoads& loads, double time) override;
   void move_rest(const StepLoads& loads, bool measured) override;
   void spread_patch(bool before_ties, bool measured) override;
   void advance_lag(double dt) override;
@@ -44,9 +47,13 @@ class RankFields final : public PreciseFields<Real, U> {
   /// True where the views hold all values of the present.
   bool whole() const { return gathered_ && ranks_->rank() == 0; }
   const TileShare* share() const override { return whole() ? nullptr : &tiles_; }
-  void follow_patch(const StepLoads& loads);
+  bool solves() const { return ranks_->rank() == kContactRank; }
+  void choose_patch(const BodyFrame& wheel, double ahead);
   void lay_out_patch();
+  void pack_patch();
+  void unpack_patch();
   void spread_points();
+  void end_of_forces();
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
@@ -92,8 +99,14 @@ class RankFields final : public PreciseFields<Real, U> {
   HeldGroups held_;              ///< of this rank, the patch aside
   GroupMarks moved_, deferred_;  ///< with the patch
   TieItems tie_items_;
-  RankForces<Real> forces_;
-  std::optional<ContactElsewhere> elsewhere_;
+  RankForces<Real> forces_;        ///< of steps in which contact follows on the elements
+  RankForces<Real> patch_forces_;  ///< of the others: to kContactRank, before the elements elsewhere
+  RankForces<Real> other_forces_;  ///< after them
+  PatchTiles patch_tiles_;
+  bool apart_ = false;                         ///< patch_tiles_ are found
+  std::vector<TileStretch> near_, elsewhere_;  ///< of this rank's tiles
+  bool beside_ = false;                        ///< contact was solved beside the elements of this step
+  std::optional<ContactElsewhere> contact_elsewhere_;
   std::vector<PatchMotion> patch_;  ///< by other rank on kContactRank, else one
   std::vector<RankSegment> patch_segments_;
   bool tied_patch_ = false;  ///< nodes of a running surface are tied

@@ -5,32 +5,25 @@
 
 namespace tread {
 
-namespace {
-
-std::vector<std::int64_t> all_values(const Joint& joint) {
-  std::vector<std::int64_t> values(index(3 * joint.nodes));
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::int64_t>(i);
-  return values;
-}
-
-}  // namespace
-
-RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const GroupMarks& forced)
-    : cut(&all), from(sender), to(receiver) {
-  for (const TileStretch& stretch : cut->stretches(from))
-    for (std::int64_t group = cut->first_group(stretch.first); group < cut->first_group(stretch.last);
-         ++group)
-      if (forced[index(group)] != 0) always.push_back(group);
+RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const GroupMarks& forced,
+                         Content of_it)
+    : cut(&all), from(sender), to(receiver), content(of_it) {
+  if (content != Content::patch)
+    for (const TileStretch& stretch : cut->stretches(from))
+      for (std::int64_t group = cut->first_group(stretch.first); group < cut->first_group(stretch.last);
+           ++group)
+        if (forced[index(group)] != 0) always.push_back(group);
   for (const Joint& joint : cut->joints()) {
     const auto marks = forced.begin() + joint.slot / kLanes;
     if (joint.near == from) parts.push_back({&joint, true, {}, {marks, marks + joint.nodes}});
-    if (joint.far == from && joint.near == to) parts.push_back({&joint, false, all_values(joint), {}});
+    if (joint.far == from && joint.near == to) parts.push_back({&joint, false, {}, {}});
   }
 }
 
 void RankMessage::follow(const std::vector<std::int64_t>& patch) {
   static const std::vector<std::int64_t> none;
-  const std::vector<std::int64_t>& near = to == kContactRank ? patch : none;
+  const std::vector<std::int64_t>& near =
+      to == kContactRank && content != Content::without_patch ? patch : none;
   groups.assign(always.begin(), always.end());
   for (const std::int64_t group : near)
     if (cut->owner(group) == from && !std::binary_search(always.begin(), always.end(), group))
@@ -38,12 +31,12 @@ void RankMessage::follow(const std::vector<std::int64_t>& patch) {
   std::sort(groups.begin(), groups.end());
   count = std::ssize(groups) * kGroupValues;
   for (JointPart& part : parts) {
-    if (part.element) {
-      part.values.clear();
-      for (std::int64_t node = 0; node < part.joint->nodes; ++node)
-        if (part.joint->far == to || part.always[index(node)] != 0 ||
-            std::binary_search(near.begin(), near.end(), part.joint->slot / kLanes + node))
-          for (int c = 0; c < 3; ++c) part.values.push_back(3 * node + c);
+    const bool neighbours = part.joint->far == to || part.joint->near == to;
+    part.values.clear();
+    for (std::int64_t node = 0; node < part.joint->nodes; ++node) {
+      const bool always_sent = content != Content::patch && (neighbours || part.always[index(node)] != 0);
+      if (always_sent || std::binary_search(near.begin(), near.end(), part.joint->slot / kLanes + node))
+        for (int c = 0; c < 3; ++c) part.values.push_back(3 * node + c);
     }
     count += std::ssize(part.values);
   }
@@ -51,19 +44,19 @@ void RankMessage::follow(const std::vector<std::int64_t>& patch) {
 
 template <class Real>
 RankForces<Real>::RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held,
-                             Ranks& ranks)
+                             Ranks& ranks, RankMessage::Content content)
     : ranks_(&ranks) {
   const int own = ranks.rank();
   for (int rank = 0; rank < cut.ranks(); ++rank) {
     if (rank == own) continue;
-    sent_.push_back({RankMessage(cut, own, rank, groups.held_by(rank).forced)});
-    received_.push_back({RankMessage(cut, rank, own, held.forced)});
+    sent_.push_back({RankMessage(cut, own, rank, groups.held_by(rank).forced, content)});
+    received_.push_back({RankMessage(cut, rank, own, held.forced, content)});
   }
   follow(groups.near());
 }
 
 template <class Real>
-void RankForces<Real>::follow(const std::vector<std::int64_t>& near) {
+void RankForces<Real>::follow(const std::vector<std::int64_t>& near, std::span<const RankSegment> more) {
   const auto lay_out = [&](std::vector<Packed>& messages, AlignedVector<Real>& values,
                            int RankMessage::*other, std::vector<RankSegment>& segments) {
     std::int64_t place = 0;
@@ -80,12 +73,36 @@ void RankForces<Real>::follow(const std::vector<std::int64_t>& near) {
   };
   lay_out(sent_, out_, &RankMessage::to, out_segments_);
   lay_out(received_, in_, &RankMessage::from, in_segments_);
+  std::vector<RankSegment>& with = ranks_->rank() == kContactRank ? out_segments_ : in_segments_;
+  with.insert(with.end(), more.begin(), more.end());
 }
 
 template <class Real>
 void RankForces<Real>::exchange(Carry carry, Real* force) {
-  for (const Packed& packed : sent_) pack(packed, carry, force);
+  pack(carry, force);
   ranks_->exchange(out_segments_, in_segments_);
+  unpack(carry, force);
+}
+
+template <class Real>
+void RankForces<Real>::post(Carry carry, const Real* force) {
+  pack(carry, force);
+  ranks_->post(out_segments_);
+}
+
+template <class Real>
+void RankForces<Real>::receive(Carry carry, Real* force) {
+  ranks_->receive(in_segments_);
+  unpack(carry, force);
+}
+
+template <class Real>
+void RankForces<Real>::pack(Carry carry, const Real* force) {
+  for (const Packed& packed : sent_) pack(packed, carry, force);
+}
+
+template <class Real>
+void RankForces<Real>::unpack(Carry carry, Real* force) const {
   for (const Packed& packed : received_) unpack_groups(packed, force);
   for (const Packed& packed : received_) unpack_joints(packed, carry, force);
 }

@@ -3,6 +3,7 @@
 // hold, and of nodes tied to them. [docs/records/ranks.md]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/aligned.hpp"
@@ -23,14 +24,21 @@ struct RankMessage {
     GroupMarks always;                 ///< by section node: those of third ranks wherever the patch is
   };
 
-  /// Keeps a reference to the cut. `forced`: HeldGroups::forced of the receiver.
-  RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced);
+  enum class Content {
+    all,
+    patch,          ///< forces of the nodes about it alone
+    without_patch,  ///< those wherever it is
+  };
 
-  /// kContactRank gets the forces of these groups, ascending, besides those wherever the patch is.
+  /// Keeps a reference to the cut. `forced`: HeldGroups::forced of the receiver.
+  RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced, Content content = Content::all);
+
+  /// kContactRank gets the forces of these groups, ascending.
   void follow(const std::vector<std::int64_t>& patch);
 
   const RankCut* cut;
   int from, to;
+  Content content;
   std::vector<std::int64_t> always, groups;  ///< ascending: those wherever the patch is, and all
   std::vector<JointPart> parts;
   std::int64_t count = 0;  ///< of its values
@@ -40,15 +48,19 @@ template <class Real>
 class RankForces {
  public:
   /// Keeps references. `held`: by this rank.
-  RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held, Ranks& ranks);
+  RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held, Ranks& ranks,
+             RankMessage::Content content);
 
-  /// RankMessage::follow of all.
-  void follow(const std::vector<std::int64_t>& patch);
+  /// RankMessage::follow of all. `more` bytes go along, to other ranks from kContactRank.
+  void follow(const std::vector<std::int64_t>& patch, std::span<const RankSegment> more = {});
 
   /// Force of a tile's last element on the station behind it. [BasicInternalForce::carry]
   using Carry = FunctionRef<const Real*(std::size_t)>;
   /// Completes the forces of the elements of this rank's tiles.
   void exchange(Carry carry, Real* force);
+  /// The same one way: begins to send the forces; waits for those of the others.
+  void post(Carry carry, const Real* force);
+  void receive(Carry carry, Real* force);
 
  private:
   /// A message and its place among the values that go the same way.
@@ -56,7 +68,9 @@ class RankForces {
     RankMessage message;
     std::int64_t first = 0;
   };
+  void pack(Carry carry, const Real* force);
   void pack(const Packed& packed, Carry carry, const Real* force);
+  void unpack(Carry carry, Real* force) const;
   void unpack_groups(const Packed& packed, Real* force) const;
   void unpack_joints(const Packed& packed, Carry carry, Real* force) const;
 

@@ -134,10 +134,9 @@ StepState Simulation::begin_step() {
           .contact_beside = contact_beside(measured)};
 }
 
-/// A patch of many points is better solved by all threads.
 bool Simulation::contact_beside(bool measured) const {
-  return !measured && model_->contact && !model_->contact->shares_patch() &&
-         fields_->parts_patch(frame_, dt_);
+  const bool apart = fields_->follow_patch(frame_, dt_);
+  return apart && !measured;
 }
 
 /// One virtual call for each feature that the phase has.

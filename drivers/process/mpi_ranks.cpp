@@ -69,15 +69,16 @@ void await(std::span<MPI_Request> requests) {
 
 class MpiRanks final : public Ranks {
  public:
-  /// Threads of this process compute and write; the one that makes this object exchanges.
+  /// Threads of this process compute and write; one at a time exchanges.
   MpiRanks() {
     int level = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &count_);
     on_host_ = alike(host_name()).count;
     on_cores_ = alike(cores_text());
-    if (level < MPI_THREAD_FUNNELED) throw ResourceError("this MPI allows a process no threads");
+    if (level < MPI_THREAD_SERIALIZED)
+      throw ResourceError("this MPI allows a process no threads that exchange in turn");
   }
   ~MpiRanks() override { MPI_Finalize(); }
 
@@ -97,19 +98,15 @@ class MpiRanks final : public Ranks {
 
   void exchange(std::span<const RankSegment> sent, std::span<const RankSegment> received) override {
     const Clock::time_point started = Clock::now();
-    requests_.clear();
-    for (const RankSegment& segment : received)
-      for_pieces(segment.bytes, [&](std::byte* at, int size) {
-        MPI_Irecv(at, size, MPI_BYTE, segment.rank, 0, MPI_COMM_WORLD, &requests_.emplace_back());
-        traffic.received += size;
-      });
-    for (const RankSegment& segment : sent)
-      for_pieces(segment.bytes, [&](std::byte* at, int size) {
-        MPI_Isend(at, size, MPI_BYTE, segment.rank, 0, MPI_COMM_WORLD, &requests_.emplace_back());
-        traffic.sent += size;
-      });
-    await(requests_);
-    note_wait(started);
+    begin_to_receive(received, kExchanged);
+    begin_to_send(sent, kExchanged);
+    finish(started);
+  }
+  void post(std::span<const RankSegment> sent) override { begin_to_send(sent, kPosted); }
+  void receive(std::span<const RankSegment> received) override {
+    const Clock::time_point started = Clock::now();
+    begin_to_receive(received, kPosted);
+    if (!received.empty()) finish(started);
   }
 
   [[noreturn]] void end_all(int code) override {
@@ -119,6 +116,29 @@ class MpiRanks final : public Ranks {
   }
 
  private:
+  static constexpr int kExchanged = 0, kPosted = 1;  ///< tags
+
+  void begin_to_receive(std::span<const RankSegment> received, int tag) {
+    for (const RankSegment& segment : received)
+      for_pieces(segment.bytes, [&](std::byte* at, int size) {
+        MPI_Irecv(at, size, MPI_BYTE, segment.rank, tag, MPI_COMM_WORLD, &requests_.emplace_back());
+        traffic.received += size;
+      });
+  }
+  void begin_to_send(std::span<const RankSegment> sent, int tag) {
+    for (const RankSegment& segment : sent)
+      for_pieces(segment.bytes, [&](std::byte* at, int size) {
+        MPI_Isend(at, size, MPI_BYTE, segment.rank, tag, MPI_COMM_WORLD, &requests_.emplace_back());
+        traffic.sent += size;
+      });
+  }
+  /// Waits for all that has begun.
+  void finish(Clock::time_point started) {
+    await(requests_);
+    requests_.clear();
+    note_wait(started);
+  }
+
   void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
     TREAD_EXPECT(std::ssize(first) == count_ + 1);
     if (first.back() > std::numeric_limits<int>::max())
@@ -157,7 +177,7 @@ class MpiRanks final : public Ranks {
   int rank_ = 0, count_ = 1, on_host_ = 1;
   Alike on_cores_{1, 0};
   std::vector<int> counts_, places_;
-  std::vector<MPI_Request> requests_;
+  std::vector<MPI_Request> requests_;  ///< that have begun
 };
 
 }  // namespace

@@ -65,10 +65,51 @@ void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
 }
 
 template <class Real, class U>
-void BasicTimeUpdate<Real, U>::defer_only(std::span<const unsigned char> groups) {
+void BasicTimeUpdate<Real, U>::defer_only(std::span<const unsigned char> groups,
+                                          std::span<const std::int64_t> apart) {
   TREAD_EXPECT(groups.size() == deferred_.size());
   std::copy(groups.begin(), groups.end(), deferred_.begin());
+  set_apart(apart);
+  for (const std::int64_t group : apart) deferred_[index(group)] = 0;
   list_deferred();
+  for (const std::int64_t group : apart) deferred_[index(group)] = 1;
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::TileNodes::clear() {
+  items.clear();
+  first.assign(1, 0);
+  nodes.clear();
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::set_apart(std::span<const std::int64_t> groups) {
+  apart_.clear();
+  beside_apart_.clear();
+  auto group = groups.begin();
+  for (std::size_t item = 0; item < items_.size() && group != groups.end(); ++item) {
+    const SweptBlock& swept = mesh_.blocks[index(items_[item].block)];
+    const std::int64_t first = swept.base / kLanes + std::int64_t{items_[item].tile} * swept.section.nodes();
+    if (*group >= first + swept.section.nodes()) continue;
+    for (int node = 0; node < swept.section.nodes(); ++node) {
+      const bool apart = group != groups.end() && *group == first + node;
+      (apart ? apart_ : beside_apart_).nodes.push_back(node);
+      if (apart) ++group;
+    }
+    for (TileNodes* list : {&apart_, &beside_apart_}) {
+      list->items.push_back(item);
+      list->first.push_back(list->nodes.size());
+    }
+  }
+}
+
+/// Nodes of a tile that move together with it.
+template <class Real, class U>
+std::span<const int> BasicTimeUpdate<Real, U>::whole_tile(std::size_t item) const {
+  const std::vector<std::size_t>& items = beside_apart_.items;
+  const auto at = std::lower_bound(items.begin(), items.end(), item);
+  if (at != items.end() && *at == item) return beside_apart_.of(index(at - items.begin()));
+  return {all_nodes_.data(), index(mesh_.blocks[index(items_[item].block)].section.nodes())};
 }
 
 template <class Real, class U>
@@ -118,11 +159,8 @@ void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFie
   expect_motion(loads, fields);
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
     for (std::size_t item = index(from); item < index(to); ++item) {
-      const SweptBlock& swept = mesh_.blocks[index(items_[item].block)];
-      if (whole != nullptr && whole[item] == 0)
-        move_nodes(item, deferred_nodes(item), loads, fields);
-      else
-        move_nodes(item, {all_nodes_.data(), index(swept.section.nodes())}, loads, fields);
+      const bool in_part = whole != nullptr && whole[item] == 0;
+      move_nodes(item, in_part ? deferred_nodes(item) : whole_tile(item), loads, fields);
     }
   });
 }
@@ -138,6 +176,14 @@ void BasicTimeUpdate<Real, U>::move_deferred(const StepLoads& loads,
       move_nodes(item, deferred_nodes(item), loads, fields);
     }
   });
+}
+
+template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move_apart(const StepLoads& loads,
+                                          const BasicUpdateFields<Real, U>& fields) const {
+  expect_motion(loads, fields);
+  for (std::size_t i = 0; i < apart_.items.size(); ++i)
+    move_nodes(apart_.items[i], apart_.of(i), loads, fields);
 }
 
 /// Moves nodes of a tile.

@@ -50,9 +50,9 @@ class BasicTimeUpdate {
 
   /// These nodes get forces besides those of the elements.
   void defer(const std::vector<std::int64_t>& slots);
-  /// Those of marked groups do, and no others. `groups`: by slot / kLanes. Allocates nothing where no more
-  /// are marked than before.
-  void defer_only(std::span<const unsigned char> groups);
+  /// Those of marked groups do, and no others. `groups`: by slot / kLanes. `apart`: groups among them that
+  /// move_apart() moves, and nothing else, ascending. Allocates nothing where no more are marked than before.
+  void defer_only(std::span<const unsigned char> groups, std::span<const std::int64_t> apart);
 
   /// Motion of the nodes of a tile.
   TileMotion<Real, U> motion(int block, int tile, const StepLoads& loads, U* u, Real* v) const;
@@ -66,6 +66,8 @@ class BasicTimeUpdate {
                  const std::vector<unsigned char>& whole) const {
     move(loads, fields, whole.data());
   }
+  /// Moves the nodes that were set apart.
+  void move_apart(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
   /// Moves the deferred nodes alone, by one thread where they are few.
   void move_deferred(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
 
@@ -76,7 +78,20 @@ class BasicTimeUpdate {
   };
   void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
             const unsigned char* whole) const;
+  /// Section nodes of some tiles.
+  struct TileNodes {
+    std::vector<std::size_t> items;  ///< tiles that have any, ascending
+    std::vector<std::size_t> first;  ///< by item, and the end, in nodes
+    std::vector<int> nodes;
+
+    void clear();
+    std::span<const int> of(std::size_t i) const {
+      return std::span(nodes).subspan(first[i], first[i + 1] - first[i]);
+    }
+  };
   void list_deferred();
+  void set_apart(std::span<const std::int64_t> groups);
+  std::span<const int> whole_tile(std::size_t item) const;
   void move_nodes(std::size_t item, std::span<const int> nodes, const StepLoads& loads,
                   const BasicUpdateFields<Real, U>& fields) const;
   std::span<const int> deferred_nodes(std::size_t item) const;
@@ -89,6 +104,7 @@ class BasicTimeUpdate {
   std::vector<int> deferred_nodes_;          ///< section nodes, tile by tile
   std::vector<std::size_t> first_deferred_;  ///< by item, into deferred_nodes_
   std::vector<std::size_t> with_deferred_;   ///< items that have any
+  TileNodes apart_, beside_apart_;           ///< nodes set apart; the others of their tiles
   std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
 };
 

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <barrier>
+#include <condition_variable>
 #include <cstring>
+#include <deque>
 #include <limits>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,10 +31,34 @@
 namespace tread {
 namespace {
 
+/// Bytes on their way from one thread to another.
+class Mail {
+ public:
+  void put(int from, int to, std::span<const std::byte> bytes) {
+    const std::lock_guard held(lock_);
+    letters_[{from, to}].emplace_back(bytes.begin(), bytes.end());
+    arrived_.notify_all();
+  }
+  std::vector<std::byte> take(int from, int to) {
+    std::unique_lock held(lock_);
+    auto& letters = letters_[{from, to}];
+    arrived_.wait(held, [&] { return !letters.empty(); });
+    std::vector<std::byte> letter = std::move(letters.front());
+    letters.pop_front();
+    return letter;
+  }
+
+ private:
+  std::mutex lock_;
+  std::condition_variable arrived_;
+  std::map<std::pair<int, int>, std::deque<std::vector<std::byte>>> letters_;
+};
+
 /// Where threads of a process find one another.
 struct Meeting {
   explicit Meeting(int count)
       : barrier(count), values(static_cast<std::size_t>(count)), sent(static_cast<std::size_t>(count)) {}
+  Mail mail;
   std::barrier<> barrier;
   std::vector<std::byte*> values;
   std::vector<std::span<const RankSegment>> sent;
@@ -58,6 +87,17 @@ class ThreadRanks final : public Ranks {
       std::memcpy(segment.bytes.data(), from[at++].bytes.data(), segment.bytes.size());
     }
     meeting_->barrier.arrive_and_wait();
+  }
+
+  void post(std::span<const RankSegment> sent) override {
+    for (const RankSegment& segment : sent) meeting_->mail.put(rank_, segment.rank, segment.bytes);
+  }
+  void receive(std::span<const RankSegment> received) override {
+    for (const RankSegment& segment : received) {
+      const std::vector<std::byte> letter = meeting_->mail.take(segment.rank, rank_);
+      ASSERT_EQ(letter.size(), segment.bytes.size());
+      std::memcpy(segment.bytes.data(), letter.data(), letter.size());
+    }
   }
 
   void broadcast(std::span<std::byte> bytes) override {
