@@ -96,7 +96,7 @@ class Parts {
 
  private:
   static constexpr int kMostParts = 64;
-  static constexpr std::int64_t kRangesOfPart = 8;
+  static constexpr std::int64_t kRangesOfPart = 4;
   struct alignas(64) Next {
     std::atomic<std::int64_t> range = 0;
   };

@@ -163,22 +163,28 @@ void BasicInternalForce<Real, U>::evaluate_share(std::span<const TileStretch> st
     from -= cost;
     to -= cost;
   }
-  leave(before, fields.f);
+  leave(before, fields);
 }
 
 /// An item is evaluated, and the one behind it is not next.
 template <class Real, class U>
-void BasicInternalForce<Real, U>::leave(const Item& item, Real* f) const {
+void BasicInternalForce<Real, U>::leave(const Item& item, const Fields& fields) const {
   if (item.block < 0) return;
   const Tile& tile = mesh_.blocks[index(item.block)].tiles[index(item.tile)];
-  if (tile.elements > 0) complete({item.block, tile.next}, f);
+  if (tile.elements > 0) complete({item.block, tile.next}, fields);
 }
 
-/// The item, or the one before it, is evaluated: the thread that comes second adds the force between them.
+/// The item, or the one before it, is evaluated: the thread that comes second adds the force between them,
+/// and moves the item's nodes, which nobody reads any more.
 template <class Real, class U>
-void BasicInternalForce<Real, U>::complete(const Item& item, Real* f) const {
-  unsigned char& halves = halves_[blocks_[index(item.block)].first_item + index(item.tile)];
-  if (std::atomic_ref(halves).fetch_add(1) == 1) add_carry(item, f);
+void BasicInternalForce<Real, U>::complete(const Item& item, const Fields& fields) const {
+  const std::size_t i = blocks_[index(item.block)].first_item + index(item.tile);
+  if (std::atomic_ref(halves_[i]).fetch_add(1) == 0) return;
+  add_carry(item, fields.f);
+  const Moved& moved = fields.moved;
+  if (moved.update == nullptr) return;
+  moved.update->move_undeferred(i, *moved.loads, {moved.u, moved.v, fields.f});
+  unmoved_[i] = 0;
 }
 
 template <class Real, class U>
@@ -202,7 +208,7 @@ void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t 
     const bool empty = mesh_.blocks[index(item.block)].tiles[index(item.tile)].elements == 0;
     const int tiles = joined(i) ? most : 1;
     const bool half = previous >= 0 && !at_hand;
-    if (!at_hand) leave(before, fields.f);
+    if (!at_hand) leave(before, fields);
     // The tile before reads what this one holds, maybe later.
     unmoved_[i] = half || empty;
     if (tiles > 1) unmoved_[i + 1] = 0;
@@ -211,7 +217,7 @@ void BasicInternalForce<Real, U>::evaluate_items(std::size_t first, std::size_t 
       pass_carry(item, carry_in, fields.f);
     else
       evaluate_tiles(i, tiles, carry_in, fields);
-    if (half) complete(item, fields.f);
+    if (half) complete(item, fields);
     i += static_cast<std::size_t>(tiles);
     before = items_[i - 1];
   }

@@ -91,8 +91,8 @@ class BasicInternalForce {
     evaluate(0, items_.size(), unmoved_fields(at));
   }
   /// internal_force(at), and nodes whose force is complete move by a step while they are at hand:
-  /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). What moved has no force
-  /// in f.
+  /// those that `update` does not defer, in all tiles but those of unmoved_tiles(). The force in f of what
+  /// moved means nothing.
   void move(const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
             const ForceFields<Real, U>& at) const {
     evaluate(0, items_.size(), moved_fields(update, loads, at));
@@ -233,8 +233,8 @@ class BasicInternalForce {
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
   void forget_halves() const { std::fill(halves_.begin(), halves_.end(), 0); }
-  void leave(const Item& item, Real* f) const;
-  void complete(const Item& item, Real* f) const;
+  void leave(const Item& item, const Fields& fields) const;
+  void complete(const Item& item, const Fields& fields) const;
   void add_carry(const Item& item, Real* f) const;
 
   const Mesh& mesh_;
@@ -246,7 +246,8 @@ class BasicInternalForce {
   mutable std::vector<PageVector<Real>> carries_;  ///< by block: [tile][carry_stride]
   /// By item that did not follow on the one before: how many of both are evaluated.
   mutable std::vector<unsigned char> halves_;
-  mutable std::vector<unsigned char> unmoved_;  ///< marks of those items, and of items without elements
+  mutable std::vector<unsigned char>
+      unmoved_;  ///< marks of those without both, and of items without elements
 };
 
 using InternalForce = BasicInternalForce<double>;

@@ -179,6 +179,19 @@ void BasicTimeUpdate<Real, U>::move_deferred(const StepLoads& loads,
 }
 
 template <class Real, class U>
+void BasicTimeUpdate<Real, U>::move_undeferred(std::size_t item, const StepLoads& loads,
+                                               const BasicUpdateFields<Real, U>& fields) const {
+  const auto [block, tile] = items_[item];
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
+  thread_local std::vector<int> nodes;  // grows in the first calls only
+  nodes.clear();
+  for (int node = 0; node < swept.section.nodes(); ++node)
+    if (deferred_[index(first + node)] == 0) nodes.push_back(node);
+  move_nodes(item, nodes, loads, fields);
+}
+
+template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move_apart(const StepLoads& loads,
                                           const BasicUpdateFields<Real, U>& fields) const {
   expect_motion(loads, fields);

@@ -66,6 +66,9 @@ class BasicTimeUpdate {
                  const std::vector<unsigned char>& whole) const {
     move(loads, fields, whole.data());
   }
+  /// Moves the nodes of a tile that are not deferred. `item`: in the order of blocks and tiles.
+  void move_undeferred(std::size_t item, const StepLoads& loads,
+                       const BasicUpdateFields<Real, U>& fields) const;
   /// Moves the nodes that were set apart.
   void move_apart(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
   /// Moves the deferred nodes alone, by one thread where they are few.

@@ -47,7 +47,7 @@ class LaunchedRanks : public ProgramTest {
 
   /// Starts a run on three ranks and waits until it has a checkpoint of its rolling.
   static pid_t start_rolling(const fs::path& folder) {
-    const pid_t process = start_on(3, run(folder, "--set \"output.progress_interval=10 ms\""));
+    const pid_t process = start_on(3, run(folder, kLong + "--set \"output.progress_interval=10 ms\""));
     EXPECT_TRUE(wait_until([&] { return has(content_of(folder / "status.json"), "\"rolling\""); }))
         << errors();
     leave_request(folder, RunRequest::checkpoint);
@@ -71,6 +71,8 @@ class LaunchedRanks : public ProgramTest {
   }
 
   static constexpr const char* kSize = "--set \"scene.element_size=8 mm\"";
+  /// Steps take long enough for a request.
+  static inline const std::string kLong = "--set \"scene.element_size=5 mm\" ";
   fs::path folder_ = root_ / "shared";
 };
 
@@ -104,7 +106,7 @@ TEST_F(LaunchedRanks, ResumedOnOtherNumbers) {
 }
 
 TEST_F(LaunchedRanks, StoppedFromOutsideAndAfterTheLossOfARank) {
-  ASSERT_EQ(call(run(root_ / "long")), 0) << errors();
+  ASSERT_EQ(call(run(root_ / "long", kLong)), 0) << errors();
   const pid_t stopped = start_rolling(folder_);
   leave_request(folder_, RunRequest::stop);
   EXPECT_EQ(wait_for(stopped), 75);
