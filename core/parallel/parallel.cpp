@@ -174,7 +174,7 @@ void run_ranges(std::int64_t n, RunningChain* chain,
                 FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
   if (g_threads == 1) {
     if (chain != nullptr) chain->take(0);
-    body(0, n, 0);
+    if (n > 0) body(0, n, 0);
     return;
   }
   Parts parts(n);
@@ -242,7 +242,7 @@ void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t
 }
 
 void ranges_beside(const Chain& chain, std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
-  TREAD_EXPECT(n > 0 && chain.then.size() < kMostLinks && !t_in_link);
+  TREAD_EXPECT(n >= 0 && chain.then.size() < kMostLinks && !t_in_link);
   RunningChain running(chain);
   run_timed(n, &running, body);
   running.end();

@@ -1,8 +1,8 @@
 #pragma once
 // Processes that share the steps of a run. Rank 0 leads: it alone reads, writes, prints and decides.
 //
-// All ranks make the same calls in the same order, post() and receive() aside; each call returns once its data
-// are there.
+// All ranks make the same calls in the same order, post() and receive() aside; each call returns once its
+// data are there.
 
 #include <cstddef>
 #include <cstdint>

@@ -31,6 +31,12 @@ std::vector<RankPart> rank_parts(const Model& model, const RankCut& cut, const s
   for (int to = 0; to < cut.ranks(); ++to) {
     const HeldGroups held = groups.held_by(to);
     parts[index(to)].halo = std::ssize(groups.halo_of(to, held));
+    if (to != kContactRank) {
+      const std::int64_t moved = std::count_if(groups.near().begin(), groups.near().end(),
+                                               [&](auto group) { return held.moved[index(group)] != 0; });
+      parts[index(to)].received_motion = kGroupValues * moved;
+      parts[kContactRank].sent_motion += kGroupValues * moved;
+    }
     for (int from = 0; from < cut.ranks(); ++from) {
       if (from == to) continue;
       RankMessage message(cut, from, to, held.forced);

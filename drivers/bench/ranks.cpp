@@ -88,10 +88,12 @@ class RankRows {
  public:
   RankRows(const Model& model, const std::vector<RankPart>& parts) {
     const ValueBytes bytes = value_bytes(model.scene);
+    const int moved = bytes.displacement + bytes.other;
     for (const RankPart& part : parts)
       rows_.push_back({static_cast<int>(rows_.size()), part,
                        (part.own + part.halo) * kGroupValues * (bytes.displacement + 2 * bytes.other),
-                       part.sent * bytes.other, part.received * bytes.other, std::nullopt, 0});
+                       part.sent * bytes.other + part.sent_motion * moved,
+                       part.received * bytes.other + part.received_motion * moved, std::nullopt, 0});
   }
 
   void time(int rank, const Measurement& step) {

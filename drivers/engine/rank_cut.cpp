@@ -14,8 +14,8 @@ namespace tread {
 
 namespace {
 
-/// Cost of search and tractions for each point that the search has room for. [ranks.md, The cut]
-constexpr double kPointOfRoom = 12;
+/// Cost of search and tractions for each point that the search has room for. [ranks.md, What is shared]
+constexpr double kPointOfRoom = 16;
 
 /// Pieces of work, with the number of nodal forces that go between two of them if they part.
 struct WorkGraph {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -40,26 +39,14 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::all),
       patch_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::patch),
       other_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::without_patch),
-      patch_tiles_(model, this->joined_tiles()) {
+      patch_tiles_(model, this->joined_tiles()),
+      patch_motion_(model, shared_, held_, *ranks_) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
   if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
   if (model.contact) {
-    const GroupMarks surfaces = surface_groups(model);
-    tied_patch_ = meet(surfaces, tied_groups(model));
-    const auto surface_of = [&](const HeldGroups& held) {
-      std::vector<std::int64_t> groups;
-      for (std::int64_t group = 0; group < std::ssize(surfaces); ++group)
-        if (surfaces[index(group)] != 0 && held.moved[index(group)] != 0) groups.push_back(group);
-      return groups;
-    };
-    if (solves()) {
-      for (int rank = 0; rank < ranks_->count(); ++rank)
-        if (rank != kContactRank) patch_.push_back({rank, surface_of(shared_.held_by(rank)), {}, {}, {}});
-    } else {
-      patch_.push_back({kContactRank, surface_of(held_), {}, {}, {}});
-      model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
-    }
+    tied_patch_ = meet(surface_groups(model), tied_groups(model));
+    if (!solves()) model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
   }
   take_near();
 }
@@ -96,51 +83,18 @@ void RankFields<Real, U>::take_near() {
     deferred_[index(group)] = 1;
   }
   this->update().defer_only(deferred_, shared_.near());
-  lay_out_patch();
+  patch_motion_.follow(shared_.near());
   forces_.follow(shared_.near());
   patch_forces_.follow(shared_.near());
-  other_forces_.follow(shared_.near(), patch_segments_);
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::lay_out_patch() {
-  patch_segments_.clear();
-  for (PatchMotion& motion : patch_) {
-    motion.groups.clear();
-    std::set_intersection(motion.surface.begin(), motion.surface.end(), shared_.near().begin(),
-                          shared_.near().end(), std::back_inserter(motion.groups));
-    if (motion.groups.empty()) continue;
-    motion.u.resize(motion.groups.size() * kGroupValues);
-    motion.v.resize(motion.u.size());
-    patch_segments_.push_back({motion.other, std::as_writable_bytes(std::span(motion.u))});
-    patch_segments_.push_back({motion.other, std::as_writable_bytes(std::span(motion.v))});
-  }
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::pack_patch() {
-  for (PatchMotion& motion : patch_)
-    for_groups(motion.groups, 0, std::ssize(motion.groups), [&](std::int64_t at, std::int64_t place) {
-      std::copy_n(this->u().data() + place, kGroupValues, motion.u.data() + at);
-      std::copy_n(this->v().data() + place, kGroupValues, motion.v.data() + at);
-    });
-}
-
-template <class Real, class U>
-void RankFields<Real, U>::unpack_patch() {
-  for (const PatchMotion& motion : patch_)
-    for_groups(motion.groups, 0, std::ssize(motion.groups), [&](std::int64_t at, std::int64_t place) {
-      std::copy_n(motion.u.data() + at, kGroupValues, this->u().data() + place);
-      std::copy_n(motion.v.data() + at, kGroupValues, this->v().data() + place);
-    });
+  other_forces_.follow(shared_.near(), patch_motion_.segments());
 }
 
 template <class Real, class U>
 void RankFields<Real, U>::spread_patch(bool before_ties, bool measured) {
   if (!this->model().contact || beside_ || before_ties != tied_patch_) return;
-  if (solves()) pack_patch();
-  exchange_one_way(solves(), patch_segments_);
-  if (!solves()) unpack_patch();
+  if (solves()) patch_motion_.pack(this->u().data(), this->v().data());
+  exchange_one_way(solves(), patch_motion_.segments());
+  if (!solves()) patch_motion_.unpack(this->u().data(), this->v().data());
   if (measured) spread_points();
 }
 
@@ -332,12 +286,12 @@ void RankFields<Real, U>::move_with_contact(const StepLoads& loads, double time)
     this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
     contact.gather_points();
     contact.resolve({u, v, this->model().inverse_mass.data()}, loads.frame, loads.dt);
-    pack_patch();
+    patch_motion_.pack(this->u().data(), this->v().data());
   };
   this->internal().move({near_, elsewhere_, solves() ? contact.columns() : 0, search, then}, this->update(),
                         loads, this->force_fields());
   other_forces_.exchange(carry, this->f().data());
-  if (!solves()) unpack_patch();
+  if (!solves()) patch_motion_.unpack(this->u().data(), this->v().data());
   beside_ = true;
   end_of_forces();
 }

@@ -15,6 +15,7 @@
 #include "drivers/engine/precise_fields.hpp"
 #include "drivers/engine/rank_cut.hpp"
 #include "drivers/engine/rank_forces.hpp"
+#include "drivers/engine/rank_patch.hpp"
 #include "drivers/engine/shared_groups.hpp"
 
 namespace tread {
@@ -49,9 +50,6 @@ class RankFields final : public PreciseFields<Real, U> {
   const TileShare* share() const override { return whole() ? nullptr : &tiles_; }
   bool solves() const { return ranks_->rank() == kContactRank; }
   void choose_patch(const BodyFrame& wheel, double ahead);
-  void lay_out_patch();
-  void pack_patch();
-  void unpack_patch();
   void spread_points();
   void end_of_forces();
   void take_near();
@@ -80,16 +78,6 @@ class RankFields final : public PreciseFields<Real, U> {
 
     Contact* contact;
   };
-  /// Motion of the patch that kContactRank sends another rank.
-  struct PatchMotion {
-    int other;  ///< who gets it, or sends it
-    std::vector<std::int64_t>
-        surface;  ///< groups of the running surfaces that the other rank moves, ascending
-    std::vector<std::int64_t> groups;  ///< those about the patch
-    AlignedVector<U> u;
-    AlignedVector<Real> v;
-  };
-
   std::shared_ptr<Ranks> ranks_;
   RankCut cut_;
   TileShare tiles_;
@@ -107,8 +95,7 @@ class RankFields final : public PreciseFields<Real, U> {
   std::vector<TileStretch> near_, elsewhere_;  ///< of this rank's tiles
   bool beside_ = false;                        ///< contact was solved beside the elements of this step
   std::optional<ContactElsewhere> contact_elsewhere_;
-  std::vector<PatchMotion> patch_;  ///< by other rank on kContactRank, else one
-  std::vector<RankSegment> patch_segments_;
+  PatchMotion<Real, U> patch_motion_;
   bool tied_patch_ = false;  ///< nodes of a running surface are tied
   int steps_left_ = 0;       ///< that the patch stays among the shared groups
   bool gathered_ = true;     ///< rank 0 has all values of the present

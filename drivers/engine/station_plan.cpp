@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include "core/travel.hpp"
 
@@ -262,10 +261,10 @@ WheelPlan plan_tyre(double radius, Span run, std::vector<Span> zones, const Mesh
     left -= std::max(length, 0.0);
   };
   double at = zones.back().last;
-  for (const Span& zone : std::views::reverse(zones)) {
-    evenly(at - zone.last, pitch);
-    evenly(zone.last - zone.first, sizes.contact);
-    at = zone.first;
+  for (auto zone = zones.rbegin(); zone != zones.rend(); ++zone) {
+    evenly(at - zone->last, pitch);
+    evenly(zone->last - zone->first, sizes.contact);
+    at = zone->first;
   }
   const double behind = std::min(at - run.first, left);
   const double ahead = std::min(run.last - zones.back().last, left - behind);
@@ -299,10 +298,10 @@ WheelPlan plan_tyre_part(double radius, Span run, const std::vector<Span>& zones
   auto ahead = graded(all.last - run.last, pitch, 2 * sizes.section);
   segments.insert(segments.end(), ahead.rbegin(), ahead.rend());
   double at = run.last;
-  for (const Span& zone : std::views::reverse(within)) {
-    append_uniform(lengths, {zone.last, at}, pitch, 1);
-    append_uniform(lengths, zone, sizes.contact, 1);
-    at = zone.first;
+  for (auto zone = within.rbegin(); zone != within.rend(); ++zone) {
+    append_uniform(lengths, {zone->last, at}, pitch, 1);
+    append_uniform(lengths, *zone, sizes.contact, 1);
+    at = zone->first;
   }
   append_uniform(lengths, {run.first, at}, pitch, 1);
   const auto behind = graded(run.first - all.first, pitch, 2 * sizes.section);

@@ -95,6 +95,8 @@ TEST_P(Parallel, LinksOfAChainFollowOneAnotherBesideRanges) {
       ranges_beside({n, mark(first), then}, 100, mark(visits));
       EXPECT_EQ(order, (std::vector<std::int64_t>{n, 7, -1})) << threads << " threads, " << n;
       EXPECT_EQ(visits, std::vector<int>(100, 1));
+      ranges_beside({n, mark(first), then}, 0, [](std::int64_t, std::int64_t) { ADD_FAILURE(); });
+      EXPECT_EQ(order.size(), 6U) << "beside nothing";
     }
 }
 
