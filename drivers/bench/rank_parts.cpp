@@ -27,6 +27,7 @@ std::vector<RankPart> rank_parts(const Model& model, const RankCut& cut, const s
                                  const SharedGroups& groups) {
   std::vector<RankPart> parts(index(cut.ranks()));
   add_tiles(model.mesh, cut, work, parts);
+  parts[kContactRank].contact = contact_cost(model);
   std::vector<std::vector<bool>> beside(parts.size(), std::vector<bool>(parts.size(), false));
   for (int to = 0; to < cut.ranks(); ++to) {
     const HeldGroups held = groups.held_by(to);

@@ -15,6 +15,7 @@ namespace tread {
 struct RankPart {
   std::int64_t elements = 0;
   std::int64_t cost = 0;                ///< of its tiles, against others
+  std::int64_t contact = 0;             ///< cost of the contact, in the same units
   std::int64_t own = 0, halo = 0;       ///< groups of kLanes slots of its tiles, and others that it holds
   int neighbours = 0;                   ///< ranks that it sends forces to, or gets them from
   std::int64_t sent = 0, received = 0;  ///< forces in a step

@@ -81,7 +81,7 @@ struct RankRow {
   std::int64_t memory;          ///< of displacement, velocity and force [B]
   std::int64_t sent, received;  ///< in a step [B]
   std::optional<Measurement> step;
-  double predicted;  ///< from the first step that was timed [s]; 0 without
+  double predicted;  ///< from the first step that was timed, with contact [s]; 0 without
 };
 
 class RankRows {
@@ -99,10 +99,10 @@ class RankRows {
   void time(int rank, const Measurement& step) {
     RankRow& timed = rows_[index(rank)];
     timed.step = step;
-    if (rows_.front().predicted > 0) return;
-    for (RankRow& row : rows_)
-      row.predicted =
-          step.seconds * static_cast<double>(row.part.cost) / static_cast<double>(timed.part.cost);
+    if (predicted_ || timed.part.cost == 0) return;
+    predicted_ = true;
+    const double unit = step.seconds / static_cast<double>(timed.part.cost);
+    for (RankRow& row : rows_) row.predicted = unit * static_cast<double>(row.part.cost + row.part.contact);
   }
 
   void print(bool json) const { fmt::print("{}", json ? lines() : plain_text(table())); }
@@ -154,6 +154,7 @@ class RankRows {
   }
 
   std::vector<RankRow> rows_;
+  bool predicted_ = false;
 };
 
 }  // namespace

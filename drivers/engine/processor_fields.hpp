@@ -2,6 +2,10 @@
 // The fields of a run that one process moves: contact beside the elements away from the patch.
 // [docs/architecture.md, Step]
 
+#include <algorithm>
+#include <cstdint>
+
+#include "core/parallel/chunks.hpp"
 #include "drivers/engine/patch_tiles.hpp"
 #include "drivers/engine/precise_fields.hpp"
 
@@ -11,7 +15,13 @@ template <class Real, class U>
 class ProcessorFields final : public PreciseFields<Real, U> {
  public:
   explicit ProcessorFields(const Model& model)
-      : PreciseFields<Real, U>(model), patch_tiles_(model, this->joined_tiles()) {}
+      : PreciseFields<Real, U>(model), patch_tiles_(model, this->joined_tiles()) {
+    // Memory lies near the thread that touches it first: the one that begins with these values in steps.
+    for_chunks(3 * model.mesh.slots, [this](std::int64_t first, std::int64_t last) {
+      std::fill(this->u().begin() + first, this->u().begin() + last, U{0});
+      std::fill(this->v().begin() + first, this->v().begin() + last, Real{0});
+    });
+  }
 
   /// A patch of many points is better solved by all threads.
   bool follow_patch(const BodyFrame& wheel, double dt) override {

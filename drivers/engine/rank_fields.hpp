@@ -78,6 +78,7 @@ class RankFields final : public PreciseFields<Real, U> {
 
     Contact* contact;
   };
+
   std::shared_ptr<Ranks> ranks_;
   RankCut cut_;
   TileShare tiles_;
