@@ -89,7 +89,8 @@ class Parts {
       const std::int64_t items = n_ * (part + 1) / count_ - first;
       const std::int64_t ranges = std::min(items, kRangesOfPart);
       std::atomic<std::int64_t>& next = next_[static_cast<std::size_t>(part)].range;
-      for (std::int64_t range; next.load(std::memory_order_relaxed) < ranges && (range = next++) < ranges;)
+      for (std::int64_t range = 0;
+           next.load(std::memory_order_relaxed) < ranges && (range = next++) < ranges;)
         body(first + begin_of(range, ranges, items), first + begin_of(range + 1, ranges, items));
     }
   }
@@ -123,7 +124,7 @@ class RunningChain {
 
   /// Runs ranges of the first link that no other thread has taken; after the last of them the other links.
   void take(int thread) {
-    for (std::int64_t range; (range = next_++) < ranges_;) run(range, thread);
+    for (std::int64_t range = 0; (range = next_++) < ranges_;) run(range, thread);
   }
   /// Throws what a link has thrown; adds the times.
   void end() {
