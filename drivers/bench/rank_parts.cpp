@@ -40,12 +40,14 @@ std::vector<RankPart> rank_parts(const Model& model, const RankCut& cut, const s
     }
     for (int from = 0; from < cut.ranks(); ++from) {
       if (from == to) continue;
-      RankMessage message(cut, from, to, held.forced);
-      message.follow(groups.near());
-      if (message.count == 0) continue;
-      parts[index(from)].sent += message.count;
-      parts[index(to)].received += message.count;
-      beside[index(from)][index(to)] = beside[index(to)][index(from)] = true;
+      for (const auto content : {RankMessage::Content::patch, RankMessage::Content::rest}) {
+        RankMessage message(cut, from, to, held.forced, content);
+        message.follow(groups.near());
+        if (message.count == 0) continue;
+        parts[index(from)].sent += message.count;
+        parts[index(to)].received += message.count;
+        beside[index(from)][index(to)] = beside[index(to)][index(from)] = true;
+      }
     }
   }
   for (std::size_t rank = 0; rank < parts.size(); ++rank)

@@ -7,6 +7,7 @@
 
 #include "core/parallel/few_values.hpp"
 #include "drivers/engine/model.hpp"
+#include "kernels/contact/contact_search.hpp"
 
 namespace tread {
 
@@ -23,6 +24,18 @@ GroupMarks connected_groups(const Model& model);
 GroupMarks surface_groups(const Model& model);
 /// Those of tied nodes.
 GroupMarks tied_groups(const Model& model);
+
+/// Calls visit(group) for the groups of a part of a running surface, tile by tile.
+template <class Visit>
+void for_surface_groups(const SweptBlock& block, const SurfaceProfile& profile, const SurfacePart& part,
+                        const Visit& visit) {
+  const TileSpan tiles = tiles_of(block, part);
+  const auto all = static_cast<int>(block.tiles.size());
+  for (int i = 0; i < tiles.count; ++i)
+    for (int ordinal = part.first_node; ordinal < part.last_node; ++ordinal)
+      visit(block.base / kLanes + std::int64_t{(tiles.first + i) % all} * block.section.nodes() +
+            profile.node(ordinal));
+}
 
 /// True where a group has both marks.
 bool meet(const GroupMarks& a, const GroupMarks& b);

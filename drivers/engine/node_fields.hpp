@@ -73,9 +73,8 @@ class NodeFields : public WholeFields {
   /// Lets the unknowns, which have moved, stand still at zero.
   virtual void hold(std::span<const std::int64_t> unknowns) = 0;
 
-  /// The tractions have moved the patch: gives other ranks its motion, where tied nodes read it before these
-  /// follow, else after.
-  virtual void spread_patch(bool /*before_ties*/, bool /*measured*/) {}
+  /// The tractions have moved the patch: gives other ranks its motion.
+  virtual void spread_patch(bool /*measured*/) {}
 
   /// The lag follows the motion of a step of dt [s].
   virtual void advance_lag(double dt) = 0;

@@ -64,13 +64,10 @@ bool PatchTiles::add(int number, const SurfaceProfile& profile, const SurfacePar
   const SweptBlock& block = model_->mesh.blocks[index(number)];
   const auto all = static_cast<int>(block.tiles.size());
   const TileSpan span = tiles_of(block, part);
-  for (int i = 0; i < span.count; ++i) {
-    const int tile = (span.first + i) % all;
-    if (block.tiles[index(tile)].elements == 0) return false;
-    const std::int64_t group = block.base / kLanes + std::int64_t{tile} * block.section.nodes();
-    for (int ordinal = part.first_node; ordinal < part.last_node; ++ordinal)
-      if (taken_[index(group + profile.node(ordinal))] != 0) return false;
-  }
+  bool apart = true;
+  for (int i = 0; i < span.count; ++i) apart &= block.tiles[index((span.first + i) % all)].elements > 0;
+  for_surface_groups(block, profile, part, [&](std::int64_t group) { apart &= taken_[index(group)] == 0; });
+  if (!apart) return false;
   const std::size_t base = first_tile_[index(number)];
   const auto joins = [&](int tile) { return joined_[base + index((tile + all) % all)] != 0; };
   int first = span.first - 1;

@@ -195,6 +195,15 @@ class PreciseFields : public NodeFields {
         joined.push_back(parts_.internal().joined(joined.size()));
     return joined;
   }
+  /// Searches columns of the aimed contact; solves it once all are searched.
+  void search_contact(const StepLoads& loads, double time, std::int64_t first, std::int64_t last) {
+    model_->contact->search_columns({displacement_, velocity_, &loads.frame}, time, static_cast<int>(first),
+                                    static_cast<int>(last));
+  }
+  void solve_contact(const StepLoads& loads) {
+    model_->contact->gather_points();
+    model_->contact->resolve({displacement_, velocity_, model_->inverse_mass.data()}, loads.frame, loads.dt);
+  }
   /// Forces of bodies from files.
   void force_bodies() {
     for (const auto& body : model_->body_forces) body->internal_force(u_.data(), v_.data(), lag(), f_.data());

@@ -31,17 +31,13 @@ class ProcessorFields final : public PreciseFields<Real, U> {
 
   void move_with_contact(const StepLoads& loads, double time) override {
     this->force_bodies();
-    Contact& contact = *this->model().contact;
-    const NodeField u = this->displacement_, v = this->velocity_;
     const auto search = [&](std::int64_t first, std::int64_t last) {
-      contact.search_columns({u, v, &loads.frame}, time, static_cast<int>(first), static_cast<int>(last));
+      this->search_contact(loads, time, first, last);
     };
-    const auto solve = [&] {
-      contact.gather_points();
-      contact.resolve({u, v, this->model().inverse_mass.data()}, loads.frame, loads.dt);
-    };
-    this->internal().move({patch_tiles_.near(), patch_tiles_.elsewhere(), contact.columns(), search, solve},
-                          this->update(), loads, this->force_fields());
+    const auto solve = [&] { this->solve_contact(loads); };
+    this->internal().move(
+        {patch_tiles_.near(), patch_tiles_.elsewhere(), this->model().contact->columns(), search, solve},
+        this->update(), loads, this->force_fields());
   }
 
  private:

@@ -36,17 +36,19 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),
       held_(shared_.held_by(ranks_->rank())),
-      forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::all),
-      patch_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::patch),
-      other_forces_(cut_, shared_, held_, *ranks_, RankMessage::Content::without_patch),
-      patch_tiles_(model, this->joined_tiles()),
-      patch_motion_(model, shared_, held_, *ranks_) {
+      patch_forces_(cut_, *ranks_, RankMessage::Content::patch),
+      other_forces_(cut_, *ranks_, RankMessage::Content::rest),
+      patch_tiles_(model, this->joined_tiles()) {
   for (const TileStretch& stretch : tiles_.own)
     for (std::size_t tile = stretch.first; tile < stretch.last; ++tile) own_tiles_[tile] = 1;
   if (model.ties) tie_items_ = model.ties->items_in(held_.deferred);
-  if (model.contact) {
-    tied_patch_ = meet(surface_groups(model), tied_groups(model));
-    if (!solves()) model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
+  if (model.contact && !solves()) model.contact->run_on(&contact_elsewhere_.emplace(&*model.contact));
+  for (int rank = 0; rank < ranks_->count(); ++rank) {
+    if (rank == ranks_->rank()) continue;
+    const HeldGroups there = shared_.held_by(rank);
+    patch_forces_.add(rank, there, held_);
+    other_forces_.add(rank, there, held_);
+    if (solves() || rank == kContactRank) patch_motion_.add(rank, shared_.near(), solves() ? there : held_);
   }
   take_near();
 }
@@ -84,21 +86,20 @@ void RankFields<Real, U>::take_near() {
   }
   this->update().defer_only(deferred_, shared_.near());
   patch_motion_.follow(shared_.near());
-  forces_.follow(shared_.near());
   patch_forces_.follow(shared_.near());
   other_forces_.follow(shared_.near(), patch_motion_.segments());
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::spread_patch(bool before_ties, bool measured) {
-  if (!this->model().contact || beside_ || before_ties != tied_patch_) return;
+void RankFields<Real, U>::spread_patch(bool measured) {
+  if (!this->model().contact || beside_) return;
   if (solves()) patch_motion_.pack(this->u().data(), this->v().data());
   exchange_one_way(solves(), patch_motion_.segments());
   if (!solves()) patch_motion_.unpack(this->u().data(), this->v().data());
   if (measured) spread_points();
 }
 
-/// What looks at the energies and samples read.
+/// For looks at the energies and samples.
 template <class Real, class U>
 void RankFields<Real, U>::spread_points() {
   Contact& contact = *this->model().contact;
@@ -262,44 +263,50 @@ void RankFields<Real, U>::internal_force_and_move(const StepLoads& loads, bool m
     this->internal().internal_force(tiles_.own, this->force_fields());
   else
     this->internal().move(tiles_.own, this->update(), loads, this->force_fields());
-  forces_.exchange([this](std::size_t tile) { return this->internal().carry(tile).data(); },
-                   this->f().data());
-  end_of_forces();
+  exchange_patch_forces();
+  exchange_other_forces();
 }
 
 /// Forces of the patch go to kContactRank before the elements elsewhere; its motion comes back with the other
 /// forces.
 template <class Real, class U>
 void RankFields<Real, U>::move_with_contact(const StepLoads& loads, double time) {
-  Contact& contact = *this->model().contact;
-  const NodeField u = this->displacement_, v = this->velocity_;
-  const auto carry = [this](std::size_t tile) { return this->internal().carry(tile).data(); };
   const auto search = [&](std::int64_t first, std::int64_t last) {
-    contact.search_columns({u, v, &loads.frame}, time, static_cast<int>(first), static_cast<int>(last));
+    this->search_contact(loads, time, first, last);
   };
   const auto then = [&] {
-    if (!solves()) {
-      patch_forces_.post(carry, this->f().data());
-      return;
-    }
-    patch_forces_.receive(carry, this->f().data());
-    this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
-    contact.gather_points();
-    contact.resolve({u, v, this->model().inverse_mass.data()}, loads.frame, loads.dt);
+    exchange_patch_forces();
+    if (!solves()) return;
+    move_patch(loads);
+    this->solve_contact(loads);
     patch_motion_.pack(this->u().data(), this->v().data());
   };
-  this->internal().move({near_, elsewhere_, solves() ? contact.columns() : 0, search, then}, this->update(),
-                        loads, this->force_fields());
-  other_forces_.exchange(carry, this->f().data());
+  const int columns = solves() ? this->model().contact->columns() : 0;
+  this->internal().move({near_, elsewhere_, columns, search, then}, this->update(), loads,
+                        this->force_fields());
+  exchange_other_forces();
   if (!solves()) patch_motion_.unpack(this->u().data(), this->v().data());
   beside_ = true;
-  end_of_forces();
 }
 
 template <class Real, class U>
-void RankFields<Real, U>::end_of_forces() {
+void RankFields<Real, U>::exchange_patch_forces() {
+  if (solves())
+    patch_forces_.receive(carries(), this->f().data());
+  else
+    patch_forces_.post(carries(), this->f().data());
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::exchange_other_forces() {
+  other_forces_.exchange(carries(), this->f().data());
   gathered_ = false;
   if (ranks_->spoils_copies()) spoil();
+}
+
+template <class Real, class U>
+void RankFields<Real, U>::move_patch(const StepLoads& loads) {
+  this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
 }
 
 template <class Real, class U>
@@ -308,8 +315,7 @@ void RankFields<Real, U>::move_rest(const StepLoads& loads, bool measured) {
     this->update().move_rest(loads, {this->u().data(), this->v().data(), this->f().data()}, own_tiles_);
   else
     Base::move_rest(loads, false);
-  if (!beside_ && solves())
-    this->update().move_apart(loads, {this->u().data(), this->v().data(), this->f().data()});
+  if (!beside_ && solves()) move_patch(loads);
 }
 
 template <class Real, class U>

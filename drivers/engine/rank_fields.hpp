@@ -3,8 +3,9 @@
 //
 // Each rank computes the elements of its tiles and moves their nodes. Nodes that elements or features of
 // other ranks touch are moved by these ranks, too, in the same way (SharedGroups): one exchange of forces a
-// step makes that possible (RankForces). The views of NodeFields hold the nodes that the rank moves, watched
-// ones in samples and, on rank 0 after fetch(), all.
+// step makes that possible (RankForces). kContactRank alone moves those about the patch and sends their
+// motion (PatchMotion). The views of NodeFields hold the nodes that the rank moves, watched ones in samples
+// and, on rank 0 after fetch(), all.
 
 #include <memory>
 #include <optional>
@@ -37,7 +38,7 @@ class RankFields final : public PreciseFields<Real, U> {
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void move_with_contact(const StepLoads& loads, double time) override;
   void move_rest(const StepLoads& loads, bool measured) override;
-  void spread_patch(bool before_ties, bool measured) override;
+  void spread_patch(bool measured) override;
   void advance_lag(double dt) override;
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
   void list_state(StateList& list) override;
@@ -51,7 +52,12 @@ class RankFields final : public PreciseFields<Real, U> {
   bool solves() const { return ranks_->rank() == kContactRank; }
   void choose_patch(const BodyFrame& wheel, double ahead);
   void spread_points();
-  void end_of_forces();
+  auto carries() const {
+    return [this](std::size_t tile) { return this->internal().carry(tile).data(); };
+  }
+  void exchange_patch_forces();
+  void exchange_other_forces();
+  void move_patch(const StepLoads& loads);
   void take_near();
   template <class T>
   void share_groups(T* field, const std::vector<std::int64_t>& groups);
@@ -88,18 +94,15 @@ class RankFields final : public PreciseFields<Real, U> {
   HeldGroups held_;              ///< of this rank, the patch aside
   GroupMarks moved_, deferred_;  ///< with the patch
   TieItems tie_items_;
-  RankForces<Real> forces_;        ///< of steps in which contact follows on the elements
-  RankForces<Real> patch_forces_;  ///< of the others: to kContactRank, before the elements elsewhere
-  RankForces<Real> other_forces_;  ///< after them
+  RankForces<Real> patch_forces_, other_forces_;
   PatchTiles patch_tiles_;
   bool apart_ = false;                         ///< patch_tiles_ are found
   std::vector<TileStretch> near_, elsewhere_;  ///< of this rank's tiles
   bool beside_ = false;                        ///< contact was solved beside the elements of this step
   std::optional<ContactElsewhere> contact_elsewhere_;
   PatchMotion<Real, U> patch_motion_;
-  bool tied_patch_ = false;  ///< nodes of a running surface are tied
-  int steps_left_ = 0;       ///< that the patch stays among the shared groups
-  bool gathered_ = true;     ///< rank 0 has all values of the present
+  int steps_left_ = 0;    ///< that the patch stays among the shared groups
+  bool gathered_ = true;  ///< rank 0 has all values of the present
 };
 
 extern template class RankFields<double, double>;

@@ -1,6 +1,7 @@
 #include "drivers/engine/rank_forces.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tread {
@@ -8,11 +9,10 @@ namespace tread {
 RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const GroupMarks& forced,
                          Content of_it)
     : cut(&all), from(sender), to(receiver), content(of_it) {
-  if (content != Content::patch)
-    for (const TileStretch& stretch : cut->stretches(from))
-      for (std::int64_t group = cut->first_group(stretch.first); group < cut->first_group(stretch.last);
-           ++group)
-        if (forced[index(group)] != 0) always.push_back(group);
+  for (const TileStretch& stretch : cut->stretches(from))
+    for (std::int64_t group = cut->first_group(stretch.first); group < cut->first_group(stretch.last);
+         ++group)
+      if (forced[index(group)] != 0) always.push_back(group);
   for (const Joint& joint : cut->joints()) {
     const auto marks = forced.begin() + joint.slot / kLanes;
     if (joint.near == from) parts.push_back({&joint, true, {}, {marks, marks + joint.nodes}});
@@ -21,21 +21,24 @@ RankMessage::RankMessage(const RankCut& all, int sender, int receiver, const Gro
 }
 
 void RankMessage::follow(const std::vector<std::int64_t>& patch) {
-  static const std::vector<std::int64_t> none;
-  const std::vector<std::int64_t>& near =
-      to == kContactRank && content != Content::without_patch ? patch : none;
-  groups.assign(always.begin(), always.end());
-  for (const std::int64_t group : near)
-    if (cut->owner(group) == from && !std::binary_search(always.begin(), always.end(), group))
-      groups.push_back(group);
-  std::sort(groups.begin(), groups.end());
+  const auto of_patch = [&](std::int64_t group) {
+    return to == kContactRank && std::binary_search(patch.begin(), patch.end(), group);
+  };
+  groups.clear();
+  if (content == Content::rest)
+    std::copy_if(always.begin(), always.end(), std::back_inserter(groups),
+                 [&](std::int64_t group) { return !of_patch(group); });
+  else
+    std::copy_if(patch.begin(), patch.end(), std::back_inserter(groups),
+                 [&](std::int64_t group) { return to == kContactRank && cut->owner(group) == from; });
   count = std::ssize(groups) * kGroupValues;
   for (JointPart& part : parts) {
     const bool neighbours = part.joint->far == to || part.joint->near == to;
     part.values.clear();
     for (std::int64_t node = 0; node < part.joint->nodes; ++node) {
-      const bool always_sent = content != Content::patch && (neighbours || part.always[index(node)] != 0);
-      if (always_sent || std::binary_search(near.begin(), near.end(), part.joint->slot / kLanes + node))
+      const bool about_it = of_patch(part.joint->slot / kLanes + node);
+      const bool needed = neighbours || part.always[index(node)] != 0;
+      if (content == Content::patch ? about_it : needed && !about_it)
         for (int c = 0; c < 3; ++c) part.values.push_back(3 * node + c);
     }
     count += std::ssize(part.values);
@@ -43,16 +46,9 @@ void RankMessage::follow(const std::vector<std::int64_t>& patch) {
 }
 
 template <class Real>
-RankForces<Real>::RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held,
-                             Ranks& ranks, RankMessage::Content content)
-    : ranks_(&ranks) {
-  const int own = ranks.rank();
-  for (int rank = 0; rank < cut.ranks(); ++rank) {
-    if (rank == own) continue;
-    sent_.push_back({RankMessage(cut, own, rank, groups.held_by(rank).forced, content)});
-    received_.push_back({RankMessage(cut, rank, own, held.forced, content)});
-  }
-  follow(groups.near());
+void RankForces<Real>::add(int rank, const HeldGroups& there, const HeldGroups& here) {
+  sent_.push_back({RankMessage(*cut_, ranks_->rank(), rank, there.forced, content_)});
+  received_.push_back({RankMessage(*cut_, rank, ranks_->rank(), here.forced, content_)});
 }
 
 template <class Real>

@@ -25,21 +25,20 @@ struct RankMessage {
   };
 
   enum class Content {
-    all,
-    patch,          ///< forces of the nodes about it alone
-    without_patch,  ///< those wherever it is
+    patch,  ///< forces of the nodes about it, to kContactRank
+    rest,   ///< all others
   };
 
   /// Keeps a reference to the cut. `forced`: HeldGroups::forced of the receiver.
-  RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced, Content content = Content::all);
+  RankMessage(const RankCut& cut, int from, int to, const GroupMarks& forced, Content content);
 
-  /// kContactRank gets the forces of these groups, ascending.
+  /// `patch`: the groups about it, ascending.
   void follow(const std::vector<std::int64_t>& patch);
 
   const RankCut* cut;
   int from, to;
   Content content;
-  std::vector<std::int64_t> always, groups;  ///< ascending: those wherever the patch is, and all
+  std::vector<std::int64_t> always, groups;  ///< ascending: those of the receiver, and those of the message
   std::vector<JointPart> parts;
   std::int64_t count = 0;  ///< of its values
 };
@@ -47,9 +46,12 @@ struct RankMessage {
 template <class Real>
 class RankForces {
  public:
-  /// Keeps references. `held`: by this rank.
-  RankForces(const RankCut& cut, const SharedGroups& groups, const HeldGroups& held, Ranks& ranks,
-             RankMessage::Content content);
+  /// Keeps references.
+  RankForces(const RankCut& cut, Ranks& ranks, RankMessage::Content content)
+      : cut_(&cut), ranks_(&ranks), content_(content) {}
+
+  /// Another rank. `there`, `here`: the groups that it and this rank hold.
+  void add(int rank, const HeldGroups& there, const HeldGroups& here);
 
   /// RankMessage::follow of all. `more` bytes go along, to other ranks from kContactRank.
   void follow(const std::vector<std::int64_t>& patch, std::span<const RankSegment> more = {});
@@ -74,7 +76,9 @@ class RankForces {
   void unpack_groups(const Packed& packed, Real* force) const;
   void unpack_joints(const Packed& packed, Carry carry, Real* force) const;
 
+  const RankCut* cut_;
   Ranks* ranks_;
+  RankMessage::Content content_;
   std::vector<Packed> sent_, received_;
   AlignedVector<Real> out_, in_;
   std::vector<RankSegment> out_segments_, in_segments_;

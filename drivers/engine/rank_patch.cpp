@@ -9,22 +9,12 @@
 namespace tread {
 
 template <class Real, class U>
-PatchMotion<Real, U>::PatchMotion(const Model& model, const SharedGroups& shared, const HeldGroups& held,
-                                  const Ranks& ranks) {
-  if (!model.contact) return;
-  const GroupMarks surfaces = surface_groups(model);
-  const auto add = [&](int other, const HeldGroups& by_receiver) {
-    Part& part = parts_.emplace_back();
-    part.other = other;
-    for (std::int64_t group = 0; group < std::ssize(surfaces); ++group)
-      if (surfaces[index(group)] != 0 && by_receiver.moved[index(group)] != 0) part.surface.push_back(group);
-  };
-  if (ranks.rank() != kContactRank) {
-    add(kContactRank, held);
-    return;
-  }
-  for (int rank = 0; rank < ranks.count(); ++rank)
-    if (rank != kContactRank) add(rank, shared.held_by(rank));
+void PatchMotion<Real, U>::add(int other, const std::vector<std::int64_t>& surfaces,
+                               const HeldGroups& receiver) {
+  Part& part = parts_.emplace_back();
+  part.other = other;
+  std::copy_if(surfaces.begin(), surfaces.end(), std::back_inserter(part.surface),
+               [&](std::int64_t group) { return receiver.moved[index(group)] != 0; });
 }
 
 template <class Real, class U>

@@ -6,7 +6,6 @@
 
 #include "core/aligned.hpp"
 #include "core/parallel/ranks.hpp"
-#include "drivers/engine/rank_cut.hpp"
 #include "drivers/engine/shared_groups.hpp"
 
 namespace tread {
@@ -14,12 +13,13 @@ namespace tread {
 template <class Real, class U>
 class PatchMotion {
  public:
-  /// `held`: by this rank.
-  PatchMotion(const Model& model, const SharedGroups& shared, const HeldGroups& held, const Ranks& ranks);
+  /// Another rank, which gets the motion or, to others, sends it. `surfaces`: groups of both running
+  /// surfaces, ascending; `receiver`: what it holds.
+  void add(int other, const std::vector<std::int64_t>& surfaces, const HeldGroups& receiver);
 
   /// The groups about the patch, ascending.
   void follow(const std::vector<std::int64_t>& near);
-  /// What kContactRank sends and the others receive, in place until the next follow().
+  /// Sent by kContactRank and received by the others, in place until the next follow().
   const std::vector<RankSegment>& segments() const { return segments_; }
 
   void pack(const U* u, const Real* v);

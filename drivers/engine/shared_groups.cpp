@@ -4,7 +4,6 @@
 #include <array>
 
 #include "core/index.hpp"
-#include "kernels/device/surface_copies.hpp"
 
 namespace tread {
 
@@ -81,18 +80,10 @@ void SharedGroups::follow(const BodyFrame& wheel, double ahead) {
   if (!model_->contact) return;
   const std::array<SurfacePart, 2> parts = model_->contact->near(wheel, ahead);
   const SurfacePair& surfaces = model_->contact->surfaces();
-  add_near(surfaces.rail(), surfaces.rail_profile(), parts[0]);
-  add_near(surfaces.wheel(), surfaces.wheel_profile(), parts[1]);
+  const auto add = [this](std::int64_t group) { near_.push_back(group); };
+  for_surface_groups(surfaces.rail(), surfaces.rail_profile(), parts[0], add);
+  for_surface_groups(surfaces.wheel(), surfaces.wheel_profile(), parts[1], add);
   std::sort(near_.begin(), near_.end());
-}
-
-void SharedGroups::add_near(const SweptBlock& block, const SurfaceProfile& profile, const SurfacePart& part) {
-  const TileSpan tiles = tiles_of(block, part);
-  const auto all = static_cast<int>(block.tiles.size());
-  for (int i = 0; i < tiles.count; ++i)
-    for (int ordinal = part.first_node; ordinal < part.last_node; ++ordinal)
-      near_.push_back(block.base / kLanes + std::int64_t{(tiles.first + i) % all} * block.section.nodes() +
-                      profile.node(ordinal));
 }
 
 }  // namespace tread

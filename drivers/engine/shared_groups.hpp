@@ -35,8 +35,6 @@ class SharedGroups {
   const std::vector<std::int64_t>& near() const { return near_; }
 
  private:
-  void add_near(const SweptBlock& block, const SurfaceProfile& profile, const SurfacePart& part);
-
   const Model* model_;
   const RankCut* cut_;
   std::vector<TiedSlot> tied_;

@@ -99,9 +99,8 @@ void Simulation::step() {
   apply(update, s);
   apply(guided_bore, s);
   apply(contact_tractions, s);
-  fields_->spread_patch(true, s.measured);
+  fields_->spread_patch(s.measured);
   apply(tied_motion, s);
-  fields_->spread_patch(false, s.measured);
   apply(branch_lag, s);
   apply(frame, s);
   advance_time();
@@ -145,8 +144,8 @@ void Simulation::apply(StepPhase phase, StepState& step) {
   if (timed) clock_->enter(phase);
   for (Feature* feature : features_.in(phase)) feature->apply(phase, step);
   if (!timed || phase != StepPhase::internal_force || !step.contact_beside) return;
-  clock_->had_beside(StepPhase::contact_search, 0);
-  clock_->had_beside(StepPhase::contact_tractions, 2);
+  clock_->had_beside(StepPhase::contact_search, WorkBeside::kFirst);
+  clock_->had_beside(StepPhase::contact_tractions, WorkBeside::kThen);
 }
 
 void Simulation::advance_time() {

@@ -91,7 +91,6 @@ template <class Real, class U>
 void BasicInternalForce<Real, U>::move(std::span<const TileStretch> stretches,
                                        const BasicTimeUpdate<Real, U>& update, const StepLoads& loads,
                                        const ForceFields<Real, U>& at) const {
-  std::fill(unmoved_.begin(), unmoved_.end(), 0);
   evaluate(stretches, moved_fields(update, loads, at));
 }
 
@@ -99,7 +98,7 @@ template <class Real, class U>
 void BasicInternalForce<Real, U>::move(const WorkBeside& work, const BasicTimeUpdate<Real, U>& update,
                                        const StepLoads& loads, const ForceFields<Real, U>& at) const {
   const Fields fields = moved_fields(update, loads, at);
-  forget_halves();
+  begin();
   const auto move_near = [&] { evaluate_share(work.near, 0, cost_of(work.near), fields); };
   const std::array<FunctionRef<void()>, 2> links = {move_near, work.then};
   ranges_beside(
@@ -110,7 +109,7 @@ void BasicInternalForce<Real, U>::move(const WorkBeside& work, const BasicTimeUp
 template <class Real, class U>
 void BasicInternalForce<Real, U>::evaluate(std::span<const TileStretch> stretches,
                                            const Fields& fields) const {
-  forget_halves();
+  begin();
   parallel_ranges(cost_of(stretches),
                   [&](std::int64_t from, std::int64_t to) { evaluate_share(stretches, from, to, fields); });
 }

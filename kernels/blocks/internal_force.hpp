@@ -39,10 +39,12 @@ struct ForceFields {
 /// Work that needs the motion of some tiles, beside the elements of the others.
 struct WorkBeside {
   std::span<const TileStretch> near;                    ///< whose nodes it reads, in the order of the sweep
-  std::span<const TileStretch> elsewhere;               ///< all others
+  std::span<const TileStretch> elsewhere;               ///< the others
   std::int64_t n;                                       ///< items of its first part
   FunctionRef<void(std::int64_t, std::int64_t)> first;  ///< on ranges of them, before nodes of `near` move
   FunctionRef<void()> then;                             ///< by one thread, once they have moved
+
+  static constexpr std::size_t kFirst = 0, kThen = 2;  ///< links in ParallelTimes
 };
 
 /// Vector fields hold 3 * mesh.slots values in the order of dof(), components in the nodes' local bases;
@@ -232,7 +234,11 @@ class BasicInternalForce {
   /// The item's tile and, if `tiles` is 2, the one behind it.
   void evaluate_tiles(std::size_t first, int tiles, const Real* carry_in, const Fields& fields) const;
   void pass_carry(const Item& item, const Real* carry_in, Real* f) const;
-  void forget_halves() const { std::fill(halves_.begin(), halves_.end(), 0); }
+  /// Forgets the marks of the evaluation before.
+  void begin() const {
+    std::fill(halves_.begin(), halves_.end(), 0);
+    std::fill(unmoved_.begin(), unmoved_.end(), 0);
+  }
   void leave(const Item& item, const Fields& fields) const;
   void complete(const Item& item, const Fields& fields) const;
   void add_carry(const Item& item, Real* f) const;

@@ -59,7 +59,7 @@ template <class Real, class U>
 void BasicTimeUpdate<Real, U>::defer(const std::vector<std::int64_t>& slots) {
   for (const std::int64_t slot : slots) {
     TREAD_EXPECT(slot >= 0 && slot < mesh_.slots);
-    deferred_[index(slot / kLanes)] = 1;
+    deferred_[index(slot / kLanes)] = kDeferred;
   }
   list_deferred();
 }
@@ -69,47 +69,8 @@ void BasicTimeUpdate<Real, U>::defer_only(std::span<const unsigned char> groups,
                                           std::span<const std::int64_t> apart) {
   TREAD_EXPECT(groups.size() == deferred_.size());
   std::copy(groups.begin(), groups.end(), deferred_.begin());
-  set_apart(apart);
-  for (const std::int64_t group : apart) deferred_[index(group)] = 0;
+  for (const std::int64_t group : apart) deferred_[index(group)] = kApart;
   list_deferred();
-  for (const std::int64_t group : apart) deferred_[index(group)] = 1;
-}
-
-template <class Real, class U>
-void BasicTimeUpdate<Real, U>::TileNodes::clear() {
-  items.clear();
-  first.assign(1, 0);
-  nodes.clear();
-}
-
-template <class Real, class U>
-void BasicTimeUpdate<Real, U>::set_apart(std::span<const std::int64_t> groups) {
-  apart_.clear();
-  beside_apart_.clear();
-  auto group = groups.begin();
-  for (std::size_t item = 0; item < items_.size() && group != groups.end(); ++item) {
-    const SweptBlock& swept = mesh_.blocks[index(items_[item].block)];
-    const std::int64_t first = swept.base / kLanes + std::int64_t{items_[item].tile} * swept.section.nodes();
-    if (*group >= first + swept.section.nodes()) continue;
-    for (int node = 0; node < swept.section.nodes(); ++node) {
-      const bool apart = group != groups.end() && *group == first + node;
-      (apart ? apart_ : beside_apart_).nodes.push_back(node);
-      if (apart) ++group;
-    }
-    for (TileNodes* list : {&apart_, &beside_apart_}) {
-      list->items.push_back(item);
-      list->first.push_back(list->nodes.size());
-    }
-  }
-}
-
-/// Nodes of a tile that move together with it.
-template <class Real, class U>
-std::span<const int> BasicTimeUpdate<Real, U>::whole_tile(std::size_t item) const {
-  const std::vector<std::size_t>& items = beside_apart_.items;
-  const auto at = std::lower_bound(items.begin(), items.end(), item);
-  if (at != items.end() && *at == item) return beside_apart_.of(index(at - items.begin()));
-  return {all_nodes_.data(), index(mesh_.blocks[index(items_[item].block)].section.nodes())};
 }
 
 template <class Real, class U>
@@ -117,14 +78,18 @@ void BasicTimeUpdate<Real, U>::list_deferred() {
   deferred_nodes_.clear();
   first_deferred_.assign(1, 0);
   with_deferred_.clear();
+  with_apart_.clear();
   for (const auto [block, tile] : items_) {
     const SweptBlock& swept = mesh_.blocks[index(block)];
     const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
     for (int node = 0; node < swept.section.nodes(); ++node) {
       const Real* inverse = inverse_mass_ + (first + node) * kLanes;
       const bool moves = std::any_of(inverse, inverse + kLanes, [](Real value) { return value > 0; });
-      if (deferred_[index(first + node)] != 0 && moves) deferred_nodes_.push_back(node);
+      if (deferred_[index(first + node)] == kDeferred && moves) deferred_nodes_.push_back(node);
     }
+    const auto marks = deferred_.begin() + first;
+    if (std::find(marks, marks + swept.section.nodes(), kApart) != marks + swept.section.nodes())
+      with_apart_.push_back(first_deferred_.size() - 1);
     first_deferred_.push_back(deferred_nodes_.size());
     if (!deferred_nodes(first_deferred_.size() - 2).empty())
       with_deferred_.push_back(first_deferred_.size() - 2);
@@ -159,8 +124,14 @@ void BasicTimeUpdate<Real, U>::move(const StepLoads& loads, const BasicUpdateFie
   expect_motion(loads, fields);
   parallel_ranges(static_cast<std::int64_t>(items_.size()), [&](std::int64_t from, std::int64_t to) {
     for (std::size_t item = index(from); item < index(to); ++item) {
-      const bool in_part = whole != nullptr && whole[item] == 0;
-      move_nodes(item, in_part ? deferred_nodes(item) : whole_tile(item), loads, fields);
+      const SweptBlock& swept = mesh_.blocks[index(items_[item].block)];
+      if (whole != nullptr && whole[item] == 0)
+        move_nodes(item, deferred_nodes(item), loads, fields);
+      else if (with_apart_.empty())
+        move_nodes(item, {all_nodes_.data(), index(swept.section.nodes())}, loads, fields);
+      else
+        move_marked(
+            item, [](unsigned char mark) { return mark != kApart; }, loads, fields);
     }
   });
 }
@@ -181,22 +152,31 @@ void BasicTimeUpdate<Real, U>::move_deferred(const StepLoads& loads,
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move_undeferred(std::size_t item, const StepLoads& loads,
                                                const BasicUpdateFields<Real, U>& fields) const {
-  const auto [block, tile] = items_[item];
-  const SweptBlock& swept = mesh_.blocks[index(block)];
-  const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
-  thread_local std::vector<int> nodes;  // grows in the first calls only
-  nodes.clear();
-  for (int node = 0; node < swept.section.nodes(); ++node)
-    if (deferred_[index(first + node)] == 0) nodes.push_back(node);
-  move_nodes(item, nodes, loads, fields);
+  move_marked(
+      item, [](unsigned char mark) { return mark == kMoves; }, loads, fields);
 }
 
 template <class Real, class U>
 void BasicTimeUpdate<Real, U>::move_apart(const StepLoads& loads,
                                           const BasicUpdateFields<Real, U>& fields) const {
   expect_motion(loads, fields);
-  for (std::size_t i = 0; i < apart_.items.size(); ++i)
-    move_nodes(apart_.items[i], apart_.of(i), loads, fields);
+  for (const std::size_t item : with_apart_)
+    move_marked(
+        item, [](unsigned char mark) { return mark == kApart; }, loads, fields);
+}
+
+template <class Real, class U>
+template <class Chosen>
+void BasicTimeUpdate<Real, U>::move_marked(std::size_t item, const Chosen& chosen, const StepLoads& loads,
+                                           const BasicUpdateFields<Real, U>& fields) const {
+  const auto [block, tile] = items_[item];
+  const SweptBlock& swept = mesh_.blocks[index(block)];
+  const std::int64_t first = swept.base / kLanes + std::int64_t{tile} * swept.section.nodes();
+  thread_local std::vector<int> nodes;  // grows in the first calls only
+  nodes.clear();
+  for (int node = 0; node < swept.section.nodes(); ++node)
+    if (chosen(deferred_[index(first + node)])) nodes.push_back(node);
+  move_nodes(item, nodes, loads, fields);
 }
 
 /// Moves nodes of a tile.

@@ -75,26 +75,18 @@ class BasicTimeUpdate {
   void move_deferred(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields) const;
 
  private:
+  enum Mark : unsigned char { kMoves, kDeferred, kApart };
   struct Item {
     int block = 0;
     int tile = 0;
   };
   void move(const StepLoads& loads, const BasicUpdateFields<Real, U>& fields,
             const unsigned char* whole) const;
-  /// Section nodes of some tiles.
-  struct TileNodes {
-    std::vector<std::size_t> items;  ///< tiles that have any, ascending
-    std::vector<std::size_t> first;  ///< by item, and the end, in nodes
-    std::vector<int> nodes;
-
-    void clear();
-    std::span<const int> of(std::size_t i) const {
-      return std::span(nodes).subspan(first[i], first[i + 1] - first[i]);
-    }
-  };
   void list_deferred();
-  void set_apart(std::span<const std::int64_t> groups);
-  std::span<const int> whole_tile(std::size_t item) const;
+  /// Moves the nodes of a tile whose mark is chosen.
+  template <class Chosen>
+  void move_marked(std::size_t item, const Chosen& chosen, const StepLoads& loads,
+                   const BasicUpdateFields<Real, U>& fields) const;
   void move_nodes(std::size_t item, std::span<const int> nodes, const StepLoads& loads,
                   const BasicUpdateFields<Real, U>& fields) const;
   std::span<const int> deferred_nodes(std::size_t item) const;
@@ -103,11 +95,11 @@ class BasicTimeUpdate {
   const Real* inverse_mass_;
   std::vector<AlignedVector<Real>> radius_;  ///< by block and section node (revolved) [m]
   std::vector<Item> items_;                  ///< all tiles
-  std::vector<unsigned char> deferred_;      ///< by tile and section node: by slot / kLanes
+  std::vector<unsigned char> deferred_;      ///< Mark by tile and section node: by slot / kLanes
   std::vector<int> deferred_nodes_;          ///< section nodes, tile by tile
   std::vector<std::size_t> first_deferred_;  ///< by item, into deferred_nodes_
   std::vector<std::size_t> with_deferred_;   ///< items that have any
-  TileNodes apart_, beside_apart_;           ///< nodes set apart; the others of their tiles
+  std::vector<std::size_t> with_apart_;      ///< items that have nodes set apart
   std::vector<int> all_nodes_;               ///< 0, 1, 2 ...
 };
 

@@ -40,7 +40,7 @@ class Tiles {
   bool find(double x) { return tiles_->find(at(x), kStep); }
   std::vector<TileStretch> near() const { return {tiles_->near().begin(), tiles_->near().end()}; }
 
-  /// What those that were found promise.
+  /// Those that were found keep their promises.
   void expect_sound(double x) {
     std::vector<int> visits(joined_.size(), 0);
     for (const auto& stretches : {tiles_->near(), tiles_->elsewhere()})
