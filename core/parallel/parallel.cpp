@@ -20,7 +20,7 @@ namespace tread {
 
 namespace {
 
-constexpr int kRangesOfFirstLink = 2;  ///< by thread
+constexpr int kRangesOfLink = 2;  ///< by thread
 /// TBB is the default: its idle threads sleep soon. OpenMP's spin, which takes the cores from other programs
 /// and, on busy cores, slows a run by more than ten times.
 constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &openmp_backend};
@@ -28,7 +28,7 @@ constexpr std::array<const ParallelBackend*, 2> kBackends = {&tbb_backend, &open
 int g_threads = 1;
 std::vector<int> g_cores;  ///< bind_threads
 ParallelTimes* g_times = nullptr;
-thread_local bool t_in_link = false;  ///< this thread is in a link after the first of a chain
+thread_local bool t_in_link = false;  ///< this thread is in a link of a chain
 
 /// Backend with the given name. Throws InputError for an unknown name; its message cites `where`, the place
 /// of the name.
@@ -80,18 +80,22 @@ class Parts {
  public:
   explicit Parts(std::int64_t n) : n_(n), count_(std::min(g_threads, kMostParts)) {}
 
-  /// Calls body(first, last) on ranges that no other thread has taken.
-  template <class Body>
-  void take(int thread, const Body& body) {
+  /// Calls body(first, last) on ranges that no other thread has taken, and before() before each.
+  template <class Before, class Body>
+  void take(int thread, const Before& before, const Body& body) {
     for (int i = 0; i < count_; ++i) {
       const int part = (thread + i) % count_;
       const std::int64_t first = n_ * part / count_;
       const std::int64_t items = n_ * (part + 1) / count_ - first;
       const std::int64_t ranges = std::min(items, kRangesOfPart);
       std::atomic<std::int64_t>& next = next_[static_cast<std::size_t>(part)].range;
-      for (std::int64_t range = 0;
-           next.load(std::memory_order_relaxed) < ranges && (range = next++) < ranges;)
+      for (;;) {
+        before();
+        if (next.load(std::memory_order_relaxed) >= ranges) break;
+        const std::int64_t range = next++;
+        if (range >= ranges) break;
         body(first + begin_of(range, ranges, items), first + begin_of(range + 1, ranges, items));
+      }
     }
   }
 
@@ -114,80 +118,81 @@ class Parts {
   std::array<Next, kMostParts> next_;
 };
 
-/// The links of a chain, as threads reach them.
+/// A chain, as threads reach its links. One without links is done.
 class RunningChain {
  public:
-  explicit RunningChain(const Chain& chain)
-      : chain_(&chain),
-        ranges_(std::clamp(chain.n, std::int64_t{1}, std::int64_t{kRangesOfFirstLink} * g_threads)),
-        left_(ranges_) {}
+  explicit RunningChain(std::span<const Link> links) : links_(links) {
+    for (std::size_t link = 0; link < links.size(); ++link)
+      at_[link].left = at_[link].ranges =
+          std::clamp(links[link].n, std::int64_t{1}, std::int64_t{kRangesOfLink} * g_threads);
+  }
 
-  /// Runs ranges of the first link that no other thread has taken; after the last of them the other links.
+  /// Runs ranges of the links that are open and that no other thread has taken.
   void take(int thread) {
-    for (std::int64_t range = 0; (range = next_++) < ranges_;) run(range, thread);
+    for (std::size_t link = open_; link < links_.size(); link = open_) {
+      Progress& at = at_[link];
+      if (at.next.load(std::memory_order_relaxed) >= at.ranges) return;
+      const std::int64_t range = at.next++;
+      if (range >= at.ranges) return;
+      run(link, range, thread);
+      if (at.left.fetch_sub(1) == 1) open_ = thrown_ ? links_.size() : link + 1;
+    }
   }
   /// Throws what a link has thrown; adds the times.
   void end() {
-    if (g_times) {
-      g_times->links[0] += seconds_of_first_;
-      for (std::size_t link = 1; link < kMostLinks; ++link) g_times->links[link] += seconds_[link];
-    }
+    if (g_times)
+      for (std::size_t link = 0; link < kMostLinks; ++link) g_times->links[link] += at_[link].seconds;
     if (thrown_) std::rethrow_exception(thrown_);
   }
 
  private:
-  void run(std::int64_t range, int thread) {
+  struct Progress {
+    std::int64_t ranges = 0;
+    std::atomic<std::int64_t> next = 0;
+    std::atomic<std::int64_t> left = 0;  ///< ranges that are not done
+    std::atomic<double> seconds = 0;
+  };
+
+  void run(std::size_t link, std::int64_t range, int thread) {
     const auto from = std::chrono::steady_clock::now();
-    const std::int64_t first = chain_->n * range / ranges_;
-    const std::int64_t last = chain_->n * (range + 1) / ranges_;
-    if (first < last) chain_->first(first, last);
-    if (g_times) seconds_of_first_ += add_time(thread, from, std::max<std::int64_t>(last - first, 1));
-    if (left_.fetch_sub(1) == 1) run_others(thread);
-  }
-  void run_others(int thread) {
-    const auto from = std::chrono::steady_clock::now();
+    const std::int64_t first = links_[link].n * range / at_[link].ranges;
+    const std::int64_t last = links_[link].n * (range + 1) / at_[link].ranges;
     t_in_link = true;
     try {
-      std::size_t link = 0;
-      for (const FunctionRef<void()>& then : chain_->then) {
-        const auto begun = std::chrono::steady_clock::now();
-        then();
-        seconds_[++link] = seconds_since(begun);
-      }
+      if (first < last) links_[link].body(first, last);
     } catch (...) {  // thread libraries do not carry it on
-      thrown_ = std::current_exception();
+      if (!throws_.test_and_set()) thrown_ = std::current_exception();
     }
     t_in_link = false;
-    if (g_times) add_time(thread, from, 1);
+    if (g_times) at_[link].seconds += add_time(thread, from, std::max<std::int64_t>(last - first, 1));
   }
 
-  const Chain* chain_;
-  std::int64_t ranges_;
-  std::atomic<std::int64_t> next_ = 0;
-  std::atomic<std::int64_t> left_;  ///< ranges of the first link that are not done
-  std::atomic<double> seconds_of_first_ = 0;
-  std::array<double, kMostLinks> seconds_{};
+  std::span<const Link> links_;
+  std::atomic<std::size_t> open_ = 0;  ///< the link whose ranges are taken
+  std::array<Progress, kMostLinks> at_;
+  std::atomic_flag throws_;
   std::exception_ptr thrown_;
 };
 
 /// The chain goes first.
-void run_ranges(std::int64_t n, RunningChain* chain,
+void run_ranges(std::int64_t n, RunningChain& chain,
                 FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
   if (g_threads == 1) {
-    if (chain != nullptr) chain->take(0);
+    chain.take(0);
     if (n > 0) body(0, n, 0);
     return;
   }
   Parts parts(n);
   chosen()->run(g_threads, [&](int thread) {
     stay_on_core(thread);
-    if (chain != nullptr) chain->take(thread);
-    parts.take(thread, [&](std::int64_t first, std::int64_t last) { body(first, last, thread); });
+    parts.take(
+        thread, [&] { chain.take(thread); },
+        [&](std::int64_t first, std::int64_t last) { body(first, last, thread); });
   });
 }
 
-/// Runs ranges, beside a chain or null, and adds their times.
-void run_timed(std::int64_t n, RunningChain* chain, FunctionRef<void(std::int64_t, std::int64_t)> body) {
+/// Runs ranges beside a chain and adds their times.
+void run_timed(std::int64_t n, RunningChain& chain, FunctionRef<void(std::int64_t, std::int64_t)> body) {
   if (!g_times) {
     run_ranges(n, chain, [&](std::int64_t first, std::int64_t last, int /*thread*/) { body(first, last); });
     return;
@@ -236,16 +241,19 @@ std::string_view backend() {
 
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
   if (n <= 0) return;
-  if (t_in_link)
+  if (t_in_link) {
     body(0, n);
-  else
-    run_timed(n, nullptr, body);
+    return;
+  }
+  RunningChain none({});
+  run_timed(n, none, body);
 }
 
-void ranges_beside(const Chain& chain, std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body) {
-  TREAD_EXPECT(n >= 0 && chain.then.size() < kMostLinks && !t_in_link);
+void ranges_beside(std::span<const Link> chain, std::int64_t n,
+                   FunctionRef<void(std::int64_t, std::int64_t)> body) {
+  TREAD_EXPECT(n >= 0 && chain.size() <= kMostLinks && !t_in_link);
   RunningChain running(chain);
-  run_timed(n, &running, body);
+  run_timed(n, running, body);
   running.end();
 }
 

@@ -36,19 +36,18 @@ void bind_threads(std::vector<int> cores);
 /// this function.
 void parallel_ranges(std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
 
-/// Work that goes on beside ranges.
-struct Chain {
-  std::int64_t n;                                       ///< items of its first link
-  FunctionRef<void(std::int64_t, std::int64_t)> first;  ///< on ranges of them, by several threads
-  /// The other links, in their order, once the first one is done, by one thread. Calls of parallel_ranges
-  /// stay on it.
-  std::span<const FunctionRef<void()>> then;
+/// Work on ranges of [0, n).
+struct Link {
+  std::int64_t n;
+  FunctionRef<void(std::int64_t, std::int64_t)> body;
 };
 inline constexpr std::size_t kMostLinks = 3;
 
-/// parallel_ranges(n, body) beside a chain, which begins first. Neither may touch what the other writes. What
-/// a link after the first throws is thrown once all is done, and ends the chain.
-void ranges_beside(const Chain& chain, std::int64_t n, FunctionRef<void(std::int64_t, std::int64_t)> body);
+/// parallel_ranges(n, body) beside a chain of links, each of which begins once the one before is done.
+/// Threads prefer the links. Neither may touch what the other writes. In links, calls of parallel_ranges stay
+/// on their thread. What a link throws is thrown once all is done, and ends the chain.
+void ranges_beside(std::span<const Link> chain, std::int64_t n,
+                   FunctionRef<void(std::int64_t, std::int64_t)> body);
 
 /// Times spent inside parallel_ranges.
 struct ParallelTimes {
@@ -59,8 +58,7 @@ struct ParallelTimes {
   std::vector<Thread> by_thread;
   std::int64_t calls = 0;
   double wall = 0;     ///< time of all calls [s]
-  double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range, the links
-                       ///< after the first are one [s]
+  double longest = 0;  ///< sum of the calls' longest items; an item takes the mean of its range [s]
   /// Core-time of chains that ran beside the calls, by link [s].
   std::array<double, kMostLinks> links{};
 

@@ -99,11 +99,15 @@ void BasicInternalForce<Real, U>::move(const WorkBeside& work, const BasicTimeUp
                                        const StepLoads& loads, const ForceFields<Real, U>& at) const {
   const Fields fields = moved_fields(update, loads, at);
   begin();
-  const auto move_near = [&] { evaluate_share(work.near, 0, cost_of(work.near), fields); };
-  const std::array<FunctionRef<void()>, 2> links = {move_near, work.then};
-  ranges_beside(
-      {work.n, work.first, links}, cost_of(work.elsewhere),
-      [&](std::int64_t from, std::int64_t to) { evaluate_share(work.elsewhere, from, to, fields); });
+  const auto move_share = [&](std::span<const TileStretch> stretches) {
+    return [this, stretches, &fields](std::int64_t from, std::int64_t to) {
+      evaluate_share(stretches, from, to, fields);
+    };
+  };
+  const auto near = move_share(work.near);
+  const auto then = [&](std::int64_t, std::int64_t) { work.then(); };
+  const std::array<Link, 3> links = {{{work.n, work.first}, {cost_of(work.near), near}, {1, then}}};
+  ranges_beside(links, cost_of(work.elsewhere), move_share(work.elsewhere));
 }
 
 template <class Real, class U>
