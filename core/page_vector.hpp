@@ -2,10 +2,13 @@
 // Arrays that share no page of memory with others, and of which only what is touched takes memory: a device
 // may lock their pages, and ranks hold fields of which they use a part.
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,5 +48,25 @@ struct PageAllocator {
 
 template <class T>
 using PageVector = std::vector<T, PageAllocator<T>>;
+
+/// Gives the memory of the pages that lie in the elements [first, last) back; these are zeros again.
+template <class T>
+void forget(PageVector<T>& values, std::size_t first, std::size_t last) {
+  constexpr std::size_t kPage = PageAllocator<T>::kPage;
+  const std::size_t begin = (first * sizeof(T) + kPage - 1) / kPage * kPage;
+  const std::size_t end = last * sizeof(T) / kPage * kPage;
+  if (begin < end) ::madvise(reinterpret_cast<std::byte*>(values.data()) + begin, end - begin, MADV_DONTNEED);
+}
+
+/// Does so where no group of `size` elements is marked.
+template <class T>
+void keep_marked(PageVector<T>& values, std::span<const unsigned char> groups, std::size_t size) {
+  for (std::size_t first = 0; first < groups.size(); ++first) {
+    std::size_t last = first;
+    while (last < groups.size() && groups[last] == 0) ++last;
+    forget(values, first * size, last * size);
+    first = last;
+  }
+}
 
 }  // namespace tread

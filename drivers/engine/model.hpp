@@ -6,12 +6,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/aligned.hpp"
 #include "core/math/hertz.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 #include "core/scene.hpp"
 #include "drivers/engine/block_index.hpp"
 #include "drivers/engine/station_plan.hpp"
@@ -54,8 +56,8 @@ struct Model {
   std::unique_ptr<InternalForce> internal;              ///< of the blocks
   std::vector<std::unique_ptr<BodyForce>> body_forces;  ///< by Mesh::bodies
   std::vector<std::int64_t> restrained;                 ///< unknowns that stay zero
-  AlignedVector<double> mass;                           ///< lumped, ties gathered; scalar node field [kg]
-  AlignedVector<double> inverse_mass;  ///< scalar node field, 0 where nothing moves by itself [1/kg]
+  PageVector<double> mass;                              ///< lumped, ties gathered; scalar node field [kg]
+  PageVector<double> inverse_mass;  ///< scalar node field, 0 where nothing moves by itself [1/kg]
 
   std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
   std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
@@ -92,6 +94,9 @@ struct Model {
   /// Nodes to or from whose force a step adds more than their elements do: those of ties, and the others.
   std::vector<std::int64_t> loaded_slots() const;
   std::vector<std::int64_t> connected_slots() const;
+
+  /// Gives the memory of other nodes' masses back. `groups`: marks by slot / kLanes; empty: of all nodes.
+  void keep_masses(std::span<const unsigned char> groups);
 
   /// Moves the surface nodes to the corrugated shape, or adds its depth to the contact gap. Coefficients,
   /// mass and damping are built again where nodes moved. `centre`: y of the deepest line [m].

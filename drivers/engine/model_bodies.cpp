@@ -56,6 +56,10 @@ void Model::add_lumped_mass(double* of_nodes) const {
   for (const auto& body : body_forces) body->add_mass(of_nodes);
 }
 
+void Model::keep_masses(std::span<const unsigned char> groups) {
+  for (PageVector<double>* of : {&mass, &inverse_mass}) keep_marked(*of, groups, kLanes);
+}
+
 void Model::internal_force(const double* u, double* f) const {
   internal->internal_force(u, nullptr, f);
   for (const auto& body : body_forces) body->internal_force<double, double>(u, nullptr, nullptr, f);

@@ -86,6 +86,9 @@ class NodeFields : public WholeFields {
   virtual ElementEnergy element_energy() = 0;
   virtual BranchEnergy branch_energy() = 0;
 
+  /// Marks by slot / kLanes of the nodes whose masses steps read; empty: all.
+  virtual std::span<const unsigned char> groups_with_mass() const { return {}; }
+
   /// Gives other ranks what they hold of rank 0's values.
   virtual void spread() {}
 

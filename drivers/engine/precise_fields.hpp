@@ -27,6 +27,7 @@ class SharedParts {
   explicit SharedParts(const Model& model) : model_(&model) {}
   const InternalForce& internal() const { return *model_->internal; }
   const double* inverse_mass() const { return model_->inverse_mass.data(); }
+  void keep_masses(std::span<const unsigned char> /*groups*/) {}  // they are the model's
 
  private:
   const Model* model_;
@@ -46,10 +47,11 @@ class RoundedParts {
   }
   const BasicInternalForce<float, U>& internal() const { return internal_; }
   const float* inverse_mass() const { return inverse_mass_.data(); }
+  void keep_masses(std::span<const unsigned char> groups) { keep_marked(inverse_mass_, groups, kLanes); }
 
  private:
   BasicInternalForce<float, U> internal_;
-  AlignedVector<float> inverse_mass_;
+  PageVector<float> inverse_mass_;
 };
 
 /// Fields that the processor moves. Real: velocities and forces, U: displacements.
@@ -186,6 +188,7 @@ class PreciseFields : public NodeFields {
   const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
   const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
   const Real* inverse_mass() const { return parts_.inverse_mass(); }
+  void keep_own_masses() { parts_.keep_masses(groups_with_mass()); }
 
   /// By tile: the loop takes the tile behind it along.
   std::vector<unsigned char> joined_tiles() const {

@@ -143,8 +143,9 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
   });
   const auto piece_of = [&](std::int64_t slot) { return piece[tile_of(first_group_, slot)]; };
   if (model.ties)
-    for (const TiedSlot& pair : model.ties->tied_slots())
-      graph.link(piece_of(pair.secondary), piece_of(pair.primary), 1);
+    model.ties->for_each_pair([&](std::int64_t secondary, std::int64_t primary) {
+      graph.link(piece_of(secondary), piece_of(primary), 1);
+    });
   const std::vector<idx_t> part = parts_of(std::move(graph), ranks, contact_cost(model));
   for (std::size_t tile = 0; tile < work.size(); ++tile)
     rank_[tile] = static_cast<int>(part[index(piece[tile])]);

@@ -51,6 +51,13 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
     if (solves() || rank == kContactRank) patch_motion_.add(rank, shared_.near(), solves() ? there : held_);
   }
   take_near();
+  this->keep_own_masses();
+}
+
+/// The rank that solves the patch moves nodes wherever the wheel comes.
+template <class Real, class U>
+std::span<const unsigned char> RankFields<Real, U>::groups_with_mass() const {
+  return solves() ? std::span<const unsigned char>{} : std::span<const unsigned char>(moved_);
 }
 
 template <class Real, class U>

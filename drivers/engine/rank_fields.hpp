@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
@@ -29,6 +30,7 @@ class RankFields final : public PreciseFields<Real, U> {
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override;
   void fetch() override;
   void spread() override;
+  std::span<const unsigned char> groups_with_mass() const override;
   bool elsewhere() const override { return !whole(); }
   bool adds_forces() const override { return true; }
   void show(const WatchedNodes& nodes) override;

@@ -9,15 +9,26 @@ namespace tread {
 
 namespace {
 
-std::size_t group_of(std::int64_t slot) {
-  return index(slot / kLanes);
-}
-
 std::vector<std::int64_t> marked(const GroupMarks& marks) {
   std::vector<std::int64_t> groups;
   for (std::int64_t group = 0; group < std::ssize(marks); ++group)
     if (marks[index(group)] != 0) groups.push_back(group);
   return groups;
+}
+
+/// Each pair once.
+std::vector<TiedGroups> tied_pairs(const Model& model) {
+  std::vector<TiedGroups> pairs;
+  if (!model.ties) return pairs;
+  model.ties->for_each_pair([&](std::int64_t secondary, std::int64_t primary) {
+    const TiedGroups pair{secondary / kLanes, primary / kLanes};
+    const auto lately = std::min(std::ssize(pairs), std::ptrdiff_t{4});  // the lane before has the same four
+    if (std::find(pairs.end() - lately, pairs.end(), pair) == pairs.end()) pairs.push_back(pair);
+  });
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  pairs.shrink_to_fit();
+  return pairs;
 }
 
 }  // namespace
@@ -26,15 +37,15 @@ std::vector<std::int64_t> marked(const GroupMarks& marks) {
 SharedGroups::SharedGroups(const Model& model, const RankCut& cut)
     : model_(&model),
       cut_(&cut),
-      tied_(model.ties ? model.ties->tied_slots() : std::vector<TiedSlot>{}),
+      tied_(tied_pairs(model)),
       all_ranks_(connected_groups(model)),
       loaded_(groups_of(model.mesh, model.loaded_slots())) {
   GroupMarks featured = surface_groups(model);
   near_ = marked(featured);
   add_marks(featured, all_ranks_);
   for (const auto& [secondary, primary] : tied_)
-    if (featured[group_of(secondary)] != 0 || featured[group_of(primary)] != 0)
-      all_ranks_[group_of(secondary)] = all_ranks_[group_of(primary)] = 1;
+    if (featured[index(secondary)] != 0 || featured[index(primary)] != 0)
+      all_ranks_[index(secondary)] = all_ranks_[index(primary)] = 1;
 }
 
 /// A tied node gets its motion from the primary nodes, and these need the forces of all that are tied to
@@ -50,15 +61,15 @@ HeldGroups SharedGroups::held_by(int rank) const {
   for (bool more = true; more;) {
     more = false;
     for (const auto& [secondary, primary] : tied_) {
-      if (stations[group_of(secondary)] == 0 || held.moved[group_of(primary)] != 0) continue;
-      held.moved[group_of(primary)] = stations[group_of(primary)] = 1;
+      if (stations[index(secondary)] == 0 || held.moved[index(primary)] != 0) continue;
+      held.moved[index(primary)] = stations[index(primary)] = 1;
       more = true;
     }
   }
   held.forced = held.moved;
   held.moved = stations;
   for (const auto& [secondary, primary] : tied_)
-    if (held.moved[group_of(primary)] != 0) held.forced[group_of(secondary)] = 1;
+    if (held.moved[index(primary)] != 0) held.forced[index(secondary)] = 1;
   held.deferred = held.moved;
   for (std::int64_t group = 0; group < std::ssize(held.deferred); ++group)
     if (cut_->owner(group) == rank && loaded_[index(group)] == 0 && all_ranks_[index(group)] == 0)

@@ -2,6 +2,7 @@
 // Which groups of kLanes slots several ranks of a run move: where their tiles meet, where nodes are tied,
 // where features act, and about the patch, wherever it is. [docs/records/ranks.md]
 
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct HeldGroups {
   GroupMarks
       forced;  ///< of which it needs the forces in all lanes, to move them or nodes to which they are tied
   GroupMarks deferred;  ///< of those that it moves, the ones that wait for forces of others
+};
+
+/// Groups of which a node follows one of the other.
+struct TiedGroups {
+  std::int64_t secondary, primary;
+
+  auto operator<=>(const TiedGroups&) const = default;
 };
 
 class SharedGroups {
@@ -37,7 +45,7 @@ class SharedGroups {
  private:
   const Model* model_;
   const RankCut* cut_;
-  std::vector<TiedSlot> tied_;
+  std::vector<TiedGroups> tied_;
   GroupMarks all_ranks_;  ///< of all ranks, wherever the wheel is
   GroupMarks loaded_;     ///< of connectors, loads and ties
   std::vector<std::int64_t> near_;

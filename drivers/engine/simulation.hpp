@@ -2,6 +2,7 @@
 // Step 2: explicit rolling by central difference. [theory.md, Time step]
 
 #include <memory>
+#include <span>
 
 #include "core/body_frame.hpp"
 #include "core/state_list.hpp"
@@ -55,6 +56,8 @@ class Simulation final : private RunEnd {
   StateList nodal_state();
   /// Gives other ranks what they hold of rank 0's values, instead of state(). All ranks call it.
   void spread() { fields_->spread(); }
+  /// As NodeFields' of this name.
+  std::span<const unsigned char> groups_with_mass() const { return fields_->groups_with_mass(); }
 
   MomentumCheck momentum_check() const;
   std::uint64_t state_hash() const;

@@ -103,6 +103,7 @@ class FollowedRun {
           other));
     simulation_.emplace(*model_, results_.preload.contact.centre.y, results_.dt);
     unpack_followed(content, *model_, *simulation_);
+    model_->keep_masses(simulation_->groups_with_mass());
     simulation_->set_sampling_interval(sampling_interval(model_->scene, results_.dt));
   }
 

@@ -21,7 +21,7 @@ const SurfaceSupport& support_of(const ContactPoint& point, int body) {
 PatchCells::PatchCells() : lanes_(tile_forces().front()) {}
 
 void PatchCells::reserve(std::int64_t slots, std::size_t points, std::size_t nodes) {
-  node_of_.assign(index(slots), -1);
+  node_of_ = PageVector<int>(index(slots));
   nodes_.reserve(nodes);
   last_cell_.reserve(nodes);
   // No body has more cells than nodes.
@@ -43,7 +43,7 @@ void PatchCells::link(const std::vector<ContactPoint>& points, const double* inv
   cells_.clear();
   cell_number_.clear();
   for (const int body : {0, 1}) find_cells(points, body);
-  for (const Node& node : nodes_) node_of_[index(node.slot)] = -1;
+  for (const Node& node : nodes_) node_of_[index(node.slot)] = 0;
   list_points(points);
   list_terms();
   for (std::vector<PatchVector>& sums : sums_) sums.resize(points.size());
@@ -67,7 +67,7 @@ int PatchCells::cell_of(const ContactPoint& point, int body) {
     return true;
   };
   const int corner = node_of_[index(support.slot[kCorner])];
-  const int known = corner < 0 ? -1 : last_cell_[index(corner)];
+  const int known = corner == 0 ? -1 : last_cell_[index(corner - 1)];
   if (known >= 0 && same(cells_[index(known)])) return known;
   Cell cell{};
   cell.body = body;
@@ -88,12 +88,12 @@ int PatchCells::cell_of(const ContactPoint& point, int body) {
 /// The number of a node, a new one if no cell before has it.
 int PatchCells::number(const Node& node) {
   int& known = node_of_[index(node.slot)];
-  if (known < 0) {
-    known = static_cast<int>(std::ssize(nodes_));
+  if (known == 0) {
     nodes_.push_back(node);
     last_cell_.push_back(-1);
+    known = static_cast<int>(std::ssize(nodes_));
   }
-  return known;
+  return known - 1;
 }
 
 /// Lists points and weights by cells.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/page_vector.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/lanes/patch_loop.hpp"
@@ -81,7 +82,7 @@ class PatchCells {
 
   const TileForces* lanes_;  ///< the widest instruction set's loops
   const double* inverse_mass_ = nullptr;
-  std::vector<int> node_of_;  ///< by slot, -1: none
+  PageVector<int> node_of_;  ///< by slot, its number and one; 0: none
   std::vector<Node> nodes_;
   std::vector<int> last_cell_;  ///< by node, the last cell at whose corner it is, -1: none
   std::vector<Cell> cells_;

@@ -173,6 +173,15 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
         }
 }
 
+/// Ascending.
+std::vector<std::int64_t> marked_slots(const std::vector<bool>& marks) {
+  std::vector<std::int64_t> slots;
+  slots.reserve(index(std::count(marks.begin(), marks.end(), true)));
+  for (std::int64_t slot = 0; slot < std::ssize(marks); ++slot)
+    if (marks[index(slot)]) slots.push_back(slot);
+  return slots;
+}
+
 /// Replaces the fields' values by the sums, or adds the sums to them. `some`: indices of items, null for all.
 void sum_up(const TieSums& sums, const std::vector<std::size_t>* some, bool add,
             std::initializer_list<NodeField> fields) {
@@ -202,22 +211,19 @@ Ties::Ties(const Mesh& mesh, const std::vector<TieSpec>& specs, const std::vecto
   for (const TieSpec& spec : specs) join(mesh, spec);
   require_one_sum_per_node(to_secondary_);
   require_one_sum_per_node(to_primary_);
-  list_slots();
+  list_slots(mesh.slots);
 }
 
-void Ties::list_slots() {
-  const auto list = [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-    secondary_.push_back(secondary);
-    primary_.push_back(primary);
-  };
-  for_each_link(to_secondary_, list);
-  nodes_.for_each(list);
-  for (std::vector<std::int64_t>* slots : {&secondary_, &primary_}) {
-    std::sort(slots->begin(), slots->end());
-    slots->erase(std::unique(slots->begin(), slots->end()), slots->end());
-  }
+void Ties::list_slots(std::int64_t slots) {
+  std::vector<bool> secondary(index(slots)), primary(index(slots));
+  for_each_pair([&](std::int64_t follower, std::int64_t leader) {
+    secondary[index(follower)] = true;
+    primary[index(leader)] = true;
+  });
+  secondary_ = marked_slots(secondary);
+  primary_ = marked_slots(primary);
   for (const std::int64_t slot : secondary_)
-    if (std::binary_search(primary_.begin(), primary_.end(), slot))
+    if (primary[index(slot)])
       throw InputError("a node is both secondary and primary of a tie; tie its block on another line");
 }
 
@@ -272,13 +278,17 @@ void Ties::join(const Mesh& mesh, const TieSpec& spec) {
   add_items(to_primary_, coarse_line, coarse, fine, shares.of_coarse);
 }
 
+void Ties::for_each_pair(FunctionRef<void(std::int64_t, std::int64_t)> visit) const {
+  const auto without_weight = [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
+    visit(secondary, primary);
+  };
+  for_each_link(to_secondary_, without_weight);
+  nodes_.for_each(without_weight);
+}
+
 std::vector<TiedSlot> Ties::tied_slots() const {
   std::vector<TiedSlot> slots;
-  const auto add = [&](std::int64_t secondary, std::int64_t primary, double /*weight*/) {
-    slots.push_back({secondary, primary});
-  };
-  for_each_link(to_secondary_, add);
-  nodes_.for_each(add);
+  for_each_pair([&](std::int64_t secondary, std::int64_t primary) { slots.push_back({secondary, primary}); });
   std::stable_sort(slots.begin(), slots.end(),
                    [](const TiedSlot& a, const TiedSlot& b) { return a.secondary < b.secondary; });
   return slots;

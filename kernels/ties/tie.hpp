@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/function_ref.hpp"
 #include "core/mesh/node_field.hpp"
 #include "core/mesh/swept_block.hpp"
 #include "kernels/lanes/tie_sum.hpp"
@@ -70,7 +71,9 @@ class Ties {
   /// Bytes of the links.
   std::int64_t bytes() const;
 
-  /// Pairs of secondary and primary nodes by secondary node, for the solver's coarse level.
+  /// Calls visit(secondary slot, primary slot) for all pairs.
+  void for_each_pair(FunctionRef<void(std::int64_t, std::int64_t)> visit) const;
+  /// The pairs by secondary node, for the solver's coarse level.
   std::vector<TiedSlot> tied_slots() const;
 
   /// Items whose own nodes lie in marked groups. `groups`: by slot / kLanes.
@@ -95,7 +98,7 @@ class Ties {
 
  private:
   void join(const Mesh& mesh, const TieSpec& spec);
-  void list_slots();
+  void list_slots(std::int64_t slots);
 
   std::vector<std::int64_t> secondary_, primary_;  ///< slots, ascending
   TieSums to_secondary_, to_primary_;

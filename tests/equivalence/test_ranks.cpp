@@ -153,6 +153,7 @@ class Case {
       choose_ranks(nullptr);
       shared.back()->set_sampling_interval(kSampling);
       samples::copy(one_->state(), shared.back()->state());
+      models.back()->keep_masses(shared.back()->groups_with_mass());
       if (rank > 0) spoil(shared.back()->nodal_state());
     }
     on_threads(shared, [](Simulation& simulation) {
