@@ -97,6 +97,8 @@ class BlockElements {
   void for_each_element(const Visit& visit) const;
 
   std::int64_t perturbed_elements() const;
+  /// Time of a tile in force and motion, in units of its own. [docs/records/performance.md, Kernels]
+  std::int64_t cost(int tile) const;
   std::int64_t bytes() const;
 
  private:

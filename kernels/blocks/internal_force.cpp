@@ -16,12 +16,6 @@ namespace tread {
 
 namespace {
 
-/// Cost of an element in force and motion, by the components that it has and by its sweep.
-/// [docs/records/performance.md, Kernels]
-std::int64_t element_cost(const SweptBlock& block) {
-  return block.vertical_only ? 2 : block.sweep == Sweep::extruded ? 4 : 5;
-}
-
 /// Scratch of a thread; grows in its first calls only.
 template <class Real>
 Real* front_of(const FrontPlan& plan, int law) {
@@ -51,8 +45,7 @@ BasicInternalForce<Real, U>::BasicInternalForce(const Mesh& mesh)
     data.first_item = items_.size();
     for (int tile = 0; tile < static_cast<int>(swept.tiles.size()); ++tile) {
       items_.push_back({block, tile});
-      const std::int64_t cost = element_cost(swept) * std::ssize(swept.section.quads);
-      cost_.push_back(cost_.back() + (swept.tiles[index(tile)].elements > 0 ? cost : 1));
+      cost_.push_back(cost_.back() + data.elements.cost(tile));
     }
   }
   halves_.resize(items_.size(), 0);
