@@ -24,8 +24,8 @@ void check_tyre(const Scene& scene, const WheelSpec& wheel, Require require) {
   require(!guided || !scene.vehicle, {"wheel.bore", "vehicle"},
           "a guided bore carries a load, not a vehicle; state [load] and vehicle.present = false");
   require(!wheel.overhang || scene.gravity == 0, {"wheel.overhang", "scene.gravity"},
-          "a part of a ring is not balanced about its axle; state scene.gravity = 0, or leave the overhang "
-          "out");
+          "a part of a ring is not balanced about its axle; state scene.gravity = \"0 m/s2\", or leave "
+          "the overhang out");
   const double run = scene.motion ? scene.motion->speed * scene.motion->duration : 0;
   require(!wheel.overhang || run + 2 * *wheel.overhang < 0.75 * std::numbers::pi * wheel.diameter,
           {"wheel.overhang", "motion.duration"},

@@ -140,5 +140,19 @@ TEST_F(LaunchedRanks, ProblemsAreToldOnce) {
   EXPECT_EQ(times(output(), "mpirun, " + rank_library()), 1) << output();
 }
 
+/// Rank 0 alone meets the end of the tread: it searches for contact.
+TEST_F(LaunchedRanks, ErrorsInContactEndAllRanks) {
+  const std::string spins =
+      "--set \"scene.element_size=16 mm\" --set wheel.bore=guided --set \"wheel.overhang=22 mm\" "
+      "--set \"scene.gravity=0 m/s2\" --set \"motion.duration=1.5 ms\" "
+      "--set \"motion.traction.torque=1000 kN m\"";
+  EXPECT_EQ(call(run(root_ / "alone", spins)), 3) << errors();
+  const std::string histories = content_of(root_ / "alone" / "histories.csv");
+  EXPECT_EQ(call_on(2, run(folder_, spins)), 3) << errors();
+  EXPECT_EQ(times(errors(), "rolls beyond its tread; lengthen wheel.overhang"), 1) << errors();
+  EXPECT_GT(times(histories, "\n"), 50);
+  EXPECT_EQ(content_of(folder_ / "histories.csv"), histories);
+}
+
 }  // namespace
 }  // namespace tread
