@@ -2,8 +2,8 @@
 // Which groups of kLanes slots several ranks of a run move: where their tiles meet, where nodes are tied,
 // where features act, and about the patch, wherever it is. [docs/records/ranks.md]
 
-#include <compare>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "drivers/engine/featured_nodes.hpp"
@@ -23,7 +23,10 @@ struct HeldGroups {
 struct TiedGroups {
   std::int64_t secondary, primary;
 
-  auto operator<=>(const TiedGroups&) const = default;
+  bool operator==(const TiedGroups&) const = default;
+  bool operator<(const TiedGroups& o) const {
+    return std::pair(secondary, primary) < std::pair(o.secondary, o.primary);
+  }
 };
 
 class SharedGroups {
