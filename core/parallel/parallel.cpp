@@ -128,9 +128,16 @@ class RunningChain {
   }
 
   /// Runs ranges of the links that are open and that no other thread has taken.
-  void take(int thread) { take(thread, links_.size()); }
-  /// Does so but for the last link, in which a thread may wait for other processes.
-  void take_all_but_last(int thread) { take(thread, links_.empty() ? 0 : links_.size() - 1); }
+  void take(int thread) {
+    for (std::size_t link = open_; link < links_.size(); link = open_) {
+      Progress& at = at_[link];
+      if (at.next.load(std::memory_order_relaxed) >= at.ranges) return;
+      const std::int64_t range = at.next++;
+      if (range >= at.ranges) return;
+      run(link, range, thread);
+      if (at.left.fetch_sub(1) == 1) open_ = thrown_ ? links_.size() : link + 1;
+    }
+  }
   /// Throws what a link has thrown; adds the times.
   void end() {
     if (g_times)
@@ -146,16 +153,6 @@ class RunningChain {
     std::atomic<double> seconds = 0;
   };
 
-  void take(int thread, std::size_t end) {
-    for (std::size_t link = open_; link < end; link = open_) {
-      Progress& at = at_[link];
-      if (at.next.load(std::memory_order_relaxed) >= at.ranges) return;
-      const std::int64_t range = at.next++;
-      if (range >= at.ranges) return;
-      run(link, range, thread);
-      if (at.left.fetch_sub(1) == 1) open_ = thrown_ ? links_.size() : link + 1;
-    }
-  }
   void run(std::size_t link, std::int64_t range, int thread) {
     const auto from = std::chrono::steady_clock::now();
     const std::int64_t first = links_[link].n * range / at_[link].ranges;
@@ -177,13 +174,12 @@ class RunningChain {
   std::exception_ptr thrown_;
 };
 
-/// The chain goes first; of one thread all but its last link.
+/// The chain goes first.
 void run_ranges(std::int64_t n, RunningChain& chain,
                 FunctionRef<void(std::int64_t, std::int64_t, int)> body) {
   if (g_threads == 1) {
-    chain.take_all_but_last(0);
-    if (n > 0) body(0, n, 0);
     chain.take(0);
+    if (n > 0) body(0, n, 0);
     return;
   }
   Parts parts(n);

@@ -44,9 +44,8 @@ struct Link {
 inline constexpr std::size_t kMostLinks = 3;
 
 /// parallel_ranges(n, body) beside a chain of links, each of which begins once the one before is done.
-/// Threads prefer the links; a lone one takes the last of them, which may wait for other processes, after the
-/// ranges. Neither may touch what the other writes. In links, calls of parallel_ranges stay on their thread.
-/// What a link throws is thrown once all is done, and ends the chain.
+/// Threads prefer the links. Neither may touch what the other writes. In links, calls of parallel_ranges stay
+/// on their thread. An error of a link ends the chain, and is thrown once all is done.
 void ranges_beside(std::span<const Link> chain, std::int64_t n,
                    FunctionRef<void(std::int64_t, std::int64_t)> body);
 
