@@ -4,17 +4,11 @@
 #include <array>
 
 #include "core/index.hpp"
+#include "core/marks.hpp"
 
 namespace tread {
 
 namespace {
-
-std::vector<std::int64_t> marked(const GroupMarks& marks) {
-  std::vector<std::int64_t> groups;
-  for (std::int64_t group = 0; group < std::ssize(marks); ++group)
-    if (marks[index(group)] != 0) groups.push_back(group);
-  return groups;
-}
 
 /// Each pair once.
 std::vector<TiedGroups> tied_pairs(const Model& model) {

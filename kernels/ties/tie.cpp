@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/marks.hpp"
 #include "core/parallel/parallel.hpp"
 #include "kernels/lanes/tile_force.hpp"
 #include "kernels/ties/tie_places.hpp"
@@ -173,15 +174,6 @@ void for_each_link(const TieSums& sums, const Visit& visit) {
         }
 }
 
-/// Ascending.
-std::vector<std::int64_t> marked_slots(const std::vector<bool>& marks) {
-  std::vector<std::int64_t> slots;
-  slots.reserve(index(std::count(marks.begin(), marks.end(), true)));
-  for (std::int64_t slot = 0; slot < std::ssize(marks); ++slot)
-    if (marks[index(slot)]) slots.push_back(slot);
-  return slots;
-}
-
 /// Replaces the fields' values by the sums, or adds the sums to them. `some`: indices of items, null for all.
 void sum_up(const TieSums& sums, const std::vector<std::size_t>* some, bool add,
             std::initializer_list<NodeField> fields) {
@@ -220,8 +212,8 @@ void Ties::list_slots(std::int64_t slots) {
     secondary[index(follower)] = true;
     primary[index(leader)] = true;
   });
-  secondary_ = marked_slots(secondary);
-  primary_ = marked_slots(primary);
+  secondary_ = marked(secondary);
+  primary_ = marked(primary);
   for (const std::int64_t slot : secondary_)
     if (primary[index(slot)])
       throw InputError("a node is both secondary and primary of a tie; tie its block on another line");
