@@ -62,6 +62,8 @@ std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
   if (!scene.sleepers) return {};
   const FasteningSpec& f = *scene.fastenings;
   const SleeperSpec& spec = *scene.sleepers;
+  std::vector<double> columns;
+  for (int column = 0; column < f.columns; ++column) columns.push_back(f.column_offset(column));
   std::vector<SleeperSupport> list;
   for (int i = -more_spans; i < f.count; ++i) {
     const auto [stiffness, damping] = vertical_spring(scene, i);
@@ -69,7 +71,8 @@ std::vector<SleeperSupport> rail_sleepers(const Scene& scene, int more_spans) {
     list.push_back({scene.fastening_x(i),
                     stiffness,
                     damping,
-                    {sleeper_mass(scene), bed * spec.stiffness, bed * spec.damping}});
+                    {sleeper_mass(scene), bed * spec.stiffness, bed * spec.damping},
+                    columns});
   }
   return list;
 }
@@ -121,8 +124,7 @@ TrackBeam rail_beam(const Scene& scene, const BeamProperties& properties, int mo
                  scene.sleepers.has_value());
   beam.spread_head_load(head_spread(scene, properties));
   if (scene.sleepers)
-    for (const SleeperSupport& s : rail_sleepers(scene, more_spans))
-      beam.support_on_sleeper(s.x, s.stiffness, s.damping, s.sleeper);
+    for (const SleeperSupport& s : rail_sleepers(scene, more_spans)) beam.support_on_sleeper(s);
   else
     for (const BeamSupport& s : rail_supports(scene, more_spans)) beam.support(s.x, s.stiffness, s.damping);
   if (!properties.has_foot()) return beam;

@@ -39,7 +39,7 @@ TrackBeam supported(bool sleepers, const Support& support) {
 }
 
 TrackBeam on_sleepers() {
-  return supported(true, [](TrackBeam& beam, double x) { beam.support_on_sleeper(x, kPad, 0, kSleeper); });
+  return supported(true, [](TrackBeam& beam, double x) { beam.support_on_sleeper({x, kPad, 0, kSleeper}); });
 }
 
 /// Stiffness of pad, sleeper and bed at a frequency [N/m].
@@ -59,6 +59,23 @@ TEST(BeamOnSleepers, RespondsAsOnTheirDynamicStiffness) {
       EXPECT_NEAR(ours / theirs, 1, 1e-8) << frequency << " Hz, x = " << x;
     }
   }
+}
+
+TEST(BeamOnSleepers, APadIsAsLongAsItsSpringDampers) {
+  const std::vector<double> columns = {-0.12, 0, 0.07};
+  BeamSleeper heavy = kSleeper;
+  heavy.mass = 1e9;  // stands still
+  const TrackBeam ours = supported(true, [&](TrackBeam& beam, double x) {
+    beam.support_on_sleeper({x, 3 * kPad, 60e3, heavy, columns});
+  });
+  const TrackBeam theirs = supported(false, [&](TrackBeam& beam, double x) {
+    for (const double offset : columns) beam.support(x + offset, kPad, 20e3);
+  });
+  for (const double frequency : {60.0, 1200.0})
+    EXPECT_NEAR(
+        std::abs(ours.receptance(1.23, 0.9, frequency) / theirs.receptance(1.23, 0.9, frequency) - 1.0), 0,
+        1e-5)
+        << frequency << " Hz";
 }
 
 TEST(BeamOnSleepers, ASleeperTakesItsShareOfTheDeflection) {

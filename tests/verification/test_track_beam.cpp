@@ -50,6 +50,17 @@ TEST(BeamSectionProperties, OfARectangle) {
   EXPECT_NEAR(beam_section({&square}, 0).shear_coefficient, 5.0 / 6, 3e-3);
 }
 
+/// A force p along the bottom has the shear stress p (1 - 4 s + 3 s^2) / b at s H from it, whose energy is
+/// that of a compliance 2 H / (15 G b). A shear force has a parabola, which warps the bottom by V / (10 G b).
+TEST(BeamSectionProperties, FootOfARectangle) {
+  for (const double width : {0.02, 0.2}) {
+    const Section rectangle = rectangle_section(width, 0.2, 32);
+    const BeamSection s = beam_section({&rectangle}, 0);
+    EXPECT_NEAR(s.foot_shear / (2 * 0.2 / (15 * width)), 1, 4e-3);
+    EXPECT_NEAR(s.foot_warping * 10 * width, 1, 6e-3);
+  }
+}
+
 TEST(BeamSectionProperties, OfCN60) {
   const Scene scene =
       resolve_scene(SceneSource{"x.toml", "[scene]\nbased_on = \"highspeed-slab-2014\"\n", {}}, {}).scene;
@@ -58,6 +69,8 @@ TEST(BeamSectionProperties, OfCN60) {
   measured("I vertical", 1e8 * s.vertical, "cm4");
   measured("I lateral", 1e8 * s.lateral, "cm4");
   measured("kappa", s.shear_coefficient);
+  measured("G times the foot's motion by a force per length", s.foot_shear);
+  measured("by a shear force", s.foot_warping, "1/m");
   EXPECT_NEAR(s.area, 77.45e-4, 0.005 * 77.45e-4);
   EXPECT_NEAR(s.vertical, 3217e-8, 0.005 * 3217e-8);
   EXPECT_NEAR(s.lateral, 524e-8, 0.01 * 524e-8);

@@ -97,48 +97,139 @@ Unknowns number_unknowns(const std::vector<const Section*>& parts) {
   return unknowns;
 }
 
-/// Cowper's kappa by the stress function Psi of a shear force that makes d(sigma)/dx = z: find Psi with
-/// integral (grad Psi - d) . grad N = integral N z for all N. [theory.md, eq. B3]
-double cowper(const std::vector<const Section*>& parts, const BeamSection& s, double nu) {
-  const Unknowns unknowns = number_unknowns(parts);
-  BandMatrix<double> laplace(unknowns.count, unknowns.count - 1);
-  std::vector<double> load(static_cast<std::size_t>(unknowns.count));
-  const double a = nu / (2 * (1 + nu));
-  double middle = 0;  // y of the line of symmetry
-  for_points(parts, [&](std::size_t, std::size_t, const QuadPoint& p) { middle += p.weight * p.y / s.area; });
-  const auto mixture = [&](std::size_t part, std::size_t quad, std::size_t i) -> const Mixture& {
-    return unknowns.of[part][static_cast<std::size_t>(parts[part]->quads[quad][i])];
-  };
-  double poisson = 0;  // integral of d_z
-  for_points(parts, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
-    const double y = p.y - middle;
-    const double z = p.z - s.height;
-    const double d_y = a * y * z;
-    const double d_z = 0.5 * a * (z * z - y * y);
-    poisson += p.weight * d_z;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (const auto& [row, share] : mixture(part, quad, i)) {
-        load[static_cast<std::size_t>(row)] +=
-            share * p.weight * (p.value[i] * z + p.along_y[i] * d_y + p.along_z[i] * d_z);
-        for (std::size_t j = 0; j < 4; ++j)
-          for (const auto& [column, other] : mixture(part, quad, j))
-            if (row >= column)
-              laplace.at(row, column) +=
-                  share * other * p.weight * (p.along_y[i] * p.along_y[j] + p.along_z[i] * p.along_z[j]);
+/// Edges of the quads at the bottom of a section: (part, first node, second node).
+struct BottomEdge {
+  std::size_t part = 0;
+  int first = 0, second = 0;
+  double length = 0;  ///< [m]
+};
+
+std::vector<BottomEdge> bottom_edges(const std::vector<const Section*>& parts, double bottom, double depth) {
+  constexpr double kFlat = 1e-6;  // of the depth
+  std::vector<BottomEdge> edges;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const Section& section = *parts[part];
+    const auto at_bottom = [&](int node) {
+      return section.q[static_cast<std::size_t>(node)] < bottom + kFlat * depth;
+    };
+    for (const std::array<int, 4>& quad : section.quads)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const int first = quad[i];
+        const int second = quad[(i + 1) % 4];
+        const double length = std::abs(section.p[static_cast<std::size_t>(second)] -
+                                       section.p[static_cast<std::size_t>(first)]);
+        if (at_bottom(first) && at_bottom(second) && length > 0)
+          edges.push_back({part, first, second, length});
       }
-  });
-  laplace.restrain(0, 1);  // Psi is known but for a constant
-  load[0] = 0;
-  laplace.factorise();
-  const std::vector<double> psi = laplace.solve(load);
-  double moment = 0;  // integral of z Psi
-  for_points(parts, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
-    for (std::size_t i = 0; i < 4; ++i)
-      for (const auto& [row, share] : mixture(part, quad, i))
-        moment += p.weight * (p.z - s.height) * p.value[i] * share * psi[static_cast<std::size_t>(row)];
-  });
-  return s.vertical / (s.area / s.vertical * moment - poisson);
+  }
+  return edges;
 }
+
+/// Warping of a section by shear: its motion along the beam is Psi / G, its shear stresses are grad Psi - d.
+class Warping {
+ public:
+  Warping(const std::vector<const Section*>& parts, const BeamSection& s, double nu)
+      : parts_(parts),
+        section_(s),
+        poisson_(nu / (2 * (1 + nu))),
+        unknowns_(number_unknowns(parts)),
+        laplace_(unknowns_.count, unknowns_.count - 1),
+        bottom_(bottom_edges(parts, s.height - s.foot, s.depth)) {
+    for (const BottomEdge& edge : bottom_) width_ += edge.length;
+    for_points(parts, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+      middle_ += p.weight * p.y / s.area;
+      for (std::size_t i = 0; i < 4; ++i)
+        for (const auto& [row, share] : mixture(part, quad, i))
+          for (std::size_t j = 0; j < 4; ++j)
+            for (const auto& [column, other] : mixture(part, quad, j))
+              if (row >= column)
+                laplace_.at(row, column) +=
+                    share * other * p.weight * (p.along_y[i] * p.along_y[j] + p.along_z[i] * p.along_z[j]);
+    });
+    laplace_.restrain(0, 1);  // Psi is known but for a constant
+    laplace_.factorise();
+  }
+
+  /// Cowper's kappa. [theory.md, eq. B3]
+  double shear_coefficient() {
+    solve(0, 1, 0);
+    return section_.vertical / (section_.area / section_.vertical * moment_ - d_z_);
+  }
+
+  /// BeamSection::foot_shear, foot_warping. [theory.md, eq. B6]
+  double foot_shear() {
+    if (bottom_.empty()) return 0;
+    solve(-1 / section_.area, section_.foot / section_.vertical, 1 / width_);
+    return beyond_plane();
+  }
+  double foot_warping() {
+    if (bottom_.empty()) return 0;
+    solve(0, 1 / section_.vertical, 0);
+    return beyond_plane();
+  }
+
+ private:
+  /// Psi of the bottom less that of the plane with the mean and the moment of Psi.
+  double beyond_plane() const { return foot_ - mean_ + section_.foot / section_.vertical * moment_; }
+  const Mixture& of_node(std::size_t part, int node) const {
+    return unknowns_.of[part][static_cast<std::size_t>(node)];
+  }
+  const Mixture& mixture(std::size_t part, std::size_t quad, std::size_t i) const {
+    return of_node(part, parts_[part]->quads[quad][i]);
+  }
+
+  /// Under a stress along the beam that grows with x by `constant` + `by_height` z, z from the centroid, and
+  /// a shear stress `traction` along x at the bottom; without a force on the whole. [theory.md, eq. B3]
+  void solve(double constant, double by_height, double traction) {
+    std::vector<double> load(static_cast<std::size_t>(unknowns_.count));
+    d_z_ = mean_ = moment_ = foot_ = 0;
+    for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+      const double y = p.y - middle_;
+      const double z = p.z - section_.height;
+      const double d_y = poisson_ * y * (constant + by_height * z);
+      const double d_z = poisson_ * (constant * z + 0.5 * by_height * (z * z - y * y));
+      d_z_ += p.weight * d_z;
+      for (std::size_t i = 0; i < 4; ++i)
+        for (const auto& [row, share] : mixture(part, quad, i))
+          load[static_cast<std::size_t>(row)] +=
+              share * p.weight *
+              (p.value[i] * (constant + by_height * z) + p.along_y[i] * d_y + p.along_z[i] * d_z);
+    });
+    for (const BottomEdge& edge : bottom_)
+      for (const int node : {edge.first, edge.second})
+        for (const auto& [row, share] : of_node(edge.part, node))
+          load[static_cast<std::size_t>(row)] += 0.5 * share * traction * edge.length;
+    load[0] = 0;
+    const std::vector<double> psi = laplace_.solve(load);
+    const auto value = [&](const Mixture& of) {
+      double sum = 0;
+      for (const auto& [row, share] : of) sum += share * psi[static_cast<std::size_t>(row)];
+      return sum;
+    };
+    for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+      double at = 0;
+      for (std::size_t i = 0; i < 4; ++i) at += p.value[i] * value(mixture(part, quad, i));
+      mean_ += p.weight * at / section_.area;
+      moment_ += p.weight * (p.z - section_.height) * at;
+    });
+    for (const BottomEdge& edge : bottom_)
+      foot_ += 0.5 * edge.length / width_ *
+               (value(of_node(edge.part, edge.first)) + value(of_node(edge.part, edge.second)));
+  }
+
+  const std::vector<const Section*>& parts_;
+  const BeamSection& section_;
+  double poisson_;  ///< nu / (2 (1 + nu))
+  Unknowns unknowns_;
+  BandMatrix<double> laplace_;
+  std::vector<BottomEdge> bottom_;
+  double width_ = 0;   ///< of the bottom [m]
+  double middle_ = 0;  ///< y of the line of symmetry [m]
+  double d_z_ = 0;     ///< integral of d_z
+  double mean_ = 0;    ///< of Psi over the section
+  double moment_ = 0;  ///< integral of z Psi
+  double foot_ = 0;    ///< mean of Psi over the bottom
+};
 
 }  // namespace
 
@@ -164,7 +255,10 @@ BeamSection beam_section(const std::vector<const Section*>& parts, double poisso
   }
   s.depth = top - bottom;
   s.foot = s.height - bottom;
-  s.shear_coefficient = cowper(parts, s, poissons_ratio);
+  Warping warping(parts, s, poissons_ratio);
+  s.shear_coefficient = warping.shear_coefficient();
+  s.foot_shear = warping.foot_shear();
+  s.foot_warping = warping.foot_warping();
   return s;
 }
 
@@ -215,13 +309,19 @@ Section refined(const Section& section, int n) {
 }
 
 BeamProperties timoshenko(const BeamSection& section, const Material& material) {
-  return {material.youngs_modulus * section.vertical,
-          section.shear_coefficient * material.shear_modulus() * section.area,
-          material.density * section.area,
-          material.density * section.vertical,
-          section.depth,
-          material.youngs_modulus * section.area,
-          section.foot};
+  const double sheared = section.shear_coefficient * section.area;
+  BeamProperties beam;
+  beam.bending_stiffness = material.youngs_modulus * section.vertical;
+  beam.shear_stiffness = material.shear_modulus() * sheared;
+  beam.mass = material.density * section.area;
+  beam.rotary_inertia = material.density * section.vertical;
+  beam.depth = section.depth;
+  beam.axial_stiffness = material.youngs_modulus * section.area;
+  beam.foot = section.foot;
+  beam.foot_warping = sheared * section.foot_warping;
+  beam.foot_compliance =
+      (section.foot_shear - beam.foot_warping * section.foot_warping) / material.shear_modulus();
+  return beam;
 }
 
 BeamProperties euler(const BeamSection& section, const Material& material) {

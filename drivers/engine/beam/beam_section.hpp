@@ -16,11 +16,14 @@ struct BeamSection {
   double vertical = 0;           ///< I, integral of z^2 about the centroid: vertical bending [m4]
   double lateral = 0;            ///< integral of y^2 [m4]
   double shear_coefficient = 0;  ///< kappa, vertical bending [-]
+  double foot_shear = 0;         ///< G times the foot's motion along x by a force per length on it [-]
+  double foot_warping = 0;       ///< G times the foot's motion along x by a shear force [1/m]
 };
 
 /// Section of one or two plane quad meshes (y, z), the second tied to the first along both paths "tie". The
-/// section has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure.
-/// [theory.md, eq. B3]
+/// section has to be symmetric about a vertical line. kappa by the shear stresses of Saint-Venant's flexure,
+/// the foot's motions beyond the plane section's by the same and by those of a force along the bottom.
+/// [theory.md, eqs. B3, B6]
 BeamSection beam_section(const std::vector<const Section*>& parts, double poissons_ratio);
 
 /// The same quads, each cut into n x n.
@@ -35,6 +38,9 @@ struct BeamProperties {
   double depth = 0;              ///< of the section [m]; 0: a line
   double axial_stiffness = 0;    ///< E A [N]; 0: rigid along x, the foot does not move along
   double foot = 0;               ///< distance from the centroid down to the foot [m]
+  double foot_warping = 0;       ///< by which the angle of shear moves the foot along x [m]
+  /// Motion of the foot along x by a force per length on it, beyond that by rotation and shear [m2/N].
+  double foot_compliance = 0;
 
   /// Has a foot whose motion along x the fastenings can hold.
   bool has_foot() const { return axial_stiffness > 0; }

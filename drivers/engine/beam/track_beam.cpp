@@ -29,11 +29,6 @@ AxialShape axial_shape(double xi, double l, double foot) {
   return {{0, foot * (1 - xi), 1 - xi, 0, foot * xi, xi}, {0, -foot / l, -1 / l, 0, foot / l, 1 / l}};
 }
 
-/// The foot's motion along x, between the nodes linear.
-BeamShape::Values foot_shape(double xi) {
-  return {0, 0, 1 - xi, 0, 0, xi};
-}
-
 BeamShape beam_shape(double xi, double l, double phi) {
   const double c = 1 / (1 + phi);
   const double x2 = xi * xi;
@@ -52,6 +47,14 @@ BeamShape beam_shape(double xi, double l, double phi) {
   s.curvature = {6 * c / (l * l) * (2 * xi - 1),  c / l * (6 * xi - 4 - phi), 0,
                  -6 * c / (l * l) * (2 * xi - 1), c / l * (6 * xi - 2 + phi), 0};
   return s;
+}
+
+/// The foot's motion along x: of its plane section, between the nodes linear, and by shear.
+BeamShape::Values foot_shape(double xi, double l, double phi, double warping) {
+  BeamShape::Values foot = {0, 0, 1 - xi, 0, 0, xi};
+  const BeamShape beam = beam_shape(xi, l, phi);
+  for (std::size_t i = 0; i < foot.size(); ++i) foot[i] -= warping * (beam.slope[i] - beam.rotation[i]);
+  return foot;
 }
 
 constexpr int kFoot = 2;     // of a node's unknowns
@@ -74,6 +77,8 @@ TrackBeam::TrackBeam(const BeamProperties& properties, double left, double lengt
                ? 12 * properties.bending_stiffness / (properties.shear_stiffness * pitch_ * pitch_)
                : 0),
       foot_(properties.has_foot() ? properties.foot : 0),
+      foot_warping_(properties.foot_warping),
+      foot_compliance_(properties.foot_compliance),
       held_(properties.bending_stiffness),
       stiffness_(per_node_ * (elements_ + 1), 2 * per_node_ - 1),
       damping_(stiffness_),
@@ -169,23 +174,45 @@ void TrackBeam::support(double x, double stiffness, double damping) {
   add_outer(damping_, s.first, damping, s.value);
 }
 
-void TrackBeam::support_on_sleeper(double x, double stiffness, double damping, const BeamSleeper& sleeper) {
+void TrackBeam::support_on_sleeper(const SleeperSupport& fastening) {
   TREAD_EXPECT(per_node_ > kOfBeam);
+  constexpr double kRigid = 1e6;  // of the springs at the sleeper
+  const BeamSleeper& sleeper = fastening.sleeper;
+  const auto unknown_at = [&](double x) { return place(x).first + kSleeper; };  // of an element's left node
+  const auto [before, behind] = std::ranges::minmax(fastening.columns);
+  const int first = unknown_at(fastening.x + std::min(before, 0.0));
+  const int last = unknown_at(fastening.x + std::max(behind, 0.0));
+  // One body: the unknowns of all nodes along the pad, held until now, and springs that keep them together.
+  for (int at = first; at <= last; at += per_node_)
+    for (BandMatrix<double>* matrix : {&stiffness_, &damping_, &mass_}) matrix->at(at, at) = 0;
+  const double rigid = kRigid * (fastening.stiffness + sleeper.stiffness);
+  for (int at = first; at < last; at += per_node_) {
+    stiffness_.at(at, at) += rigid;
+    stiffness_.at(at + per_node_, at + per_node_) += rigid;
+    stiffness_.at(at + per_node_, at) -= rigid;
+  }
+  const int middle = unknown_at(fastening.x);
+  stiffness_.at(middle, middle) += sleeper.stiffness;
+  damping_.at(middle, middle) += sleeper.damping;
+  mass_.at(middle, middle) += sleeper.mass;
+  const auto columns = static_cast<double>(fastening.columns.size());
+  for (const double offset : fastening.columns)
+    join_to_sleeper(fastening.x + offset, fastening.stiffness / columns, fastening.damping / columns);
+  sleepers_.push_back(fastening.x);
+}
+
+void TrackBeam::join_to_sleeper(double x, double stiffness, double damping) {
   const Shape s = shape(x);
-  const int at = s.first + kSleeper;  // of the element's left node
-  // Held until now.
-  stiffness_.at(at, at) = sleeper.stiffness + stiffness;
-  damping_.at(at, at) = sleeper.damping + damping;
-  mass_.at(at, at) = sleeper.mass;
-  add_outer(stiffness_, s.first, stiffness, s.value);
-  add_outer(damping_, s.first, damping, s.value);
+  const int at = s.first + kSleeper;
+  support(x, stiffness, damping);
+  stiffness_.at(at, at) += stiffness;
+  damping_.at(at, at) += damping;
   for (int i = 0; i < 2 * kOfBeam; ++i) {
     const int row = std::max(at, unknown(s.first, i));
     const int column = std::min(at, unknown(s.first, i));
     stiffness_.at(row, column) -= stiffness * s.value[static_cast<std::size_t>(i)];
     damping_.at(row, column) -= damping * s.value[static_cast<std::size_t>(i)];
   }
-  sleepers_.push_back(x);
 }
 
 double TrackBeam::sleeper(const std::vector<double>& state, double x) const {
@@ -198,18 +225,35 @@ double TrackBeam::sleeper(const std::vector<double>& state, double x) const {
 
 void TrackBeam::support_foot(double x, double stiffness, double damping) {
   const Place at = place(x);
-  const BeamShape::Values foot = foot_shape(at.xi);
+  const BeamShape::Values foot = foot_shape(at.xi, pitch_, phi_, foot_warping_);
   add_outer(stiffness_, at.first, stiffness, foot);
   add_outer(damping_, at.first, damping, foot);
 }
 
 void TrackBeam::hold_foot(double first, double last) {
-  constexpr double kRounding = 1e-9;
   const auto node_at = [&](double x) { return std::clamp((x - left_) / pitch_, 0.0, 1.0 * elements_); };
-  hold(static_cast<int>(std::lround(node_at(0.5 * (first + last)))), kFoot);
-  for (int node = static_cast<int>(std::ceil(node_at(first) - kRounding)); node <= node_at(last) + kRounding;
-       ++node)
-    hold(node, kFoot);
+  if (!(last > first)) {
+    constexpr double kRigid = 1e3;  // of an element
+    support_foot(first, kRigid * held_ / (pitch_ * pitch_ * pitch_), 0);
+  } else if (foot_compliance_ > 0) {
+    hold_stretch(node_at(first), node_at(last));
+  } else {
+    constexpr double kRounding = 1e-9;
+    for (int node = static_cast<int>(std::ceil(node_at(first) - kRounding));
+         node <= node_at(last) + kRounding; ++node)
+      hold(node, kFoot);
+  }
+}
+
+void TrackBeam::hold_stretch(double first, double last) {
+  const double point = 0.5 / std::numbers::sqrt3;  // Gauss, two points
+  for (int e = static_cast<int>(first); e < last; ++e) {
+    const double from = std::max(first - e, 0.0);
+    const double to = std::min(last - e, 1.0);
+    for (const double side : {-point, point})
+      add_outer(stiffness_, per_node_ * e, 0.5 * (to - from) * pitch_ / foot_compliance_,
+                foot_shape(0.5 * (from + to) + side * (to - from), pitch_, phi_, foot_warping_));
+  }
 }
 
 std::vector<double> TrackBeam::static_state(double x, double force) const {

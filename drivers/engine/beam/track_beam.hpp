@@ -40,12 +40,13 @@ struct BeamSleeper {
   double damping = 0;    ///< [N s/m]
 };
 
-/// A fastening, as one spring-damper on a sleeper.
+/// A fastening on a sleeper: equal spring-dampers along the pad.
 struct SleeperSupport {
   double x = 0;          ///< [m]
-  double stiffness = 0;  ///< [N/m]
-  double damping = 0;    ///< [N s/m]
+  double stiffness = 0;  ///< of all together [N/m]
+  double damping = 0;    ///< of all together [N s/m]
   BeamSleeper sleeper;
+  std::vector<double> columns = {0};  ///< places of the spring-dampers from x on [m]
 };
 
 /// Finite elements with the cubic shape functions that solve the static beam exactly and the consistent mass
@@ -63,15 +64,14 @@ class TrackBeam {
   /// A spring-damper to ground at x [N/m], [N s/m].
   void support(double x, double stiffness, double damping);
 
-  /// A spring-damper at x to a rigid mass [kg] that stands on another one [N/m], [N s/m]. Only on a beam with
-  /// sleepers.
-  void support_on_sleeper(double x, double stiffness, double damping, const BeamSleeper& sleeper);
+  /// A fastening on a sleeper that does not turn. Only on a beam with sleepers, which do not overlap.
+  void support_on_sleeper(const SleeperSupport& fastening);
 
   /// The same along x at the foot.
   void support_foot(double x, double stiffness, double damping);
 
-  /// Holds the foot against motion along x from `first` to `last`, at least at the node nearest to the middle
-  /// [m].
+  /// Holds the foot against motion along x from `first` to `last` [m], or at one place. Over a stretch a foot
+  /// gives way by its own compliance; without compliance its nodes are held.
   void hold_foot(double first, double last);
 
   double left() const { return left_; }
@@ -125,6 +125,9 @@ class TrackBeam {
                  const std::array<double, static_cast<std::size_t>(2 * kOfBeam)>& v) const;
   void add_element(const BeamProperties& properties, int element);
   void hold(int node, int component);
+  /// From one place to another, counted in elements.
+  void hold_stretch(double first, double last);
+  void join_to_sleeper(double x, double stiffness, double damping);
   int modes_below(double omega) const;
 
   double left_, length_, pitch_;
@@ -132,6 +135,8 @@ class TrackBeam {
   int elements_;
   double phi_;                    ///< 12 E I / (kappa G A l^2)
   double foot_;                   ///< distance from the centroid down to the foot [m]
+  double foot_warping_;           ///< [m]
+  double foot_compliance_;        ///< [m2/N]
   double held_;                   ///< stiffness that stands in for a held unknown's [N m/rad], [N/m]
   double spread_ = 0;             ///< of a force on the head [m]
   std::vector<double> sleepers_;  ///< x of the supports on sleepers [m]

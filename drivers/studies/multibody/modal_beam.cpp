@@ -77,7 +77,8 @@ void ModalBeam::add_bending(const BeamProperties& p, int harmonic, double omega,
   const double turn = p.shear_stiffness > 0 ? k - p.mass * omega * omega / (p.shear_stiffness * k) : k;
   const double mass = 0.5 * length_ * (p.mass + p.rotary_inertia * turn * turn);
   const double amplitude = 1 / std::sqrt(mass);
-  add({harmonic, omega, amplitude, share * amplitude, p.foot * turn * amplitude});
+  const double foot = p.foot * turn + p.foot_warping * (k - turn);
+  add({harmonic, omega, amplitude, share * amplitude, foot * amplitude});
   residual_ -= 0.5 * share * share / (mass * omega * omega);
 }
 

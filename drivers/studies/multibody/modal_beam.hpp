@@ -16,7 +16,7 @@ struct BeamMode {
   double foot = 0;        ///< motion of the foot along x over sin(k x) [1/sqrt(kg)]
 };
 
-/// Springs along x that hold the foot stand this far apart at the most [m].
+/// Springs along x that hold the foot of a solid rail stand this far apart at the most [m].
 inline constexpr double kFootPitch = 0.06;
 
 /// A free Euler or Timoshenko beam whose ends do not turn: all modes are cosines and sines, known exactly.

@@ -38,9 +38,12 @@ ModalTrack::ModalTrack(ModalBeam beam, const std::vector<BeamSupport>& supports,
   std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t i = 0; i < sleepers.size(); ++i) {
     const SleeperSupport& s = sleepers[i];
-    beam_.shapes(s.x, values);
-    values[modes + i] = -1 / std::sqrt(s.sleeper.mass);
-    add(s.stiffness, s.damping);
+    const auto columns = static_cast<double>(s.columns.size());
+    for (const double offset : s.columns) {
+      beam_.shapes(s.x + offset, values);
+      values[modes + i] = -1 / std::sqrt(s.sleeper.mass);
+      add(s.stiffness / columns, s.damping / columns);
+    }
     std::fill(values.begin(), values.end(), 0.0);
     values[modes + i] = 1 / std::sqrt(s.sleeper.mass);
     add(s.sleeper.stiffness, s.sleeper.damping);

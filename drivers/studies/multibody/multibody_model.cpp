@@ -188,6 +188,10 @@ std::string track_difference(const MultibodyModel& here, const MultibodyModel& t
     compare("a sleeper's x", " m", ours.x, theirs.x);
     compare("a pad's stiffness", " N/m", ours.stiffness, theirs.stiffness);
     compare("a pad's damping", " N s/m", ours.damping, theirs.damping);
+    compare_number("the number of spring-dampers of a pad", ours.columns, theirs.columns);
+    compare_each(ours.columns, theirs.columns, [&](double ours_at, double theirs_at) {
+      compare("a spring-damper's place on its pad", " m", ours_at, theirs_at);
+    });
     compare("a sleeper's mass", " kg", ours.sleeper.mass, theirs.sleeper.mass);
     compare("a bed's stiffness", " N/m", ours.sleeper.stiffness, theirs.sleeper.stiffness);
     compare("a bed's damping", " N s/m", ours.sleeper.damping, theirs.sleeper.damping);
@@ -270,18 +274,38 @@ double apply_contact_filter(MultibodyModel& model) {
 
 namespace {
 
+/// Motion of the foot beyond its plane section's by a force per length along it [m2/N].
+double whole_foot_compliance(const BeamProperties& beam) {
+  return beam.foot_compliance + beam.foot_warping * beam.foot_warping / beam.shear_stiffness;
+}
+
+/// How a foot is held along x.
+struct FootHolding {
+  double length = 0;      ///< [m]
+  double pitch = 0;       ///< of the places that stand for it, at the most [m]
+  double compliance = 0;  ///< that the modes have not [m2/N]
+};
+
+FootHolding foot_holding(const MultibodyModel& model) {
+  constexpr double kPitch = 0.02;  // a beam's foot gives way over 31 mm at the ends of a pad [m]
+  const FootStretch& one = model.foot_holds.front();  // all are of the same length
+  if (model.solid) return {one.last - one.first, kFootPitch, 0};
+  return {one.last - one.first, kPitch, whole_foot_compliance(model.rail)};
+}
+
 /// Stands in for a stretch from x = 0 on where the rail's foot is held along x: the inverse of the
-/// flexibility that the modes lack at places at most kFootPitch apart, as springs of 1 N/m on weighted sums
-/// of the motions there. [theory.md, eq. M5]
-std::vector<FootSpring> springs_of_held_foot(const ModalBeam& beam, double length) {
-  const auto parts = static_cast<std::size_t>(std::ceil(length / kFootPitch));
-  const double pitch = parts > 0 ? length / static_cast<double>(parts) : 0;
+/// flexibility that the modes lack at places along it, as springs of 1 N/m on weighted sums of the motions
+/// there. [theory.md, eq. M5]
+std::vector<FootSpring> springs_of_held_foot(const ModalBeam& beam, const FootHolding& held) {
+  const auto parts = static_cast<std::size_t>(std::ceil(held.length / held.pitch));
+  const double pitch = parts > 0 ? held.length / static_cast<double>(parts) : 0;
   // Row i of the inverse of the Cholesky factor L of the flexibility is spring i.
   std::vector<std::vector<double>> factor(parts + 1, std::vector<double>(parts + 1));
   std::vector<std::vector<double>> inverse = factor;
   for (std::size_t i = 0; i <= parts; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       double rest = beam.foot_residual_flexibility(static_cast<double>(i - j) * pitch);
+      if (i == j && parts > 0) rest += held.compliance / (i == 0 || i == parts ? 0.5 * pitch : pitch);
       for (std::size_t k = 0; k < j; ++k) rest -= factor[i][k] * factor[j][k];
       factor[i][j] = i == j ? std::sqrt(rest) : rest / factor[j][j];
     }
@@ -316,9 +340,7 @@ ModalTrack modal_track(const MultibodyModel& model, std::optional<int> modes) {
       along.push_back({{{s.x, 1}}, 1 / (1 / s.stiffness + missing), s.damping});
   }
   if (!model.foot_holds.empty()) {
-    // All stretches are of the same length.
-    const FootStretch& one = model.foot_holds.front();
-    const std::vector<FootSpring> springs = springs_of_held_foot(beam, one.last - one.first);
+    const std::vector<FootSpring> springs = springs_of_held_foot(beam, foot_holding(model));
     for (const FootStretch& s : model.foot_holds)
       for (FootSpring spring : springs) {
         for (FootSpring::Place& place : spring.places) place.x += s.first;
