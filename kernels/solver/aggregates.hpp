@@ -1,6 +1,7 @@
 #pragma once
 // Patches of nodes that move as rigid bodies: the coarse space of the two-level preconditioner.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -91,10 +92,21 @@ class Aggregates {
   bool is_of_body(std::int64_t slot) const { return slot >= first_body_slot_; }
   RigidMotion motion(const Patch& patch, const double* coarse) const;
   RigidMotion resultant(const Patch& patch, const double* fine) const;
-  /// Returns 1 for a free and 0 for a held unknown, by component and lane of a group of slots.
-  auto where_free(std::int64_t first_slot) const {
-    return [free = free_.data() + first_slot](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; };
+  /// Calls visit(weight) for a group of slots; weight(component, lane) is 1 for a free and 0 for a held
+  /// unknown.
+  template <class Visit>
+  void where_free(std::int64_t first_slot, const Visit& visit) const {
+    const std::uint8_t* free = free_.data() + first_slot;
+    if (std::all_of(free, free + kLanes, [](std::uint8_t bits) { return bits == kAllFree; }))
+      visit([](int, int) { return 1.0; });  // most groups: no look at single lanes
+    else
+      visit([free](int c, int lane) { return free[lane] >> c & 1 ? 1.0 : 0.0; });
   }
+
+  template <class Visit>
+  void for_each_slot(const Item& item, const double* field, const Visit& visit) const;
+
+  static constexpr std::uint8_t kAllFree = 0b111;
 
   const Mesh* mesh_;
   std::vector<std::uint8_t> free_;  ///< free components by slot; bit c: component c is free
