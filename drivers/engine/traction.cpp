@@ -1,9 +1,12 @@
 #include "drivers/engine/traction.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "core/error.hpp"
 #include "kernels/half_space/half_space_steady.hpp"
 
 namespace tread {
@@ -34,7 +37,15 @@ double steady_traction(const Model& model) {
   if (!steady || !model.contact || model.torque.empty()) return 0;
   const double force = full_torque(model) / (model.wheel_radius() * spin_up(model));
   const double traction = force / model.wheel_load();
-  return std::abs(traction) < model.scene.contact->largest_friction() ? traction : 0;
+  const double x = model.scene.start_x();
+  const double friction = model.contact->friction_at_rest(x);
+  if (std::abs(traction) >= friction)
+    throw InputError(fmt::format(
+        "motion.traction.ramp = 0: the wheel would have long been rolling under F_L / F_N = {:.4g}, but the "
+        "coefficient of friction is {:.4g} at x = {:.4g} m, where it starts: its patch would slide; state a "
+        "smaller motion.traction.mu or torque, or a ramp above 0",
+        traction, friction, x));
+  return traction;
 }
 
 double start_creepage(const Model& model, double traction) {

@@ -10,7 +10,7 @@ namespace tread {
 double full_torque(const Model& model);
 
 /// F_L over the static wheel load at the start [-]: of a wheelset that has been rolling under its full torque
-/// where MotionSpec::ramp is 0 and the start is not rigid; else, or if its patch slides, 0.
+/// where MotionSpec::ramp is 0 and the start is not rigid, else 0. InputError if its patch would slide.
 double steady_traction(const Model& model);
 
 /// Creepage at the start [-]: the scene's; or, under a traction, that of steady rolling on half-spaces under

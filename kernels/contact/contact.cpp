@@ -104,6 +104,17 @@ void Contact::begin() {
     history_[static_cast<std::size_t>(point.history)] = {point.shear, point.pressure};
 }
 
+double Contact::friction_at_rest(double x) const {
+  Sliding resting;
+  resting.x = x;
+  return std::visit(
+      [&](const auto& of) {
+        typename std::remove_cvref_t<decltype(of.law)>::State fresh{};
+        return of.law.advance(fresh, resting);
+      },
+      friction_);
+}
+
 void Contact::search(const ContactState& state, double time, double dt) {
   TREAD_EXPECT(dt > 0 && std::isfinite(time));
   aim(*state.wheel, dt);
@@ -121,7 +132,7 @@ void Contact::require_room(const BodyFrame& wheel) const {
       "that "
       "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
       "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
-      "depth",
+      "depth; a wheel's edge on the rail is such an end too: widen the wheel",
       1e3 * (point->position.x - wheel.origin.x), 1e3 * point->position.y, 1e3 * reach(),
       1e-3 * norm(totals_.force_on_rail)));
 }

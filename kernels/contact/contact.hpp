@@ -114,6 +114,8 @@ class Contact {
   /// rail.
   PageVector<PointHistory>& history() { return history_; }
   Friction& friction() { return friction_; }
+  /// Coefficient of friction of a point at x that has not slid [-].
+  double friction_at_rest(double x) const;
   ContactSearch& searching() { return search_; }
   const ContactSearch& searching() const { return search_; }
   const PointSprings& springs_of_points() const { return springs_; }
