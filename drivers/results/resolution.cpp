@@ -39,15 +39,53 @@ std::string way_warning(const Scene& scene, const std::string& what, const Span&
                   : "the brakes stop it before");
 }
 
+/// Sentence where what the scene evaluates lies behind the wheel's start.
+std::string behind_warning(const Scene& scene, const std::string& what, const Span& aim) {
+  if (!scene.motion || aim.last > scene.start_x()) return "";
+  return fmt::format(
+      "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that nothing is evaluated: "
+      "its values in the summary are no results; let it lie ahead of the start",
+      scene.start_x(), what, aim.first, aim.last);
+}
+
 /// Sentence if a wheel does not roll over what the scene evaluates.
 std::string place_warning(const Scene& scene) {
   if (scene.corrugation) {
     const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
-    return way_warning(scene, "the corrugation", {corrugation.first(), corrugation.last()},
-                       corrugation.last(), "values over it are incomplete");
+    const Span place{corrugation.first(), corrugation.last()};
+    const std::string behind = behind_warning(scene, "the corrugation", place);
+    return behind.empty() ? way_warning(scene, "the corrugation", place, corrugation.last(),
+                                        "values over it are incomplete")
+                          : behind;
   }
-  return way_warning(scene, "the solution zone", {scene.zone_start, scene.solution_zone().end()},
-                     scene.zone_start, "the run leaves no stresses");
+  const Span zone{scene.zone_start, scene.solution_zone().end()};
+  const std::string behind = behind_warning(scene, "the solution zone", zone);
+  return behind.empty()
+             ? way_warning(scene, "the solution zone", zone, scene.zone_start, "the run leaves no stresses")
+             : behind;
+}
+
+/// Sentence where the corrugation lies under the wheel at the start, whose static state has a smooth rail.
+std::string start_warning(const Model& model) {
+  constexpr double kHardly = 0.1;  // of the Hertz approach
+  constexpr int kSamples = 20;     // over the patch
+  const Scene& scene = model.scene;
+  if (!scene.motion) return "";
+  const double line = scene.corrugation->centre.value_or(0);
+  const Corrugation corrugation = corrugation_of(*scene.corrugation, line);
+  const double half = model.hertz_patch.semi_axis_x;
+  double deepest = 0;
+  for (int i = 0; i <= kSamples; ++i) {
+    const double depth = corrugation.depth(scene.start_x() + half * (2.0 * i / kSamples - 1), line);
+    if (std::abs(depth) > std::abs(deepest)) deepest = depth;
+  }
+  if (std::abs(deepest) <= kHardly * model.hertz_patch.approach) return "";
+  return fmt::format(
+      "the corrugation is {:.3g} um deep under the wheel at its start, x = {:.4g} m, where the static state "
+      "has "
+      "a smooth rail: F_N jumps; let corrugation.start lie {:.3g} mm ahead, or state it as [surface.NAME], "
+      "which the static state has",
+      1e6 * deepest, scene.start_x(), 2e3 * half);
 }
 
 /// Length of the shorter axis of the patch [m].
@@ -161,6 +199,7 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   if (!model.contact) return warnings;
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
+  if (model.scene.corrugation) warnings.push_back(start_warning(model));
   if (const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
       corrugation && corrugation->in_file()) {
     warnings.push_back(step_warning(*corrugation));

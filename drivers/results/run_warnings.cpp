@@ -31,6 +31,20 @@ std::string steadiness_warning(const Model& model, const RunResults& r) {
       r.traction_coefficient - half, r.traction_coefficient + half, r.steady_first, r.steady_last);
 }
 
+/// Sentence where no sample lies in the stretch that the summary evaluates.
+std::string empty_warning(const RunResults& r) {
+  const bool any = std::any_of(r.samples.begin(), r.samples.end(), [&](const Sample& s) {
+    return s.wheel_x >= r.evaluated_first && s.wheel_x <= r.evaluated_last;
+  });
+  if (any) return "";
+  return fmt::format(
+      "no sample lies in the evaluated stretch, x = {:.6g} to {:.6g} m: its values in the summary are 0 and "
+      "no "
+      "results; a longer solution_zone.length or corrugation, or a shorter output.history_interval gives "
+      "some",
+      r.evaluated_first, r.evaluated_last);
+}
+
 std::string hourglass_warning(const std::string& body, const DeformationEnergy& energy) {
   const double whole = energy.strain + energy.hourglass;
   if (whole <= 0 || energy.hourglass <= kHourglass * whole) return "";
@@ -45,7 +59,10 @@ std::string hourglass_warning(const std::string& body, const DeformationEnergy& 
 std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
   std::vector<std::string> warnings = resolution_warnings(model);
   if (r.samples.empty()) return warnings;
-  if (model.contact) warnings.push_back(steadiness_warning(model, r));
+  if (model.contact) {
+    warnings.push_back(empty_warning(r));
+    warnings.push_back(steadiness_warning(model, r));
+  }
   for (std::size_t b = 0; b < r.part_energy.size(); ++b)
     if (!is_plate(model.index, static_cast<int>(b)))
       warnings.push_back(hourglass_warning(model.mesh.part_name(static_cast<int>(b)), r.part_energy[b]));
