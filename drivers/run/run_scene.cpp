@@ -209,16 +209,30 @@ void remove_results(const std::filesystem::path& directory) {
   remove_figures(directory / kFigureFolder);
 }
 
-/// A run is not thrown away by mistake, finished or not.
-void refuse_to_overwrite(const RunSession& session) {
-  if (session.options.overwrite) return;
+/// Finds the faults of a scene that its model and its disk use show, before an earlier run is thrown away.
+void rehearse(const RunSession& session, const ResolvedScene& resolved) {
+  preload_cache(session.options.cache);
+  const Model model = scene_model(resolved.scene, resolved, std::nullopt);
+  if (!model.scene.motion || !model.scene.output.disk_limit) return;
+  RunResults results;
+  results.dt = model.scene.motion->step_safety * step_limit(model).stable_step;
+  require_disk(model, results);
+}
+
+/// A run is not thrown away by mistake, finished or not, and not for a scene that cannot run.
+void refuse_to_overwrite(const RunSession& session, const ResolvedScene& resolved) {
+  const bool finished = std::filesystem::exists(session.folder / "summary.json");
+  if (session.options.overwrite) {
+    if (finished || !session.checkpoints.states().empty()) rehearse(session, resolved);
+    return;
+  }
   const std::string folder = session.folder.path().string();
   if (!session.checkpoints.states().empty())
     throw InputError(
         fmt::format("{} holds a run that is not finished: {} goes on with it; --overwrite throws it "
                     "away, or choose another folder",
                     folder, session.resume_command()));
-  if (std::filesystem::exists(session.folder / "summary.json"))
+  if (finished)
     throw InputError(fmt::format(
         "{} holds a finished run: --overwrite throws it away, or choose another folder with -o", folder));
 }
@@ -307,7 +321,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   std::optional<Fork> fork;
   if (!options.from.empty()) fork = read_other(options, wanted);
   RunSession session(options);
-  refuse_to_overwrite(session);
+  refuse_to_overwrite(session, resolved);
   session.order = fork ? fork->order : wanted;
   session.resolved = fork ? resolve_with_later(session.order) : resolved;
   session.checkpoints.clear();
@@ -327,6 +341,12 @@ void resume_run(const RunOptions& options) {
     if (!std::filesystem::exists(session.folder / "summary.json"))
       throw InputError(fmt::format("{} holds no run: start one with `tread run SCENE -o {}`",
                                    options.output.string(), options.output.string()));
+    if (!options.overrides.empty())
+      throw InputError(
+          fmt::format("--set {}: {} holds a finished run, which cannot go on; start another one with these "
+                      "values, from a "
+                      "state that [forks] has kept if it is to have the same past",
+                      options.overrides.front(), options.output.string()));
     session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
                                      (session.folder / "report.html").string()));
     return;
