@@ -57,8 +57,7 @@ struct Bands {
 Bands bands_of(const Scene& scene, const RailProfile& rail) {
   if (!scene.wheel) return {kUsualBand, kUsualBand};
   const WheelSpec& wheel = *scene.wheel;
-  if (scene.rail->profile == "CN60" && (wheel.profile == "LMA" || wheel.shape == "tyre"))
-    return {kUsualBand, kUsualBand};
+  if (wheel.shape == "tyre" && scene.rail->profile == "CN60") return {kUsualBand, kUsualBand};
   const Touching place =
       touching(rail.running, scene.rail->inclination, wheel_profile(wheel).surface, wheel.lateral_offset);
   constexpr double kSteepest = 0.5;
@@ -69,6 +68,7 @@ Bands bands_of(const Scene& scene, const RailProfile& rail) {
         "shift the wheel, or the profiles by wheel.profile_shift and rail.profile_shift",
         1e3 * wheel.lateral_offset, 1e3 * place.y, std::atan(std::abs(place.slope)) * 180 / std::numbers::pi,
         std::atan(kSteepest) * 180 / std::numbers::pi));
+  if (scene.rail->profile == "CN60" && wheel.profile == "LMA") return {kUsualBand, kUsualBand};
   return {place.on_rail.x, place.y};
 }
 
