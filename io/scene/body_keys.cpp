@@ -11,9 +11,9 @@ void add_material(Keys& keys, const std::string& name) {
   keys.push_back(required(quantity(table + ".youngs_modulus", {Effect::preload, Effect::cost},
                                    at(&Scene::materials, name, &Material::youngs_modulus), kStress, "GPa",
                                    above(0, 1e13), "Young's modulus")));
-  keys.push_back(required(number(table + ".poissons_ratio", {Effect::preload, Effect::cost},
-                                 at(&Scene::materials, name, &Material::poissons_ratio),
-                                 {0, 0.5, false, true}, "Poisson's ratio")));
+  keys.push_back(
+      required(number(table + ".poissons_ratio", {Effect::preload, Effect::cost},
+                      at(&Scene::materials, name, &Material::poissons_ratio), {0, 0.49}, "Poisson's ratio")));
   keys.push_back(
       required(quantity(table + ".density", {Effect::mesh}, at(&Scene::materials, name, &Material::density),
                         kDensity, "kg/m3", above(0, 1e5), "Density")));

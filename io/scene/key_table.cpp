@@ -30,7 +30,7 @@ void add_general(Keys& keys) {
              "single precision, `single` keeps them in single too. The static state, contact, "
              "frames, time and sums are in double always"));
   keys.push_back(quantity("scene.element_size", {Effect::fineness, Effect::mesh}, at(&Scene::element_size),
-                          kLength, "mm", above(0, 0.1),
+                          kLength, "mm", from(5e-5, 0.1),
                           "Element size in the contact surface, in place of the quality's"));
   keys.push_back(quantity("scene.gravity", {Effect::preload, Effect::cost}, at(&Scene::gravity),
                           kAcceleration, "m/s2", from(0, 100), "Acceleration of gravity"));

@@ -195,6 +195,8 @@ class Checker {
     const bool fastened = rail.support == "fastenings";
     require(!fastened || scene_.fastenings, {"rail.support", "fastenings"},
             "the rail stands on fastenings; add [fastenings], or state rail.support = \"rigid\" or \"free\"");
+    require(rail.support != "free" || !scene_.wheel, {"rail.support", "wheel"},
+            "nothing carries a free rail under a wheel; state rail.support = \"rigid\" or \"fastenings\"");
     require(rail.support != "free" || scene_.wheel || !scene_.motion || scene_.gravity == 0,
             {"rail.support", "scene.gravity"},
             "nothing carries a free rail; state scene.gravity = \"0 m/s2\"");
@@ -332,6 +334,16 @@ class Checker {
               fmt::format(
                   "a chord of {:.4g} mm on a wheel of {:.4g} mm is no flat; state at most half the diameter",
                   1e3 * surface.length, 1e3 * diameter));
+    if (surface.kind == "flat" && surface.length <= 0.5 * diameter) {
+      constexpr double kDeepest = 0.01;  // as that of other surfaces [m]
+      const double depth =
+          0.5 * (diameter - std::sqrt(diameter * diameter - surface.length * surface.length));
+      require(
+          depth <= kDeepest, {table + ".length", "wheel.diameter"},
+          fmt::format("a chord of {:.4g} mm is {:.3g} mm deep on a wheel of {:.4g} mm; at most {:g} mm are "
+                      "possible: state a shorter one",
+                      1e3 * surface.length, 1e3 * depth, 1e3 * diameter, 1e3 * kDeepest));
+    }
     const bool measured = surface.kind == "profile" || surface.kind == "map";
     if (surface.kind == "polygon" || (measured && surface.file_x.empty())) return;
     const double length = measured ? surface.file_x.back() - surface.file_x.front() : surface.length;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <optional>
@@ -207,6 +208,12 @@ class StudyReader {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
              std::string_view("._+-=,").find(c) != std::string_view::npos;
     };
+    constexpr std::array kOfStudy = {"report.html", "sweep.csv", "status.json", "figures"};
+    if (std::find(kOfStudy.begin(), kOfStudy.end(), name) != kOfStudy.end()) {
+      report(at, "point.name",
+             fmt::format("\"{}\" is a file of the study itself: choose another name", name));
+      return;
+    }
     if (!name.empty() && name.size() <= kLongestName && name.front() != '.' && name.front() != '-' &&
         std::all_of(name.begin(), name.end(), plain))
       return;

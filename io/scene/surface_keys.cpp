@@ -30,7 +30,7 @@ void add_surface(Keys& keys, const std::string& name) {
                       "x of the middle of dip, dent or flat; of a polygon's crest; where the waves "
                       "begin; of the file's zero")));
   keys.push_back(with({"dip", "dent", "waves", "polygon"},
-                      required(length(".depth", shape, &SurfaceSpec::depth, "mm", {-0.01, 0.05},
+                      required(length(".depth", shape, &SurfaceSpec::depth, "mm", {-0.01, 0.01},
                                       "Largest depth, of a bump negative; of waves from crest to trough"))));
   keys.push_back(with({"dip", "dent", "waves", "flat"},
                       required(length(".length", shape, &SurfaceSpec::length, "mm", above(0, 1000),
