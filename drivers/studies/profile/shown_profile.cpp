@@ -61,6 +61,9 @@ ShownProfile shown_profile(const std::string& name, std::optional<bool> wheel,
                                    *wheel ? "wheel" : "rail"));
     return shown;
   }
+  if (!std::filesystem::exists(name))
+    throw InputError(fmt::format("there is no file {}, and built in are {}, {}", name,
+                                 fmt::join(kBuiltInRails, ", "), fmt::join(kBuiltInWheels, ", ")));
   ShownProfile shown;
   shown.name = name;
   shown.wheel = is_wheel(name, wheel);

@@ -170,8 +170,10 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
     return Interrupted(fmt::format("stopped by {}; nothing is lost: {} goes on with {} points", stopped_by,
                                    resume_command, left));
   if (failed > 0)
-    return Error(plan.failure_code(), fmt::format("{} of {} points failed:{}\n{} --retry tries them again",
-                                                  failed, plan.points.size(), failures, resume_command));
+    return Error(
+        plan.failure_code(),
+        fmt::format("{} of {} points failed:{}\n`{} --retry` tries them again", failed, plan.points.size(),
+                    failures, std::string_view(resume_command).substr(1, resume_command.size() - 2)));
   if (left > 0)
     return Interrupted(
         fmt::format("{} points are not done (see the log above); {} goes on", left, resume_command));
