@@ -133,6 +133,12 @@ TEST_F(Commands, AFinishedRunIsNotOverwritten) {
   EXPECT_EQ(again.code, 2);
   EXPECT_TRUE(has(again.errors, "holds a finished run: --overwrite")) << again.errors;
   EXPECT_EQ(content("out/summary.json"), summary);
+  const Outcome longer = call(fmt::format("resume {}/out --set motion.duration=9ms", folder_.string()));
+  EXPECT_EQ(longer.code, 2);
+  EXPECT_TRUE(has(longer.errors, "holds a finished run, which cannot go on")) << longer.errors;
+  // A scene that cannot run throws nothing away.
+  EXPECT_EQ(call(run + " --overwrite --set \"output.disk_limit=1 B\"").code, 2);
+  EXPECT_EQ(content("out/summary.json"), summary);
   EXPECT_EQ(call(run + " --overwrite").code, 0);
 }
 
@@ -182,6 +188,12 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
+  EXPECT_TRUE(
+      has(warnings("smooth.toml", "--set \"solution_zone.start=-3 m\""), "so that nothing is evaluated"));
+  EXPECT_TRUE(has(warnings("corrugation-d.toml",
+                           "--set \"corrugation.start=-20 mm\" --set \"solution_zone.start=-0.1 m\" --set "
+                           "\"solution_zone.length=0.7 m\""),
+                  "um deep under the wheel at its start"));
   // A wheel that brakes takes longer than the way at its first speed.
   const std::string brakes = "--set \"motion.speed=100 km/h\" --set \"motion.traction.mu=-0.3\" ";
   const std::string braked = warnings("corrugation-d.toml", brakes);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "drivers/engine/preload.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/engine/static_system.hpp"
@@ -53,13 +54,27 @@ TEST(TractionStart, KeepsTheForce) {
   }
 }
 
+/// The largest f of a table counts for nothing where the wheel starts.
+TEST(TractionStart, RefusesAPatchThatSlides) {
+  const auto refused = [](Scene scene) {
+    const Model model(scene);
+    EXPECT_THROW(steady_traction(model), InputError);
+  };
+  refused(scene_of(0.5));
+  refused(scene_of(-0.5));
+  Scene slippery = scene_of(0.2);
+  slippery.contact->friction_law = "table";
+  slippery.contact->friction_x = {0, 1};
+  slippery.contact->friction_at_x = {0.1, 0.5};
+  refused(slippery);
+}
+
 TEST(TractionStart, NeedsNoRampAPatchThatSticksAndNoRigidStart) {
   const auto traction = [](const std::vector<std::string>& overrides) {
     return steady_traction(Model(scene_of(0.2, overrides)));
   };
   EXPECT_NEAR(traction({}), 0.2, 1e-12);
   EXPECT_EQ(steady_traction(Model(samples::tyre_scene({"motion.traction.mu=0.2"}))), 0);
-  EXPECT_EQ(traction({"contact.friction=0.2"}), 0);
   EXPECT_EQ(traction({"motion.start=rigid"}), 0);
   EXPECT_EQ(traction({"wheel.bore=guided"}), 0);
 }
