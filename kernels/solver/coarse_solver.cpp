@@ -2,18 +2,19 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Sparse>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <unordered_set>
-#include <utility>
 
 #include "core/error.hpp"
-#include "kernels/solver/block_factor.hpp"
 
 namespace tread {
 
 namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
 
 /// Pairs of coupled aggregates, collected element by element.
 class Couplings {
@@ -111,37 +112,27 @@ std::vector<int> distance_two_colours(const std::vector<std::vector<int>>& graph
 }
 
 struct CoarseSolver::Matrices {
-  BlockMatrix base;  ///< without springs; 1 on the diagonal for modes that an aggregate has not
-  BlockFactor factor;
-  std::vector<int> place;  ///< of a mode among the rows of blocks
+  SparseMatrix base;  ///< lower triangle without springs
+  Factor factor;
+  int probes = 0;
 };
 
 namespace {
 
-/// Rows of the blocks that hold the modes.
-std::vector<int> places_of_modes(const Aggregates& aggregates) {
-  std::vector<int> places;
-  for (int i = 0; i < aggregates.count(); ++i)
-    for (int m = 0; m < aggregates.mode_count(i); ++m) places.push_back(i * kBlockSize + m);
-  return places;
-}
-
-/// Z^T A Z, six columns of a colour at a time.
-BlockMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph, const Operator& a,
-                  std::int64_t values) {
+/// Lower triangle of Z^T A Z, six columns of a colour at a time.
+SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph,
+                   const Operator& a, std::int64_t values, int* probes) {
   const auto colour = distance_two_colours(graph);
   const int colours = colour.empty() ? 0 : *std::max_element(colour.begin(), colour.end()) + 1;
   std::vector<std::vector<int>> members(static_cast<std::size_t>(colours));
   for (std::size_t i = 0; i < colour.size(); ++i)
     members[static_cast<std::size_t>(colour[i])].push_back(static_cast<int>(i));
 
-  BlockMatrix matrix(graph.size());
-  for (int i = 0; i < aggregates.count(); ++i)
-    for (int m = aggregates.mode_count(i); m < kBlockSize; ++m) matrix.at(i, i)(m, m) = 1;
   AlignedVector<double> x(static_cast<std::size_t>(values)), y(x.size());
   std::vector<double> coarse(static_cast<std::size_t>(aggregates.modes()));
+  std::vector<Eigen::Triplet<double>> entries;
   for (const auto& group : members)
-    for (int k = 0; k < kBlockSize; ++k) {
+    for (int k = 0; k < 6; ++k) {
       std::fill(coarse.begin(), coarse.end(), 0.0);
       bool any = false;
       for (const int i : group)
@@ -153,57 +144,55 @@ BlockMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<in
       std::fill(x.begin(), x.end(), 0.0);
       aggregates.prolongate_add(coarse.data(), x.data());
       a(x.data(), y.data());
+      ++*probes;
       aggregates.restrict_to_modes(y.data(), coarse.data());
       for (const int i : group) {
         if (k >= aggregates.mode_count(i)) continue;
+        const int column = aggregates.first_mode(i) + k;
         for (const int j : graph[static_cast<std::size_t>(i)])
-          for (int m = 0; j >= i && m < aggregates.mode_count(j); ++m)
-            matrix.at(j, i)(m, k) = coarse[static_cast<std::size_t>(aggregates.first_mode(j) + m)];
+          for (int m = 0; m < aggregates.mode_count(j); ++m) {
+            const int row = aggregates.first_mode(j) + m;
+            if (row >= column) entries.emplace_back(row, column, coarse[static_cast<std::size_t>(row)]);
+          }
       }
     }
+  SparseMatrix matrix(aggregates.modes(), aggregates.modes());
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
 /// Compares Z^T A Z and the probed matrix on one irregular vector.
-void check_probes(const Aggregates& aggregates, const Operator& a, const BlockMatrix& matrix,
-                  const std::vector<int>& place, std::int64_t values) {
-  std::vector<double> coarse(place.size()), product(place.size());
-  Eigen::VectorXd in_blocks = Eigen::VectorXd::Zero(matrix.size() * kBlockSize);
-  for (std::size_t i = 0; i < place.size(); ++i)
-    in_blocks[place[i]] = coarse[i] = std::sin(1.0 + 1.7 * static_cast<double>(i * i));
+void check_probes(const Aggregates& aggregates, const Operator& a, const SparseMatrix& matrix,
+                  std::int64_t values) {
+  Eigen::VectorXd coarse(aggregates.modes()), product(aggregates.modes());
+  for (int i = 0; i < aggregates.modes(); ++i) coarse[i] = std::sin(1.0 + 1.7 * i * i);
   AlignedVector<double> x(static_cast<std::size_t>(values), 0.0), y(x.size());
   aggregates.prolongate_add(coarse.data(), x.data());
   a(x.data(), y.data());
   aggregates.restrict_to_modes(y.data(), product.data());
-  const Eigen::VectorXd probed = matrix.times(in_blocks);
-  double difference = 0;
-  double size = 0;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    difference += std::pow(probed[place[i]] - product[i], 2);
-    size += std::pow(product[i], 2);
-  }
-  const double relative = std::sqrt(difference / size);
-  if (relative > 1e-8)
+  const double difference = (matrix.selfadjointView<Eigen::Lower>() * coarse - product).norm();
+  if (difference > 1e-8 * product.norm())
     throw NumericalError(
         fmt::format("static solver: the probed coarse matrix misses {:.1e} of the operator, which couples "
-                    "nodes that share no element or is not symmetric; pass such couplings as ties or springs",
-                    relative));
+                    "nodes that share no "
+                    "element or is not symmetric; pass such couplings as ties or springs",
+                    difference / product.norm()));
 }
 
 }  // namespace
 
 CoarseSolver::CoarseSolver(const Aggregates& aggregates, const std::vector<std::vector<int>>& graph,
                            const Operator& a, std::int64_t values)
-    : matrices_(
-          new Matrices{probe(aggregates, graph, a, values), BlockFactor(), places_of_modes(aggregates)}) {
-  check_probes(aggregates, a, matrices_->base, matrices_->place, values);
+    : matrices_(std::make_unique<Matrices>()) {
+  matrices_->base = probe(aggregates, graph, a, values, &matrices_->probes);
+  check_probes(aggregates, a, matrices_->base, values);
 }
 CoarseSolver::~CoarseSolver() = default;
 CoarseSolver::CoarseSolver(CoarseSolver&&) noexcept = default;
 
 namespace {
 
-/// Z^T w of one spring: its weights on the modes that it touches, by their places.
+/// Z^T w of one spring: its weights on the modes that it touches.
 std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& spring) {
   std::map<int, double> sum;
   for (std::size_t i = 0; i < spring.dofs.size(); ++i) {
@@ -212,7 +201,7 @@ std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& sprin
     if (aggregate < 0) continue;
     const auto row = aggregates.mode_row(spring.dofs[i]);
     for (int k = 0; k < aggregates.mode_count(aggregate); ++k)
-      sum[aggregate * kBlockSize + k] += spring.weights[i] * row[static_cast<std::size_t>(k)];
+      sum[aggregates.first_mode(aggregate) + k] += spring.weights[i] * row[static_cast<std::size_t>(k)];
   }
   return sum;
 }
@@ -220,29 +209,37 @@ std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& sprin
 }  // namespace
 
 void CoarseSolver::factorise(const Aggregates& aggregates, const std::vector<Spring>& springs) {
-  BlockMatrix matrix = matrices_->base;
+  std::vector<Eigen::Triplet<double>> entries;
   for (const Spring& spring : springs) {
     const auto weights = on_modes(aggregates, spring);
     for (const auto& [column, w] : weights)
-      for (const auto& [row, other] : weights)
-        if (row / kBlockSize >= column / kBlockSize)
-          matrix.at(row / kBlockSize, column / kBlockSize)(row % kBlockSize, column % kBlockSize) +=
-              spring.stiffness * w * other;
+      for (auto row = weights.find(column); row != weights.end(); ++row)
+        entries.emplace_back(row->first, column, spring.stiffness * w * row->second);
   }
+  SparseMatrix matrix(matrices_->base.rows(), matrices_->base.cols());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix += matrices_->base;
   constexpr double kHold = 1e-12;
-  for (int i = 0; i < matrix.size(); ++i) matrix.at(i, i).diagonal() *= 1 + kHold;
-  if (!matrices_->factor.compute(matrix))
+  for (int i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) *= 1 + kHold;
+  matrices_->factor.compute(matrix);
+  if (matrices_->factor.info() != Eigen::Success)
     throw NumericalError(
         "static solver: the coarse matrix could not be factorised; a body is unrestrained or a stiffness is "
         "negative or not a number");
 }
 
 void CoarseSolver::solve(const double* r, double* y) const {
-  const std::vector<int>& place = matrices_->place;
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(matrices_->base.size() * kBlockSize);
-  for (std::size_t i = 0; i < place.size(); ++i) x[place[i]] = r[i];
-  matrices_->factor.solve(x);
-  for (std::size_t i = 0; i < place.size(); ++i) y[i] = x[place[i]];
+  const Eigen::Map<const Eigen::VectorXd> right(r, matrices_->base.rows());
+  const Eigen::VectorXd solution = matrices_->factor.solve(right);
+  std::copy(solution.data(), solution.data() + solution.size(), y);
+}
+
+int CoarseSolver::probes() const {
+  return matrices_->probes;
+}
+
+std::int64_t CoarseSolver::factor_entries() const {
+  return matrices_->factor.matrixL().nestedExpression().nonZeros();
 }
 
 }  // namespace tread

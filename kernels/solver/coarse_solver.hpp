@@ -1,5 +1,5 @@
 #pragma once
-// The operator on the aggregates' rigid modes, found by probing and factorised.
+// The operator on the aggregates' rigid modes, found by probing and factorised by a sparse direct method.
 
 #include <cstdint>
 #include <memory>
@@ -35,6 +35,9 @@ class CoarseSolver {
 
   /// Solves for `y`. `r` and `y` have Aggregates::modes() values and may be one array.
   void solve(const double* r, double* y) const;
+
+  int probes() const;                   ///< number of applications of the operator
+  std::int64_t factor_entries() const;  ///< number of entries of L
 
  private:
   struct Matrices;

@@ -1,14 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel/chunks.hpp"
 #include "kernels/blocks/internal_force.hpp"
-#include "kernels/solver/block_factor.hpp"
 #include "kernels/solver/two_level_preconditioner.hpp"
 #include "tests/solved_system.hpp"
 #include "tests/swept_samples.hpp"
@@ -167,36 +163,6 @@ TEST(Colours, DifferWithinTwoEdges) {
         if (a != b) {
           EXPECT_NE(colour[static_cast<std::size_t>(a)], colour[static_cast<std::size_t>(b)]);
         }
-}
-
-/// A ring of blocks with chords, so that elimination fills some in.
-TEST(BlockFactor, SolvesAsADenseFactor) {
-  constexpr int kBlocks = 23;
-  BlockMatrix matrix(kBlocks);
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(kBlocks * kBlockSize, kBlocks * kBlockSize);
-  std::srand(1);
-  for (int column = 0; column < kBlocks; ++column) {
-    MatrixBlock& diagonal = matrix.at(column, column);
-    diagonal = MatrixBlock::Random();
-    diagonal = MatrixBlock(diagonal + diagonal.transpose()) + 20 * MatrixBlock::Identity();
-    for (const int row : {(column + 1) % kBlocks, (column * column + 5) % kBlocks})
-      if (row > column) matrix.at(row, column) = MatrixBlock::Random();
-  }
-  for (int column = 0; column < kBlocks; ++column)
-    for (const BlockMatrix::Entry& entry : matrix.column(column)) {
-      dense.block<kBlockSize, kBlockSize>(entry.row * kBlockSize, column * kBlockSize) = entry.value;
-      dense.block<kBlockSize, kBlockSize>(column * kBlockSize, entry.row * kBlockSize) =
-          entry.value.transpose();
-    }
-  const Eigen::VectorXd right = Eigen::VectorXd::Random(dense.rows());
-  EXPECT_LT((matrix.times(right) - dense * right).norm(), 1e-13 * right.norm());
-  BlockFactor factor;
-  ASSERT_TRUE(factor.compute(matrix));
-  Eigen::VectorXd x = right;
-  factor.solve(x);
-  EXPECT_LT((dense * x - right).norm(), 1e-12 * right.norm());
-  matrix.at(4, 4)(2, 3) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(factor.compute(matrix));
 }
 
 TEST(CoarseSolver, InvertsTheOperatorOnTheModes) {
