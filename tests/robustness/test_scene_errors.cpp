@@ -152,7 +152,8 @@ TEST(SceneErrors, Ranges) {
       {"[vehicle]\nsprung_mass = \"0 kg\"",
        "x.toml:4:1: vehicle.sprung_mass: 0 kg is not allowed; it must be above 0 kg and at most 100000 kg"},
       {"[material.slab]\npoissons_ratio = 0.5",
-       "x.toml:4:1: material.slab.poissons_ratio: 0.5 is not allowed; it must be at least 0 and at most 0.49"},
+       "x.toml:4:1: material.slab.poissons_ratio: 0.5 is not allowed; it must be at least 0 and at most "
+       "0.49"},
       {"[material.slab]\nyoungs_modulus = \"0 GPa\"",
        "x.toml:4:1: material.slab.youngs_modulus: 0 GPa is not allowed; it must be above 0 GPa and at most "
        "10000 GPa"},
