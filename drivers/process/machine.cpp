@@ -41,6 +41,10 @@ std::int64_t machine_memory() {
 }
 
 void use_threads(const ThreadOptions& options) {
+  constexpr int kMostThreads = 4096;  // more than any machine has cores
+  if (options.number > kMostThreads)
+    throw InputError(fmt::format("-t {}: at most {} threads are possible; this machine has {} cores",
+                                 options.number, kMostThreads, machine_cores()));
   if (!options.backend.empty()) set_backend(options.backend);
   const std::shared_ptr<Ranks> ranks = chosen_ranks();
   const int cores = ranks ? std::max(1, machine_cores() / ranks->on_cores()) : machine_cores();

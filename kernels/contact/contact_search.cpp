@@ -98,7 +98,10 @@ void ContactSearch::choose_edges() {
       last_edge_ = edge + 1;
     }
   if (first_edge_ >= last_edge_)
-    throw InputError("contact: the wheel's profile does not lie over the rail's");
+    throw InputError(
+        "contact: no middle of a face of the rail lies under the wheel's profile; change "
+        "wheel.lateral_offset, "
+        "widen the wheel (wheel.width), or state a smaller scene.element_size");
   for (double& one : gap) one -= closest;
 }
 

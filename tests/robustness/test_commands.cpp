@@ -122,6 +122,7 @@ TEST_F(Commands, ShippedScenesHaveNamesInEveryFolder) {
 TEST_F(Commands, MoreThreadsThanCoresAreAWarning) {
   EXPECT_TRUE(has(call("check -t 1000 " + scene("bar-wave.toml")).errors, "1000 threads on"));
   EXPECT_EQ(call("check -t 1 " + scene("bar-wave.toml")).errors, "");
+  EXPECT_EQ(call("check -t 100000 " + scene("bar-wave.toml")).code, 2);
 }
 
 TEST_F(Commands, AFinishedRunIsNotOverwritten) {
