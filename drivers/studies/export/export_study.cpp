@@ -40,7 +40,9 @@ std::filesystem::path radioss_file(std::filesystem::path deck, int number) {
 
 void close_whole(std::ofstream& file, const std::filesystem::path& path) {
   file.close();
-  if (!file) throw ResourceError(fmt::format("cannot write {}: does its folder exist, and is there room on the disk?", path.string()));
+  if (!file)
+    throw ResourceError(
+        fmt::format("cannot write {}: does its folder exist, and is there room on the disk?", path.string()));
 }
 
 double quantity_of(const char* option, const std::string& text, const Quantity& expected) {
