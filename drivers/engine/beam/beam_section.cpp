@@ -97,11 +97,11 @@ Unknowns number_unknowns(const std::vector<const Section*>& parts) {
   return unknowns;
 }
 
-/// Edges of the quads at the bottom of a section: (part, first node, second node).
+/// An edge of a quad at the bottom of a section.
 struct BottomEdge {
   std::size_t part = 0;
-  int first = 0, second = 0;
-  double length = 0;  ///< [m]
+  int first = 0, second = 0;  ///< nodes
+  double length = 0;          ///< [m]
 };
 
 std::vector<BottomEdge> bottom_edges(const std::vector<const Section*>& parts, double bottom, double depth) {
@@ -150,71 +150,27 @@ class Warping {
     laplace_.factorise();
   }
 
-  /// Cowper's kappa. [theory.md, eq. B3]
-  double shear_coefficient() {
-    solve(0, 1, 0);
-    return section_.vertical / (section_.area / section_.vertical * moment_ - d_z_);
-  }
+  bool has_bottom() const { return !bottom_.empty(); }
+  double bottom_width() const { return width_; }  ///< [m]
 
-  /// BeamSection::foot_shear, foot_warping. [theory.md, eq. B6]
-  double foot_shear() {
-    if (bottom_.empty()) return 0;
-    solve(-1 / section_.area, section_.foot / section_.vertical, 1 / width_);
-    return beyond_plane();
-  }
-  double foot_warping() {
-    if (bottom_.empty()) return 0;
-    solve(0, 1 / section_.vertical, 0);
-    return beyond_plane();
-  }
+  /// Sums of Psi and d over the section.
+  struct Sums {
+    double d_z = 0;     ///< integral of d_z
+    double mean = 0;    ///< of Psi
+    double moment = 0;  ///< integral of z Psi
+    double foot = 0;    ///< mean of Psi over the bottom
+  };
+
+  /// Under a stress along the beam that grows with x by `constant` + `by_height` z, z from the centroid, and
+  /// a shear stress `traction` along x at the bottom. [theory.md, eqs. B3, B6]
+  Sums solve(double constant, double by_height, double traction) const;
 
  private:
-  /// Psi of the bottom less that of the plane with the mean and the moment of Psi.
-  double beyond_plane() const { return foot_ - mean_ + section_.foot / section_.vertical * moment_; }
   const Mixture& of_node(std::size_t part, int node) const {
     return unknowns_.of[part][static_cast<std::size_t>(node)];
   }
   const Mixture& mixture(std::size_t part, std::size_t quad, std::size_t i) const {
     return of_node(part, parts_[part]->quads[quad][i]);
-  }
-
-  /// Under a stress along the beam that grows with x by `constant` + `by_height` z, z from the centroid, and
-  /// a shear stress `traction` along x at the bottom; without a force on the whole. [theory.md, eq. B3]
-  void solve(double constant, double by_height, double traction) {
-    std::vector<double> load(static_cast<std::size_t>(unknowns_.count));
-    d_z_ = mean_ = moment_ = foot_ = 0;
-    for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
-      const double y = p.y - middle_;
-      const double z = p.z - section_.height;
-      const double d_y = poisson_ * y * (constant + by_height * z);
-      const double d_z = poisson_ * (constant * z + 0.5 * by_height * (z * z - y * y));
-      d_z_ += p.weight * d_z;
-      for (std::size_t i = 0; i < 4; ++i)
-        for (const auto& [row, share] : mixture(part, quad, i))
-          load[static_cast<std::size_t>(row)] +=
-              share * p.weight *
-              (p.value[i] * (constant + by_height * z) + p.along_y[i] * d_y + p.along_z[i] * d_z);
-    });
-    for (const BottomEdge& edge : bottom_)
-      for (const int node : {edge.first, edge.second})
-        for (const auto& [row, share] : of_node(edge.part, node))
-          load[static_cast<std::size_t>(row)] += 0.5 * share * traction * edge.length;
-    load[0] = 0;
-    const std::vector<double> psi = laplace_.solve(load);
-    const auto value = [&](const Mixture& of) {
-      double sum = 0;
-      for (const auto& [row, share] : of) sum += share * psi[static_cast<std::size_t>(row)];
-      return sum;
-    };
-    for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
-      double at = 0;
-      for (std::size_t i = 0; i < 4; ++i) at += p.value[i] * value(mixture(part, quad, i));
-      mean_ += p.weight * at / section_.area;
-      moment_ += p.weight * (p.z - section_.height) * at;
-    });
-    for (const BottomEdge& edge : bottom_)
-      foot_ += 0.5 * edge.length / width_ *
-               (value(of_node(edge.part, edge.first)) + value(of_node(edge.part, edge.second)));
   }
 
   const std::vector<const Section*>& parts_;
@@ -225,11 +181,50 @@ class Warping {
   std::vector<BottomEdge> bottom_;
   double width_ = 0;   ///< of the bottom [m]
   double middle_ = 0;  ///< y of the line of symmetry [m]
-  double d_z_ = 0;     ///< integral of d_z
-  double mean_ = 0;    ///< of Psi over the section
-  double moment_ = 0;  ///< integral of z Psi
-  double foot_ = 0;    ///< mean of Psi over the bottom
 };
+
+Warping::Sums Warping::solve(double constant, double by_height, double traction) const {
+  Sums sums;
+  std::vector<double> load(static_cast<std::size_t>(unknowns_.count));
+  for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+    const double y = p.y - middle_;
+    const double z = p.z - section_.height;
+    const double d_y = poisson_ * y * (constant + by_height * z);
+    const double d_z = poisson_ * (constant * z + 0.5 * by_height * (z * z - y * y));
+    sums.d_z += p.weight * d_z;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (const auto& [row, share] : mixture(part, quad, i))
+        load[static_cast<std::size_t>(row)] +=
+            share * p.weight *
+            (p.value[i] * (constant + by_height * z) + p.along_y[i] * d_y + p.along_z[i] * d_z);
+  });
+  for (const BottomEdge& edge : bottom_)
+    for (const int node : {edge.first, edge.second})
+      for (const auto& [row, share] : of_node(edge.part, node))
+        load[static_cast<std::size_t>(row)] += 0.5 * share * traction * edge.length;
+  load[0] = 0;
+  const std::vector<double> psi = laplace_.solve(load);
+  const auto value = [&](const Mixture& of) {
+    double sum = 0;
+    for (const auto& [row, share] : of) sum += share * psi[static_cast<std::size_t>(row)];
+    return sum;
+  };
+  for_points(parts_, [&](std::size_t part, std::size_t quad, const QuadPoint& p) {
+    double at = 0;
+    for (std::size_t i = 0; i < 4; ++i) at += p.value[i] * value(mixture(part, quad, i));
+    sums.mean += p.weight * at / section_.area;
+    sums.moment += p.weight * (p.z - section_.height) * at;
+  });
+  for (const BottomEdge& edge : bottom_)
+    sums.foot += 0.5 * edge.length / width_ *
+                 (value(of_node(edge.part, edge.first)) + value(of_node(edge.part, edge.second)));
+  return sums;
+}
+
+/// Psi of the bottom less that of the plane with the mean and the moment of Psi.
+double beyond_plane(const BeamSection& s, const Warping::Sums& sums) {
+  return sums.foot - sums.mean + s.foot / s.vertical * sums.moment;
+}
 
 }  // namespace
 
@@ -255,10 +250,12 @@ BeamSection beam_section(const std::vector<const Section*>& parts, double poisso
   }
   s.depth = top - bottom;
   s.foot = s.height - bottom;
-  Warping warping(parts, s, poissons_ratio);
-  s.shear_coefficient = warping.shear_coefficient();
-  s.foot_shear = warping.foot_shear();
-  s.foot_warping = warping.foot_warping();
+  const Warping warping(parts, s, poissons_ratio);
+  const Warping::Sums sheared = warping.solve(0, 1, 0);  // by a shear force of the size of I
+  s.shear_coefficient = s.vertical / (s.area / s.vertical * sheared.moment - sheared.d_z);
+  if (!warping.has_bottom()) return s;
+  s.foot_warping = beyond_plane(s, sheared) / s.vertical;
+  s.foot_shear = beyond_plane(s, warping.solve(-1 / s.area, s.foot / s.vertical, 1 / warping.bottom_width()));
   return s;
 }
 
