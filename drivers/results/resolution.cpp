@@ -39,30 +39,26 @@ std::string way_warning(const Scene& scene, const std::string& what, const Span&
                   : "the brakes stop it before");
 }
 
-/// Sentence where what the scene evaluates lies behind the wheel's start.
-std::string behind_warning(const Scene& scene, const std::string& what, const Span& aim) {
-  if (!scene.motion || aim.last > scene.start_x()) return "";
-  return fmt::format(
-      "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that nothing is evaluated: "
-      "its values in the summary are no results; let it lie ahead of the start",
-      scene.start_x(), what, aim.first, aim.last);
-}
-
 /// Sentence if a wheel does not roll over what the scene evaluates.
 std::string place_warning(const Scene& scene) {
+  std::string what = "the solution zone";
+  Span place{scene.zone_start, scene.solution_zone().end()};
+  double enough = place.first;
+  const char* lost = "the run leaves no stresses";
   if (scene.corrugation) {
     const Corrugation corrugation = corrugation_of(*scene.corrugation, 0);
-    const Span place{corrugation.first(), corrugation.last()};
-    const std::string behind = behind_warning(scene, "the corrugation", place);
-    return behind.empty() ? way_warning(scene, "the corrugation", place, corrugation.last(),
-                                        "values over it are incomplete")
-                          : behind;
+    what = "the corrugation";
+    place = {corrugation.first(), corrugation.last()};
+    enough = place.last;
+    lost = "values over it are incomplete";
   }
-  const Span zone{scene.zone_start, scene.solution_zone().end()};
-  const std::string behind = behind_warning(scene, "the solution zone", zone);
-  return behind.empty()
-             ? way_warning(scene, "the solution zone", zone, scene.zone_start, "the run leaves no stresses")
-             : behind;
+  if (scene.motion && place.last <= scene.start_x())
+    return fmt::format(
+        "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that nothing is "
+        "evaluated: "
+        "its values in the summary are no results; let it lie ahead of the start",
+        scene.start_x(), what, place.first, place.last);
+  return way_warning(scene, what, place, enough, lost);
 }
 
 /// Sentence where the corrugation lies under the wheel at the start, whose static state has a smooth rail.
@@ -82,9 +78,8 @@ std::string start_warning(const Model& model) {
   if (std::abs(deepest) <= kHardly * model.hertz_patch.approach) return "";
   return fmt::format(
       "the corrugation is {:.3g} um deep under the wheel at its start, x = {:.4g} m, where the static state "
-      "has "
-      "a smooth rail: F_N jumps; let corrugation.start lie {:.3g} mm ahead, or state it as [surface.NAME], "
-      "which the static state has",
+      "has a smooth rail: F_N jumps; let corrugation.start lie {:.3g} mm ahead, or state it as "
+      "[surface.NAME], which the static state has",
       1e6 * deepest, scene.start_x(), 2e3 * half);
 }
 

@@ -154,6 +154,7 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
   r.evaluated_last = std::min(reached, stretch.last);
   if (r.evaluated_first > reached) r.evaluated_first = model.scene.start_x();
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  r.evaluated_samples = std::count_if(r.samples.begin(), r.samples.end(), evaluated);
   r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
   r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
   r.longitudinal_force =

@@ -33,14 +33,10 @@ std::string steadiness_warning(const Model& model, const RunResults& r) {
 
 /// Sentence where no sample lies in the stretch that the summary evaluates.
 std::string empty_warning(const RunResults& r) {
-  const bool any = std::any_of(r.samples.begin(), r.samples.end(), [&](const Sample& s) {
-    return s.wheel_x >= r.evaluated_first && s.wheel_x <= r.evaluated_last;
-  });
-  if (any) return "";
+  if (r.evaluated_samples > 0) return "";
   return fmt::format(
       "no sample lies in the evaluated stretch, x = {:.6g} to {:.6g} m: its values in the summary are 0 and "
-      "no "
-      "results; a longer solution_zone.length or corrugation, or a shorter output.history_interval gives "
+      "no results; a longer solution_zone.length or corrugation, or a shorter output.history_interval gives "
       "some",
       r.evaluated_first, r.evaluated_last);
 }
