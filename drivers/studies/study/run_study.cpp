@@ -167,16 +167,14 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
       ++left;
   }
   if (!stopped_by.empty())
-    return Interrupted(fmt::format("stopped by {}; nothing is lost: {} goes on with {} points", stopped_by,
+    return Interrupted(fmt::format("stopped by {}; nothing is lost: `{}` goes on with {} points", stopped_by,
                                    resume_command, left));
   if (failed > 0)
-    return Error(
-        plan.failure_code(),
-        fmt::format("{} of {} points failed:{}\n`{} --retry` tries them again", failed, plan.points.size(),
-                    failures, std::string_view(resume_command).substr(1, resume_command.size() - 2)));
+    return Error(plan.failure_code(), fmt::format("{} of {} points failed:{}\n`{} --retry` tries them again",
+                                                  failed, plan.points.size(), failures, resume_command));
   if (left > 0)
     return Interrupted(
-        fmt::format("{} points are not done (see the log above); {} goes on", left, resume_command));
+        fmt::format("{} points are not done (see the log above); `{}` goes on", left, resume_command));
   return std::nullopt;
 }
 
@@ -218,12 +216,12 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   choose_processes(plan, options);
   if (options.output.empty() && !options.list)
     throw InputError("-o is missing: the folder for the runs; --list shows them without it");
-  const std::string resume_command = fmt::format("`{}`", options.origin.command);
+  const std::string& resume_command = options.origin.command;
   const std::string command = command_word(options.origin.command);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first run", fmt::format("tread: stopped at once; the "
                                                                                "runs go on from their last "
-                                                                               "checkpoints with {}",
+                                                                               "checkpoints with `{}`",
                                                                                resume_command));
   std::optional<RunFolder> folder;
   if (!options.list) {
