@@ -4,6 +4,7 @@
 
 #include "core/inline.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "kernels/lanes/prefetch.hpp"
 
 namespace tread {
 namespace {
@@ -35,14 +36,6 @@ TREAD_INLINE V load(const Real* at) {
 template <class V, class Real>
 TREAD_INLINE void store(Real* at, const V& value) {
   *reinterpret_cast<Unaligned<V, Real>*>(at) = value;
-}
-
-/// Fetches the components from `first` on of a node of a tile into the cache.
-template <int to_write, int first = 0, class Value>
-TREAD_INLINE void prefetch_vector(const Value* at) {
-  constexpr int kLine = 64 / static_cast<int>(sizeof(Value));
-  for (int value = first * kLanes / kLine * kLine; value < 3 * kLanes; value += kLine)
-    __builtin_prefetch(at + value, to_write);
 }
 
 /// Number of values in a register.

@@ -8,6 +8,7 @@
 
 #include "core/index.hpp"
 #include "core/parallel/parallel.hpp"
+#include "kernels/lanes/prefetch.hpp"
 #include "kernels/solver/aggregate_parts.hpp"
 
 namespace tread {
@@ -219,18 +220,13 @@ std::array<double, 6> Aggregates::mode_row(std::int64_t unknown) const {
 template <class Visit>
 void Aggregates::for_each_slot(const Item& item, const double* field, const Visit& visit) const {
   constexpr std::size_t kAhead = 8;
-  constexpr std::int64_t kLine = 8;  // values
   const Part& part = parts_[index(item.part)];
   const SweptBlock& block = *part.block;
   const auto slot_of = [&](std::size_t i) {
     return block.base + (std::int64_t{item.tile} * block.section.nodes() + part.nodes[i]) * kLanes;
   };
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    if (i + kAhead < part.nodes.size()) {
-      // In a function of its own, which changes nothing, GCC leaves it out.
-      const double* const later = field + dof(slot_of(i + kAhead), 0);
-      for (std::int64_t value = 0; value < 3 * kLanes; value += kLine) __builtin_prefetch(later + value);
-    }
+    if (i + kAhead < part.nodes.size()) prefetch_vector<0>(field + dof(slot_of(i + kAhead), 0));
     const std::size_t node = index(part.nodes[i]);
     visit(block.section.p[node], block.section.q[node], slot_of(i));
   }
