@@ -1,4 +1,5 @@
 #pragma once
+// Lists from marks.
 
 #include <cstdint>
 #include <iterator>

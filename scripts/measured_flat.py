@@ -30,13 +30,14 @@ def slices(examples):
     """Angles, y (1 mm apart) and z (down) of the wheel's slices."""
     listed = re.findall(r"^\s*(-?\d+\.\d+)\s+'(.*?)'", (examples / "S1002_flat.slcw").read_text(), re.M)
     angle = np.array([float(a) for a, _ in listed])
-    y = np.arange(-28, 40.5)
+    y = np.arange(-40, 52.5)  # wider than wanted: splines bend at their ends
     z = []
     for _, name in listed:
         points = np.loadtxt(examples / name)[::-1]
-        z.append(np.interp(np.arange(-40, 52.5), points[:, 0], points[:, 1]))
-    second = np.diff(np.eye(len(z[0])), 2, axis=0)
-    z = np.linalg.solve(np.eye(len(z[0])) + 5 * second.T @ second, np.array(z).T).T[:, 12:81]
+        z.append(np.interp(y, points[:, 0], points[:, 1]))
+    second = np.diff(np.eye(len(y)), 2, axis=0)
+    wanted = (y >= -28) & (y <= 40)
+    y, z = y[wanted], np.linalg.solve(np.eye(len(y)) + 5 * second.T @ second, np.array(z).T).T[:, wanted]
     spline = z.copy()
     spline[1:-1] = (z[:-2] + 4 * z[1:-1] + z[2:]) / 6
     return angle, y, spline

@@ -344,8 +344,7 @@ void resume_run(const RunOptions& options) {
     if (!options.overrides.empty())
       throw InputError(
           fmt::format("--set {}: {} holds a finished run, which cannot go on; start another one with these "
-                      "values, from a "
-                      "state that [forks] has kept if it is to have the same past",
+                      "values, from a state that [forks] has kept if it is to have the same past",
                       options.overrides.front(), options.output.string()));
     session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
                                      (session.folder / "report.html").string()));

@@ -100,8 +100,7 @@ void ContactSearch::choose_edges() {
   if (first_edge_ >= last_edge_)
     throw InputError(
         "contact: no middle of a face of the rail lies under the wheel's profile; change "
-        "wheel.lateral_offset, "
-        "widen the wheel (wheel.width), or state a smaller scene.element_size");
+        "wheel.lateral_offset, widen the wheel (wheel.width), or state a smaller scene.element_size");
   for (double& one : gap) one -= closest;
 }
 

@@ -279,7 +279,7 @@ double whole_foot_compliance(const BeamProperties& beam) {
   return beam.foot_compliance + beam.foot_warping * beam.foot_warping / beam.shear_stiffness;
 }
 
-/// How a foot is held along x.
+/// The hold of a foot along x over a stretch.
 struct FootHolding {
   double length = 0;      ///< [m]
   double pitch = 0;       ///< of the places that stand for it, at the most [m]
