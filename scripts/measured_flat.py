@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Presses the measured flat of CONTACT's example `wheelflat` on its rail: measured_flat.py EXAMPLES TREAD FOLDER [--size MM]
-[ANGLE ...]
+"""Presses the measured flat of CONTACT's example `wheelflat` on its rail:
+measured_flat.py EXAMPLES TREAD FOLDER [ANGLE ...] [--size MM]
 
 EXAMPLES is CONTACT's folder of examples (S1002_flat.slcw, S1002_flat/, wheelflat.ref_out). For each angle [deg] of the wheel
 (default: seven of the example's) the program TREAD finds the static state of a half wheelset under 125 kN on elements of
@@ -21,7 +21,7 @@ LOAD = 125e3  # [N]
 SHEAR, POISSON = 82e3, 0.28  # [N/mm2]
 CANT = 0.02  # of the rail
 OFFSET = 7.4  # y of the rail's middle on the wheel, by the example's contact place on the round wheel
-TILT = 0.0028  # by which the bent axle turns the wheel against the rail
+COARSE = 2.2  # elements on which the tilts are found [mm]
 FLAT = (0.40, 0.90)  # angles about the flat [rad]
 FIRST_ANGLE = 25  # of the example [deg]
 
@@ -134,6 +134,52 @@ def by_contact(examples):
     return {FIRST_ANGLE + k: (float(p[-1]), 0.16 * int(n[1])) for k, (p, n) in enumerate(zip(after["PMAX"], after["NPOT"]))}
 
 
+def tread_run(options, angle, size, wheel_tilt, rail_tilt):
+    """Summary of the static state on elements of `size` [mm], with rail and wheel placed so that they stand as in the example
+    once the load has turned them by these tilts [rad]."""
+    offset = OFFSET + wheel_tilt * RADIUS
+    scene = options.folder / f"{angle}.toml"
+    scene.write_text(f"""[scene]
+based_on = "ballasted-60e1"
+element_size = "{size} mm"
+gravity = "0 m/s2"
+[load]
+wheel_load = "{LOAD:g} N"
+[rail]
+profile = "rail.txt"
+section = "60E1"
+material = "stiff"
+head_material = "steel"
+support = "rigid"
+length = "0.6 m"
+origin = "0.3 m"
+inclination = {CANT + wheel_tilt - rail_tilt:g}
+[material.steel]
+youngs_modulus = "{2e-3 * SHEAR * (1 + POISSON):g} GPa"
+poissons_ratio = {POISSON}
+[material.stiff]
+youngs_modulus = "{2e-2 * SHEAR * (1 + POISSON):g} GPa"
+poissons_ratio = {POISSON}
+density = "7850 kg/m3"
+[wheel]
+diameter = "{2 * RADIUS:g} mm"
+lateral_offset = "{offset:g} mm"
+[solution_zone]
+start = "-25 mm"
+length = "50 mm"
+[surface.flat]
+kind = "map"
+on = "wheel"
+at = "{-(np.radians(angle) - FLAT[0]) * RADIUS:.4f} mm"
+file = "map.csv"
+centre = "{-offset:g} mm"
+""" + "".join(f"[{table}]\npresent = false\n" for table in ("motion", "vehicle", "fastenings", "sleepers", "material.concrete")),
+                     encoding="utf-8")
+    out = options.folder / f"{angle}"
+    subprocess.run([options.tread, "run", str(scene), "-o", str(out), "--overwrite", "--quiet"], check=True)
+    return json.loads((out / "summary.json").read_text(encoding="utf-8"))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("examples", type=pathlib.Path)
@@ -149,45 +195,17 @@ def main():
         print("# x [mm], y [mm], d [um]", file=file)
         for i, along in enumerate(x):
             for j, across in enumerate(y):
-                print(f"{along:g},{across - OFFSET:g},{1e3 * depth[i, j]:.2f}", file=file)
+                print(f"{along:g},{across:g},{1e3 * depth[i, j]:.2f}", file=file)
     with open(options.folder / "rail.txt", "w", encoding="utf-8") as file:
         print("# y [mm] z [mm]", *(f"{a:.6f} {b:.6f}" for a, b in head), sep="\n", file=file)
     contact = by_contact(options.examples)
     print("| angle | CONTACT: MPa, mm2 | half-spaces of the map: MPa, mm2 | its middle [mm] | tread: MPa, mm2 | its middle [mm] |")
     print("|--:|--:|--:|--:|--:|--:|")
     for angle in options.angles:
-        scene = options.folder / f"{angle}.toml"
-        scene.write_text(f"""[scene]
-based_on = "ballasted-60e1"
-element_size = "{options.size} mm"
-gravity = "0 m/s2"
-[load]
-wheel_load = "{LOAD:g} N"
-[rail]
-profile = "rail.txt"
-section = "60E1"
-support = "rigid"
-length = "0.6 m"
-origin = "0.3 m"
-inclination = {CANT - TILT:g}
-[material.steel]
-youngs_modulus = "{2e-3 * SHEAR * (1 + POISSON):g} GPa"
-poissons_ratio = {POISSON}
-[wheel]
-diameter = "{2 * RADIUS:g} mm"
-lateral_offset = "{OFFSET} mm"
-[solution_zone]
-start = "-25 mm"
-length = "50 mm"
-[surface.flat]
-kind = "map"
-at = "{-(np.radians(angle) - FLAT[0]) * RADIUS:.4f} mm"
-file = "map.csv"
-""" + "".join(f"[{table}]\npresent = false\n" for table in ("motion", "vehicle", "fastenings", "sleepers", "material.concrete")),
-                         encoding="utf-8")
-        out = options.folder / f"{angle}"
-        subprocess.run([options.tread, "run", str(scene), "-o", str(out), "--overwrite", "--quiet"], check=True)
-        run = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+        tilts = (0.0, 0.0)
+        for size in (COARSE, COARSE, options.size):
+            run = tread_run(options, angle, size, *tilts)
+            tilts = (run["wheel_tilt_rad"], run["rail_tilt_rad"])
         ours = half_spaces(np.radians(angle), x, y, depth, round_z, head)
         pressure, area = 1e-6 * run["static_max_pressure_Pa"], 1e6 * run["static_patch_area_m2"]
         print(f"| {angle} | {contact[angle][0]:.0f}, {contact[angle][1]:.0f} | {ours[0]:.0f}, {ours[1]:.0f} | {ours[2]:.1f} | "

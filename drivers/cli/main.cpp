@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -161,6 +164,13 @@ int run_on(tread::Ranks& ranks, int argc, char** argv) {
   return code;
 }
 
+/// ResourceError where standard output has not taken all that was printed.
+void require_shown() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw tread::ResourceError(
+      fmt::format("standard output: {}; what it shows is not complete", std::strerror(errno)));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -170,6 +180,7 @@ int main(int argc, char** argv) {
     tread::choose_ranks(ranks);
     const int code = ranks ? run_on(*ranks, argc, argv) : run(argc, argv);
     tread::choose_ranks(nullptr);
+    require_shown();
     return code;
   });
 }

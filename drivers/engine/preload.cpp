@@ -88,8 +88,10 @@ void describe(const Model& model, Preload& out) {
   const double* u = out.displacement.data();
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const double x = out.wheel.origin.x;
-  if (model.index.rail_cap >= 0 && model.index.tread >= 0)
+  if (model.index.rail_cap >= 0 && model.index.tread >= 0) {
+    out.rail_tilt = rail_tilt(model, u, x);
     out.rail_deflection = -foot_of_rail(model.scene, model.mesh, model.index).attach_near(x, 0).value(u, 2);
+  }
   if (model.index.slab >= 0)
     out.slab_deflection =
         -attach(model.mesh.blocks[static_cast<std::size_t>(model.index.slab)], "top", x, 0).value(u, 2);
@@ -111,6 +113,18 @@ double wheel_tilt(const Model& model, ConstNodeField displacement, double angle)
       second += down * down;
     }
   return moment / second;
+}
+
+double rail_tilt(const Model& model, ConstNodeField displacement, double x) {
+  const SweptBlock& head = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
+  const auto above = std::upper_bound(head.stations.begin(), head.stations.end(), x);
+  const int station = std::max(static_cast<int>(above - head.stations.begin()) - 1, 0);
+  const auto [left, right] = std::minmax_element(head.section.p.begin(), head.section.p.end());
+  const auto height = [&](auto side) {
+    const auto node = static_cast<int>(side - head.section.p.begin());
+    return displacement[dof(head.base + head.slot(node, station), 2)];
+  };
+  return (height(right) - height(left)) / (*right - *left);
 }
 
 double deepest_line(const Scene& scene, const Preload& preload) {

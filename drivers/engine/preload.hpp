@@ -35,6 +35,7 @@ struct Preload {
   double held_moment = 0;   ///< reaction of its held rotation about the axle [N m]
   // At rest, before any run-in:
   double tilt = 0;             ///< of the wheel about x, from the tread's mean [rad]
+  double rail_tilt = 0;        ///< of the rail's head under the wheel about x [rad]
   double rail_deflection = 0;  ///< downwards, of the rail's foot under the wheel [m]
   double slab_deflection = 0;  ///< [m]
   ContactTotals contact;
@@ -51,6 +52,7 @@ struct Preload {
     list.add("held_force_x", held_force_x);
     list.add("held_moment", held_moment);
     list.add("tilt", tilt);
+    list.add("rail_tilt", rail_tilt);
     list.add("rail_deflection", rail_deflection);
     list.add("slab_deflection", slab_deflection);
     list.add_records("contact", std::span(&contact, 1));
@@ -70,6 +72,10 @@ SteadyMotion steady_motion(const Model& model);
 /// Rotation of the tread about x, positive when its lowest point moves to the field side: fitted to its
 /// nodes' lateral displacement; `angle` is the wheel frame's [rad].
 double wheel_tilt(const Model& model, ConstNodeField displacement, double angle);
+
+/// Rotation of the rail's head about x at a place along it [m], by the sinking of its two sides: positive
+/// where the gauge side sinks.
+double rail_tilt(const Model& model, ConstNodeField displacement, double x);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);

@@ -172,7 +172,7 @@ Chapter patch_chapter(const Run& run) {
         Text{"Seen from above, rolling to the right; a cell for each surface node that touches."});
   }
   if (!r.movie.empty()) chapter.blocks.emplace_back(patch_movie(run.model, r));
-  chapter.blocks.emplace_back(patch_figure(run.model, r));
+  if (run.rolled()) chapter.blocks.emplace_back(patch_figure(run.model, r));
   return chapter;
 }
 
@@ -201,6 +201,7 @@ Chapter preload_chapter(const Run& run) {
     q.add("Centre of pressure across the wheel", 1e3 * (contact.centre.y + scene.wheel->lateral_offset), "mm",
           "from the nominal rolling circle");
     q.add("Tilt of the wheel about x", 1e3 * p.tilt, "mrad");
+    q.add("Tilt of the rail's head about x", 1e3 * p.rail_tilt, "mrad");
   }
   if (scene.rail && scene.rail->support == "fastenings" && run.model.contact) {
     std::string remark;
@@ -356,8 +357,8 @@ void write_run_report(const std::filesystem::path& path, const Model& model, con
     report.chapters.push_back(
         {"Creepage", {creepage_figure(model, results, creepage_levels(run.references))}});
     if (!results.surface.axis.empty()) report.chapters.push_back(surface_chapter(run));
-    report.chapters.push_back(patch_chapter(run));
   }
+  if (Chapter patch = patch_chapter(run); !patch.blocks.empty()) report.chapters.push_back(std::move(patch));
   if (Chapter measured = measurement_chapter(model, results); !measured.blocks.empty())
     report.chapters.push_back(std::move(measured));
   if (model.hammer && !results.samples.empty())

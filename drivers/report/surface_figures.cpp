@@ -121,7 +121,7 @@ Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
 PatchMovie patch_movie(const Model& model, const RunResults& r) {
   PatchMovie movie;
   movie.name = "patch-movie";
-  movie.title = "The patch on its way";
+  movie.title = r.samples.empty() ? "The patch at rest" : "The patch on its way";
   movie.x_label = "Along the rail from the wheel's axis [mm]";
   movie.y_label = "Across the rail [mm]";
   movie.labels = {"Pressure [MPa]", "Surface shear stress [MPa]", "Slip speed [mm/s]"};

@@ -25,10 +25,16 @@ constexpr double kSlope = 0.05;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
 
-/// Sentence if a rolling wheel does not come to x = `enough` [m] of `aim`.
+/// Sentence if a rolling wheel starts ahead of `aim`, or does not come to x = `enough` [m] of it.
 std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
                         const char* lost) {
-  if (!scene.motion || scene.motion->speed <= 0) return "";
+  if (!scene.motion) return "";
+  if (aim.last <= scene.start_x())
+    return fmt::format(
+        "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that {}; let it lie ahead "
+        "of the start",
+        scene.start_x(), what, aim.first, aim.last, lost);
+  if (scene.motion->speed <= 0) return "";
   const double way = travel_of(scene).last;
   if (way >= enough) return "";
   const std::optional<double> enough_time = duration_to(scene, aim.last);
@@ -52,12 +58,8 @@ std::string place_warning(const Scene& scene) {
     enough = place.last;
     lost = "values over it are incomplete";
   }
-  if (scene.motion && place.last <= scene.start_x())
-    return fmt::format(
-        "the wheel starts at x = {:.4g} m, ahead of {}, x = {:.4g} to {:.4g} m, so that nothing is "
-        "evaluated: "
-        "its values in the summary are no results; let it lie ahead of the start",
-        scene.start_x(), what, place.first, place.last);
+  if (place.last <= scene.start_x())
+    lost = "nothing is evaluated: its values in the summary are no results";
   return way_warning(scene, what, place, enough, lost);
 }
 

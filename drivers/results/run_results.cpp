@@ -286,6 +286,7 @@ void add_static_contact(const Model& model, const RunResults& r, Json& json) {
   json["contact_centre_y_m"] = r.preload.contact.centre.y;
   json["rail_deflection_m"] = r.preload.rail_deflection;
   json["wheel_tilt_rad"] = r.preload.tilt;
+  json["rail_tilt_rad"] = r.preload.rail_tilt;
   json["wheelset_mass_kg"] = model.wheelset->mass();
   json["wheelset_inertia_kg_m2"] = model.wheelset->inertia();
 }

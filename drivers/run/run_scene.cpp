@@ -19,6 +19,7 @@
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/disk_use.hpp"
 #include "drivers/results/frame_files.hpp"
+#include "drivers/results/patch_file.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/root_attributes.hpp"
 #include "drivers/results/run_results.hpp"
@@ -59,6 +60,16 @@ void leave_surface(const Model& model, RunResults& results, const std::filesyste
   results.instants =
       read_patch(patch, typical_places(model.scene, stretch, 4 * model.contact->reach(), x, pressure));
   results.movie = read_patch(patch, even_places(stretch, kMovieFrames));
+}
+
+/// Writes the patch of the static state where nothing rolls after it.
+void leave_static_patch(const Model& model, RunResults& results, const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / kPatchFile;
+  const double x = results.preload.wheel.origin.x;
+  PatchFile file(path, model.contact->nodes(), root_attributes(model.scene));
+  file.append(0, x, model.contact->nodes());
+  file.close();
+  results.movie = read_patch(path, {x});
 }
 
 void obey_before_first_step(const RunSession& session) {
@@ -172,6 +183,7 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
       session.progress.say(fmt::format("[resume] {}: the last bits may differ", other));
   } else {
     find_statics(session, made, model, results);
+    if (model.contact && !scene.motion) leave_static_patch(model, results, session.folder.path());
     model.apply_corrugation(deepest_line(scene, results.preload));
   }
   if (fork) begin_fork(session, *fork, model, results);

@@ -5,12 +5,16 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
+#include "drivers/results/growing_files.hpp"
+#include "drivers/results/patch_file.hpp"
 #include "tests/program.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -175,6 +179,33 @@ TEST_F(Commands, RunOfABarLeavesEverything) {
   EXPECT_FALSE(has(report, "Creepage"));
 }
 
+TEST_F(Commands, AStaticRunLeavesItsPatch) {
+  EXPECT_EQ(call(fmt::format("run -t 1 --json --quiet -o {} {} --set \"scene.element_size=4 mm\"",
+                             folder_.string(), scene("sphere-on-block.toml")))
+                .code,
+            0);
+  const fs::path file = folder_ / kPatchFile;
+  const PatchAxes axes = read_patch_axes(file);
+  const std::vector<PatchSample> samples = read_patch(file, {0});
+  ASSERT_EQ(samples.size(), 1);
+  const PatchWindow patch(axes, samples.front());
+  const double pitch = patch.x(1) - patch.x(0);
+  double force = 0;
+  for (int i = 0; i < patch.stations(); ++i)
+    for (std::size_t row = 1; row + 1 < axes.y.size(); ++row)
+      force += pitch * 0.5 * (axes.y[row + 1] - axes.y[row - 1]) * patch.pressure(i, static_cast<int>(row));
+  EXPECT_NEAR(force / 87564, 1, 0.01);
+  EXPECT_TRUE(has(content("report.html"), "The patch at rest"));
+  EXPECT_TRUE(has(content("summary.json"), "\"rail_tilt_rad\""));
+}
+
+TEST_F(Commands, AFullStandardOutputIsAnError) {
+  const std::string command = fmt::format("{} check -t 1 {} >/dev/full 2>{}", TREAD_EXECUTABLE,
+                                          scene("bar-wave.toml"), (folder_ / "errors").string());
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 4);
+  EXPECT_TRUE(has(content("errors"), "standard output")) << content("errors");
+}
+
 TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   const auto warnings = [&](const std::string& file, const std::string& set) {
     return call("check --json -t 1 --set \"scene.element_size=11 mm\" " + set + " " + scene(file)).out;
@@ -189,6 +220,7 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
+  EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.at=-1 m\""), "ahead of surface.squat"));
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"solution_zone.start=-3 m\""), "so that nothing is evaluated"));
   EXPECT_TRUE(has(warnings("corrugation-d.toml",
@@ -396,7 +428,9 @@ TEST_F(Commands, ProfileShowsWritesAndMeets) {
   EXPECT_EQ(call(fmt::format("profile {} --rail --wheel", clean.string())).code, 2);
   EXPECT_EQ(call("profile LMA --against S1002").code, 2);
   EXPECT_EQ(call("profile LMA --against CN60 --inclination steep").code, 2);
-  EXPECT_EQ(call("profile S1002 --smoothing 1").code, 0);  // nothing to smooth: built in
+  for (const std::string option : {"--smoothing '0.1 mm'", "--shift '2 mm'", "--mirrored", "--section 60E1"})
+    EXPECT_TRUE(has(call("profile S1002 --against 60E1 " + option).errors, "and none is given")) << option;
+  EXPECT_EQ(call(fmt::format("profile {} --wheel --mirrored", clean.string())).code, 2);
   EXPECT_EQ(call(fmt::format("profile {} --wheel --smoothing 1", clean.string())).code, 2);
 }
 

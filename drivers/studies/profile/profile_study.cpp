@@ -172,6 +172,21 @@ double inclination_of(const ProfileOptions& options) {
   }
 }
 
+/// InputError for an option of files, or of a rail's file, where none is shown.
+void require_what_options_change(const ProfileOptions& options, const std::vector<ShownProfile>& shown) {
+  const ProfileOptions usual;
+  const auto require = [&](bool stated, const char* option, const char* what, bool of_rail) {
+    const auto changed = [&](const ShownProfile& one) { return one.file && !(of_rail && one.wheel); };
+    if (stated && std::ranges::none_of(shown, changed))
+      throw InputError(
+          fmt::format("{} changes the points of a {}, and none is given; leave it out", option, what));
+  };
+  require(options.shift != usual.shift, "--shift", "file", false);
+  require(options.smoothing != usual.smoothing, "--smoothing", "file", false);
+  require(options.mirrored, "--mirrored", "rail's file", true);
+  require(options.section != usual.section, "--section", "rail's file", true);
+}
+
 }  // namespace
 
 void profile(const ProfileOptions& options) {
@@ -187,6 +202,9 @@ void profile(const ProfileOptions& options) {
     coarse = touching_over_offset(rail, inclination_of(options), wheel, 1 * mm);
     if (!options.svg.empty()) fine = touching_over_offset(rail, inclination_of(options), wheel, 0.1 * mm);
   }
+  std::vector<ShownProfile> all = {shown};
+  if (other) all.push_back(*other);
+  require_what_options_change(options, all);
   if (!options.output.empty()) write_text_file(options.output, columns_of(shown));
   if (!options.svg.empty()) {
     write_text_file(options.svg, figure_svg(profile_figure(shown)));
