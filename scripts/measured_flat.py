@@ -20,50 +20,76 @@ RADIUS = 490.0  # [mm], as all lengths here
 LOAD = 125e3  # [N]
 SHEAR, POISSON = 82e3, 0.28  # [N/mm2]
 CANT = 0.02  # of the rail
-OFFSET = 7.4  # y of the rail's middle on the wheel, by the example's contact place on the round wheel
+OFFSET = 7.44  # y of the rail's middle on the wheel: by the gauge face, 14 mm below the top, and the wheels' distance
+SMOOTHING = 5.0  # the example's, of the integral of the squared second derivative against the sum of squared misfits [mm3]
+STEP = 0.25  # of the map
 COARSE = 2.2  # elements on which the tilts are found [mm]
 FLAT = (0.40, 0.90)  # angles about the flat [rad]
 FIRST_ANGLE = 25  # of the example [deg]
 
 
+def smoothed(s, values, at):
+    """Natural cubic smoothing spline of columns of values at s; its values at `at`."""
+    h = np.diff(s)
+    n = len(h) - 1
+    bend, mass = np.zeros((n + 2, n)), np.diag((h[:-1] + h[1:]) / 3) + np.diag(h[1:-1] / 6, 1) + np.diag(h[1:-1] / 6, -1)
+    for i in range(n):
+        bend[i : i + 3, i] = 1 / h[i], -1 / h[i] - 1 / h[i + 1], 1 / h[i + 1]
+    second = np.linalg.solve(mass + SMOOTHING * bend.T @ bend, bend.T @ values)
+    fitted = values - SMOOTHING * bend @ second
+    second = np.pad(second, ((1, 1), (0, 0)))
+    i = np.clip(np.searchsorted(s, at) - 1, 0, n)
+    b = ((at - s[i]) / h[i])[:, None]
+    a = 1 - b
+    return a * fitted[i] + b * fitted[i + 1] + ((a**3 - a) * second[i] + (b**3 - b) * second[i + 1]) * h[i, None] ** 2 / 6
+
+
+def around(angle, z, at):
+    """z at angles of cubic B-splines with the slices' angles as knots and the slices as coefficients."""
+    before, after = np.arange(-2, 0) * (angle[1] - angle[0]), np.arange(1, 3) * (angle[-1] - angle[-2])
+    t, at = np.concatenate([angle[0] + before, angle, angle[-1] + after]), at[:, None]
+    basis = ((t[:-1] <= at) & (at < t[1:])).astype(float)
+    for k in (1, 2, 3):
+        rise = (at - t[:-k]) / (t[k:] - t[:-k])
+        basis = rise[:, :-1] * basis[:, :-1] + (1 - rise[:, 1:]) * basis[:, 1:]
+    return basis @ z
+
+
 def slices(examples):
-    """Angles, y (1 mm apart) and z (down) of the wheel's slices."""
+    """Angles, y (STEP apart) and z (down) of the wheel's slices, smoothed."""
     listed = re.findall(r"^\s*(-?\d+\.\d+)\s+'(.*?)'", (examples / "S1002_flat.slcw").read_text(), re.M)
-    angle = np.array([float(a) for a, _ in listed])
-    y = np.arange(-40, 52.5)  # wider than wanted: splines bend at their ends
+    y = np.arange(-28, 40 + STEP / 2, STEP)
     z = []
     for _, name in listed:
         points = np.loadtxt(examples / name)[::-1]
-        z.append(np.interp(y, points[:, 0], points[:, 1]))
-    second = np.diff(np.eye(len(y)), 2, axis=0)
-    wanted = (y >= -28) & (y <= 40)
-    y, z = y[wanted], np.linalg.solve(np.eye(len(y)) + 5 * second.T @ second, np.array(z).T).T[:, wanted]
-    spline = z.copy()
-    spline[1:-1] = (z[:-2] + 4 * z[1:-1] + z[2:]) / 6
-    return angle, y, spline
+        s = np.append(0, np.hypot(*np.diff(points, axis=0).T).cumsum())
+        fine = smoothed(s, points, np.arange(0, s[-1], 0.1))
+        tread = fine[np.argmax(fine[:, 0] > -32) :]  # its y grows
+        z.append(np.interp(y, tread[:, 0], tread[:, 1]))
+    return np.array([float(a) for a, _ in listed]), y, np.array(z)
 
 
 def depth_map(examples):
-    """x (1 mm apart, from FLAT's begin), y, depth(x, y) and the round wheel's z(y)."""
+    """x (STEP apart, from FLAT's begin), y, depth(x, y) and the round wheel's z(y)."""
     angle, y, z = slices(examples)
     beside = ((angle > FLAT[0]) & (angle < 0.48)) | ((angle > 0.82) & (angle < FLAT[1]))
     round_z = z[beside].mean(axis=0)
-    x = np.arange(0, (FLAT[1] - FLAT[0]) * RADIUS)
+    x = np.arange(0, (FLAT[1] - FLAT[0]) * RADIUS, STEP)
     ends = np.clip(np.minimum(x, x[-1] - x) / 15, 0, 1)
-    depth = np.array([np.interp(FLAT[0] + x / RADIUS, angle, column) for column in (round_z - z).T]).T
-    return x, y, depth * ends[:, None], round_z
+    return x, y, (round_z - around(angle, z, FLAT[0] + x / RADIUS)) * ends[:, None], round_z
 
 
 def rail_head():
-    """y and z (up) of arcs of 300 and 60 mm and of one that becomes upright at 36 mm."""
-    points, slope = [(0.0, 0.0)], 0.0
-    for radius, end in ((300.0, 8.0), (60.0, 24.0), (None, 36.0)):
+    """y and z (up) of arcs of 300 mm, 16 mm long, and 60 mm, and of one that becomes upright at 36 mm. The example's third arc
+    begins later, beside the contact, and makes a head wider than the section's."""
+    points, begin = [(0.0, 0.0)], 0.0
+    for radius, length in ((300.0, 16.0), (60.0, 13.0), (None, 0.0)):
         y0, z0 = points[-1]
-        radius = radius or (end - y0) / (1 - slope)
-        last = min(slope + (end - y0) / radius, np.sin(0.985 * np.pi / 2))
-        for sine in slope + (last - slope) * np.linspace(0, 1, 81)[1:]:
-            points.append((y0 + radius * (sine - slope), z0 - radius * (np.sqrt(1 - slope**2) - np.sqrt(1 - sine**2))))
-        slope = last
+        radius = radius or (36 - y0) / (1 - np.sin(begin))
+        end = begin + length / radius if length else 0.985 * np.pi / 2
+        for a in np.linspace(begin, end, 81)[1:]:
+            points.append((y0 + radius * (np.sin(a) - np.sin(begin)), z0 - radius * (np.cos(begin) - np.cos(a))))
+        begin = end
     right = np.array(points)
     return np.vstack([right[:0:-1] * [-1, 1], right])
 
@@ -109,14 +135,16 @@ def press(gap, step):
     return p
 
 
-def half_spaces(angle, x, y, depth, round_z, head):
-    """Largest pressure, area and middle across, from the rail's middle, at an angle [rad]."""
+def half_spaces(angle, x, y, depth, round_z, head, place):
+    """Largest pressure, area and middle across, from the rail's middle, at an angle [rad], by elements of 0.4 mm of which one
+    has its middle at `place` (along; across, from the wheel's y = 0)."""
     step = 0.4
-    gx, gy = np.meshgrid(np.arange(-24, 24, step) + step / 2, np.arange(-12, 36, step) + step / 2, indexing="ij")
-    along = (angle - FLAT[0]) * RADIUS + gx
+    mesh = (np.arange(120) - 60) * step
+    gx, gy = np.meshgrid(mesh + place[0] % step, mesh + 12 + (place[1] - 12) % step, indexing="ij")
+    along, across = ((angle - FLAT[0]) * RADIUS + gx - x[0]) / (x[1] - x[0]), (gy - y[0]) / (y[1] - y[0])
     i = np.clip(np.floor(along).astype(int), 0, len(x) - 2)
-    j = np.clip(np.floor(gy - y[0]).astype(int), 0, len(y) - 2)
-    a, b = np.clip(along - x[i], 0, 1), gy - y[j]
+    j = np.clip(np.floor(across).astype(int), 0, len(y) - 2)
+    a, b = np.clip(along - i, 0, 1), across - j
     z = round_z - depth
     z = (1 - a) * ((1 - b) * z[i, j] + b * z[i, j + 1]) + a * ((1 - b) * z[i + 1, j] + b * z[i + 1, j + 1])
     wheel = np.sqrt((RADIUS + z) ** 2 - gx**2)
@@ -128,10 +156,11 @@ def half_spaces(angle, x, y, depth, round_z, head):
 
 
 def by_contact(examples):
-    """Largest pressure and area by angle, as wheelflat.ref_out has them."""
+    """Largest pressure, area and place (middle of an element) by angle, as wheelflat.ref_out has them."""
     lines = (examples / "wheelflat.ref_out").read_text().splitlines()
-    after = {key: [lines[i + 1].split() for i, line in enumerate(lines) if key in line] for key in ("PMAX", "NPOT")}
-    return {FIRST_ANGLE + k: (float(p[-1]), 0.16 * int(n[1])) for k, (p, n) in enumerate(zip(after["PMAX"], after["NPOT"]))}
+    after = {key: [lines[i + 1].split() for i, line in enumerate(lines) if key in line] for key in ("PMAX", "NPOT", "XCP(TR)")}
+    return {FIRST_ANGLE + k: (float(p[-1]), 0.16 * int(n[1]), (float(c[0]), float(c[1]) - 750))
+            for k, (p, n, c) in enumerate(zip(after["PMAX"], after["NPOT"], after["XCP(TR)"]))}
 
 
 def tread_run(options, angle, size, wheel_tilt, rail_tilt):
@@ -206,7 +235,7 @@ def main():
         for size in (COARSE, COARSE, options.size):
             run = tread_run(options, angle, size, *tilts)
             tilts = (run["wheel_tilt_rad"], run["rail_tilt_rad"])
-        ours = half_spaces(np.radians(angle), x, y, depth, round_z, head)
+        ours = half_spaces(np.radians(angle), x, y, depth, round_z, head, contact[angle][2])
         pressure, area = 1e-6 * run["static_max_pressure_Pa"], 1e6 * run["static_patch_area_m2"]
         print(f"| {angle} | {contact[angle][0]:.0f}, {contact[angle][1]:.0f} | {ours[0]:.0f}, {ours[1]:.0f} | {ours[2]:.1f} | "
               f"{pressure:.0f}, {area:.0f} | {1e3 * run['contact_centre_y_m']:.1f} |", flush=True)

@@ -88,15 +88,24 @@ void validate(const Section& section, const std::string& name) {
     for (const int node : key) used[static_cast<std::size_t>(node)] = true;
     std::sort(key.begin(), key.end());
     if (!seen.insert(key).second) report(fmt::format("quad {} repeats an earlier one", quad));
-    if (quad_quality(section, quad) <= 1e-3)
-      report(fmt::format("quad {} is inverted, flat or not convex (area {:.3e} m2)", quad,
-                         quad_area(section, quad)));
+    if (quad_quality(section, quad) <= 1e-3) {
+      const auto middle = [&](const std::vector<double>& coordinate) {
+        double sum = 0;
+        for (const int node : section.quads[static_cast<std::size_t>(quad)])
+          sum += coordinate[static_cast<std::size_t>(node)];
+        return 1e3 * sum / 4;
+      };
+      report(fmt::format("quad {} about ({:.1f}, {:.1f}) mm is inverted, flat or not convex", quad,
+                         middle(section.p), middle(section.q)));
+    }
   }
   for (std::size_t node = 0; node < used.size(); ++node)
     if (!used[node]) report(fmt::format("node {} belongs to no quad", node));
   if (count > 0)
-    throw InputError(fmt::format("section '{}': {} faults in the quad mesh:{}{}", name, count, problems,
-                                 count > 10 ? "\n  ..." : ""));
+    throw InputError(fmt::format(
+        "section '{}': {} faults in the quad mesh; the outline bends too sharply, or is too thin, "
+        "for elements of this size: smooth it, or state another scene.element_size:{}{}",
+        name, count, problems, count > 10 ? "\n  ..." : ""));
 }
 
 }  // namespace tread

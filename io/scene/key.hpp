@@ -1,6 +1,7 @@
 #pragma once
 // A key of a scene and a table of keys.
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -102,6 +103,10 @@ inline constexpr std::string_view kSupportTables = "support.";
 
 /// Begins the path of every table of a finely divided part of the rail: "zone.weld".
 inline constexpr std::string_view kZoneTables = "zone.";
+
+/// All of them: tables that are there only where a scene names one.
+inline constexpr std::array kNamedTables = {kZoneTables, kSupportTables, kSurfaceTables, kBodyTables,
+                                            kProbeTables};
 
 /// Names that a scene gives to its own tables.
 struct TableNames {

@@ -80,7 +80,7 @@ std::optional<SceneTable> table_of(std::string_view path) {
 bool is_table(std::string_view path) {
   const std::string_view named = keys::named_table_of(path);
   if (!named.empty()) return path == named;
-  for (const std::string_view kind : {kZoneTables, kSupportTables, kSurfaceTables, kBodyTables, kProbeTables})
+  for (const std::string_view kind : kNamedTables)
     if (kind == std::string(path) + ".") return true;
   const auto below = [&](const Key& key) { return key.path != path && starts_with_table(key.path, path); };
   return std::any_of(scene_keys().begin(), scene_keys().end(), below);
@@ -129,6 +129,8 @@ std::string names_in(std::string_view table) {
     const std::string name = key.path.substr(start, key.path.find('.', start) - start);
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
+  if (table.empty())
+    for (const std::string_view kind : kNamedTables) names.push_back(std::string(kind) + "NAME");
   return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -56,7 +56,10 @@ std::string similar_path(std::string_view unknown) {
       paths.push_back(key.path.substr(0, dot));
   for (const SceneTable& table : scene_tables()) paths.push_back(table.name);
   for (const Key& key : keys::named_keys(keys::named_table_of(unknown))) paths.push_back(key.path);
-  std::string near = similar_text(unknown, paths);
+  for (const std::string_view kind : kNamedTables) paths.emplace_back(kind.substr(0, kind.size() - 1));
+  const std::string near = similar_text(unknown, paths);
+  if (std::find(kNamedTables.begin(), kNamedTables.end(), near + ".") != kNamedTables.end())
+    return near + ".NAME";
   if (!near.empty()) return near;
   const auto same_leaf = [&](const std::string& path) { return leaf_of(path) == leaf_of(unknown); };
   const auto elsewhere = std::find_if(paths.begin(), paths.end(), same_leaf);

@@ -56,6 +56,7 @@ TEST(SceneErrors, Names) {
       {"[motion]\ntractoin = { mu = 0.1 }",
        "x.toml:4:1: motion.tractoin: unknown table (did you mean motion.traction?)"},
       {"[rial]\nlength = \"3 m\"", "x.toml:3:2: rial: unknown table (did you mean rail?)"},
+      {"[zones.weld]\nstart = \"3 m\"", "x.toml:3:2: zones: unknown table (did you mean zone.NAME?)"},
       {"[material.stel]",
        "x.toml:3:11: material.stel: has no effect, because no part is of it; the parts state wheel.material "
        "= "
