@@ -25,6 +25,15 @@ constexpr double kSlope = 0.05;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
 
+/// What lets the wheel roll to x [m].
+std::string way_to(const Scene& scene, double x) {
+  const std::optional<double> duration = duration_to(scene, x);
+  if (!duration) return "the brakes stop it before";
+  const std::string text = fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *duration);
+  const double lacking = x + kRailEndMargin - (scene.rail->length - scene.rail->origin);
+  return lacking > 0 ? fmt::format("{} on a rail {:.2g} m longer", text, lacking + 0.1) : text;
+}
+
 /// Sentence if a rolling wheel starts ahead of `aim`, or does not come to x = `enough` [m] of it.
 std::string way_warning(const Scene& scene, const std::string& what, const Span& aim, double enough,
                         const char* lost) {
@@ -37,12 +46,9 @@ std::string way_warning(const Scene& scene, const std::string& what, const Span&
   if (scene.motion->speed <= 0) return "";
   const double way = travel_of(scene).last;
   if (way >= enough) return "";
-  const std::optional<double> enough_time = duration_to(scene, aim.last);
   return fmt::format(
       "the wheel rolls to x = {:.4g} m and does not {} {}, x = {:.4g} to {:.4g} m, so that {}; {}", way,
-      way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost,
-      enough_time ? fmt::format("motion.duration = \"{:.4g} ms\" passes it", 1e3 * *enough_time)
-                  : "the brakes stop it before");
+      way > aim.first ? "pass" : "reach", what, aim.first, aim.last, lost, way_to(scene, aim.last));
 }
 
 /// Sentence if a wheel does not roll over what the scene evaluates.
@@ -58,8 +64,7 @@ std::string place_warning(const Scene& scene) {
     enough = place.last;
     lost = "values over it are incomplete";
   }
-  if (place.last <= scene.start_x())
-    lost = "nothing is evaluated: its values in the summary are no results";
+  if (place.last <= scene.start_x()) lost = "nothing is evaluated: its values in the summary are no results";
   return way_warning(scene, what, place, enough, lost);
 }
 

@@ -20,9 +20,6 @@ namespace tread {
 
 namespace {
 
-constexpr double kRailEndMargin =
-    0.02;  ///< the wheel's contact point stays this far from the rail's ends [m]
-
 class Checker {
  public:
   explicit Checker(const Scene& scene) : scene_(scene) {}
