@@ -65,6 +65,7 @@ class LineFit {
   /// abscissae.
   double rise(double run) const { return run * (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
   double slope() const { return rise(1); }
+  double mean() const { return y_ / n_; }  ///< of the ordinates
 
  private:
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;  ///< count and sums

@@ -3,8 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel/chunks.hpp"
@@ -89,7 +92,7 @@ void describe(const Model& model, Preload& out) {
   out.tilt = wheel_tilt(model, u, out.wheel.angle);
   const double x = out.wheel.origin.x;
   if (model.index.rail_cap >= 0 && model.index.tread >= 0) {
-    out.rail_tilt = rail_tilt(model, u, x);
+    out.rail_tilt = head_pose(model, u, x).roll;
     out.rail_deflection = -foot_of_rail(model.scene, model.mesh, model.index).attach_near(x, 0).value(u, 2);
   }
   if (model.index.slab >= 0)
@@ -115,16 +118,21 @@ double wheel_tilt(const Model& model, ConstNodeField displacement, double angle)
   return moment / second;
 }
 
-double rail_tilt(const Model& model, ConstNodeField displacement, double x) {
+SectionPose head_pose(const Model& model, ConstNodeField displacement, double x) {
   const SweptBlock& head = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
-  const auto above = std::upper_bound(head.stations.begin(), head.stations.end(), x);
-  const int station = std::max(static_cast<int>(above - head.stations.begin()) - 1, 0);
-  const auto [left, right] = std::minmax_element(head.section.p.begin(), head.section.p.end());
-  const auto height = [&](auto side) {
-    const auto node = static_cast<int>(side - head.section.p.begin());
-    return displacement[dof(head.base + head.slot(node, station), 2)];
-  };
-  return (height(right) - height(left)) / (*right - *left);
+  const auto at = std::lower_bound(head.stations.begin(), std::prev(head.stations.end()), x);
+  const auto station = static_cast<int>(at - head.stations.begin());
+  const std::vector<double>& across = head.section.p;
+  const auto sides = std::minmax_element(across.begin(), across.end());
+  std::array<Vec3, 2> moved;
+  double height = 0;  // of the sides' middle over the crown
+  for (const std::size_t i : {0, 1}) {
+    const auto node = static_cast<int>((i == 0 ? sides.first : sides.second) - across.begin());
+    moved[i] = displacement.at(head.base + head.slot(node, station));
+    height += 0.5 * head.section.q[static_cast<std::size_t>(node)];
+  }
+  const double roll = (moved[1].z - moved[0].z) / (*sides.second - *sides.first);
+  return {roll, 0.5 * (moved[0].y + moved[1].y) + roll * height};
 }
 
 double deepest_line(const Scene& scene, const Preload& preload) {

@@ -73,9 +73,14 @@ SteadyMotion steady_motion(const Model& model);
 /// nodes' lateral displacement; `angle` is the wheel frame's [rad].
 double wheel_tilt(const Model& model, ConstNodeField displacement, double angle);
 
-/// Rotation of the rail's head about x at a place along it [m], by the sinking of its two sides: positive
-/// where the gauge side sinks.
-double rail_tilt(const Model& model, ConstNodeField displacement, double x);
+/// How a section stands after its body was loaded.
+struct SectionPose {
+  double roll = 0;   ///< about x [rad]
+  double shift = 0;  ///< across, of the running surface [m]
+};
+
+/// Of the rail's head at a place along it [m], by its two sides.
+SectionPose head_pose(const Model& model, ConstNodeField displacement, double x);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.
 Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressText& progress);
