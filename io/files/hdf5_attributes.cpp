@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "core/error.hpp"
 #include "io/files/hdf5_file.hpp"
@@ -67,9 +68,15 @@ std::string Hdf5File::read_text_attribute(const std::string& object, const std::
   const Id attribute =
       check.read(H5Aopen_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Id type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
-    throw InputError(fmt::format("cannot read '{}' from {}: attribute '{}' is not a string of fixed length",
-                                 object, path_.string(), name));
+  if (H5Tget_class(type) != H5T_STRING)
+    throw InputError(fmt::format("cannot read '{}' from {}: attribute '{}' is not a string", object,
+                                 path_.string(), name));
+  if (H5Tis_variable_str(type) > 0) {
+    char* stored = nullptr;
+    check.read(H5Aread(attribute, type, static_cast<void*>(&stored)));
+    const std::unique_ptr<char, herr_t (*)(void*)> owner(stored, H5free_memory);
+    return stored != nullptr ? stored : "";
+  }
   std::string text(H5Tget_size(type), '\0');
   check.read(H5Aread(attribute, type, text.data()));
   return text.substr(0, text.find('\0'));
@@ -91,7 +98,7 @@ Hdf5Attributes Hdf5File::attributes(const std::string& object) const {
     const Id attribute = check.read(H5Aopen(owner, name.c_str(), H5P_DEFAULT), H5Aclose);
     const Id type(H5Aget_type(attribute), H5Tclose);
     const Id space(H5Aget_space(attribute), H5Sclose);
-    if (H5Sget_simple_extent_npoints(space) != 1 || H5Tis_variable_str(type) > 0) continue;
+    if (H5Sget_simple_extent_npoints(space) != 1) continue;
     const H5T_class_t kind = H5Tget_class(type);
     if (kind == H5T_STRING) found[name] = read_text_attribute(object, name);
     if (kind != H5T_FLOAT && kind != H5T_INTEGER) continue;

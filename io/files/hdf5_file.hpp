@@ -77,7 +77,7 @@ class Hdf5File {
   std::vector<T> read_row(const std::string& name, std::uint64_t row) const;
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
-  /// Single numbers and texts of fixed length among the attributes of an object.
+  /// Single numbers and texts among the attributes of an object.
   Hdf5Attributes attributes(const std::string& object) const;
   std::string read_text_attribute(const std::string& object, const std::string& name) const;
 

@@ -168,9 +168,11 @@ void add_rail(Keys& keys) {
                           above(0, 1000), "Length of the rail"));
   keys.push_back(quantity("rail.origin", {Effect::mesh}, at(&Scene::rail, &RailSpec::origin), kLength, "m",
                           from(0, 1000), "Distance of x = 0 from the rail's left end"));
-  keys.push_back(choice("rail.support", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::support),
-                        {"fastenings", "rigid", "free"},
-                        "Support of the rail: fastenings, a fixed bottom, or none"));
+  keys.push_back(
+      choice("rail.support", {Effect::preload, Effect::cost}, at(&Scene::rail, &RailSpec::support),
+             {"fastenings", "rigid", "free"},
+             "Support of the rail: fastenings, a fixed bottom, or none. Its ends do not move along x "
+             "but in a bar under [pulse]"));
   keys.push_back(box(quantity("rail.width", {Effect::mesh}, at(&Scene::rail, &RailSpec::width), kLength, "mm",
                               above(0, 1), "Width of the box")));
   keys.push_back(box(quantity("rail.height", {Effect::mesh}, at(&Scene::rail, &RailSpec::height), kLength,

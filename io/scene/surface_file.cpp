@@ -27,12 +27,13 @@ bool is_hdf5(const std::filesystem::path& path) {
   return start == kHdf5;
 }
 
+/// InputError where the dataset states no unit.
 std::string unit_of(const Hdf5File& file, const std::string& dataset) {
   const Hdf5Attributes attributes = file.attributes(dataset);
   for (const char* name : {"unit", "units"})
     if (const auto found = attributes.find(name); found != attributes.end())
       if (const auto* text = std::get_if<std::string>(&found->second)) return *text;
-  return "m";
+  throw InputError(fmt::format("dataset '{}' has no attribute 'unit'; give it one, such as \"mm\"", dataset));
 }
 
 std::vector<double> values_of(const Hdf5File& file, const std::string& dataset) {

@@ -1,6 +1,7 @@
-// patch.h5, surface.h5 and the table of the axis: files can be read back and state units.
+// patch.h5, surface.h5, the table of the axis, maps of depths: files can be read back and state units.
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@
 #include "drivers/results/surface_map.hpp"
 #include "drivers/results/surface_results.hpp"
 #include "io/files/hdf5_file.hpp"
+#include "io/scene/surface_file.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -230,6 +232,37 @@ TEST_F(SurfaceFiles, SurfaceHoldsTheStretchInContact) {
   int rows = 0;
   for (std::string line; std::getline(csv, line);) ++rows;
   EXPECT_EQ(rows, 5);
+}
+
+/// A string of variable length, as h5py writes one.
+void write_variable_text(const fs::path& path, const char* object, const char* name, const char* text) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t attribute =
+      H5Acreate_by_name(file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Awrite(attribute, type, static_cast<const void*>(&text));
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Fclose(file);
+}
+
+TEST(MapFile, StatesTheUnitOfEachDataset) {
+  const samples::TemporaryFolder folder;
+  const fs::path path = folder.path / "map.h5";
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.write<double>("/x", std::vector<double>{0, 1});
+    file.write<double>("/y", std::vector<double>{0});
+    file.write<double>("/depth", std::vector<double>{5, 6}, {1, 2});
+    file.write_attribute("/x", "unit", "mm");
+    file.write_attribute("/y", "unit", "cm");
+  }
+  EXPECT_THROW(read_map_text(path), InputError);
+  write_variable_text(path, "depth", "unit", "um");
+  EXPECT_EQ(read_map_text(path), "# x [mm]  y [cm]  d [um]\n0 0 5\n1 0 6\n");
 }
 
 }  // namespace
