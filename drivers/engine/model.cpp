@@ -324,6 +324,7 @@ void Model::build_contact(const Corrugation& shape) {
   options.rail_block = index.rail_cap;
   options.wheel_block = index.tread;
   options.surface = spec.surface == "facets" ? SurfaceKind::facets : SurfaceKind::exact;
+  options.straight_across = scene.plane_strain;
   options.points = spec.points;
   options.penalty = penalty_stiffness(spec);
   options.friction = friction_of(spec);

@@ -108,13 +108,16 @@ double wheel_tilt(const Model& model, ConstNodeField displacement, double angle)
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
   double moment = 0;
   double second = 0;
-  for (const SurfaceEdge& edge : block.section.surface)
+  const auto add = [&](int node) {
     for (int station = 0; station < block.station_count(); ++station) {
-      const double down = block.section.q[static_cast<std::size_t>(edge.node[0])] *
+      const double down = block.section.q[static_cast<std::size_t>(node)] *
                           std::cos(block.stations[static_cast<std::size_t>(station)] + angle);
-      moment += down * displacement[dof(block.base + block.slot(edge.node[0], station), 1)];
+      moment += down * displacement[dof(block.base + block.slot(node, station), 1)];
       second += down * down;
     }
+  };
+  for (const SurfaceEdge& edge : block.section.surface) add(edge.node[0]);
+  add(block.section.surface.back().node[1]);
   return moment / second;
 }
 
@@ -122,17 +125,16 @@ SectionPose head_pose(const Model& model, ConstNodeField displacement, double x)
   const SweptBlock& head = model.mesh.blocks[static_cast<std::size_t>(model.index.rail_cap)];
   const auto at = std::lower_bound(head.stations.begin(), std::prev(head.stations.end()), x);
   const auto station = static_cast<int>(at - head.stations.begin());
-  const std::vector<double>& across = head.section.p;
-  const auto sides = std::minmax_element(across.begin(), across.end());
-  std::array<Vec3, 2> moved;
-  double height = 0;  // of the sides' middle over the crown
+  const Section& section = head.section;
+  const std::array sides = {section.surface.front().node[0], section.surface.back().node[1]};
+  std::array<Vec3, 2> place, moved;
   for (const std::size_t i : {0, 1}) {
-    const auto node = static_cast<int>((i == 0 ? sides.first : sides.second) - across.begin());
-    moved[i] = displacement.at(head.base + head.slot(node, station));
-    height += 0.5 * head.section.q[static_cast<std::size_t>(node)];
+    const auto node = static_cast<std::size_t>(sides[i]);
+    place[i] = {0, section.p[node], section.q[node]};
+    moved[i] = displacement.at(head.base + head.slot(sides[i], station));
   }
-  const double roll = (moved[1].z - moved[0].z) / (*sides.second - *sides.first);
-  return {roll, 0.5 * (moved[0].y + moved[1].y) + roll * height};
+  const double roll = (moved[1].z - moved[0].z) / (place[1].y - place[0].y);
+  return {roll, 0.5 * (moved[0].y + moved[1].y) + roll * 0.5 * (place[0].z + place[1].z)};
 }
 
 double deepest_line(const Scene& scene, const Preload& preload) {

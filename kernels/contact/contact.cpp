@@ -41,8 +41,9 @@ Contact::Contact(const Mesh& mesh, const ContactOptions& options, Corrugation co
       springs_{options.penalty, {options.penalty}},
       friction_(friction_of(options.friction)),
       search_(block(mesh, options.rail_block), block(mesh, options.wheel_block),
-              {options.surface, options.points, options.penalty, options.wheel_radius, options.depth_room,
-               options.reach_gap, options.rail_depth, options.wheel_depth},
+              {options.surface, options.straight_across ? SurfaceKind::facets : options.surface,
+               options.points, options.penalty, options.wheel_radius, options.depth_room, options.reach_gap,
+               options.rail_depth, options.wheel_depth},
               std::move(corrugation)),
       area_(search_) {
   TREAD_EXPECT(options.penalty > 0 && std::isfinite(options.penalty));

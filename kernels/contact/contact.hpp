@@ -31,6 +31,9 @@ struct ContactOptions {
   int rail_block = -1;
   int wheel_block = -1;
   SurfaceKind surface = SurfaceKind::exact;
+  /// Displacements across follow the nodes by straight lines: where all rows move alike, cubics would give
+  /// rows near an edge other loads.
+  bool straight_across = false;
   int points = 3;                             ///< integration points per face and direction
   double penalty = 0;                         ///< normal penalty stiffness per area [Pa/m]
   FrictionLaw friction = CoulombFriction{0};  ///< law of the coefficient of friction

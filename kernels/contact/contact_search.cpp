@@ -57,7 +57,7 @@ TileSpan tiles_of(const SweptBlock& block, const SurfacePart& part) {
 
 ContactSearch::ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
                              Corrugation corrugation)
-    : surfaces_(rail, wheel, options.surface, options.rail_depth, options.wheel_depth),
+    : surfaces_(rail, wheel, options.surface, options.across, options.rail_depth, options.wheel_depth),
       options_(options),
       quadrature_(options.points) {
   set_corrugation(std::move(corrugation));

@@ -32,6 +32,7 @@ class ContactSearch {
  public:
   struct Options {
     SurfaceKind surface;
+    SurfaceKind across;         ///< SurfacePairBody::kind_across
     int points;                 ///< integration points per face and direction
     double penalty;             ///< normal penalty stiffness per area [Pa/m]
     double wheel_radius;        ///< of the nominal rolling circle [m]

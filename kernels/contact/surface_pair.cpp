@@ -5,10 +5,11 @@
 namespace tread {
 
 SurfacePair::SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind,
-                         RunningSurface rail_depth, RunningSurface wheel_depth)
+                         SurfaceKind across, RunningSurface rail_depth, RunningSurface wheel_depth)
     : rail_(&rail),
       wheel_(&wheel),
       kind_(kind),
+      across_(across),
       rail_depth_(std::move(rail_depth)),
       wheel_depth_(std::move(wheel_depth)),
       rail_profile_(rail.section),
@@ -20,6 +21,7 @@ SurfacePairBody SurfacePair::body() const {
   return {{rail_stations_.line(), rail_profile_.view(), rail_->section.p.data(), rail_->section.q.data()},
           {wheel_stations_.line(), wheel_profile_.view(), wheel_->section.p.data(), wheel_->section.q.data()},
           kind_,
+          across_,
           depths()};
 }
 

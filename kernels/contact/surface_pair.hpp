@@ -16,8 +16,9 @@ namespace tread {
 /// An extruded rail's surface under a revolved wheel's.
 class SurfacePair {
  public:
-  SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind, RunningSurface rail_depth,
-              RunningSurface wheel_depth);
+  /// `across`: SurfacePairBody::kind_across.
+  SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, SurfaceKind kind, SurfaceKind across,
+              RunningSurface rail_depth, RunningSurface wheel_depth);
 
   /// Lowers the rail's surface, beside its other depths.
   void set_corrugation(Corrugation corrugation) { corrugation_ = std::move(corrugation); }
@@ -43,7 +44,7 @@ class SurfacePair {
  private:
   const SweptBlock* rail_;
   const SweptBlock* wheel_;
-  SurfaceKind kind_;
+  SurfaceKind kind_, across_;
   Corrugation corrugation_;
   RunningSurface rail_depth_, wheel_depth_;
   SurfaceProfile rail_profile_;

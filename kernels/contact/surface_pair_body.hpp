@@ -49,6 +49,7 @@ struct SurfaceDepths {
 struct SurfacePairBody {
   SurfaceSide rail_side, wheel_side;
   SurfaceKind kind;
+  SurfaceKind kind_across;  ///< of the displacement across
   SurfaceDepths depths;
 
   /// Sets nodes, weights, place, face and area of a point on a rail face; `along` and `across` on [0, 1],
@@ -64,21 +65,21 @@ struct SurfacePairBody {
     const auto profile = rail_side.profile.evaluate(edge, at_across, kind);
     const LineCell cell = station_cell(line, face_station);
     const LineWeights along = line_weights(cell, at_along, kind);
-    const LineWeights across = line_weights(rail_side.profile.cell(edge), at_across, kind);
+    const LineWeights over = line_weights(rail_side.profile.cell(edge), at_across, kind_across);
     Vec3 x{line.stations[face_station] + at_along * cell.length, profile.p, profile.q};
     double depth = exact ? depths.rail(x.x, x.y) : 0.0;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
         const std::size_t k = 4 * i + j;
-        const int node = rail_side.profile.node(across.ordinal[j]);
+        const int node = rail_side.profile.node(over.ordinal[j]);
         const int station = along.ordinal[i];
         point.rail.slot[k] = rail_side.slot(node, station);
-        const double weight = along.value[i] * across.value[j];
+        const double weight = along.value[i] * over.value[j];
         x += weight * u.at(point.rail.slot[k]);
         if (!exact) depth += weight * depths.rail(line.stations[station], rail_side.p[node]);
       }
     point.rail.along = along.value;
-    point.rail.across = across.value;
+    point.rail.across = over.value;
     x.z -= depth;
     point.position = x;
     point.face = face;
@@ -173,7 +174,7 @@ struct SurfacePairBody {
     const ProfileView::Point& p = at.profile;
     const LineCell line = station_cell(stations, cell.station);
     const LineWeights around = line_weights(line, cell.distance / cell.pitch, kind);
-    const LineWeights over = line_weights(wheel_side.profile.cell(at.edge), at.eta, kind);
+    const LineWeights over = line_weights(wheel_side.profile.cell(at.edge), at.eta, kind_across);
     const std::array<double, 4> turned = {cell.distance + line.length_before, cell.distance,
                                           cell.distance - cell.pitch,
                                           cell.distance - cell.pitch - line.length_after};

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -105,6 +107,68 @@ TEST(StepLimit, RefusesAClassicalDampingThatWouldStopTheRun) {
       samples::tyre_scene({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-4 s\" }",
                            "material.steel.damping_up_to=3 kHz"}));
   EXPECT_GT(step_limit(banded).stable_step, 0.3 * step_limit(usual).stable_step);
+}
+
+TEST(Preload, ASliceOfWideBodiesHasOnePressureAcross) {
+  const Scene scene = resolve_scene(SceneSource{"slice.toml",
+                                                R"([scene]
+element_size = "3 mm"
+gravity = "0 m/s2"
+plane_strain = true
+[solution_zone]
+start = "-20 mm"
+length = "40 mm"
+[material.steel]
+youngs_modulus = "205.9 GPa"
+poissons_ratio = 0.3
+density = "7790 kg/m3"
+[wheel]
+shape = "tyre"
+profile = "cylinder"
+width = "15 mm"
+lateral_offset = "0 mm"
+[rail]
+profile = "box"
+support = "rigid"
+length = "100 mm"
+origin = "50 mm"
+width = "15 mm"
+[load]
+wheel_load = "60 kN"
+[contact]
+friction = 0
+)",
+                                                {}},
+                                    {})
+                          .scene;
+  Model model(scene);
+  solve_preload(model, {}, [](const std::string&) {});
+  const PatchNodes& patch = model.contact->nodes();
+  double largest = 0;
+  double difference = 0;
+  for (int i = patch.first(); i <= patch.last(); ++i)
+    for (int row = 0; row < patch.grid().rows(); ++row) {
+      const double pressure = patch.at(i, row).pressure;
+      largest = std::max(largest, pressure);
+      difference = std::max(difference, std::abs(pressure - patch.at(i, 0).pressure));
+    }
+  measured("difference of pressures across, over the largest", difference / largest);
+  EXPECT_LT(difference, 1e-6 * largest);
+}
+
+TEST(Preload, TiltsOfMirroredScenesAreOpposite) {
+  const auto tilts = [](const char* offset) {
+    Model model(
+        samples::tyre_scene({std::string("wheel.lateral_offset=") + offset, "scene.element_size=8 mm"}));
+    const Preload preload = solve_preload(model, {}, [](const std::string&) {});
+    return std::array{preload.tilt, preload.rail_tilt};
+  };
+  const auto left = tilts("-8 mm"), middle = tilts("0 mm"), right = tilts("8 mm");
+  EXPECT_GT(right[1], 1e-5);  // the wheel stands on the gauge side
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_NEAR(left[i], -right[i], 1e-10);
+    EXPECT_NEAR(middle[i], 0, 1e-10);
+  }
 }
 
 }  // namespace
