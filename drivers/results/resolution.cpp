@@ -68,12 +68,15 @@ std::string place_warning(const Scene& scene) {
   return way_warning(scene, what, place, enough, lost);
 }
 
-/// Sentence where the corrugation lies under the wheel at the start, whose static state has a smooth rail.
+/// Sentence where a corrugation lies under the wheel at rest, or only there: the static state has a smooth
+/// rail.
 std::string start_warning(const Model& model) {
   constexpr double kHardly = 0.1;  // of the Hertz approach
   constexpr int kSamples = 20;     // over the patch
   const Scene& scene = model.scene;
-  if (!scene.motion) return "";
+  if (!scene.motion)
+    return "[corrugation] acts on a rolling wheel alone: without [motion] the rail is smooth; state it as "
+           "[surface.NAME], which the static state has";
   const double line = scene.corrugation->centre.value_or(0);
   const Corrugation corrugation = corrugation_of(*scene.corrugation, line);
   const double half = model.hertz_patch.semi_axis_x;
@@ -157,6 +160,21 @@ std::optional<double> shortest_length(const SurfaceSpec& spec, double radius) {
   return std::nullopt;
 }
 
+/// Sentence where a dent lies beside all faces that the wheel can touch.
+std::string dent_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
+  if (spec.kind != "dent") return "";
+  const SurfaceProfile& rail = model.contact->surfaces().rail_profile();
+  const auto [first, last] = model.contact->searching().edges();
+  const Span touched{rail.edge_p(first, 0), rail.edge_p(last - 1, 1)};
+  const Span dent{spec.centre - 0.5 * spec.width, spec.centre + 0.5 * spec.width};
+  if (dent.last > touched.first && dent.first < touched.last) return "";
+  return fmt::format(
+      "surface.{} lies at y = {:.3g} to {:.3g} mm, beside what the wheel can touch, y = {:.3g} to {:.3g} mm, "
+      "and "
+      "has no effect; change surface.{}.centre",
+      name, 1e3 * dent.first, 1e3 * dent.last, 1e3 * touched.first, 1e3 * touched.last, name);
+}
+
 std::string surface_warning(const Model& model, const std::string& name, const SurfaceSpec& spec) {
   const Scene& scene = model.scene;
   const std::vector<ZoneSpec> zones = scene.all_zones();
@@ -210,8 +228,10 @@ std::vector<std::string> resolution_warnings(const Model& model) {
                                       model.sizes.contact, "the wave"));
     warnings.push_back(slope_warning(*corrugation));
   }
-  for (const auto& [name, spec] : model.scene.surfaces)
+  for (const auto& [name, spec] : model.scene.surfaces) {
+    warnings.push_back(dent_warning(model, name, spec));
     warnings.push_back(surface_warning(model, name, spec));
+  }
   std::erase(warnings, "");
   return warnings;
 }

@@ -219,11 +219,16 @@ TEST_F(Commands, AWayThatIsTooShortIsAWarning) {
   EXPECT_TRUE(has(most, "motion.duration = \\\"42.59 ms\\\" passes it")) << most;
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"motion.duration=1 ms\""), "does not reach the solution zone"));
-  EXPECT_TRUE(has(
-      warnings("smooth.toml", "--set \"motion.duration=1 ms\" --set \"solution_zone.start=8.49 m\""),
-      "passes it on a rail 0.11 m longer"));
+  EXPECT_TRUE(
+      has(warnings("smooth.toml", "--set \"motion.duration=1 ms\" --set \"solution_zone.start=8.49 m\""),
+          "passes it on a rail 0.11 m longer"));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"motion.duration=1 ms\""), "does not reach surface."));
   EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.at=-1 m\""), "ahead of surface.squat"));
+  EXPECT_TRUE(has(warnings("squat.toml", "--set \"surface.squat.centre=60 mm\""), "beside what the wheel"));
+  EXPECT_TRUE(has(warnings("corrugation-d.toml",
+                           "--set motion.present=false --set vehicle.present=false --set "
+                           "load.present=true --set \"load.wheel_load=90 kN\""),
+                  "acts on a rolling wheel alone"));
   EXPECT_TRUE(
       has(warnings("smooth.toml", "--set \"solution_zone.start=-3 m\""), "so that nothing is evaluated"));
   EXPECT_TRUE(has(warnings("corrugation-d.toml",
