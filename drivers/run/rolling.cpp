@@ -160,9 +160,10 @@ void Rolling::check_disk() {
   const std::optional<double>& disk = model_->scene.output.disk_limit;
   if (!disk) return;
   if (const std::int64_t bytes = folder_bytes(session_->folder.path()); static_cast<double>(bytes) > *disk)
-    end<ResourceError>(fmt::format("{} has {}, more than output.disk_limit = {}",
-                                   session_->folder.path().string(), bytes_text(bytes),
-                                   bytes_text(static_cast<std::int64_t>(*disk))));
+    end<ResourceError>(fmt::format(
+        "{} has {}, more than output.disk_limit = {}, which ends each `tread resume` "
+        "too until its --set output.disk_limit states more",
+        session_->folder.path().string(), bytes_text(bytes), bytes_text(static_cast<std::int64_t>(*disk))));
 }
 
 void Rolling::check_penetration() {

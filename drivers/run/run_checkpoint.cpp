@@ -81,7 +81,7 @@ SealedContent pack_order(const RunOrder& order) {
   content[kVersion] = std::string(program_version());
   content["order/scene/name"] = order.scene.name;
   content["order/scene/text"] = order.scene.text;
-  content["order/scene/folder"] = order.scene.folder.string();
+  content["order/scene/folder"] = (std::filesystem::current_path() / order.scene.folder).string();
   std::vector<std::string> names, texts;
   for (const auto& [name, text] : order.scene.files) {
     names.push_back(name);

@@ -254,7 +254,8 @@ void refuse_other_keys(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
     const std::string key = text.substr(0, text.find('='));
     const std::optional<Key> known = find_key(key);
-    if (!known || !known->effects.only({Effect::duration, Effect::output, Effect::process, Effect::stop}))
+    if (!known || key.starts_with(kProbeTables) ||
+        !known->effects.only({Effect::duration, Effect::output, Effect::process, Effect::stop}))
       throw InputError(
           fmt::format("--set {}: a run that goes on may change motion.duration, output.* and "
                       "stop.*; for other values start a run with them",
