@@ -15,6 +15,7 @@ runs=(
   'hertz_ellipse --set "element_size=0.55 mm"' # 25 minutes of a core
   'surface_depths'
   'surface_depths --set "element_size=0.7 mm"'
+  'profiles_in_contact'
   'profiles_in_contact --set "element_size=2.2 mm"'
   'profiles_in_contact --set "element_size=1.6 mm"'
   'profiles_in_contact --set "element_size=0.55 mm" --set "last=1 mm"'
