@@ -33,6 +33,12 @@ CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
 const std::vector<ResultColumn>& result_columns() {
   static const std::vector<ResultColumn> columns = {
       {"static_wheel_load", "N", "static_wheel_load_N", "Static F_N [kN]", 1e-3},
+      {"static_max_pressure", "Pa", "static_max_pressure_Pa", "Static pressure [MPa]", 1e-6, 1, true},
+      {"static_patch_area", "m2", "static_patch_area_m2", "Static area [mm2]", 1e6, 1, true},
+      {"contact_centre_y", "m", "contact_centre_y_m", "Middle across [mm]", 1e3, 1, true},
+      {"rail_deflection", "m", "rail_deflection_m", "Rail deflection [mm]", 1e3, 1, true},
+      {"wheel_tilt", "rad", "wheel_tilt_rad", "Wheel tilt [mrad]", 1e3, 1, true},
+      {"rail_tilt", "rad", "rail_tilt_rad", "Rail tilt [mrad]", 1e3, 1, true},
       {"vertical_force_max", "N", "vertical_force_N.max", "Largest F_N [kN]", 1e-3},
       {"vertical_force_min", "N", "vertical_force_N.min", "Smallest F_N [kN]", 1e-3},
       {"vertical_force_mean", "N", "vertical_force_N.mean", "", 1e-3},

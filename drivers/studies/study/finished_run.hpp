@@ -52,12 +52,13 @@ CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve);
 
 /// A result that the summary states.
 struct ResultColumn {
-  std::string name;     ///< name in CSV, with `unit`
-  std::string unit;     ///< SI unit
-  std::string path;     ///< path in the summary
-  std::string title;    ///< title for readers, with their unit; empty: in CSV alone
-  double scale = 1;     ///< factor to the readers' unit
-  double si_scale = 1;  ///< factor from the summary to SI
+  std::string name;      ///< name in CSV, with `unit`
+  std::string unit;      ///< SI unit
+  std::string path;      ///< path in the summary
+  std::string title;     ///< title for readers, with their unit; empty: in CSV alone
+  double scale = 1;      ///< factor to the readers' unit
+  double si_scale = 1;   ///< factor from the summary to SI
+  bool at_rest = false;  ///< shown to readers only where no run rolls
 };
 
 /// Headline results of a run, in the order of tables.

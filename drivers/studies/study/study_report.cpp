@@ -150,7 +150,10 @@ std::string sweep_json(const StudyPlan& plan, const std::vector<FinishedRun>& ru
 Table result_table(const std::vector<FinishedRun>& runs) {
   Table table{"", {{"Point"}}, {}};
   std::vector<const ResultColumn*> shown;
+  const bool some_roll =
+      std::any_of(runs.begin(), runs.end(), [](const FinishedRun& run) { return run.number("steps") > 0; });
   for (const ResultColumn& column : result_columns()) {
+    if (column.at_rest && some_roll) continue;
     const bool some = std::any_of(runs.begin(), runs.end(),
                                   [&](const FinishedRun& run) { return result_of(run, column).has_value(); });
     if (column.title.empty() || !some) continue;
