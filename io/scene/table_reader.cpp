@@ -55,7 +55,13 @@ Unit pure_unit(const std::string& text) {
 }
 
 bool same_unit(const Unit& a, const Unit& b) {
-  return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator;
+  return a.exponent == b.exponent && a.numerator == b.numerator && a.denominator == b.denominator &&
+         a.dimension == b.dimension;
+}
+
+/// "[mm], [um]"
+std::string listed_units(const std::vector<std::string>& texts) {
+  return fmt::format("[{}]", fmt::join(texts, "], ["));
 }
 
 /// Rows of as many numbers as there are columns, in SI.
@@ -67,13 +73,17 @@ class TableParser {
   }
 
   void read_line(const std::string& line) {
+    ++line_;
     const std::vector<std::string> units = bracketed(line);
     if (rows.empty() && units.size() == columns_) {
       state_units(units);
       return;
     }
     const std::vector<std::string> row = table_cells(line);
-    if (!row.empty()) add_row(row);
+    if (!row.empty())
+      add_row(row);
+    else if (header_line_ > 0 && units.size() == columns_ && units != texts_)
+      refuse_late_header(units);
   }
 
   std::vector<std::vector<double>> rows;
@@ -98,8 +108,31 @@ class TableParser {
         throw InputError(fmt::format("the file states [{}] where [{}] was stated outside of it", texts[i],
                                      (*rules_.units)[i]));
     }
+    if (header_line_ > 0) require_same_units(stated, texts);
     units_ = stated;
     dimension = stated[0].dimension;
+    texts_ = texts;
+    header_line_ = line_;
+  }
+
+  void require_same_units(const std::vector<Unit>& stated, const std::vector<std::string>& texts) const {
+    if (std::equal(stated.begin(), stated.end(), units_->begin(), same_unit)) return;
+    throw InputError(fmt::format("the units are {} here and {} on line {}; leave one of the lines out",
+                                 listed_units(texts), listed_units(texts_), header_line_));
+  }
+
+  /// Throws InputError for units behind the first numbers that are not those before them.
+  void refuse_late_header(const std::vector<std::string>& texts) {
+    const bool had_angles = angles;
+    std::vector<Unit> stated;
+    try {
+      for (std::size_t i = 0; i < columns_; ++i) stated.push_back(unit_of_column(i, texts[i]));
+    } catch (const InputError&) {
+      angles = had_angles;
+      return;  // a comment
+    }
+    angles = had_angles;
+    require_same_units(stated, texts);
   }
 
   std::string example() const {
@@ -125,6 +158,9 @@ class TableParser {
   TableRules rules_;
   std::size_t columns_;
   std::optional<std::vector<Unit>> units_;
+  std::vector<std::string> texts_;  ///< the units as the header states them
+  int line_ = 0;                    ///< from 1
+  int header_line_ = 0;             ///< 0: no header yet
 };
 
 /// Reads all lines; false where one is bad or there are fewer than `least` rows.

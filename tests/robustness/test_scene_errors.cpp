@@ -554,12 +554,18 @@ TEST_F(Files, TablesOfTwoColumns) {
       {"# x [m] d [mm]\n0 0\n1 1e999\n", ":3: \"1e999\" is too large or too small"},
       {"# x [m] d [mm]\n0 0\n1 2mm\n", ":3: \"2mm\" is not a number"},
       {"# x [m] d [mm]\n0 0\n", ": expected at least two rows of numbers"},
+      {"# x [mm] d [mm]\n# x [m] d [mm]\n0 0\n1 1\n",
+       ":2: the units are [m], [mm] here and [mm], [mm] on line 1; leave one of the lines out"},
+      {"# x [m] d [mm]\n0 0\n# x [m] d [um]\n1 1\n",
+       ":3: the units are [m], [um] here and [m], [mm] on line 1; leave one of the lines out"},
       {"", ": expected at least two rows of numbers"},
   };
   for (const auto& c : cases) {
     const fs::path path = write("table.txt", c.text);
     expect_part(table_error(path, corrugation), path.string() + c.message);
   }
+  EXPECT_EQ(table_error(write("table.txt", "# x [m] d [mm]\n# x [m] d [mm]\n0 0\n# [a] [b]\n1 1\n"), {}),
+            "accepted");
   expect_part(table_error(write("table.txt", std::string("0 0\n\0", 5)), {}),
               "it is a binary file, not text");
   expect_part(table_error(folder_, {}), "it is a directory");
