@@ -76,7 +76,7 @@ class TableParser {
     ++line_;
     const std::vector<std::string> units = bracketed(line);
     if (rows.empty() && units.size() == columns_) {
-      state_units(units);
+      read_header(units);
       return;
     }
     const std::vector<std::string> row = table_cells(line);
@@ -92,12 +92,26 @@ class TableParser {
 
  private:
   Unit unit_of_column(std::size_t column, const std::string& text) {
+    if (columns_ == 3 && column == 0 && text == "deg")
+      throw InputError(
+          "[deg] is not a length: a map takes x along the circumference, in a unit such as [mm]; angles are "
+          "for [surface] with kind = \"profile\" on the wheel");
     if (column == 1 && rules_.pure_second) return pure_unit(text);
     if (column > 1) return length_unit(text);
     if (column == 1) return unit_of(text, rules_.second);
     if (!rules_.angle_first || text != "deg") return unit_of(text, rules_.first);
     angles = true;
     return {0, std::numbers::pi, 180, {}};
+  }
+
+  void read_header(const std::vector<std::string>& texts) {
+    try {
+      state_units(texts);
+    } catch (const InputError&) {
+      // This header is the problem, not that there is none.
+      if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
+      throw;
+    }
   }
 
   void state_units(const std::vector<std::string>& texts) {

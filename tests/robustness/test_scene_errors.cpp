@@ -509,6 +509,10 @@ TEST_F(Files, MeasuredDepths) {
       scene_error(write("round.toml", kBase + "[surface.round]\nkind = \"profile\"\nat = \"0 m\"\nfile = "
                                               "\"round.txt\"\n")),
       "round.txt:1: unknown unit \"deg\"");
+  EXPECT_EQ(map("# angle [deg], y [mm], d [um]\n0,0,1\n1,0,2\n0,1,1\n1,1,3\n"),
+            file +
+                ":1: [deg] is not a length: a map takes x along the circumference, in a unit such as [mm]; "
+                "angles are for [surface] with kind = \"profile\" on the wheel");
 }
 
 TEST_F(Files, ProfilesWhoseAxesAreMistaken) {
