@@ -64,6 +64,21 @@ std::string listed_units(const std::vector<std::string>& texts) {
   return fmt::format("[{}]", fmt::join(texts, "], ["));
 }
 
+/// "; a comma separates columns ..." where commas split the numbers of a line that other separators divide
+/// into as many cells as there are columns, else "".
+std::string comma_hint(const std::string& line, std::size_t columns) {
+  std::string text = line.substr(0, line.find('#'));
+  bool inside = false;  // a number
+  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] != ',' || !digit(i - 1) || !digit(i + 1)) continue;
+    text[i] = '.';
+    inside = true;
+  }
+  if (!inside || table_cells(text).size() != columns) return "";
+  return "; a comma separates columns: write decimal points, not commas";
+}
+
 /// Rows of as many numbers as there are columns, in SI.
 class TableParser {
  public:
@@ -81,7 +96,7 @@ class TableParser {
     }
     const std::vector<std::string> row = table_cells(line);
     if (!row.empty())
-      add_row(row);
+      add_row(row, line);
     else if (header_line_ > 0 && units.size() == columns_ && units != texts_)
       refuse_late_header(units);
   }
@@ -154,9 +169,10 @@ class TableParser {
     return "# x [m]  " + (rules_.pure_second ? "f [-]" : rules_.example);
   }
 
-  void add_row(const std::vector<std::string>& row) {
+  void add_row(const std::vector<std::string>& row, const std::string& line) {
     if (row.size() != columns_)
-      throw InputError(fmt::format("expected {} numbers, found {} columns", columns_, row.size()));
+      throw InputError(fmt::format("expected {} numbers, found {} columns{}", columns_, row.size(),
+                                   comma_hint(line, columns_)));
     const bool missing = !units_ && rules_.needs_units;
     if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
     if (missing)

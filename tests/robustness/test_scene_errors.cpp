@@ -558,6 +558,10 @@ TEST_F(Files, TablesOfTwoColumns) {
       {"# x [m] d [mm]\n0 0\n1 1e999\n", ":3: \"1e999\" is too large or too small"},
       {"# x [m] d [mm]\n0 0\n1 2mm\n", ":3: \"2mm\" is not a number"},
       {"# x [m] d [mm]\n0 0\n", ": expected at least two rows of numbers"},
+      {"# x [m] d [mm]\n1,5;2,5\n",
+       ":2: expected 2 numbers, found 4 columns; a comma separates columns: write decimal points, not "
+       "commas"},
+      {"# x [m] d [mm]\n1,5\t2\n", ":2: expected 2 numbers, found 3 columns; a comma separates columns"},
       {"# x [mm] d [mm]\n# x [m] d [mm]\n0 0\n1 1\n",
        ":2: the units are [m], [mm] here and [mm], [mm] on line 1; leave one of the lines out"},
       {"# x [m] d [mm]\n0 0\n# x [m] d [um]\n1 1\n",
