@@ -176,8 +176,9 @@ class TableParser {
     const bool missing = !units_ && rules_.needs_units;
     if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
     if (missing)
-      throw InputError(
-          fmt::format("the units are missing: put a line such as \"{}\" before the numbers", example()));
+      throw InputError(fmt::format("the units are missing: put a line such as \"{}\" before the numbers{}",
+                                   example(),
+                                   rules_.units_option.empty() ? "" : ", or state " + rules_.units_option));
     std::vector<double> values;
     for (std::size_t i = 0; i < columns_; ++i) values.push_back(parse_number(row[i], (*units_)[i]));
     if (rules_.increasing && !rows.empty() && values[0] <= rows.back()[0])

@@ -23,6 +23,7 @@ struct TableRules {
   std::vector<Quantity> first = {kLength};               ///< quantities that the first column may hold
   std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
   std::string example = "d [mm]";                        ///< name and unit of the second column in messages
+  std::string units_option = {};                         ///< that states the units too, for messages
 };
 
 struct TwoColumns {

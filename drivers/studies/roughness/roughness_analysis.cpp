@@ -124,7 +124,9 @@ Report report_of(const Outcome& o, const RoughnessOptions& options) {
 }
 
 TableRules rules_of(const RoughnessOptions& options) {
-  TableRules rules{true, true, {}};
+  TableRules rules{.needs_units = true, .increasing = true};
+  rules.example = options.depth ? "depth [um]" : "height [um]";
+  rules.units_option = "--units m,um";
   if (options.units.empty()) return rules;
   const auto comma = options.units.find(',');
   if (comma == std::string::npos)
