@@ -13,6 +13,7 @@
 #include "io/scene/body_checks.hpp"
 #include "io/scene/schema.hpp"
 #include "io/scene/support_checks.hpp"
+#include "io/scene/surface_file.hpp"
 #include "io/scene/wheel_checks.hpp"
 #include "io/scene/zone_checks.hpp"
 
@@ -332,14 +333,13 @@ class Checker {
                   "a chord of {:.4g} mm on a wheel of {:.4g} mm is no flat; state at most half the diameter",
                   1e3 * surface.length, 1e3 * diameter));
     if (surface.kind == "flat" && surface.length <= 0.5 * diameter) {
-      constexpr double kDeepest = 0.01;  // as that of other surfaces [m]
       const double depth =
           0.5 * (diameter - std::sqrt(diameter * diameter - surface.length * surface.length));
       require(
-          depth <= kDeepest, {table + ".length", "wheel.diameter"},
+          depth <= kDeepestSurface, {table + ".length", "wheel.diameter"},
           fmt::format("a chord of {:.4g} mm is {:.3g} mm deep on a wheel of {:.4g} mm; at most {:g} mm are "
                       "possible: state a shorter one",
-                      1e3 * surface.length, 1e3 * depth, 1e3 * diameter, 1e3 * kDeepest));
+                      1e3 * surface.length, 1e3 * depth, 1e3 * diameter, 1e3 * kDeepestSurface));
     }
     const bool measured = surface.kind == "profile" || surface.kind == "map";
     if (surface.kind == "polygon" || (measured && surface.file_x.empty())) return;

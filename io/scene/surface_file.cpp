@@ -68,12 +68,13 @@ std::string read_map_text(const std::filesystem::path& path) {
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
                 std::vector<Problem>& problems) {
   if (corrugation.kind != "map") {
-    TwoColumns columns = parse_two_columns(text, name, {.needs_units = true, .increasing = true}, problems);
+    TwoColumns columns = parse_two_columns(
+        text, name, {.needs_units = true, .increasing = true, .deepest = kDeepestSurface}, problems);
     corrugation.table_x = std::move(columns.first);
     corrugation.table_depth = std::move(columns.second);
     return;
   }
-  GridColumns grid = parse_grid(text, name, problems);
+  GridColumns grid = parse_grid(text, name, problems, kDeepestSurface);
   corrugation.table_x = std::move(grid.x);
   corrugation.map_y = std::move(grid.y);
   corrugation.table_depth = std::move(grid.z);
@@ -82,13 +83,14 @@ void set_depths(const std::string& text, const std::string& name, CorrugationSpe
 void set_depths(const std::string& text, const std::string& name, double wheel_radius, SurfaceSpec& surface,
                 std::vector<Problem>& problems) {
   if (surface.kind == "map") {
-    GridColumns grid = parse_grid(text, name, problems);
+    GridColumns grid = parse_grid(text, name, problems, kDeepestSurface);
     surface.file_x = std::move(grid.x);
     surface.file_y = std::move(grid.y);
     surface.file_depth = std::move(grid.z);
     return;
   }
-  const TableRules rules{.needs_units = true, .increasing = true, .angle_first = surface.on_wheel()};
+  const TableRules rules{
+      .needs_units = true, .increasing = true, .angle_first = surface.on_wheel(), .deepest = kDeepestSurface};
   TwoColumns columns = parse_two_columns(text, name, rules, problems);
   if (columns.angles)
     for (double& x : columns.first) x *= wheel_radius;

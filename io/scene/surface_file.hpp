@@ -10,6 +10,9 @@
 
 namespace tread {
 
+/// Largest depth of a running surface, up or down [m].
+inline constexpr double kDeepestSurface = 0.01;
+
 /// The text of a map for parse_grid(): that of the file, or, of an HDF5 file, its datasets as such a text. An
 /// HDF5 file holds `x`, `y` and `depth`, the last with a row for each y; the attribute `unit` of each states
 /// its unit. Throws InputError.

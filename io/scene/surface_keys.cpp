@@ -1,5 +1,6 @@
 #include "io/scene/key_builders.hpp"
 #include "io/scene/key_table.hpp"
+#include "io/scene/surface_file.hpp"
 
 namespace tread::keys {
 
@@ -29,9 +30,10 @@ void add_surface(Keys& keys, const std::string& name) {
       required(length(".at", {Effect::preload}, &SurfaceSpec::at, "m", from(-1000, 1000),
                       "x of the middle of dip, dent or flat; of a polygon's crest; where the waves "
                       "begin; of the file's zero")));
-  keys.push_back(with({"dip", "dent", "waves", "polygon"},
-                      required(length(".depth", shape, &SurfaceSpec::depth, "mm", {-0.01, 0.01},
-                                      "Largest depth, of a bump negative; of waves from crest to trough"))));
+  keys.push_back(
+      with({"dip", "dent", "waves", "polygon"},
+           required(length(".depth", shape, &SurfaceSpec::depth, "mm", {-kDeepestSurface, kDeepestSurface},
+                           "Largest depth, of a bump negative; of waves from crest to trough"))));
   keys.push_back(with({"dip", "dent", "waves", "flat"},
                       required(length(".length", shape, &SurfaceSpec::length, "mm", above(0, 1000),
                                       "Length of dip or dent; of the flat's chord; that the whole waves must "

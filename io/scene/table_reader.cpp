@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -101,6 +102,22 @@ class TableParser {
       refuse_late_header(units);
   }
 
+  /// Adds a problem where the last column goes beyond the rules' bound.
+  bool check_depths(const std::string& path, std::vector<Problem>& problems) const {
+    const std::vector<double>& row = rows[deepest_row_];
+    if (rules_.deepest >= std::abs(row.back())) return true;
+    // Lines say nothing in a binary file.
+    const std::string place =
+        columns_ == 3 ? fmt::format(" at x = {:.6g} m, y = {:.6g} m", row[0], row[1]) : "";
+    problems.push_back(
+        {path, deepest_line_, 0, "",
+         fmt::format("a depth of {:.4g} mm{} is not allowed; it must be from {:g} to {:g} mm: check the unit "
+                     "of the column, [{}]{}",
+                     1e3 * row.back(), place, -1e3 * rules_.deepest, 1e3 * rules_.deepest,
+                     texts_.empty() ? "mm" : texts_.back(), finer_unit(row.back()))});
+    return false;
+  }
+
   std::vector<std::vector<double>> rows;
   bool angles = false;                      ///< in the first column
   Dimension dimension = kLength.dimension;  ///< of the first column
@@ -164,6 +181,18 @@ class TableParser {
     require_same_units(stated, texts);
   }
 
+  /// "; in [um] it would be 0.03 mm" where the depths fit in a unit of that kind, else "".
+  std::string finer_unit(double deepest) const {
+    const Unit& stated = units_->back();
+    const double size = std::pow(10, stated.exponent) * stated.numerator / stated.denominator;
+    for (const auto& [name, finer] : {std::pair{"mm", 1e-3}, std::pair{"um", 1e-6}}) {
+      const double depth = deepest / size * finer;
+      if (finer < 0.99 * size && std::abs(depth) <= rules_.deepest)
+        return fmt::format("; in [{}] it would be {:.4g} mm", name, 1e3 * depth);
+    }
+    return "";
+  }
+
   std::string example() const {
     if (columns_ == 3) return "# x [mm]  y [mm]  d [um]";
     return "# x [m]  " + (rules_.pure_second ? "f [-]" : rules_.example);
@@ -183,6 +212,10 @@ class TableParser {
     for (std::size_t i = 0; i < columns_; ++i) values.push_back(parse_number(row[i], (*units_)[i]));
     if (rules_.increasing && !rows.empty() && values[0] <= rows.back()[0])
       throw InputError("the first column must grow from row to row");
+    if (rows.empty() || std::abs(values.back()) > std::abs(rows[deepest_row_].back())) {
+      deepest_row_ = rows.size();
+      deepest_line_ = line_;
+    }
     rows.push_back(std::move(values));
   }
 
@@ -192,6 +225,8 @@ class TableParser {
   std::vector<std::string> texts_;  ///< the units as the header states them
   int line_ = 0;                    ///< from 1
   int header_line_ = 0;             ///< 0: no header yet
+  std::size_t deepest_row_ = 0;     ///< with the largest magnitude in the last column
+  int deepest_line_ = 0;
 };
 
 /// Reads all lines; false where one is bad or there are fewer than `least` rows.
@@ -200,7 +235,7 @@ bool parse_rows(TableParser& parser, const std::string& content, const std::file
   if (!read_table_lines(
           content, path, [&](const std::string& line) { parser.read_line(line); }, problems))
     return false;
-  if (parser.rows.size() >= least) return true;
+  if (parser.rows.size() >= least) return parser.check_depths(path.string(), problems);
   problems.push_back({path.string(), 0, 0, "",
                       least == 2 ? "expected at least two rows of numbers"
                                  : fmt::format("expected at least {} rows of numbers", least)});
@@ -271,8 +306,8 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
 }
 
 GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
-                       std::vector<Problem>& problems) {
-  TableParser parser({.needs_units = true}, 3);
+                       std::vector<Problem>& problems, double deepest) {
+  TableParser parser({.needs_units = true, .deepest = deepest}, 3);
   if (!parse_rows(parser, content, path, 4, problems)) return {};
   std::vector<std::vector<double>>& rows = parser.rows;
   GridColumns grid{distinct(rows, 0), distinct(rows, 1), {}};

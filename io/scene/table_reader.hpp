@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct TableRules {
   std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
   std::string example = "d [mm]";                        ///< name and unit of the second column in messages
   std::string units_option = {};                         ///< that states the units too, for messages
+  double deepest = std::numeric_limits<double>::infinity();  ///< largest magnitude in the last column [m]
 };
 
 struct TwoColumns {
@@ -58,9 +60,11 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
                              const TableRules& rules, std::vector<Problem>& problems);
 
 /// Reads x, y and z of a grid's points, a line each in any order, with a line of units such as "# x [mm]  y
-/// [mm]  d [um]" before them. Problems as above; every x needs every y once.
+/// [mm]  d [um]" before them. Problems as above; every x needs every y once, and no z may go beyond `deepest`
+/// [m] up or down.
 GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
-                       std::vector<Problem>& problems);
+                       std::vector<Problem>& problems,
+                       double deepest = std::numeric_limits<double>::infinity());
 
 /// Two columns of a file. Throws InputError, ProblemsError where lines are bad.
 TwoColumns read_two_columns(const std::filesystem::path& path, const TableRules& rules);

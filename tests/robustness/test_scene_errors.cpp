@@ -515,6 +515,31 @@ TEST_F(Files, MeasuredDepths) {
                 "angles are for [surface] with kind = \"profile\" on the wheel");
 }
 
+TEST_F(Files, DepthsOfAWrongUnit) {
+  const auto refusal = [&](const std::string& table, const std::string& rows) {
+    write("depth.txt", rows);
+    return scene_error(write("depth.toml", kBase + table + "file = \"depth.txt\"\n"));
+  };
+  const std::string file = (folder_ / "depth.txt").string();
+  const auto slip = [](const std::string& place) {
+    return "a depth of 30 mm" + place +
+           " is not allowed; it must be from -10 to 10 mm: check the unit of the column, [mm]; in [um] it "
+           "would be 0.03 mm";
+  };
+  const std::string map = "kind = \"map\"\n", at = "at = \"2.7 m\"\n";
+  const std::string rows = "# x [m]  d [mm]\n0 0\n0.1 30\n0.2 1\n";
+  EXPECT_EQ(refusal("[surface.a]\nkind = \"profile\"\n" + at, rows), file + ":3: " + slip(""));
+  EXPECT_EQ(refusal("[corrugation]\nkind = \"table\"\n", rows), file + ":3: " + slip(""));
+  const std::string grid = "# x [mm]  y [mm]  d [mm]\n0 0 1\n1 0 2\n0 1 30\n1 1 3\n";
+  EXPECT_EQ(refusal("[surface.a]\n" + map + at, grid), file + ":4: " + slip(" at x = 0 m, y = 0.001 m"));
+  EXPECT_EQ(refusal("[corrugation]\n" + map, grid), file + ":4: " + slip(" at x = 0 m, y = 0.001 m"));
+  expect_part(refusal("[surface.a]\nkind = \"profile\"\n" + at, "# x [m]  d [m]\n0 0\n0.1 -20\n"),
+              ":3: a depth of -2e+04 mm is not allowed; it must be from -10 to 10 mm: check the unit of the "
+              "column, [m]; in [um] it would be -0.02 mm");
+  EXPECT_EQ(refusal("[surface.a]\nkind = \"profile\"\n" + at, "# x [m]  d [mm]\n0 -10\n0.1 10\n"),
+            "accepted");
+}
+
 TEST_F(Files, ProfilesWhoseAxesAreMistaken) {
   // Rows of the flange's back and tip, of the tread and of the rim.
   const auto wheel = [&](const std::string& rows) {
