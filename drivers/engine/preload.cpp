@@ -1,12 +1,13 @@
 #include "drivers/engine/preload.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -226,6 +227,16 @@ void Equilibrium::residual(Preload& state, double* r) {
   held_->balance(r);
 }
 
+/// "; or the depths of surface.a keep the bodies apart: ..." where the scene has such, else "".
+std::string apart_by_depths(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& [name, surface] : scene.surfaces) names.push_back("surface." + name);
+  if (names.empty()) return "";
+  return fmt::format(
+      "; or the depths of {} keep rail and wheel apart: state smaller or longer ones, or another place",
+      fmt::join(names, ", "));
+}
+
 /// Throws NumericalError if no point is in contact. `size`: norm of the load [N].
 void require_contact(const Model& model, int iteration, double residual, double size) {
   if (!model.contact || !model.contact->points().empty()) return;
@@ -233,8 +244,8 @@ void require_contact(const Model& model, int iteration, double residual, double 
       iteration == 0
           ? fmt::format("preload: no integration point of the rail touches the wheel; check "
                         "wheel.lateral_offset, and raise the wheel load of {:.3g} N if its patch is smaller "
-                        "than an element",
-                        model.wheel_load())
+                        "than an element{}",
+                        model.wheel_load(), apart_by_depths(model.scene))
           : fmt::format("preload: after {} iterations no point of the wheel touches the rail: {}", iteration,
                         why_unbalanced(model, residual, size)));
 }

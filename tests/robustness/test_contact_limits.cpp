@@ -61,6 +61,14 @@ TEST(ContactLimits, LoadTooSmallForTheMeshIsNamed) {
   expect_part(message, "the wheel load of 0.01 N");
 }
 
+TEST(ContactLimits, DepthsThatKeepTheBodiesApartAreNamed) {
+  const std::string message =
+      outcome({"motion.speed=0 m/s", "surface.worn.kind=polygon", "surface.worn.at=0 m",
+               "surface.worn.order=1000", "surface.worn.depth=0.5 mm"});
+  expect_part(message, "no integration point of the rail touches the wheel");
+  expect_part(message, "or the depths of surface.worn keep rail and wheel apart");
+}
+
 TEST(ContactLimits, HeavyLoadsAreSearchedForFarEnough) {
   // Hertz: semi-axes grow with the cube root of the load, here to 17 mm along the rail, where the undeformed
   // surfaces are 0.35 mm apart.
