@@ -28,7 +28,7 @@ double SectionSize::layer_weight(double p, double left, double right) const {
   return std::clamp((reach - std::abs(p - band_centre)) / (reach - full), 0.0, 1.0);
 }
 
-void check(const SectionSize& size, double depth, const std::string& name) {
+void check(const SectionSize& size, double depth, const std::string& name, const std::string& way_out) {
   if (!(size.surface > 0) || !(size.coarse > 0) || !(size.band_half_width > 0) || size.fine_layers < 1)
     throw InputError(
         fmt::format("{}: element sizes {} and {} m, band half width {} m, {} layers: all have to be positive",
@@ -36,8 +36,8 @@ void check(const SectionSize& size, double depth, const std::string& name) {
   if (size.fine_layers * size.surface > depth)
     throw MeshSizeError(fmt::format(
         "{}: {} layers of {:.4g} mm do not fit into {:.4g} mm below the surface; an element_size of "
-        "{:.4g} mm at most fits",
-        name, size.fine_layers, 1e3 * size.surface, 1e3 * depth, 1e3 * depth / size.fine_layers));
+        "{:.4g} mm at most fits{}",
+        name, size.fine_layers, 1e3 * size.surface, 1e3 * depth, 1e3 * depth / size.fine_layers, way_out));
 }
 
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size) {

@@ -35,8 +35,8 @@ struct SectionSize {
 constexpr double kCoarseRatio = 1.6;
 
 /// Throws InputError if a size is not positive, MeshSizeError if the layers do not fit into `depth` [m];
-/// `name` is the body.
-void check(const SectionSize& size, double depth, const std::string& name);
+/// `name` is the body; `way_out` follows in the message on the layers.
+void check(const SectionSize& size, double depth, const std::string& name, const std::string& way_out = "");
 
 /// Increasing parameters that contain every break and whose spacing follows size(parameter).
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size);

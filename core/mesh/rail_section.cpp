@@ -215,7 +215,7 @@ RailSections make_rail_sections(const RailProfile& profile, double inclination, 
 }
 
 Section make_box_rail_section(double width, double height, double crown_radius, const SectionSize& size) {
-  Section section = block_under(crowned(width, crown_radius).surface, -height, size, "foot");
+  Section section = block_under(crowned(width, crown_radius).surface, -height, size, "foot", "rail.height");
   validate(section, "box rail");
   return section;
 }

@@ -293,9 +293,17 @@ Section rectangle(double p0, double p1, int columns, double q0, double q1, int r
 }
 
 Section block_under(const PlaneCurve& surface, double bottom, const SectionSize& size,
-                    const std::string& bottom_name) {
-  const double height = std::min(surface.start().y, surface.end().y) - bottom;
-  check(size, height, "block under a running surface");
+                    const std::string& bottom_name, const std::string& height_key) {
+  const double lowest = std::min(surface.start().y, surface.end().y);
+  const double height = lowest - bottom;
+  const double least = std::ceil(1e4 * (size.fine_layers * size.surface - lowest)) * 1e-4;
+  if (height <= 0)
+    throw InputError(fmt::format(
+        "{} = {:.4g} mm: the running surface falls by {:.4g} mm to its ends; state {:.4g} mm at least, which "
+        "leaves room for {} layers of {:.4g} mm",
+        height_key, -1e3 * bottom, -1e3 * lowest, 1e3 * least, size.fine_layers, 1e3 * size.surface));
+  check(size, height, "block under a running surface",
+        fmt::format(", or {} = {:.4g} mm at least", height_key, 1e3 * least));
   const auto s = graded(breaks_on(surface, 0, surface.length()),
                         [&](double at) { return size.column(surface.at(at).position.x, size.coarse); });
   PatchSides sides;

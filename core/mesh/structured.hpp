@@ -87,9 +87,10 @@ Section rectangle(std::span<const double> p, std::span<const double> q);
 Section rectangle(double p0, double p1, int columns, double q0, double q1, int rows);
 
 /// One structured block between a surface and the straight line q = bottom. Its running surface is the whole
-/// `surface`; path `bottom_name` is the line.
+/// `surface`; path `bottom_name` is the line. InputError, which names the scene's key of the block's height,
+/// where the line lies not below the whole surface, MeshSizeError where the layers do not fit between.
 Section block_under(const PlaneCurve& surface, double bottom, const SectionSize& size,
-                    const std::string& bottom_name);
+                    const std::string& bottom_name, const std::string& height_key);
 
 /// Sum of the moments of all quads.
 AreaMoments area_moments(const Section& section);

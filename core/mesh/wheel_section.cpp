@@ -235,7 +235,7 @@ Section make_tyre_section(const WheelProfile& profile, double diameter, double l
         fmt::format("tyre: thickness {} m does not fit into a wheel of {} m diameter", thickness, diameter));
   SectionSize size = wanted;
   size.band_centre += lateral_offset;
-  Section section = block_under(profile.surface, -thickness, size, "bore");
+  Section section = block_under(profile.surface, -thickness, size, "bore", "wheel.thickness");
   translate(section, {-lateral_offset, diameter / 2});
   validate(section, "tyre");
   return section;

@@ -69,6 +69,16 @@ TEST(ContactLimits, DepthsThatKeepTheBodiesApartAreNamed) {
   expect_part(message, "or the depths of surface.worn keep rail and wheel apart");
 }
 
+TEST(ContactLimits, ARimThatIsTooThinIsNamed) {
+  EXPECT_EQ(
+      outcome({"wheel.thickness=1 mm"}),
+      "wheel.thickness = 1 mm: the running surface falls by 1.504 mm to its ends; state 11.6 mm at least, "
+      "which leaves room for 2 layers of 5 mm");
+  expect_part(outcome({"wheel.thickness=5 mm"}),
+              "an element_size of 1.748 mm at most fits, or wheel.thickness = 11.6 mm at least");
+  expect_part(outcome({"rail.height=1 mm", "rail.crown_radius=0.3 m"}), "rail.height = 1 mm: the running");
+}
+
 TEST(ContactLimits, HeavyLoadsAreSearchedForFarEnough) {
   // Hertz: semi-axes grow with the cube root of the load, here to 17 mm along the rail, where the undeformed
   // surfaces are 0.35 mm apart.
