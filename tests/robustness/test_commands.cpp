@@ -353,6 +353,15 @@ TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {
         "multibody --quiet --filter " + scene("smooth.toml")})
     EXPECT_EQ(call(wrong).code, 2) << wrong;
   EXPECT_EQ(call(good + " --step \"20 us\"").code, 3);
+  std::ofstream(folder_ / "depth.txt") << "# x [m]  d [mm]\n0 0\n0.1 0.02\n0.5 0\n";
+  const fs::path measured = folder_ / "measured.toml";
+  std::ofstream(measured) << "[scene]\nbased_on = \"highspeed-slab-2014\"\n[corrugation]\nkind = \"table\"\n"
+                             "file = \"depth.txt\"\n";
+  for (const char* option : {"--filter", "--contact half-space"}) {
+    const Outcome outcome = call(fmt::format("multibody --quiet {} {}", option, measured.string()));
+    EXPECT_EQ(outcome.code, 2) << option;
+    EXPECT_TRUE(has(outcome.errors, "a sine, and corrugation.kind is \"table\"; state")) << outcome.errors;
+  }
   // A history with a broken row names its line.
   std::ofstream(folder_ / "scene.resolved.toml") << std::ifstream(scene("corrugation-d.toml")).rdbuf();
   std::ofstream(folder_ / "histories.csv") << "time [s],wheel_x [m],vertical_force [N]\n0,0,1\n1,1\n";

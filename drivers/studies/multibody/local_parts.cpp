@@ -1,6 +1,5 @@
 #include "drivers/studies/multibody/local_parts.hpp"
 
-#include "core/error.hpp"
 #include "drivers/studies/multibody/solid_rail.hpp"
 
 namespace tread {
@@ -25,11 +24,7 @@ void use_modal_wheel(MultibodyModel& model) {
 }
 
 void use_half_space_contact(MultibodyModel& model) {
-  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
-    throw InputError(
-        "tread multibody --contact half-space: the wheel is pressed on a sine, and [corrugation] is none; "
-        "state "
-        "corrugation.kind = \"sine\", or leave the option out");
+  require_sine(model, "tread multibody --contact half-space: the wheel is pressed on a sine");
   const CorrugationSpec& sine = *model.scene.corrugation;
   model.sine = SineContact(
       {0.5 * model.scene.wheel->diameter, model.radius_y, sine.depth, sine.wavelength, sine.width},

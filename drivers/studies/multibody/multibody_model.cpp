@@ -262,9 +262,17 @@ double contact_filter_gain(const MultibodyModel& model, double wavelength) {
   return (approach(std::numbers::pi) - approach(0)) / spec.depth;
 }
 
+void require_sine(const MultibodyModel& model, const std::string& reason) {
+  const std::optional<CorrugationSpec>& corrugation = model.scene.corrugation;
+  if (corrugation && corrugation->kind == "sine") return;
+  throw InputError(fmt::format("{}, and {}; state corrugation.kind = \"sine\", or leave the option out",
+                               reason,
+                               corrugation ? fmt::format("corrugation.kind is \"{}\"", corrugation->kind)
+                                           : "there is no [corrugation]"));
+}
+
 double apply_contact_filter(MultibodyModel& model) {
-  if (!model.scene.corrugation || model.scene.corrugation->kind != "sine")
-    throw InputError("tread multibody --filter: the gain is that of a sine; [corrugation] is none");
+  require_sine(model, "tread multibody --filter: the gain is that of a sine");
   CorrugationSpec spec = *model.scene.corrugation;
   const double gain = contact_filter_gain(model, spec.wavelength);
   spec.depth *= gain;

@@ -77,6 +77,9 @@ Corrugation with_wavelength(const MultibodyModel& model, double wavelength);
 /// ch. 4, by kernels/half_space/half_space]
 double contact_filter_gain(const MultibodyModel& model, double wavelength);
 
+/// Throws InputError, which begins with `reason`, unless the corrugation is a sine.
+void require_sine(const MultibodyModel& model, const std::string& reason);
+
 /// Makes the scene's sine as deep as the contact filter leaves it and returns the gain [-]. Throws InputError
 /// without a sine.
 double apply_contact_filter(MultibodyModel& model);
