@@ -75,6 +75,15 @@ TEST_F(CompareCommand, NamesWhatIsWrong) {
   refused(curve().string() + " --offset 5m", "move the curve by --offset");
   refused(curve().string() + " --mean -1mm", "--mean \"-1mm\" is negative");
   refused((root_ / "none.txt").string(), "cannot read");
+
+  const fs::path still = root_ / "static";
+  const fs::path scene = fs::path(TREAD_SOURCE_DIR) / "scenes/sphere-on-block.toml";
+  ASSERT_EQ(call(fmt::format("run {} -t 1 --quiet -o {} --set \"scene.element_size=8 mm\"", scene.string(),
+                             still.string())),
+            0)
+      << errors();
+  EXPECT_EQ(call(fmt::format("compare {} {}", still.string(), curve().string())), 2);
+  EXPECT_TRUE(has(errors(), still.string() + ": a run without [motion] has no histories")) << errors();
 }
 
 TEST_F(CompareCommand, AndExportStatesUnitsAndDifferences) {

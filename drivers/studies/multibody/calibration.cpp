@@ -114,6 +114,10 @@ TransientRun read_transient_run(const std::filesystem::path& directory, const st
   TransientRun run;
   run.directory = directory;
   run.scene = read_scene(directory / kKeptScene);
+  if (!run.scene.motion)
+    throw InputError(
+        fmt::format("{}: a run without [motion] has no histories; give the folder of a run that rolls",
+                    directory.string()));
   std::vector<std::vector<double>> columns =
       read_history(directory / "histories.csv", {{"time", "s"}, {"wheel_x", "m"}, {force, "N"}});
   run.time = std::move(columns[0]);
