@@ -191,7 +191,9 @@ class Run:
         if self._unfinished:
             reason = f"the run is not finished ({_progress(self.folder)}); wait, or `tread resume {self.folder}`"
         elif self.summary["steps"] == 0:
-            reason = "a scene without [motion] leaves static values alone; use Run.summary"
+            patch = " and the patch; use Run.summary and Run.patch" if (self.folder / "patch.h5").is_file() else \
+                " alone; use Run.summary"
+            reason = f"a scene without [motion] leaves static values{patch}"
         elif "vertical_force_N" not in self.summary and name != "run.h5":
             reason = "only a wheel on a rail leaves it; use Run.history and Run.summary"
         else:

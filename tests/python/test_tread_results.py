@@ -199,7 +199,10 @@ class OtherRuns(Test):
     def test_static_alone(self):
         static = Run(folder / "static")
         self.assertGreater(static.summary["static_max_pressure_Pa"], 0)
-        self.refuses(lambda: static.history, "run.h5", "[motion]", "Run.summary")
+        self.assertEqual(static.patch["time"].size, 1)
+        self.assertGreater(static.patch["pressure"].max(), 0)
+        self.refuses(lambda: static.history, "run.h5", "[motion]", "use Run.summary and Run.patch")
+        self.refuses(lambda: static.surface, "surface.h5", "[motion]", "static values and the patch")
 
     def test_unfinished(self):
         self.refuses(lambda: Run(folder / "stopped"), folder / "stopped", "not finished", "stop.steps", "tread resume")
