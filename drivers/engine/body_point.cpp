@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/error.hpp"
@@ -55,6 +56,59 @@ double inwards(const Section& section) {
   return middle_q(section, edge.quad) < surface ? -1 : 1;
 }
 
+/// Depths between which the section is body [m].
+struct BodyDepths {
+  double first = 0, last = 0;
+};
+
+/// Stretches of body below the height `surface` at p [m], the uppermost first; seams between blocks count as
+/// body.
+std::vector<BodyDepths> depths_of_body(const Mesh& mesh, const std::vector<int>& blocks, double p,
+                                       double surface, double direction) {
+  constexpr double kSeam = 1e-4;  // [m]
+  std::vector<BodyDepths> list;
+  for (const int block : blocks) {
+    const Section& section = mesh.blocks[static_cast<std::size_t>(block)].section;
+    for (const std::array<int, 4>& nodes : section.quads) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto a = static_cast<std::size_t>(nodes[k]), b = static_cast<std::size_t>(nodes[(k + 1) % 4]);
+        const double begin = section.p[a], end = section.p[b];
+        if (p < std::min(begin, end) || p > std::max(begin, end)) continue;
+        const double share = begin == end ? 0 : (p - begin) / (end - begin);
+        const double q = section.q[a] + share * (section.q[b] - section.q[a]);
+        low = std::min(low, (q - surface) * direction);
+        high = std::max(high, (q - surface) * direction);
+      }
+      if (low <= high) list.push_back({low, high});
+    }
+  }
+  std::sort(list.begin(), list.end(),
+            [](const BodyDepths& a, const BodyDepths& b) { return a.first < b.first; });
+  std::vector<BodyDepths> joined;
+  for (const BodyDepths& one : list) {
+    if (joined.empty() || one.first > joined.back().last + kSeam) joined.push_back(one);
+    joined.back().last = std::max(joined.back().last, one.last);
+  }
+  return joined;
+}
+
+/// Throws InputError, which begins with `what`, where the place lies outside the body.
+void require_inside(const std::vector<BodyDepths>& body, const SectionPlace& place, const std::string& what) {
+  constexpr double kRounding = 1e-6;  // [m]
+  double fits = 0;                    // the greatest depth above the place that does
+  for (const BodyDepths& stretch : body) {
+    // The running surface may lie above the straight edges.
+    if (stretch.first - kRounding > place.depth && &stretch != &body.front()) break;
+    if (place.depth <= stretch.last + kRounding) return;
+    fits = stretch.last;
+  }
+  throw InputError(
+      fmt::format("{}: {:.6g} mm below the running surface at y = {:.4g} mm there is no element of the body; "
+                  "state a depth of {:.6g} mm at most",
+                  what, 1e3 * place.depth, 1e3 * place.y, 1e3 * fits));
+}
+
 }  // namespace
 
 BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double along,
@@ -64,7 +118,9 @@ BodyPoint find_point(const Mesh& mesh, const std::vector<int>& blocks, double al
   if (place.y < profile.first_p() || place.y > profile.last_p())
     throw InputError(fmt::format("{}: y = {:.4g} mm lies beyond the running surface, {:.4g} ... {:.4g} mm",
                                  what, 1e3 * place.y, 1e3 * profile.first_p(), 1e3 * profile.last_p()));
-  const double q = profile.q_at(place.y) + inwards(top.section) * place.depth;
+  const double surface = profile.q_at(place.y), direction = inwards(top.section);
+  require_inside(depths_of_body(mesh, blocks, place.y, surface, direction), place, what);
+  const double q = surface + direction * place.depth;
   const FoundQuad found = find_quad(mesh, blocks, place.y, q);
   if (found.block < 0)
     throw InputError(fmt::format(

@@ -117,6 +117,16 @@ TEST(Measurements, AProbeOutsideItsBodyIsRefused) {
     return "";
   };
   EXPECT_NE(error_of({"probe.p.depth=70 mm"}).find("probe.p: 70 mm below"), std::string::npos);
+  for (const char* below : {"60.002", "60.5", "61"})
+    EXPECT_EQ(
+        error_of({std::string("probe.p.depth=") + below + " mm"}),
+        std::string("probe.p: ") + below +
+            " mm below the running surface at y = 0 mm there is no element of the body; state a depth of "
+            "60 mm at most");
+  EXPECT_EQ(error_of({"probe.p.depth=60 mm"}), "");
+  EXPECT_EQ(error_of({"probe.p.depth=0 mm", "probe.p.y=-40 mm", "probe.w.body=wheel", "probe.w.y=17 mm",
+                      "probe.w.quantity=stress"}),
+            "");
   EXPECT_NE(error_of({"probe.p.y=60 mm"}).find("probe.p: y = 60 mm lies beyond"), std::string::npos);
 }
 
