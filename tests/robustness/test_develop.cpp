@@ -144,6 +144,9 @@ TEST_F(Develop, RefusesWhatItCannotDevelop) {
   expect_refused(kCorrugation + kWear, "is below 4 elements, 32 mm", "--set \"wear.shortest=31 mm\"");
   expect_refused(kCorrugation + kWear, "more than the corrugation's length", "--set \"wear.longest=73 mm\"");
   expect_refused(kCorrugation + kWear, "motion.duration must be 2.299 ms", "--set \"motion.duration=2 ms\"");
+  expect_refused(kCorrugation + kWear, "tread develop: solution_zone.start = 20 mm: all passages begin",
+                 "--set \"solution_zone.start=20 mm\"");
+  EXPECT_FALSE(fs::exists(folder_));
   expect_refused(kCorrugation + kWear, "not shorter than the longest", "--set \"wear.longest=32 mm\"");
   expect_refused(kCorrugation + kWear, "has an effect only with corrugation.kind = \"sine\" or \"random\"",
                  "--set corrugation.kind=table");

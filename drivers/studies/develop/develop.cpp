@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+
 #include "drivers/process/interruption.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "drivers/studies/develop/development_folder.hpp"
 #include "drivers/studies/develop/development_report.hpp"
 #include "io/files/output_file.hpp"
@@ -37,6 +40,8 @@ std::string passage_text(const Development& development) {
 void develop(const ResolvedScene& resolved, const DevelopOptions& options) {
   Development development;
   development.plan = wear_plan(resolved.scene);
+  if (options.from.empty() && !std::filesystem::exists(options.output / kKeptScene))
+    require_way_to_zone(resolved);
   Progress progress(options.quiet);
   Interruption interruption("tread: stopped before the first passage",
                             "tread: stopped at once; the same command goes on from the last checkpoint");

@@ -10,6 +10,8 @@
 #include "core/error.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/results/scene_model.hpp"
+#include "drivers/run/fork.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/files/history_reader.hpp"
@@ -46,6 +48,11 @@ std::string smooth_scene(const ResolvedScene& resolved) {
 std::string fork_table(const Scene& scene) {
   const bool stated = scene.forks && scene.forks->at;
   return "\n[forks]\n" + (stated ? fmt::format("at = \"{} s\"\n", *scene.forks->at) : "");
+}
+
+/// Room for waves that grow in passage 0 [m].
+double growing_room(const Scene& scene) {
+  return std::max(forks_room(scene), 2 * corrugation_depth(scene));
 }
 
 void require_same(const fs::path& folder, const ResolvedScene& resolved) {
@@ -190,9 +197,7 @@ std::vector<std::string> DevelopmentFolder::overrides(int number, const Developm
   if (number == 0) {
     // Passage 0 leaves room for waves that grow. All other passages take over that room, or the room of the
     // run with whose state they begin.
-    if (options_.from.empty())
-      list.push_back(fmt::format("contact.depth_room={} m",
-                                 std::max(forks_room(scene_), 2 * corrugation_depth(scene_))));
+    if (options_.from.empty()) list.push_back(fmt::format("contact.depth_room={} m", growing_room(scene_)));
     return list;
   }
   const CorrugationSpec& spec = *scene_.corrugation;
@@ -283,6 +288,26 @@ SurfaceWork work_of_run(const fs::path& surface, double first, double last) {
   }
   result.average();
   return result;
+}
+
+void require_way_to_zone(const ResolvedScene& resolved) {
+  constexpr double kFar = 0.3;  // beyond the reach of any patch [m]
+  Scene smooth = resolved.scene;
+  if (smooth.forks && smooth.forks->at) return;
+  if (smooth.zone_start - smooth.start_x() > kFar) return;
+  smooth.contact->depth_room = growing_room(smooth);
+  smooth.corrugation.reset();
+  smooth.wear.reset();
+  smooth.forks.emplace();
+  const Model model = scene_model(smooth, resolved);
+  const Approach approach = approach_of(smooth, model.contact->reach());
+  if (approach.time(*smooth.motion, smooth.zone_start) > 0) return;
+  throw InputError(fmt::format(
+      "tread develop: solution_zone.start = {:.4g} mm: all passages begin with a state that is kept before "
+      "the patch comes near the zone, but the wheel starts at x = {:.4g} mm and needs a way of more than "
+      "{:.4g} mm up to it; state {}, or the time of the state by forks.at",
+      1e3 * smooth.zone_start, 1e3 * smooth.start_x(), 1e3 * approach.before,
+      smooth.motion->run_up ? "a longer motion.run_up" : "a later solution_zone.start"));
 }
 
 }  // namespace tread

@@ -53,4 +53,8 @@ class DevelopmentFolder {
 /// stretch.
 SurfaceWork work_of_run(const std::filesystem::path& surface, double first, double last);
 
+/// Throws InputError where passages that begin with a state of passage 0 have none: its wheel stands too near
+/// the solution zone, and the scene does not state forks.at.
+void require_way_to_zone(const ResolvedScene& resolved);
+
 }  // namespace tread
