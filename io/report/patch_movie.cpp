@@ -159,15 +159,16 @@ Heatmap field_map(const PatchMovie& movie, const MovieFrame& frame, std::size_t 
 std::string movie_html(const PatchMovie& movie) {
   if (movie.frames.empty()) return "";
   check(movie);
+  const char* hidden = movie.frames.size() == 1 ? " hidden" : "";  // a single frame does not play
   return fmt::format(
-      "<figure class=\"movie\">\n<figcaption>{}</figcaption>\n"
-      "<div class=\"controls\"><button type=\"button\">Play</button>"
-      "<input type=\"range\" min=\"0\" max=\"{}\" value=\"0\" aria-label=\"instant\">"
+      "<figure class=\"movie\">\n<figcaption>{0}</figcaption>\n"
+      "<div class=\"controls\"><button type=\"button\"{4}>Play</button>"
+      "<input type=\"range\" min=\"0\" max=\"{1}\" value=\"0\" aria-label=\"instant\"{4}>"
       "<select aria-label=\"field\"></select></div>\n"
       "<p class=\"caption note\"></p>\n"
       "<div class=\"views\"><canvas class=\"plan\"></canvas><canvas class=\"relief\"></canvas></div>\n"
-      "<script type=\"application/json\">{}</script>\n<p class=\"caption\">{}</p>\n</figure>\n",
-      html_text(movie.title), movie.frames.size() - 1, data(movie), html_text(movie.caption));
+      "<script type=\"application/json\">{2}</script>\n<p class=\"caption\">{3}</p>\n</figure>\n",
+      html_text(movie.title), movie.frames.size() - 1, data(movie), html_text(movie.caption), hidden);
 }
 
 std::string movie_svg(const PatchMovie& movie) {

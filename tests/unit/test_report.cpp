@@ -170,6 +170,14 @@ TEST(PatchMovie, KeepsTheRowsThatTouchAndTheirNeighbours) {
   EXPECT_NE(html.find("\"values\": \"AP8AAIAAAAEAAAIA\""), std::string::npos) << html;
 }
 
+TEST(PatchMovie, OfASingleFrameDoesNotPlay) {
+  PatchMovie movie = one_frame();
+  EXPECT_NE(movie_html(movie).find("<button type=\"button\" hidden>"), std::string::npos);
+  EXPECT_NE(movie_html(movie).find("aria-label=\"instant\" hidden>"), std::string::npos);
+  movie.frames.push_back(movie.frames.front());
+  EXPECT_EQ(movie_html(movie).find(" hidden>"), std::string::npos);
+}
+
 TEST(PatchMovie, TextsCannotEndTheScript) {
   PatchMovie movie = one_frame();
   movie.frames[0].note = "</script>";
