@@ -60,6 +60,16 @@ double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::i
   return force[static_cast<std::size_t>(unknown)];
 }
 
+std::string too_far(const Model& model) {
+  return fmt::format(
+      "under the wheel load of {:.4g} kN and the spin of this speed the bodies move too far for small "
+      "strain, "
+      "or points keep entering and leaving the patch; a lower load, speed or motion.creepage, a thicker "
+      "wheel, "
+      "a finer quality or a softer contact.penetration_ratio helps",
+      1e-3 * model.wheel_load());
+}
+
 /// Reason for a failure of Newton's method; `residual`: norm of the unbalanced force, `size`: norm of the
 /// external load [N].
 std::string why_unbalanced(const Model& model, double residual, double size) {
@@ -69,13 +79,7 @@ std::string why_unbalanced(const Model& model, double residual, double size) {
         "the wheel load of {:.3g} N is lost in the rounding of the bodies' own forces; raise it, lower "
         "motion.speed or state motion.spin_in_preload = false",
         model.wheel_load());
-  return fmt::format(
-      "under the wheel load of {:.4g} kN and the spin of this speed the bodies move too far for small "
-      "strain, or "
-      "points keep entering and leaving the patch; a lower load, speed or motion.creepage, a thicker wheel, "
-      "a finer "
-      "quality or a softer contact.penetration_ratio helps",
-      1e-3 * model.wheel_load());
+  return too_far(model);
 }
 
 std::vector<TiedSlot> tied_slots(const Model& model) {
@@ -254,7 +258,8 @@ void require_contact(const Model& model, int iteration, double residual, double 
 class TangentSolver {
  public:
   TangentSolver(const Model& model, const Equilibrium& equilibrium)
-      : equilibrium_(&equilibrium),
+      : model_(&model),
+        equilibrium_(&equilibrium),
         two_level_(
             model.mesh, [&](double* x, double* y) { equilibrium.system().apply(x, y); },
             equilibrium.system().diagonal(), tied_slots(model)) {
@@ -274,13 +279,14 @@ class TangentSolver {
     const CgResult solved =
         conjugate_gradients(tangent, preconditioner, equilibrium_->held(), residual, u, {tolerance, 5000});
     if (!solved.converged)
-      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations",
+      throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations: {}",
                                        solved.residual_history.back() / solved.residual_history.front(),
-                                       solved.iterations));
+                                       solved.iterations, too_far(*model_)));
     return solved.iterations;
   }
 
  private:
+  const Model* model_;
   const Equilibrium* equilibrium_;
   TwoLevelPreconditioner two_level_;
   std::optional<WithCarrier> with_carrier_;
