@@ -95,7 +95,7 @@ void validate(const Section& section, const std::string& name) {
           sum += coordinate[static_cast<std::size_t>(node)];
         return 1e3 * sum / 4;
       };
-      report(fmt::format("quad {} about ({:.1f}, {:.1f}) mm is inverted, flat or not convex", quad,
+      report(fmt::format("quad {} is inverted, flat or not convex about ({:.1f}, {:.1f}) mm", quad,
                          middle(section.p), middle(section.q)));
     }
   }

@@ -9,7 +9,7 @@ SurfacePair::SurfacePair(const SweptBlock& rail, const SweptBlock& wheel, Surfac
     : rail_(&rail),
       wheel_(&wheel),
       kind_(kind),
-      across_(across),
+      kind_across_(across),
       rail_depth_(std::move(rail_depth)),
       wheel_depth_(std::move(wheel_depth)),
       rail_profile_(rail.section),
@@ -21,7 +21,7 @@ SurfacePairBody SurfacePair::body() const {
   return {{rail_stations_.line(), rail_profile_.view(), rail_->section.p.data(), rail_->section.q.data()},
           {wheel_stations_.line(), wheel_profile_.view(), wheel_->section.p.data(), wheel_->section.q.data()},
           kind_,
-          across_,
+          kind_across_,
           depths()};
 }
 

@@ -40,11 +40,12 @@ class SurfacePair {
   const StationFinder& rail_stations() const { return rail_stations_; }
   const StationFinder& wheel_stations() const { return wheel_stations_; }
   SurfaceKind kind() const { return kind_; }
+  SurfaceKind kind_across() const { return kind_across_; }
 
  private:
   const SweptBlock* rail_;
   const SweptBlock* wheel_;
-  SurfaceKind kind_, across_;
+  SurfaceKind kind_, kind_across_;
   Corrugation corrugation_;
   RunningSurface rail_depth_, wheel_depth_;
   SurfaceProfile rail_profile_;

@@ -74,6 +74,7 @@ DeviceContact::DeviceContact(Device& device, const Mesh& mesh, Contact& contact,
   task_.surfaces.rail_side = side(surfaces.rail(), surfaces.rail_profile(), surfaces.rail_stations());
   task_.surfaces.wheel_side = side(surfaces.wheel(), surfaces.wheel_profile(), surfaces.wheel_stations());
   task_.surfaces.kind = surfaces.kind();
+  task_.surfaces.kind_across = surfaces.kind_across();
   task_.surfaces.depths = depths(contact.surfaces().depths());
   std::vector<FaceQuadrature::Point> quadrature;
   quadrature.reserve(index(search.quadrature().size()));
