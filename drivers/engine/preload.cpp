@@ -60,13 +60,12 @@ double carrier_stiffness(const StaticSystem& system, std::int64_t values, std::i
   return force[static_cast<std::size_t>(unknown)];
 }
 
+/// Reason for which the bodies find no balance, and what helps.
 std::string too_far(const Model& model) {
   return fmt::format(
       "under the wheel load of {:.4g} kN and the spin of this speed the bodies move too far for small "
-      "strain, "
-      "or points keep entering and leaving the patch; a lower load, speed or motion.creepage, a thicker "
-      "wheel, "
-      "a finer quality or a softer contact.penetration_ratio helps",
+      "strain, or points keep entering and leaving the patch; a lower load, speed or motion.creepage, a "
+      "thicker wheel, a finer quality or a softer contact.penetration_ratio helps",
       1e-3 * model.wheel_load());
 }
 

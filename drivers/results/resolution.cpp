@@ -169,9 +169,8 @@ std::string dent_warning(const Model& model, const std::string& name, const Surf
   const Span dent{spec.centre - 0.5 * spec.width, spec.centre + 0.5 * spec.width};
   if (dent.last > touched.first && dent.first < touched.last) return "";
   return fmt::format(
-      "surface.{} lies at y = {:.3g} to {:.3g} mm, beside what the wheel can touch, y = {:.3g} to {:.3g} mm, "
-      "and "
-      "has no effect; change surface.{}.centre",
+      "surface.{} lies at y = {:.3g} to {:.3g} mm, beside what the wheel can touch, y = {:.3g} to "
+      "{:.3g} mm, and has no effect; change surface.{}.centre",
       name, 1e3 * dent.first, 1e3 * dent.last, 1e3 * touched.first, 1e3 * touched.last, name);
 }
 
