@@ -245,6 +245,7 @@ bool parse_rows(TableParser& parser, const std::string& content, const std::file
 /// The values of a column, each once, increasing.
 std::vector<double> distinct(const std::vector<std::vector<double>>& rows, std::size_t column) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(row[column]);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
