@@ -5,8 +5,10 @@ measured_flat.py EXAMPLES TREAD FOLDER [ANGLE ...] [--size MM]
 EXAMPLES is CONTACT's folder of examples (S1002_flat.slcw, S1002_flat/, wheelflat.ref_out). For each angle [deg] of the wheel
 (default: seven of the example's) the program TREAD finds the static state of a half wheelset under 125 kN on elements of
 MM (default 1.1 mm). Prints largest pressures and areas by CONTACT, by half-spaces with the gap of the same map, and by TREAD
-as Markdown. The slices are smoothed as in the example: a smoothing spline of parameter 5 mm^4 across, and cubic B-splines
-with the slices as coefficients around. The rail has the example's radii of 300 and 60 mm, and sides 72 mm apart. Needs numpy.
+as Markdown. The slices are smoothed as in the example: smoothing splines across, and cubic B-splines with the slices as
+coefficients around. Half-spaces do not bend: in TREAD's scene the rail's head stands on a stiff web and foot, and two coarse
+runs find by how much the load turns wheel and head, so that the last one begins where it ends in the example's place.
+Needs numpy.
 """
 import argparse
 import json

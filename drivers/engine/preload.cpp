@@ -110,18 +110,18 @@ double wheel_tilt(const Model& model, ConstNodeField displacement, double angle)
   if (model.index.tread < 0) return 0;
   // The tread's lateral displacement varies as the depth below the axle.
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  const SurfaceProfile profile(block.section);
   double moment = 0;
   double second = 0;
-  const auto add = [&](int node) {
+  for (int ordinal = 0; ordinal <= profile.edges(); ++ordinal) {
+    const int node = profile.node(ordinal);
     for (int station = 0; station < block.station_count(); ++station) {
       const double down = block.section.q[static_cast<std::size_t>(node)] *
                           std::cos(block.stations[static_cast<std::size_t>(station)] + angle);
       moment += down * displacement[dof(block.base + block.slot(node, station), 1)];
       second += down * down;
     }
-  };
-  for (const SurfaceEdge& edge : block.section.surface) add(edge.node[0]);
-  add(block.section.surface.back().node[1]);
+  }
   return moment / second;
 }
 
@@ -130,7 +130,8 @@ SectionPose head_pose(const Model& model, ConstNodeField displacement, double x)
   const auto at = std::lower_bound(head.stations.begin(), std::prev(head.stations.end()), x);
   const auto station = static_cast<int>(at - head.stations.begin());
   const Section& section = head.section;
-  const std::array sides = {section.surface.front().node[0], section.surface.back().node[1]};
+  const SurfaceProfile profile(section);
+  const std::array sides = {profile.node(0), profile.node(profile.edges())};
   std::array<Vec3, 2> place, moved;
   for (const std::size_t i : {0, 1}) {
     const auto node = static_cast<std::size_t>(sides[i]);

@@ -73,13 +73,13 @@ SteadyMotion steady_motion(const Model& model);
 /// nodes' lateral displacement; `angle` is the wheel frame's [rad].
 double wheel_tilt(const Model& model, ConstNodeField displacement, double angle);
 
-/// How a section stands after its body was loaded.
+/// Place of a section after its body was loaded.
 struct SectionPose {
   double roll = 0;   ///< about x [rad]
   double shift = 0;  ///< across, of the running surface [m]
 };
 
-/// Of the rail's head at a place along it [m], by both ends of its running surface.
+/// That of the rail's head at a place along it [m], by both ends of its running surface.
 SectionPose head_pose(const Model& model, ConstNodeField displacement, double x);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.

@@ -25,7 +25,7 @@ constexpr double kSlope = 0.05;
 /// Step at an end of a table of depths that a measured rail does not have [m].
 constexpr double kStep = 5e-6;
 
-/// What lets the wheel roll to x [m].
+/// Sentence on the duration that lets the wheel roll to x [m].
 std::string way_to(const Scene& scene, double x) {
   const std::optional<double> duration = duration_to(scene, x);
   if (!duration) return "the brakes stop it before";

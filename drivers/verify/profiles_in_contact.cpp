@@ -55,11 +55,12 @@ length = "40 mm"
   return resolve_scene(SceneSource{"verify", text, {}}, {}).scene;
 }
 
-/// Of the wheel's rim, by the tread on both sides of the patch.
+/// Place of the wheel's rim, by the tread on both sides of the patch.
 SectionPose wheel_pose(const Model& model, ConstNodeField u) {
   constexpr double kBeside = 60e-3;          // far from the patch's own deformation [m]
   const std::array tread = {-30e-3, 60e-3};  // without the flange [m]
   const SweptBlock& block = model.mesh.blocks[static_cast<std::size_t>(model.index.tread)];
+  const SurfaceProfile profile(block.section);
   SectionPose pose;
   for (const double angle : {-kBeside / model.wheel_radius(), kBeside / model.wheel_radius()}) {
     const auto away = [&](double a) { return std::abs(std::remainder(a - angle, 2 * std::numbers::pi)); };
@@ -67,10 +68,11 @@ SectionPose wheel_pose(const Model& model, ConstNodeField u) {
                                           [&](double a, double b) { return away(a) < away(b); });
     const auto station = static_cast<int>(nearest - block.stations.begin());
     LineFit sinking, shift;
-    for (const SurfaceEdge& edge : block.section.surface) {
-      const double y = block.section.p[static_cast<std::size_t>(edge.node[0])];
+    for (int ordinal = 0; ordinal <= profile.edges(); ++ordinal) {
+      const int node = profile.node(ordinal);
+      const double y = block.section.p[static_cast<std::size_t>(node)];
       if (y < tread[0] || y > tread[1]) continue;
-      const std::int64_t slot = block.base + block.slot(edge.node[0], station);
+      const std::int64_t slot = block.base + block.slot(node, station);
       sinking.add(y, u[dof(slot, 2)]);
       shift.add(y, u[dof(slot, 1)]);
     }

@@ -110,37 +110,12 @@ TEST(StepLimit, RefusesAClassicalDampingThatWouldStopTheRun) {
 }
 
 TEST(Preload, ASliceOfWideBodiesHasOnePressureAcross) {
-  const Scene scene = resolve_scene(SceneSource{"slice.toml",
-                                                R"([scene]
-element_size = "3 mm"
-gravity = "0 m/s2"
-plane_strain = true
-[solution_zone]
-start = "-20 mm"
-length = "40 mm"
-[material.steel]
-youngs_modulus = "205.9 GPa"
-poissons_ratio = 0.3
-density = "7790 kg/m3"
-[wheel]
-shape = "tyre"
-profile = "cylinder"
-width = "15 mm"
-lateral_offset = "0 mm"
-[rail]
-profile = "box"
-support = "rigid"
-length = "100 mm"
-origin = "50 mm"
-width = "15 mm"
-[load]
-wheel_load = "60 kN"
-[contact]
-friction = 0
-)",
-                                                {}},
-                                    {})
-                          .scene;
+  Scene scene =
+      samples::tyre_scene({"scene.element_size=3 mm", "scene.gravity=0 m/s2", "solution_zone.start=-20 mm",
+                           "solution_zone.length=40 mm", "wheel.width=15 mm", "rail.width=15 mm",
+                           "motion.present=false", "load.wheel_load=60 kN", "contact.friction=0"});
+  scene.plane_strain = true;
+  scene.wheel->profile = "cylinder";
   Model model(scene);
   solve_preload(model, {}, [](const std::string&) {});
   const PatchNodes& patch = model.contact->nodes();
