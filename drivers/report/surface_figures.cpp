@@ -121,7 +121,8 @@ Drawings stick_slip_drawings(const Model& model, const RunResults& r) {
 PatchMovie patch_movie(const Model& model, const RunResults& r) {
   PatchMovie movie;
   movie.name = "patch-movie";
-  movie.title = r.samples.empty() ? "The patch at rest" : "The patch on its way";
+  const bool at_rest = r.samples.empty();
+  movie.title = at_rest ? "The patch at rest" : "The patch on its way";
   movie.x_label = "Along the rail from the wheel's axis [mm]";
   movie.y_label = "Across the rail [mm]";
   movie.labels = {"Pressure [MPa]", "Surface shear stress [MPa]", "Slip speed [mm/s]"};
@@ -150,10 +151,10 @@ PatchMovie patch_movie(const Model& model, const RunResults& r) {
     }
     movie.frames.push_back(std::move(frame));
   }
-  movie.caption =
-      "Left from above, rolling to the right: red lines part what sticks from what slips; right the same as "
-      "a "
-      "relief, drag it to turn it. Averages at the rail's surface nodes.";
+  movie.caption = fmt::format(
+      "Left from above{}; right the same as a relief, drag it to turn it. Averages at the rail's "
+      "surface nodes.",
+      at_rest ? "" : ", rolling to the right: red lines part what sticks from what slips");
   return movie;
 }
 
