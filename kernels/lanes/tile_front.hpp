@@ -65,7 +65,7 @@ class TileFront {
   TREAD_INLINE void prefetch(int node) const {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
-      const bool moves = view_.motion[tile] != nullptr;
+      const bool moves = moves_node(node, tile);
       if (moves)
         __builtin_prefetch(view_.motion[tile]->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
       prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
@@ -73,6 +73,11 @@ class TileFront {
         prefetch_vector<0, first>(next(view_.v, view_.v_next, tile) + at);
       if (!moves) prefetch_vector<1>(view_.f + tile * view_.stride + at);
     }
+  }
+
+  /// A tile's lanes of a node move as soon as their force is complete.
+  TREAD_INLINE bool moves_node(int node, int tile) const {
+    return view_.motion[tile] != nullptr && view_.motion[tile]->deferred[node] == 0;
   }
 
   /// The field of the tile behind `tile` along the sweep.
@@ -248,8 +253,7 @@ class TileFront {
   TREAD_INLINE void finish_node(int node, int tile, const Register (&force)[kParts][3]) const {
     constexpr int kNodeWidth = NodeLanes<Real, U>::kWidth;
     using Piece = typename NodeLanes<Real, U>::Register;
-    const TileMotion<Real, U>* motion = view_.motion[tile];
-    const bool moves = motion != nullptr && motion->deferred[node] == 0;
+    const bool moves = moves_node(node, tile);
     Real* f = view_.f + tile * view_.stride + static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
     for (int lane = 0; lane < kLanes; lane += kNodeWidth) {
       const int place = tile * kLanes + lane;
@@ -262,7 +266,7 @@ class TileFront {
           piece[i] = load<Piece>(reinterpret_cast<const Real*>(&part) + place % kWidth);
       }
       if (moves)
-        move_node<sweep, first, Real, U>(*motion, node, lane, piece);
+        move_node<sweep, first, Real, U>(*view_.motion[tile], node, lane, piece);
       else
         for (int i = 0; i < 3; ++i) store(f + i * kLanes + lane, i < first ? Piece{} : piece[i]);
     }
