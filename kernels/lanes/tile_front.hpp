@@ -65,7 +65,7 @@ class TileFront {
   TREAD_INLINE void prefetch(int node) const {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
     for (int tile = 0; tile < kTiles && tile < view_.tiles; ++tile) {
-      const bool moves = moves_node(node, tile);
+      const bool moves = moves_at_once(node, tile);
       if (moves)
         __builtin_prefetch(view_.motion[tile]->inverse_mass + static_cast<std::ptrdiff_t>(node) * kLanes);
       prefetch_vector<0, first>(next(view_.u, view_.u_next, tile) + at);
@@ -76,7 +76,7 @@ class TileFront {
   }
 
   /// A tile's lanes of a node move as soon as their force is complete.
-  TREAD_INLINE bool moves_node(int node, int tile) const {
+  TREAD_INLINE bool moves_at_once(int node, int tile) const {
     return view_.motion[tile] != nullptr && view_.motion[tile]->deferred[node] == 0;
   }
 
@@ -253,7 +253,7 @@ class TileFront {
   TREAD_INLINE void finish_node(int node, int tile, const Register (&force)[kParts][3]) const {
     constexpr int kNodeWidth = NodeLanes<Real, U>::kWidth;
     using Piece = typename NodeLanes<Real, U>::Register;
-    const bool moves = moves_node(node, tile);
+    const bool moves = moves_at_once(node, tile);
     Real* f = view_.f + tile * view_.stride + static_cast<std::ptrdiff_t>(node) * 3 * kLanes;
     for (int lane = 0; lane < kLanes; lane += kNodeWidth) {
       const int place = tile * kLanes + lane;
