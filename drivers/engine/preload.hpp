@@ -79,7 +79,7 @@ struct SectionPose {
   double shift = 0;  ///< across, of the running surface [m]
 };
 
-/// That of the rail's head at a place along it [m], by both ends of its running surface.
+/// Pose of the rail's head at a place along it [m], by both ends of its running surface.
 SectionPose head_pose(const Model& model, ConstNodeField displacement, double x);
 
 /// Throws NumericalError if Newton's method or the linear solver does not converge.
