@@ -36,9 +36,10 @@ inline SolvedSystem solve_system(const Operator& a, const Preconditioner* precon
   AlignedVector<double> right = b;
   const double scale = size(right);
   SolvedSystem solved;
+  CgVectors vectors;
   AlignedVector<double> r = residual_of(a, b, x);
   solved.result = conjugate_gradients(a, preconditioner, held, r, x,
-                                      {relative.tolerance * scale, relative.max_iterations});
+                                      {relative.tolerance * scale, relative.max_iterations}, vectors);
   solved.iterations = solved.result.iterations;
   r = residual_of(a, b, x);
   if (held) solved.reactions = held->work(r.data());

@@ -276,8 +276,8 @@ class TangentSolver {
     const Preconditioner* preconditioner = &two_level_;
     if (with_carrier_) preconditioner = &*with_carrier_;
     two_level_.update(tangent, equilibrium_->springs());
-    const CgResult solved =
-        conjugate_gradients(tangent, preconditioner, equilibrium_->held(), residual, u, {tolerance, 5000});
+    const CgResult solved = conjugate_gradients(tangent, preconditioner, equilibrium_->held(), residual, u,
+                                                {tolerance, 5000}, vectors_);
     if (!solved.converged)
       throw NumericalError(fmt::format("preload: the linear solver stalled at {:.2e} after {} iterations: {}",
                                        solved.residual_history.back() / solved.residual_history.front(),
@@ -290,6 +290,7 @@ class TangentSolver {
   const Equilibrium* equilibrium_;
   TwoLevelPreconditioner two_level_;
   std::optional<WithCarrier> with_carrier_;
+  CgVectors vectors_;
 };
 
 }  // namespace

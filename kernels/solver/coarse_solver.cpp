@@ -2,19 +2,21 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Sparse>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <unordered_set>
 
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "core/parallel/chunks.hpp"
+#include "kernels/solver/sparse_factor.hpp"
 
 namespace tread {
 
 namespace {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-using Factor = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
+using SparseMatrix = SparseFactor::Matrix;
 
 /// Pairs of coupled aggregates, collected element by element.
 class Couplings {
@@ -113,7 +115,8 @@ std::vector<int> distance_two_colours(const std::vector<std::vector<int>>& graph
 
 struct CoarseSolver::Matrices {
   SparseMatrix base;  ///< lower triangle without springs
-  Factor factor;
+  SparseFactor factor;
+  std::vector<Spring> springs;  ///< that the factor has
   int probes = 0;
 };
 
@@ -141,7 +144,9 @@ SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<i
           any = true;
         }
       if (!any) continue;
-      std::fill(x.begin(), x.end(), 0.0);
+      for_chunks(values, [&](std::int64_t first, std::int64_t last) {
+        std::fill(x.data() + first, x.data() + last, 0.0);
+      });
       aggregates.prolongate_add(coarse.data(), x.data());
       a(x.data(), y.data());
       ++*probes;
@@ -206,9 +211,21 @@ std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& sprin
   return sum;
 }
 
+/// Whether springs differ by so little that the factor of one set serves the other.
+bool alike(const std::vector<Spring>& some, const std::vector<Spring>& others) {
+  constexpr double kLittle = 0.01;
+  const auto near = [](double a, double b, double size) { return std::abs(a - b) <= kLittle * size; };
+  return std::ranges::equal(some, others, [&](const Spring& a, const Spring& b) {
+    return near(a.stiffness, b.stiffness, a.stiffness) && a.dofs == b.dofs &&
+           std::ranges::equal(a.weights, b.weights, [&](double v, double w) { return near(v, w, 1); });
+  });
+}
+
 }  // namespace
 
 void CoarseSolver::factorise(const Aggregates& aggregates, const std::vector<Spring>& springs) {
+  if (matrices_->factor.entries() > 0 && alike(matrices_->springs, springs)) return;
+  matrices_->springs = springs;
   std::vector<Eigen::Triplet<double>> entries;
   for (const Spring& spring : springs) {
     const auto weights = on_modes(aggregates, spring);
@@ -221,17 +238,14 @@ void CoarseSolver::factorise(const Aggregates& aggregates, const std::vector<Spr
   matrix += matrices_->base;
   constexpr double kHold = 1e-12;
   for (int i = 0; i < matrix.rows(); ++i) matrix.coeffRef(i, i) *= 1 + kHold;
-  matrices_->factor.compute(matrix);
-  if (matrices_->factor.info() != Eigen::Success)
+  if (!matrices_->factor.compute(matrix))
     throw NumericalError(
         "static solver: the coarse matrix could not be factorised; a body is unrestrained or a stiffness is "
         "negative or not a number");
 }
 
 void CoarseSolver::solve(const double* r, double* y) const {
-  const Eigen::Map<const Eigen::VectorXd> right(r, matrices_->base.rows());
-  const Eigen::VectorXd solution = matrices_->factor.solve(right);
-  std::copy(solution.data(), solution.data() + solution.size(), y);
+  matrices_->factor.solve(r, y);
 }
 
 int CoarseSolver::probes() const {
@@ -239,7 +253,7 @@ int CoarseSolver::probes() const {
 }
 
 std::int64_t CoarseSolver::factor_entries() const {
-  return matrices_->factor.matrixL().nestedExpression().nonZeros();
+  return matrices_->factor.entries();
 }
 
 }  // namespace tread

@@ -38,22 +38,24 @@ double advance(double alpha, const AlignedVector<double>& p, const AlignedVector
   });
 }
 
-/// Computes p = z + beta p.
+/// Computes p = z + beta p; of beta = 0 whatever p held.
 void turn(double beta, const AlignedVector<double>& z, AlignedVector<double>& p) {
   for_chunks(static_cast<std::int64_t>(z.size()), [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-      p[i] = z[i] + beta * p[i];
+      p[i] = beta == 0 ? z[i] : z[i] + beta * p[i];
   });
 }
 
 }  // namespace
 
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
-                             AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options) {
+                             AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options,
+                             CgVectors& vectors) {
   TREAD_EXPECT(r.size() == x.size() && r.size() % kLanes == 0);
   const auto n = static_cast<std::int64_t>(r.size());
-  AlignedVector<double> p(r.size(), 0.0);
-  AlignedVector<double> w(r.size());  // preconditioned residual, then A p
+  auto& [p, w] = vectors;
+  p.resize(r.size());
+  w.resize(r.size());
   CgResult result;
   if (held) held->balance(r.data());
   double norm = std::sqrt(dot(n, r.data(), r.data()));

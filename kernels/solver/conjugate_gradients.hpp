@@ -33,6 +33,12 @@ struct CgOptions {
   int max_iterations = 2000;
 };
 
+/// Buffers for systems of one size, which are solved one after another: the next begin with memory that is
+/// there.
+struct CgVectors {
+  AlignedVector<double> direction, image;
+};
+
 struct CgResult {
   bool converged = false;  ///< true if the recurrence's residual, which rounding may lower, converged
   int iterations = 0;
@@ -45,6 +51,7 @@ struct CgResult {
 /// example) the last iterate is returned and the caller judges. Throws NumericalError if a search direction
 /// has no stiffness.
 CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditioner, const HeldMotions* held,
-                             AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options);
+                             AlignedVector<double>& r, AlignedVector<double>& x, const CgOptions& options,
+                             CgVectors& vectors);
 
 }  // namespace tread

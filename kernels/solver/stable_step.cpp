@@ -24,7 +24,9 @@ void fill_without_structure(const AlignedVector<double>& inverse_mass, AlignedVe
     return sum;
   }));
   if (size == 0) return;
-  for (double& value : p) value /= size;
+  for_chunks(n, [&](std::int64_t first, std::int64_t last) {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) p[i] /= size;
+  });
 }
 
 }  // namespace

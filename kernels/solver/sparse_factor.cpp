@@ -1,0 +1,158 @@
+#include "kernels/solver/sparse_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "core/index.hpp"
+#include "core/parallel/parallel.hpp"
+
+namespace tread {
+
+namespace {
+
+/// The row of a column's first entry: each later column that uses it uses that row's column, too. -1: a root.
+std::vector<int> parents(const SparseFactor::Matrix& lower) {
+  std::vector<int> parent(index(lower.cols()), -1);
+  for (int column = 0; column < lower.cols(); ++column) {
+    const int first = lower.outerIndexPtr()[column];
+    if (first < lower.outerIndexPtr()[column + 1]) parent[index(column)] = lower.innerIndexPtr()[first];
+  }
+  return parent;
+}
+
+std::int64_t work_of(const SparseFactor::Matrix& lower, int column) {
+  return 1 + lower.outerIndexPtr()[column + 1] - lower.outerIndexPtr()[column];
+}
+
+/// Visits row and value of each entry of a column.
+template <class Visit>
+void for_entries(const SparseFactor::Matrix& lower, int column, const Visit& visit) {
+  for (int at = lower.outerIndexPtr()[column]; at < lower.outerIndexPtr()[column + 1]; ++at)
+    visit(lower.innerIndexPtr()[at], lower.valuePtr()[at]);
+}
+
+/// How columns are dealt out in a level: into bundles of subtrees, none of which has more than one of `parts`
+/// parts of the columns' work.
+struct Division {
+  std::size_t bundles;
+  std::int64_t parts;
+};
+constexpr Division kDivisions[] = {{32, 64}, {8, 12}, {1, 1}};
+
+}  // namespace
+
+bool SparseFactor::compute(const Matrix& matrix) {
+  const auto whole = matrix.selfadjointView<Eigen::Lower>();
+  if (order_.size() != matrix.rows()) {
+    Eigen::AMDOrdering<int>()(whole, order_);
+    order_ = order_.inverse().eval();
+  }
+  Matrix upper(matrix.rows(), matrix.cols());
+  upper.selfadjointView<Eigen::Upper>() = whole.twistedBy(order_);
+  factor_.compute(upper);
+  if (factor_.info() != Eigen::Success) return false;
+  const Eigen::VectorXd pivots = factor_.vectorD();
+  inverse_pivots_.clear();
+  for (const double pivot : pivots) inverse_pivots_.push_back(1 / pivot);
+  divide();
+  x_.resize(inverse_pivots_.size());
+  return std::all_of(inverse_pivots_.begin(), inverse_pivots_.end(),
+                     [](double p) { return std::isfinite(p); });
+}
+
+void SparseFactor::divide() {
+  const std::vector<int> parent = parents(lower());
+  std::vector<int> left(parent.size());  // columns of no level yet
+  std::iota(left.begin(), left.end(), 0);
+  levels_.clear();
+  for (const auto& [bundles, parts] : kDivisions) {
+    std::vector<std::int64_t> work(parent.size(), 0);  // of the subtree below and with a column
+    std::int64_t all = 0;
+    for (const int j : left) {
+      all += work_of(lower(), j);
+      work[index(j)] += work_of(lower(), j);
+      if (parent[index(j)] >= 0) work[index(parent[index(j)])] += work[index(j)];
+    }
+    const auto stays = [&](int j) { return work[index(j)] > all / parts; };
+    std::vector<int> roots;
+    std::copy_if(left.begin(), left.end(), std::back_inserter(roots),
+                 [&](int j) { return !stays(j) && (parent[index(j)] < 0 || stays(parent[index(j)])); });
+    std::stable_sort(roots.begin(), roots.end(),
+                     [&](int a, int b) { return work[index(a)] > work[index(b)]; });
+    Level& level = levels_.emplace_back(Level{std::vector<Bundle>(bundles), 0});
+    std::vector<Bundle*> bundle_of(parent.size(), nullptr);
+    for (const int root : roots) {
+      Bundle& least = *std::min_element(level.bundles.begin(), level.bundles.end(),
+                                        [](const Bundle& a, const Bundle& b) { return a.work < b.work; });
+      least.work += work[index(root)];
+      bundle_of[index(root)] = &least;
+    }
+    for (auto j = left.rbegin(); j != left.rend(); ++j)
+      if (!stays(*j) && bundle_of[index(*j)] == nullptr)
+        bundle_of[index(*j)] = bundle_of[index(parent[index(*j)])];
+    for (const int j : left)
+      if (bundle_of[index(j)] != nullptr) bundle_of[index(j)]->columns.push_back(j);
+    std::erase_if(left, [&](int j) { return !stays(j); });
+    level.above = left.size();
+    if (sums_.size() < bundles * level.above) sums_.resize(bundles * level.above);
+  }
+  number_columns();
+}
+
+void SparseFactor::number_columns() {
+  by_level_.clear();
+  number_.resize(index(lower().cols()));
+  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
+    for (const Bundle& bundle : level->bundles)
+      for (const int column : bundle.columns) {
+        number_[index(column)] = by_level_.size();
+        by_level_.push_back(column);
+      }
+}
+
+/// L y = x in these columns; what they take from columns above their level goes to `sums`.
+void SparseFactor::solve_forward(const Bundle& bundle, std::size_t above, double* sums) const {
+  std::fill_n(sums, above, 0.0);
+  for (const int column : bundle.columns) {
+    const double value = x_[index(column)];
+    for_entries(lower(), column, [&](int row, double entry) {
+      const std::size_t number = number_[index(row)];
+      (number < above ? sums[number] : x_[index(row)]) -= entry * value;
+    });
+  }
+}
+
+void SparseFactor::solve_forward(const Level& level) const {
+  const auto sums_of = [&](std::size_t bundle) { return sums_.data() + bundle * level.above; };
+  parallel_ranges(std::ssize(level.bundles), [&](std::int64_t first, std::int64_t last) {
+    for (std::size_t b = index(first); b < index(last); ++b)
+      solve_forward(level.bundles[b], level.above, sums_of(b));
+  });
+  for (std::size_t b = 0; b < level.bundles.size(); ++b)
+    for (std::size_t number = 0; number < level.above; ++number)
+      x_[index(by_level_[number])] += sums_of(b)[number];
+}
+
+/// D L^T y = x in these columns, of which those above have their y.
+void SparseFactor::solve_backward(const Bundle& bundle) const {
+  for (auto column = bundle.columns.rbegin(); column != bundle.columns.rend(); ++column) {
+    double value = x_[index(*column)] * inverse_pivots_[index(*column)];
+    for_entries(lower(), *column, [&](int row, double entry) { value -= entry * x_[index(row)]; });
+    x_[index(*column)] = value;
+  }
+}
+
+void SparseFactor::solve(const double* r, double* y) const {
+  const int* const place = order_.indices().data();
+  for (std::size_t i = 0; i < x_.size(); ++i) x_[index(place[i])] = r[i];
+  for (const Level& level : levels_) solve_forward(level);
+  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level)
+    parallel_ranges(std::ssize(level->bundles), [&](std::int64_t first, std::int64_t last) {
+      for (std::size_t b = index(first); b < index(last); ++b) solve_backward(level->bundles[b]);
+    });
+  for (std::size_t i = 0; i < x_.size(); ++i) y[i] = x_[index(place[i])];
+}
+
+}  // namespace tread
