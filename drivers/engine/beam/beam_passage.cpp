@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numeric>
 #include <utility>
 
@@ -136,8 +137,14 @@ void BeamPassage::step(double x, double roughness) {
   const std::vector<double> damped = beam_->damping().times(drag);
   for (std::size_t i = 0; i < n; ++i) load[i] += damped[i];
   const std::vector<double> head = beam_->head_load(x);
-  std::vector<double> next = factor_.solve(std::move(load));
-  const std::vector<double> response = factor_.solve(head);
+  std::vector<std::complex<double>> loads(n);
+  for (std::size_t i = 0; i < n; ++i) loads[i] = {load[i], head[i]};
+  const std::vector<std::complex<double>> both = factor_.solve(std::move(loads));
+  std::vector<double> next(n), response(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    next[i] = both[i].real();
+    response[i] = both[i].imag();
+  }
 
   // Vehicle without contact, and under a unit force on the wheel.
   Three inertia_of{}, drag_of{};
