@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace tread {
 
@@ -17,6 +18,7 @@ struct RankTraffic {
   std::int64_t sent = 0;      ///< [B]
   std::int64_t received = 0;  ///< [B]
   double seconds = 0;         ///< time in the calls [s]
+  double beside = 0;          ///< of it, in receive(), while the rank's other threads go on [s]
 };
 
 /// Bytes that go to another rank or come from it.
@@ -62,6 +64,8 @@ class Ranks {
   virtual bool spoils_copies() const { return false; }
 
   RankTraffic traffic;
+  /// Shares of the elements' work by measured times, by rank; empty: none were measured.
+  std::vector<double> shares;
 
  private:
   /// `size`: 1, 4 or 8 bytes.

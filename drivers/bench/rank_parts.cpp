@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "drivers/engine/rank_forces.hpp"
+#include "drivers/engine/rank_shares.hpp"
 
 namespace tread {
 

@@ -13,6 +13,7 @@
 #include "drivers/bench/rank_parts.hpp"
 #include "drivers/engine/node_fields.hpp"
 #include "drivers/engine/rank_fields.hpp"
+#include "drivers/engine/rank_shares.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "drivers/results/scene_model.hpp"
 #include "io/report/plain_text.hpp"
@@ -172,7 +173,7 @@ void bench_ranks(const ResolvedScene& resolved, const BenchRanksOptions& options
   const Model model(scene, std::nullopt, require_memory);
   const StepLoads loads = loads_of(model);
   const std::vector<TileWork> work = tile_work(model, *model.internal);
-  const RankCut cut(model, work, options.ranks);
+  const RankCut cut(model, work, expected_shares(model, work, options.ranks));
   SharedGroups groups(model, cut);
   groups.follow(loads.frame, 70 * loads.dt);
   RankRows rows(model, rank_parts(model, cut, work, groups));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
@@ -13,9 +12,6 @@
 namespace tread {
 
 namespace {
-
-/// Cost of search and tractions for each point that the search has room for. [ranks.md, What is shared]
-constexpr double kPointOfRoom = 16;
 
 /// Pieces of work, with the number of nodal forces that go between two of them if they part.
 struct WorkGraph {
@@ -28,18 +24,9 @@ struct WorkGraph {
   }
 };
 
-/// Shares of the work that let all ranks take as long, the contact of kContactRank included.
-std::vector<real_t> shares_of(double work, double contact, int ranks) {
-  constexpr double kLeast = 0.02;  // of an even share: METIS leaves no rank without any
-  const double even = 1.0 / ranks;
-  const double own = std::max((even * (work + contact) - contact) / work, kLeast * even);
-  std::vector<real_t> shares(index(ranks), static_cast<real_t>((1 - own) / std::max(ranks - 1, 1)));
-  shares[kContactRank] = static_cast<real_t>(own);
-  return shares;
-}
-
-/// Part of each piece.
-std::vector<idx_t> parts_of(WorkGraph graph, int parts, std::int64_t contact) {
+/// Part of each piece, of these shares of the cost.
+std::vector<idx_t> parts_of(WorkGraph graph, std::vector<real_t> shares) {
+  const auto parts = static_cast<int>(shares.size());
   auto pieces = static_cast<idx_t>(graph.cost.size());
   std::vector<idx_t> part(graph.cost.size(), 0);
   if (pieces <= parts) {
@@ -55,8 +42,6 @@ std::vector<idx_t> parts_of(WorkGraph graph, int parts, std::int64_t contact) {
     weight.push_back(forces);
   }
   for (std::size_t piece = 0; piece < graph.cost.size(); ++piece) first[piece + 1] += first[piece];
-  const double work = std::accumulate(graph.cost.begin(), graph.cost.end(), 0.0);
-  std::vector<real_t> shares = shares_of(work, static_cast<double>(contact), parts);
   std::vector<idx_t> options(METIS_NOPTIONS);
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_SEED] = 1;
@@ -109,17 +94,12 @@ void add_ties(const Model& model, std::vector<TileWork>& work) {
   for (const std::int64_t slot : model.ties->secondary_slots()) work[tile_of(first, slot)].cost += kTiedNode;
 }
 
-std::int64_t contact_cost(const Model& model) {
-  if (!model.contact) return 0;
-  return static_cast<std::int64_t>(kPointOfRoom * static_cast<double>(model.contact->searching().capacity()));
-}
-
-RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int ranks)
+RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares)
     : rank_(work.size()),
       owner_(index(model.mesh.slots / kLanes)),
       first_group_(first_groups(model.mesh)),
-      stretches_(index(ranks)) {
-  deal_out(model, work, ranks);
+      stretches_(shares.size()) {
+  deal_out(model, work, shares);
   for (std::size_t tile = 0; tile < rank_.size(); ++tile) {
     std::fill(owner_.begin() + first_group_[tile], owner_.begin() + first_group_[tile + 1], rank_[tile]);
     std::vector<TileStretch>& own = stretches_[index(rank_[tile])];
@@ -130,7 +110,8 @@ RankCut::RankCut(const Model& model, const std::vector<TileWork>& work, int rank
 }
 
 /// Tiles that the loop takes together are one piece. Pieces are linked along the sweep and by ties.
-void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, int ranks) {
+void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work,
+                       std::span<const double> shares) {
   WorkGraph graph;
   std::vector<idx_t> piece(work.size());
   for (std::size_t tile = 0; tile < work.size(); ++tile) {
@@ -146,7 +127,7 @@ void RankCut::deal_out(const Model& model, const std::vector<TileWork>& work, in
     model.ties->for_each_pair([&](std::int64_t secondary, std::int64_t primary) {
       graph.link(piece_of(secondary), piece_of(primary), 1);
     });
-  const std::vector<idx_t> part = parts_of(std::move(graph), ranks, contact_cost(model));
+  const std::vector<idx_t> part = parts_of(std::move(graph), {shares.begin(), shares.end()});
   for (std::size_t tile = 0; tile < work.size(); ++tile)
     rank_[tile] = static_cast<int>(part[index(piece[tile])]);
 }

@@ -3,6 +3,7 @@
 // [docs/records/ranks.md]
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/index.hpp"
@@ -29,9 +30,6 @@ struct TileWork {
   bool with_next = false;  ///< the loop takes the tile behind it along
 };
 
-/// Cost of the contact, in the units of TileWork.
-std::int64_t contact_cost(const Model& model);
-
 /// First group of each tile, in the order of blocks and tiles, and the number of groups.
 std::vector<std::int64_t> first_groups(const Mesh& mesh);
 
@@ -51,8 +49,9 @@ std::vector<TileWork> tile_work(const Model& model, const Internal& internal) {
 
 class RankCut {
  public:
-  /// `work`: tile_work(). Ranks are left without tiles where there are few.
-  RankCut(const Model& model, const std::vector<TileWork>& work, int ranks);
+  /// `work`: tile_work(); `shares`: of it, by rank, which add up to 1. Ranks are left without tiles where
+  /// there are few.
+  RankCut(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares);
 
   int ranks() const { return static_cast<int>(stretches_.size()); }
   std::size_t tiles() const { return rank_.size(); }
@@ -64,7 +63,7 @@ class RankCut {
   std::int64_t first_group(std::size_t tile) const { return first_group_[tile]; }
 
  private:
-  void deal_out(const Model& model, const std::vector<TileWork>& work, int ranks);
+  void deal_out(const Model& model, const std::vector<TileWork>& work, std::span<const double> shares);
   void join_tiles(const Mesh& mesh);
 
   std::vector<int> rank_;   ///< by tile

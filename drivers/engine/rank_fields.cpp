@@ -10,6 +10,7 @@
 #include "core/index.hpp"
 #include "core/math/hash.hpp"
 #include "drivers/engine/featured_nodes.hpp"
+#include "drivers/engine/rank_shares.hpp"
 
 namespace tread {
 
@@ -25,13 +26,21 @@ TileShare share_of(const RankCut& cut, Ranks& ranks) {
   return share;
 }
 
+/// By measured shares, or else by the expected ones.
+template <class Internal>
+RankCut cut_of(const Model& model, const Internal& internal, Ranks& ranks) {
+  const std::vector<TileWork> work = tile_work(model, internal);
+  if (ranks.shares.empty()) ranks.shares = expected_shares(model, work, ranks.count());
+  return {model, work, ranks.shares};
+}
+
 }  // namespace
 
 template <class Real, class U>
 RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks)
     : Base(model),
       ranks_(std::move(ranks)),
-      cut_(model, tile_work(model, this->internal()), ranks_->count()),
+      cut_(cut_of(model, this->internal(), *ranks_)),
       tiles_(share_of(cut_, *ranks_)),
       own_tiles_(cut_.tiles(), 0),
       shared_(model, cut_),

@@ -106,7 +106,7 @@ class MpiRanks final : public Ranks {
   void receive(std::span<const RankSegment> received) override {
     const Clock::time_point started = Clock::now();
     begin_to_receive(received, kPosted);
-    if (!received.empty()) finish(started);
+    if (!received.empty()) traffic.beside += finish(started);
   }
 
   [[noreturn]] void end_all(int code) override {
@@ -132,11 +132,11 @@ class MpiRanks final : public Ranks {
         traffic.sent += size;
       });
   }
-  /// Waits for all that has begun.
-  void finish(Clock::time_point started) {
+  /// Waits for all that has begun. Returns the time since `started` [s].
+  double finish(Clock::time_point started) {
     await(requests_);
     requests_.clear();
-    note_wait(started);
+    return note_wait(started);
   }
 
   void gather_values(std::byte* values, int size, std::span<const std::int64_t> first) override {
@@ -169,9 +169,11 @@ class MpiRanks final : public Ranks {
       visit(bytes.data(), static_cast<int>(std::min(kPiece, bytes.size())));
   }
 
-  void note_wait(Clock::time_point started) {
+  double note_wait(Clock::time_point started) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - started).count();
     ++traffic.waits;
-    traffic.seconds += std::chrono::duration<double>(Clock::now() - started).count();
+    traffic.seconds += seconds;
+    return seconds;
   }
 
   int rank_ = 0, count_ = 1, on_host_ = 1;

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <csignal>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
+#include "drivers/engine/rank_shares.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "drivers/run/run_checkpoint.hpp"
@@ -19,7 +21,7 @@ namespace tread {
 
 namespace {
 
-enum class Word : std::int64_t { begin, step, fetch, end, dismiss };
+enum class Word : std::int64_t { begin, step, fetch, times, end, dismiss };
 
 template <class T>
 void broadcast_value(Ranks& ranks, T& value) {
@@ -83,11 +85,13 @@ SealedContent receive(Ranks& ranks) {
 const std::string kThreads = "ranks/threads";
 const std::string kBackend = "ranks/backend";
 const std::string kBound = "ranks/bound";
+const std::string kShares = "ranks/shares";
 
 /// The run of rank 0 on this rank.
 class FollowedRun {
  public:
-  explicit FollowedRun(const SealedContent& content) {
+  FollowedRun(const SealedContent& content, Ranks& ranks) : ranks_(&ranks) {
+    ranks.shares = sealed_entry<std::vector<double>>(content, kShares);
     use_threads({static_cast<int>(sealed_value<std::int64_t>(content, kThreads)),
                  sealed_entry<std::string>(content, kBackend),
                  sealed_value<std::int64_t>(content, kBound) != 0});
@@ -111,12 +115,14 @@ class FollowedRun {
   void take_values() { simulation_->spread(); }
 
   /// Steps and fetches until another word.
-  Word follow(Ranks& ranks) {
-    for (Word word = next_word(ranks);; word = next_word(ranks)) {
+  Word follow() {
+    for (Word word = next_word(*ranks_);; word = next_word(*ranks_)) {
       if (word == Word::step)
-        step();
+        clock_.time(*ranks_, [this] { step(); });
       else if (word == Word::fetch)
         simulation_->fields();
+      else if (word == Word::times)
+        clock_.take(*ranks_);
       else
         return word;
     }
@@ -131,6 +137,8 @@ class FollowedRun {
     }
   }
 
+  Ranks* ranks_;
+  RankClock clock_;
   RunResults results_;
   std::optional<Model> model_;
   std::optional<Simulation> simulation_;
@@ -138,29 +146,49 @@ class FollowedRun {
 
 /// Until a word that is not about the run.
 Word follow_run(Ranks& ranks) {
-  FollowedRun run(receive(ranks));
+  FollowedRun run(receive(ranks), ranks);
   run.take_values();
-  return run.follow(ranks);
+  return run.follow();
 }
 
 }  // namespace
 
 Followers::Followers() : ranks_(chosen_ranks()) {}
 
-void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) const {
+void Followers::begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) {
   if (absent()) return;
+  clock_ = {};
   leave_to_spread(simulation, run);
   say(*ranks_, Word::begin);
   run[kThreads] = std::vector<std::int64_t>{threads.number};
   run[kBackend] = threads.backend;
   run[kBound] = std::vector<std::int64_t>{threads.bind ? 1 : 0};
+  run[kShares] = ranks_->shares;
   send(*ranks_, std::move(run));
   simulation.spread();
+  begin_seconds_ = clock_.passed();
+  clock_ = {};
 }
 
-void Followers::step(Simulation& simulation) const {
-  if (!absent()) say(*ranks_, Word::step);
-  simulation.step();
+void Followers::step(Simulation& simulation) {
+  if (absent()) return simulation.step();
+  say(*ranks_, Word::step);
+  clock_.time(*ranks_, [&] { simulation.step(); });
+}
+
+bool Followers::find_better_shares(double left) {
+  constexpr double kLonger = 4;      // each interval than the last
+  constexpr double kGain = 0.02;     // part of the time that is saved
+  constexpr double kWorthwhile = 2;  // saved time over that of begin(), which times may overrate
+  if (absent() || clock_.passed() < interval_) return false;
+  interval_ *= kLonger;
+  say(*ranks_, Word::times);
+  const std::vector<double> worked = clock_.take(*ranks_);
+  EvenedShares evened = evened_shares(ranks_->shares, worked);
+  const double saved = 1 - evened.seconds / *std::max_element(worked.begin(), worked.end());
+  if (saved < kGain || saved * left < kWorthwhile * begin_seconds_) return false;
+  ranks_->shares = std::move(evened.shares);
+  return true;
 }
 
 void Followers::fetch(const Simulation& simulation) const {
@@ -171,6 +199,12 @@ void Followers::fetch(const Simulation& simulation) const {
 
 void Followers::end() const {
   if (!absent()) say(*ranks_, Word::end);
+}
+
+std::string Followers::shares() const {
+  const auto [least, most] = std::minmax_element(ranks_->shares.begin() + 1, ranks_->shares.end());
+  return fmt::format("elements of rank 0: {:.1f} %, of each other: {:.1f} to {:.1f} %",
+                     100 * ranks_->shares[0], 100 * *least, 100 * *most);
 }
 
 std::string Followers::description(std::int64_t steps) const {

@@ -6,6 +6,7 @@
 
 #include "core/parallel/ranks.hpp"
 #include "drivers/engine/simulation.hpp"
+#include "drivers/run/rank_clock.hpp"
 #include "drivers/run/run_options.hpp"
 #include "io/files/sealed_file.hpp"
 
@@ -19,10 +20,13 @@ class Followers {
 
   bool absent() const { return !ranks_; }
 
-  /// Hands the run over: its content between two steps, as pack_run() packs it.
-  void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads) const;
+  /// Hands the run over, at its beginning or anew: its content between two steps, as pack_run() packs it.
+  void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads);
   /// A step on all ranks.
-  void step(Simulation& simulation) const;
+  void step(Simulation& simulation);
+  /// True where other shares of the work, which the next simulation gets, save more time than it takes to
+  /// begin() with them. `left`: time that the steps to come take with those of now [s].
+  bool find_better_shares(double left);
   /// Brings all values of the fields to rank 0.
   void fetch(const Simulation& simulation) const;
   /// The run is over: the others free its memory.
@@ -30,9 +34,14 @@ class Followers {
 
   /// "3 ranks, threads of each: 2", with what a step exchanges once steps have been taken.
   std::string description(std::int64_t steps) const;
+  /// "elements of rank 0: 42.1 %, of others: 57.9 to 57.9 %".
+  std::string shares() const;
 
  private:
   std::shared_ptr<Ranks> ranks_;
+  RankClock clock_;
+  double interval_ = 1;       ///< until ranks compare their times [s]
+  double begin_seconds_ = 0;  ///< that the last begin() took [s]
 };
 
 /// Does on another rank than 0 what rank 0 says, run by run, until dismiss(). Errors leave as those of

@@ -38,6 +38,7 @@ Rolling::Rolling(RunSession& session, Model& model, RunResults& results)
 
 void Rolling::begin() {
   simulation_.emplace(*model_, results_->preload, results_->dt);
+  simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
   AlignedVector<double>().swap(results_->preload.displacement);  // the simulation has a copy of its own
   results_->measured = MeasuredRows(simulation_->measurements().channels());
   files_.emplace(*model_, session_->folder.path(), *results_);
@@ -45,8 +46,7 @@ void Rolling::begin() {
 }
 
 void Rolling::go_on(const SealedContent& checkpoint) {
-  simulation_.emplace(*model_, results_->preload.contact.centre.y, results_->dt);
-  unpack_state(checkpoint, *model_, *simulation_);
+  restore(checkpoint);
   const auto patch = checkpoint.find("patch.h5");
   results_->measured = MeasuredRows(simulation_->measurements().channels(), unpack_measured(checkpoint),
                                     results_->samples.size());
@@ -61,11 +61,29 @@ void Rolling::go_on(const SealedContent& checkpoint) {
                                  instant(written_->time, written_->steps)));
 }
 
+void Rolling::restore(const SealedContent& run) {
+  simulation_.emplace(*model_, results_->preload.contact.centre.y, results_->dt);
+  unpack_state(run, *model_, *simulation_);
+  simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
+}
+
 /// The other ranks take the run over as a process that resumes it would.
 void Rolling::begin_ranks() {
   if (followers_.absent()) return;
   followers_.begin(pack_all(""), *simulation_, session_->options.threads);
   session_->progress.say("[ranks] " + followers_.description(0));
+}
+
+/// A run goes on with other shares as one does that another number of ranks resumes.
+void Rolling::even_ranks() {
+  if (!followers_.find_better_shares(seconds_left())) return;
+  followers_.fetch(*simulation_);
+  SealedContent run = pack_all("");
+  restore(run);
+  followers_.begin(std::move(run), *simulation_, session_->options.threads);
+  session_->progress.say(fmt::format("[ranks] {}: shared anew by the ranks' times; {}",
+                                     instant(simulation_->time(), simulation_->steps()),
+                                     followers_.shares()));
 }
 
 SealedContent Rolling::pack_all(std::string patch) {
@@ -74,7 +92,6 @@ SealedContent Rolling::pack_all(std::string patch) {
 
 void Rolling::to_the_end() {
   begin_ranks();
-  simulation_->set_sampling_interval(sampling_interval(model_->scene, results_->dt));
   started_ = checkpoint_at_ = session_->progress.seconds();
   started_steps_ = simulation_->steps();
   started_processor_ = processor_seconds();
@@ -122,6 +139,7 @@ void Rolling::look() {
   if (Interruption::take_checkpoint_wanted()) write_checkpoint();
   if (simulation_->sampled()) check_penetration();
   if (simulation_->steps() % kLookInterval != 0) return;
+  even_ranks();
   const double now = session_->progress.seconds();
   if (!writer_.running()) wait_for_writer();
   const bool balanced = simulation_->energy_watch().share() <= 1;
@@ -285,11 +303,18 @@ double Rolling::seconds() const {
   return seconds_before_ + session_->progress.seconds() - started_;
 }
 
+double Rolling::step_seconds() const {
+  return (session_->progress.seconds() - started_) /
+         static_cast<double>(simulation_->steps() - started_steps_);
+}
+
+double Rolling::seconds_left() const {
+  return step_seconds() * static_cast<double>(end_ - simulation_->steps());
+}
+
 std::string Rolling::progress_line() const {
   const Sample& sample = simulation_->sample();
   const double end = model_->scene.motion->duration;
-  const double per_step =
-      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
   std::string line =
       fmt::format("[roll] t {:.3f}/{:.3f} ms  {:4.1f} %  dt {:.3e} s", 1e3 * simulation_->time(), 1e3 * end,
                   100 * simulation_->time() / end, simulation_->dt());
@@ -298,15 +323,13 @@ std::string Rolling::progress_line() const {
         fmt::format("  x {:.3f} m  FN {:.2f} kN  FL/FN {:.3f}", sample.wheel_x, 1e-3 * sample.vertical_force,
                     sample.vertical_force > 0 ? sample.longitudinal_force / sample.vertical_force : 0.0);
   line += fmt::format("  energy residual {:.2e} J  {:.1f} ns/el  ETA {}", sample.energy.residual,
-                      1e9 * per_step / static_cast<double>(model_->elements()),
-                      duration_text(per_step * static_cast<double>(end_ - simulation_->steps())));
+                      1e9 * step_seconds() / static_cast<double>(model_->elements()),
+                      duration_text(seconds_left()));
   return line;
 }
 
 std::string Rolling::status() const {
   const Sample& sample = simulation_->sample();
-  const double per_step =
-      (session_->progress.seconds() - started_) / static_cast<double>(simulation_->steps() - started_steps_);
   Json json = session_->status("rolling");
   json["time_s"] = simulation_->time();
   json["duration_s"] = model_->scene.motion->duration;
@@ -320,7 +343,7 @@ std::string Rolling::status() const {
   }
   json["energy_residual_J"] = sample.energy.residual;
   json["rolling_s"] = seconds();
-  json["left_s"] = per_step * static_cast<double>(end_ - simulation_->steps());
+  json["left_s"] = seconds_left();
   json["frames"] = frames_->count();
   json["folder_bytes"] = folder_bytes(session_->folder.path());
   json["checkpoint_time_s"] = written_ ? Json(written_->time) : Json();

@@ -36,7 +36,11 @@ class Rolling {
     std::int64_t steps;
     double time;  ///< [s]
   };
+  /// Makes the simulation of a run's content.
+  void restore(const SealedContent& run);
   void begin_ranks();
+  /// Deals the work out among the ranks anew, where that saves time.
+  void even_ranks();
   SealedContent pack_all(std::string patch);
   void step_to_the_end();
   void keep_sample();
@@ -59,7 +63,9 @@ class Rolling {
   void notice_busy_cores();
   std::string progress_line() const;
   std::string status() const;
-  double seconds() const;  ///< time of rolling, earlier processes included [s]
+  double seconds() const;       ///< time of rolling, earlier processes included [s]
+  double step_seconds() const;  ///< of a step in the mean [s]
+  double seconds_left() const;  ///< that the steps to come take [s]
   void fill_results();
 
   RunSession* session_;

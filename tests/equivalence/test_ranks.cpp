@@ -141,14 +141,18 @@ class Case {
     one_->set_sampling_interval(kSampling);
   }
 
-  /// Steps on `count` ranks are those of one process; all fields are compared at these steps.
-  void expect_same_steps(int count, const std::vector<std::int64_t>& looks) {
+  /// Steps on `count` ranks are those of one process; all fields are compared at these steps. `shares`: of
+  /// the work, by rank; none: the expected ones.
+  void expect_same_steps(int count, const std::vector<std::int64_t>& looks,
+                         const std::vector<double>& shares = {}) {
     const auto meeting = std::make_shared<Meeting>(count);
     std::vector<std::unique_ptr<Model>> models;
     Simulations shared;
     for (int rank = 0; rank < count; ++rank) {
       models.push_back(std::make_unique<Model>(scene_, deepest_));
-      choose_ranks(std::make_shared<ThreadRanks>(meeting, rank));
+      const auto ranks = std::make_shared<ThreadRanks>(meeting, rank);
+      ranks->shares = shares;
+      choose_ranks(ranks);
       shared.push_back(std::make_unique<Simulation>(*models.back(), preload_.contact.centre.y, dt_));
       choose_ranks(nullptr);
       shared.back()->set_sampling_interval(kSampling);
@@ -259,6 +263,16 @@ TEST(Ranks, WheelsetWithAVehicleOnASlab) {
              {"scene.element_size=10 mm", "motion.duration=0.3 ms", "motion.start=moving",
               "rail.length=2.6 m", "rail.origin=1.3 m", "fastenings.count=4", "fastenings.first=0.325 m",
               "solution_zone.start=20 mm", "solution_zone.length=50 mm"}));
+}
+
+/// Steps go on with other shares where those before ended.
+TEST(Ranks, OtherSharesOnTheWay) {
+  for (const char* precision : kPrecisions) {
+    Case of(tyre(precision, {"motion.traction.torque=5 kN m", "motion.traction.ramp=0.05 ms"}));
+    of.expect_same_steps(3, {20});
+    of.expect_same_steps(3, {70}, {0.05, 0.25, 0.7});
+    of.expect_same_steps(3, {20}, {0.6, 0.3, 0.1});
+  }
 }
 
 /// A tile more or less for a rank does not show, and ranks without a tile are idle.

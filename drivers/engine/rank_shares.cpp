@@ -1,0 +1,57 @@
+#include "drivers/engine/rank_shares.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "core/contract.hpp"
+#include "core/index.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Cost of search and tractions for each point that the search has room for. [ranks.md, What is shared]
+constexpr double kPointOfRoom = 16;
+/// Of an even share: METIS leaves no rank without any work.
+constexpr double kFewElements = 0.02;
+
+}  // namespace
+
+std::int64_t contact_cost(const Model& model) {
+  if (!model.contact) return 0;
+  return static_cast<std::int64_t>(kPointOfRoom * static_cast<double>(model.contact->searching().capacity()));
+}
+
+std::vector<double> expected_shares(const Model& model, const std::vector<TileWork>& work, int ranks) {
+  const double elements =
+      std::accumulate(work.begin(), work.end(), 0.0,
+                      [](double sum, const TileWork& tile) { return sum + static_cast<double>(tile.cost); });
+  const auto contact = static_cast<double>(contact_cost(model));
+  const double even = 1.0 / ranks;
+  const double own = std::max((even * (elements + contact) - contact) / elements, kFewElements * even);
+  std::vector<double> shares(index(ranks), (1 - own) / std::max(ranks - 1, 1));
+  shares[kContactRank] = ranks > 1 ? own : 1;
+  return shares;
+}
+
+EvenedShares evened_shares(std::span<const double> shares, std::span<const double> seconds) {
+  TREAD_EXPECT(shares.size() == seconds.size() && shares.size() > 1);
+  static_assert(kContactRank == 0);
+  std::vector<double> speed(shares.size());  // share of the work that a rank does in a second
+  std::transform(shares.begin(), shares.end(), seconds.begin(), speed.begin(), std::divides());
+  const auto sum = [](std::span<const double> values) { return std::reduce(values.begin(), values.end()); };
+  const double speed_of_others = sum(shares.subspan(1)) / sum(seconds.subspan(1));
+  const double contact = std::max(seconds[0] - shares[0] / speed_of_others, 0.0);
+  if (contact > 0) speed[0] = speed_of_others;
+
+  const double least = kFewElements / static_cast<double>(shares.size());
+  double time = (1 + speed[0] * contact) / sum(speed);
+  const double own = std::max((time - contact) * speed[0], least);
+  if (own == least) time = (1 - least) / sum(std::span(speed).subspan(1));
+  EvenedShares evened{{own}, std::max(time, contact + own / speed[0])};
+  for (std::size_t rank = 1; rank < shares.size(); ++rank) evened.shares.push_back(time * speed[rank]);
+  return evened;
+}
+
+}  // namespace tread

@@ -1,0 +1,28 @@
+#pragma once
+// How much of the elements' work each rank gets, so that all take as long. [docs/records/ranks.md]
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "drivers/engine/rank_cut.hpp"
+
+namespace tread {
+
+/// Cost of the contact, in the units of TileWork.
+std::int64_t contact_cost(const Model& model);
+
+/// Shares by rank, from the costs of elements, ties and contact.
+std::vector<double> expected_shares(const Model& model, const std::vector<TileWork>& work, int ranks);
+
+struct EvenedShares {
+  std::vector<double> shares;  ///< by rank
+  double seconds;              ///< that the slowest rank would take
+};
+
+/// Shares with which all ranks would have taken as long. `shares`: that they had; `seconds`: that each of
+/// them worked. Each rank keeps its speed; kContactRank has that of the others in the mean, and what it
+/// worked beyond that is the contact's time.
+EvenedShares evened_shares(std::span<const double> shares, std::span<const double> seconds);
+
+}  // namespace tread

@@ -1,0 +1,78 @@
+// Shares of the work that measured times ask for.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "drivers/engine/rank_shares.hpp"
+
+namespace tread {
+namespace {
+
+/// Ranks of these speeds; rank 0 has a contact that takes so long.
+struct Machine {
+  std::vector<double> speed;
+  double contact;
+
+  std::vector<double> seconds(const std::vector<double>& shares) const {
+    std::vector<double> taken;
+    for (std::size_t rank = 0; rank < shares.size(); ++rank)
+      taken.push_back(shares[rank] / speed[rank] + (rank == 0 ? contact : 0));
+    return taken;
+  }
+  /// After some comparisons of times.
+  std::vector<double> evened(std::vector<double> shares, int times) const {
+    for (; times > 0; --times) shares = evened_shares(shares, seconds(shares)).shares;
+    return shares;
+  }
+};
+
+double spread(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax(values);
+  return most / least - 1;
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(RankShares, LikeRanksTakeAsLongAfterOneComparison) {
+  const Machine machine{{2, 2, 2}, 0.03};
+  const std::vector<double> shares = {0.2, 0.5, 0.3};
+  const EvenedShares evened = evened_shares(shares, machine.seconds(shares));
+  const std::vector<double> seconds = machine.seconds(evened.shares);
+  EXPECT_LT(spread(seconds), 1e-12);
+  EXPECT_NEAR(evened.seconds, seconds[0], 1e-12);
+  EXPECT_NEAR(sum(evened.shares), 1, 1e-12);
+}
+
+TEST(RankShares, UnlikeRanksTakeAsLongAfterSome) {
+  for (const double first : {0.7, 1.0, 1.3})
+    for (const double contact : {0.0, 0.02, 0.1}) {
+      const std::vector<double> shares =
+          Machine{{first, 1, 0.8, 1.1}, contact}.evened({0.25, 0.25, 0.3, 0.2}, 6);
+      EXPECT_LT(spread(Machine{{first, 1, 0.8, 1.1}, contact}.seconds(shares)), 0.01)
+          << first << ", " << contact;
+      EXPECT_NEAR(sum(shares), 1, 1e-12);
+    }
+}
+
+/// What rank 0 does beside its elements, such as samples, does not make it faster than it is.
+TEST(RankShares, FasterFirstRankIsNotOverrated) {
+  const std::vector<double> shares = Machine{{3, 1}, 0}.evened({0.5, 0.5}, 1);
+  EXPECT_NEAR(shares[0], 0.75, 1e-12);
+}
+
+TEST(RankShares, ContactLongerThanAShareLeavesAlmostNoElements) {
+  const Machine machine{{1, 1, 1, 1}, 0.9};
+  const std::vector<double> shares = {0.25, 0.25, 0.25, 0.25};
+  const EvenedShares evened = evened_shares(shares, machine.seconds(shares));
+  EXPECT_NEAR(evened.shares[0], 0.005, 1e-12);
+  EXPECT_NEAR(evened.shares[1], 0.995 / 3, 1e-12);
+  EXPECT_NEAR(evened.seconds, 0.905, 1e-12);
+}
+
+}  // namespace
+}  // namespace tread
