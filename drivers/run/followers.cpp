@@ -179,7 +179,7 @@ void Followers::step(Simulation& simulation) {
 bool Followers::find_better_shares(double left) {
   constexpr double kLonger = 4;      // each interval than the last
   constexpr double kGain = 0.02;     // part of the time that is saved
-  constexpr double kWorthwhile = 2;  // saved time over that of begin(), which times may overrate
+  constexpr double kWorthwhile = 2;  // saved time over that of begin(): as measured, it may not come true
   if (absent() || clock_.passed() < interval_) return false;
   interval_ *= kLonger;
   say(*ranks_, Word::times);
@@ -198,7 +198,9 @@ void Followers::fetch(const Simulation& simulation) const {
 }
 
 void Followers::end() const {
-  if (!absent()) say(*ranks_, Word::end);
+  if (absent()) return;
+  say(*ranks_, Word::end);
+  ranks_->shares.clear();
 }
 
 std::string Followers::shares() const {
