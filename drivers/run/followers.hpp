@@ -24,8 +24,9 @@ class Followers {
   void begin(SealedContent run, Simulation& simulation, const ThreadOptions& threads);
   /// A step on all ranks.
   void step(Simulation& simulation);
-  /// Compares the times of the ranks now and then. Returns true where other shares of the work, which the next
-  /// simulation gets, save more than begin() takes. `left`: time of the steps to come with those of now [s].
+  /// Compares the times of the ranks now and then. Returns true where other shares of the work, which the
+  /// next simulation gets, save more than begin() takes. `left`: time of the steps to come with those of now
+  /// [s].
   bool find_better_shares(double left);
   /// Brings all values of the fields to rank 0.
   void fetch(const Simulation& simulation) const;
