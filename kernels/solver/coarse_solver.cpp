@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <unordered_set>
 
 #include "core/error.hpp"
@@ -116,7 +117,7 @@ std::vector<int> distance_two_colours(const std::vector<std::vector<int>>& graph
 struct CoarseSolver::Matrices {
   SparseMatrix base;  ///< lower triangle without springs
   SparseFactor factor;
-  std::vector<Spring> springs;  ///< that the factor has
+  std::optional<std::vector<Spring>> springs;  ///< that the factor has
   int probes = 0;
 };
 
@@ -224,7 +225,7 @@ bool alike(const std::vector<Spring>& some, const std::vector<Spring>& others) {
 }  // namespace
 
 void CoarseSolver::factorise(const Aggregates& aggregates, const std::vector<Spring>& springs) {
-  if (matrices_->factor.entries() > 0 && alike(matrices_->springs, springs)) return;
+  if (matrices_->springs && alike(*matrices_->springs, springs)) return;
   matrices_->springs = springs;
   std::vector<Eigen::Triplet<double>> entries;
   for (const Spring& spring : springs) {
