@@ -25,11 +25,7 @@ class SparseFactor {
   std::int64_t entries() const { return lower().nonZeros(); }  ///< of L, its unit diagonal aside
 
  private:
-  /// Subtrees that one thread takes.
-  struct Bundle {
-    std::vector<int> columns;  ///< ascending
-    std::int64_t work = 0;     ///< entries
-  };
+  using Bundle = std::vector<int>;  ///< ascending columns of subtrees that one thread takes
   /// Bundles that do not need one another, and the number of columns above them.
   struct Level {
     std::vector<Bundle> bundles;
@@ -37,7 +33,8 @@ class SparseFactor {
   };
   const Matrix& lower() const { return factor_.matrixL().nestedExpression(); }
   void divide();
-  void number_columns();
+  static std::vector<Bundle> bundles_of(const std::vector<int>& columns, const std::vector<int>& parent,
+                                        const std::vector<std::int64_t>& work, std::size_t count);
   void solve_forward(const Level& level) const;
   void solve_forward(const Bundle& bundle, std::size_t above, double* sums) const;
   void solve_backward(const Bundle& bundle) const;
