@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/files/output_file.hpp"
+#include "io/text/json.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -54,6 +56,44 @@ std::optional<RunRequest> read_request(const fs::path& path) {
   return std::nullopt;
 }
 
+/// The command whose results a folder holds, and the file that shows it.
+struct FolderOwner {
+  std::string command, file;
+};
+
+/// Files that one command leaves, the more telling ones first: a dial leaves sweep.csv, too.
+constexpr std::array<std::pair<const char*, const char*>, 12> kOwners = {{
+    {"dial.csv", "dial"},
+    {"numbers.csv", "paper"},
+    {"sweep.csv", "sweep"},
+    {"smooth.toml", "develop"},
+    {"multibody.csv", "multibody"},
+    {"levels.csv", "roughness"},
+    {"run.h5", "run"},
+    {"histories.csv", "run"},
+    {"patch.h5", "run"},
+    {kCheckpointFolder, "run"},
+    {"summary.json", "run"},
+    {"compare.json", "compare"},
+}};
+
+/// The command that status.json names, for a folder without results yet; empty: none.
+std::string command_in(const fs::path& status) {
+  try {
+    return fs::exists(status) ? text_in(read_json(status), "command") : "";
+  } catch (const InputError&) {  // not a file of this program
+    return "";
+  }
+}
+
+std::optional<FolderOwner> owner_of(const fs::path& folder) {
+  for (const auto& [file, command] : kOwners)
+    if (fs::exists(folder / file)) return FolderOwner{command, file};
+  if (std::string command = command_in(folder / kStatus); !command.empty())
+    return FolderOwner{std::move(command), kStatus};
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string folder_name(const fs::path& folder) {
@@ -61,13 +101,14 @@ std::string folder_name(const fs::path& folder) {
   return (normal.has_filename() ? normal : normal.parent_path()).filename().string();
 }
 
-void require_no_run(const fs::path& folder) {
-  for (const char* name : {"run.h5", "histories.csv", kCheckpointFolder})
-    if (fs::exists(folder / name))
-      throw InputError(
-          fmt::format("-o {}: it holds a run of `tread run` ({}), whose results would be overwritten; choose "
-                      "another folder",
-                      folder.string(), name));
+bool require_folder_of(const fs::path& folder, std::string_view command) {
+  const std::optional<FolderOwner> owner = owner_of(folder);
+  if (owner && owner->command != command)
+    throw InputError(
+        fmt::format("-o {}: it holds results of `tread {}` ({}), which those of `tread {}` would overwrite; "
+                    "choose another folder",
+                    folder.string(), owner->command, owner->file, command));
+  return owner.has_value();
 }
 
 bool is_taken(const fs::path& folder) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/files/file_lock.hpp"
 
@@ -21,8 +22,9 @@ std::int64_t folder_bytes(const std::filesystem::path& folder);
 /// Returns true if a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 
-/// Throws InputError if a run lies in the folder: files of equal names would overwrite its results.
-void require_no_run(const std::filesystem::path& folder);
+/// Returns true if the folder holds results of `command`, "sweep". Throws InputError if it holds those of
+/// another one, which files of equal names would overwrite.
+bool require_folder_of(const std::filesystem::path& folder, std::string_view command);
 
 /// Request of another process to the one that works on the folder.
 enum class RunRequest { checkpoint, frame, stop };

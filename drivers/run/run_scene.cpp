@@ -328,6 +328,7 @@ void take_machine(const RunOptions& options) {
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;
   if (options.output.empty()) options.output = dated_folder(resolved.source.name);
+  require_folder_of(options.output, "run");
   take_machine(options);
   const RunOrder wanted{resolved.source,         resolved.overrides, {},
                         resolved_toml(resolved), options.command,    {}};

@@ -49,8 +49,11 @@ std::string RunSession::resume_command() const {
 }
 
 Json RunSession::status(const std::string& stage) const {
-  return {
-      {"stage", stage}, {"version", program_version()}, {"process", ::getpid()}, {"machine", host_name()}};
+  return {{"stage", stage},
+          {"command", "run"},
+          {"version", program_version()},
+          {"process", ::getpid()},
+          {"machine", host_name()}};
 }
 
 void RunSession::show(const std::string& stage, const std::string& text) const {

@@ -96,6 +96,30 @@ TEST_F(Sweep, RefusesBeforeAnythingRuns) {
   EXPECT_FALSE(fs::exists(runs_ / "velocity=1m_s"));
 }
 
+TEST_F(Sweep, AFolderOfOtherResultsIsLeftAlone) {
+  ASSERT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\"]\n")), 0) << errors();
+  const std::string csv = content_of(runs_ / "sweep.csv");
+  const std::string report = content_of(runs_ / "report.html");
+  EXPECT_EQ(sweep(bars("[grid]\npulse.velocity = [\"3 m/s\"]\n")), 2);
+  EXPECT_TRUE(has(errors(), "it holds runs of another study (velocity=1m_s)")) << errors();
+  const fs::path rail = program_.write("rail.txt", "# x [mm] height [um]\n0 1\n1 2\n");
+  for (const std::string& command : std::vector<std::string>{
+           "run --overwrite " + scene("bar-wave.toml"), "paper --set motion.duration=1ms",
+           "multibody " + scene("corrugation-d.toml"), "roughness " + rail.string()}) {
+    EXPECT_EQ(program_.call(fmt::format("{} -o {}", command, runs_.string())), 2) << command;
+    EXPECT_TRUE(has(errors(), "it holds results of `tread sweep` (sweep.csv)")) << command << errors();
+  }
+  EXPECT_EQ(content_of(runs_ / "sweep.csv"), csv);
+  EXPECT_EQ(content_of(runs_ / "report.html"), report);
+  EXPECT_FALSE(fs::exists(runs_ / "scene.resolved.toml"));
+  // A study may grow.
+  ASSERT_EQ(sweep(bars("[grid]\npulse.velocity = [\"1 m/s\", \"3 m/s\"]\n")), 0) << errors();
+  // Before there is a table, the status tells whose folder it is.
+  fs::remove(runs_ / "sweep.csv");
+  EXPECT_EQ(program_.call(fmt::format("roughness {} -o {}", rail.string(), runs_.string())), 2);
+  EXPECT_TRUE(has(errors(), "it holds results of `tread sweep` (status.json)")) << errors();
+}
+
 TEST_F(Sweep, LauncherStartsTheRuns) {
   const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
   EXPECT_EQ(sweep(file, "--launcher no-such-program"), 2);

@@ -44,7 +44,7 @@ void check(const MultibodyOptions& options) {
   if (options.contact == "half-space" && options.filter)
     throw InputError(
         "--filter: the pressed half-spaces of --contact half-space filter the sine; leave one out");
-  if (!options.output.empty()) require_no_run(options.output);
+  if (!options.output.empty()) require_folder_of(options.output, "multibody");
 }
 
 void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,

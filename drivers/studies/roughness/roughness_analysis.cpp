@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "drivers/process/machine.hpp"
+#include "drivers/run/run_folder.hpp"
 #include "drivers/studies/roughness/level_figure.hpp"
 #include "drivers/studies/roughness/roughness_levels.hpp"
 #include "io/files/output_file.hpp"
@@ -155,6 +156,7 @@ Outcome processed(const RoughnessOptions& options) {
 }  // namespace
 
 void roughness(const RoughnessOptions& options) {
+  if (!options.output.empty()) require_folder_of(options.output, "roughness");
   use_threads(options.threads);
   const Outcome outcome = processed(options);
   if (!options.output.empty()) {

@@ -225,7 +225,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
                                                                                resume_command));
   std::optional<RunFolder> folder;
   if (!options.list) {
-    require_no_run(plan.folder);
+    if (require_folder_of(plan.folder, command)) require_same_study(plan);
     make_directory(plan.folder);
     folder.emplace(plan.folder);
   }

@@ -16,6 +16,7 @@
 #include "drivers/results/scene_model.hpp"
 #include "drivers/run/fork.hpp"
 #include "drivers/run/preload_cache.hpp"
+#include "drivers/run/scene_content.hpp"
 #include "drivers/studies/study/shared_rolling.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/problems.hpp"
@@ -184,6 +185,20 @@ StudyPlan plan_study(const Study& study, const std::filesystem::path& folder) {
   problems.throw_if_any();
   if (study.share) find_shared_rolling(plan);
   return plan;
+}
+
+void require_same_study(const StudyPlan& plan) {
+  // A study that brings its scene, the paper's, knows its folder by that.
+  const bool any = std::any_of(plan.points.begin(), plan.points.end(), [](const PlannedPoint& point) {
+    return std::filesystem::exists(point.folder);
+  });
+  if (any || !plan.study.scene_text.empty()) return;
+  for (const auto& entry : std::filesystem::directory_iterator(plan.folder))
+    if (std::filesystem::exists(entry.path() / kKeptScene))
+      throw InputError(
+          fmt::format("-o {}: it holds runs of another study ({}), whose report would be overwritten; choose "
+                      "another folder",
+                      plan.folder.string(), entry.path().filename().string()));
 }
 
 void look_into_folders(StudyPlan& plan) {

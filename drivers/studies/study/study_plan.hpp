@@ -14,6 +14,9 @@ namespace tread {
 /// in the study's file if a value of it is meant. Points with equal scenes are an error, too.
 StudyPlan plan_study(const Study& study, const std::filesystem::path& folder);
 
+/// Throws InputError if the folder holds runs, but none of the study's points.
+void require_same_study(const StudyPlan& plan);
+
 /// Looks into the points' folders. Throws InputError if one holds a run of another scene.
 void look_into_folders(StudyPlan& plan);
 

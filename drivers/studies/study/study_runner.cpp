@@ -224,7 +224,8 @@ void StudyRunner::show() {
       fmt::format("[{}] {} of {} done", label_.command, label_.before + count(plan, PointState::done),
                   label_.before + static_cast<int>(plan.points.size()) + label_.after);
   if (const int failed = count(plan, PointState::failed)) line += fmt::format(", {} failed", failed);
-  Json json = {{"stage", running_.empty() ? "ended" : "sweep"}, {"process", ::getpid()}};
+  Json json = {
+      {"stage", running_.empty() ? "ended" : "sweep"}, {"command", label_.command}, {"process", ::getpid()}};
   for (const PointState state : {PointState::waiting, PointState::interrupted, PointState::running,
                                  PointState::done, PointState::failed})
     json[name_of(state)] = count(plan, state);
