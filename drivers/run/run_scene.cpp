@@ -214,8 +214,9 @@ void carry_out(RunSession& session, const SealedContent* checkpoint, const Fork*
 void remove_results(const std::filesystem::path& directory) {
   CheckpointFolder(directory / kForkFolder).clear();
   std::error_code ignored;
-  for (const char* name : {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv",
-                           "run.h5", "histories.csv", kPatchFile, "scene.files.json"})
+  for (const char* name :
+       {"summary.json", "report.html", "surface.h5", "surface_axis.csv", "deflection.csv", "run.h5",
+        "histories.csv", kPatchFile, "scene.files.json", "compare.json", "compare.html"})
     std::filesystem::remove(directory / name, ignored);
   FrameFiles::remove(directory);
   remove_figures(directory / kFigureFolder);

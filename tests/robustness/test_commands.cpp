@@ -144,7 +144,9 @@ TEST_F(Commands, AFinishedRunIsNotOverwritten) {
   // A scene that cannot run throws nothing away.
   EXPECT_EQ(call(run + " --overwrite --set \"output.disk_limit=1 B\"").code, 2);
   EXPECT_EQ(content("out/summary.json"), summary);
+  std::ofstream(folder_ / "out" / "compare.json") << "{}\n";  // of `tread compare`
   EXPECT_EQ(call(run + " --overwrite").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "compare.json"));
 }
 
 TEST_F(Commands, WithoutAFolderARunGetsADatedOne) {
@@ -323,6 +325,12 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
        {"Vertical force over the corrugation", "Largest F<sub>N</sub> over static", "1000 Hz", "Provenance"})
     EXPECT_TRUE(has(content("report.html"), part)) << part;
   EXPECT_TRUE(has(content("figures/map.svg"), "xmlns"));
+  // Another call leaves nothing of this one.
+  EXPECT_EQ(call(fmt::format("multibody {} -t 1 --quiet --modes 40 --step \"20 us\" -o {}",
+                             scene("corrugation-d.toml"), folder_.string()))
+                .code,
+            0);
+  for (const char* gone : {"map.csv", "figures/map.svg"}) EXPECT_FALSE(fs::exists(folder_ / gone)) << gone;
   const Outcome local =
       call(fmt::format("multibody {} -t 1 --quiet --json --beam solid --wheel modal --contact "
                        "half-space",

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "core/error.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
@@ -50,6 +53,9 @@ void check(const MultibodyOptions& options) {
 void write_files(const MultibodyOutcome& outcome, const ResolvedScene& resolved,
                  const MultibodyOptions& options) {
   const std::filesystem::path& directory = options.output;
+  std::error_code ignored;  // files that this call does not write would be those of an earlier one
+  for (const char* name : {"calibration.csv", "map.csv"}) std::filesystem::remove(directory / name, ignored);
+  remove_figures(directory / kFigureFolder);
   keep_scene(directory, resolved);
   write_text_file(directory / "multibody.csv", passage_csv(outcome.model, outcome.result));
   write_text_file(directory / "summary.json", multibody_json(outcome));
