@@ -31,15 +31,18 @@ SurfaceGrid make_surface_grid(const SweptBlock& rail, const SurfaceProfile& prof
   std::vector<double> lengths;
   for (std::size_t s = 0; s + 1 < grid.x.size(); ++s) lengths.push_back(grid.x[s + 1] - grid.x[s]);
   grid.length = shares(lengths);
-  std::vector<double> widths;
-  for (int edge = edges[0]; edge < edges[1]; ++edge) {
-    const auto middle = profile.evaluate(edge, 0.5, kind);
-    widths.push_back(std::hypot(middle.dp, middle.dq));
+  for (int edge = edges[0]; edge < edges[1]; ++edge)
     grid.quad.push_back(rail.section.surface[static_cast<std::size_t>(edge)].quad);
-  }
-  grid.width = shares(widths);
-  for (int edge = edges[0]; edge <= edges[1]; ++edge)
+  // The profile goes on beyond the first and the last row, which stand for half of the faces there, too.
+  const auto width_of = [&](int edge) {
+    if (edge < 0 || edge >= profile.edges()) return 0.0;
+    const auto middle = profile.evaluate(edge, 0.5, kind);
+    return std::hypot(middle.dp, middle.dq);
+  };
+  for (int edge = edges[0]; edge <= edges[1]; ++edge) {
+    grid.width.push_back(0.5 * width_of(edge - 1) + 0.5 * width_of(edge));
     grid.y.push_back(rail.section.p[static_cast<std::size_t>(profile.node(edge))]);
+  }
   return grid;
 }
 

@@ -21,7 +21,7 @@ struct SurfaceGrid {
   std::vector<double> x;       ///< by station [m]
   std::vector<double> y;       ///< by row [m]
   std::vector<double> length;  ///< of the rail that a station stands for [m]
-  std::vector<double> width;   ///< of the profile that a row stands for [m]
+  std::vector<double> width;   ///< of the profile that a row stands for, beyond the grid, too [m]
   std::vector<int> quad;       ///< of the rail's section, under the cells between a row and the next
 
   int stations() const { return static_cast<int>(x.size()); }

@@ -76,7 +76,10 @@ TEST_F(SurfaceFieldsTest, GridHasTheNodesOfItsEdgesAndTheirAreas) {
   double sum = 0;
   for (int s = 0; s < grid_.stations(); ++s)
     for (int r = 0; r < grid_.rows(); ++r) sum += grid_.area(s, r);
-  EXPECT_NEAR(sum, 26e-3 * 10e-3, 1e-15);
+  EXPECT_NEAR(sum, 26e-3 * 11e-3, 1e-15);
+  // A row stands for the same width at the grid's edge and within it.
+  const SurfaceGrid whole = make_surface_grid(rail_, profile_, SurfaceKind::exact, {0, 4});
+  for (std::size_t r = 0; r < grid_.width.size(); ++r) EXPECT_EQ(grid_.width[r], whole.width[r + 1]) << r;
 }
 
 TEST_F(SurfaceFieldsTest, EvenTractionsAreTheirOwnAverage) {
@@ -87,8 +90,10 @@ TEST_F(SurfaceFieldsTest, EvenTractionsAreTheirOwnAverage) {
                   p.slip_speed = {-0.3, 0.1};
                   p.slips = true;
                 }));
-  for (int station = 3; station < 8; ++station)
-    for (int row = 0; row < grid_.rows(); ++row) {
+  for (int station = 3; station < 8; ++station) {
+    // A third of what the first row stands for lies beyond the grid.
+    EXPECT_NEAR(patch.at(station, 0).pressure, 5e8 * 2 / 3, 1e-3);
+    for (int row = 1; row < grid_.rows(); ++row) {
       const NodalContact& node = patch.at(station, row);
       EXPECT_NEAR(node.pressure, 5e8, 1e-3);
       EXPECT_NEAR(node.shear.along, -2e8, 1e-3);
@@ -97,6 +102,7 @@ TEST_F(SurfaceFieldsTest, EvenTractionsAreTheirOwnAverage) {
       EXPECT_NEAR(node.touching, 1, 1e-12);
       EXPECT_EQ(state_of(node), PatchState::slip);
     }
+  }
   // At the patch's end half of the node's area is out of contact; the slip is that of the other half.
   EXPECT_NEAR(patch.at(2, 1).pressure, 2.5e8, 1e-3);
   EXPECT_NEAR(patch.at(2, 1).slip_speed.along, -0.3, 1e-12);
