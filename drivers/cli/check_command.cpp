@@ -10,6 +10,7 @@
 #include "drivers/cli/common_options.hpp"
 #include "drivers/report/scene_check.hpp"
 #include "drivers/results/scene_model.hpp"
+#include "drivers/run/run_scene.hpp"
 #include "drivers/studies/dial/dial_advice.hpp"
 #include "io/text/json.hpp"
 #include "kernels/device/device.hpp"
@@ -31,6 +32,7 @@ void check_scene(const ResolvedScene& resolved, const CheckOptions& options) {
   choose_device(options.device);
   const std::optional<Advice> advice = advise(resolved, options.advice);
   Model model = scene_model(resolved.scene, resolved);
+  require_runnable(model);
   const Estimate cost = estimate(model);
   if (options.json) {
     Json json = check_json(model, cost);

@@ -226,7 +226,8 @@ std::optional<std::int64_t> fork_step(const Model& model, double dt) {
   const Scene& scene = model.scene;
   if (!scene.forks || !model.contact) return std::nullopt;
   if (scene.forks->at) return steps_until(*scene.forks->at, dt);
-  const Corrugation& corrugation = model.contact->corrugation();
+  // Before the preload the contact has no corrugation yet; its ends along the rail do not need the centre.
+  const Corrugation corrugation = scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
   const double start = corrugation.smooth() ? scene.zone_start : corrugation.first();
   const double time = approach_of(scene, model.contact->reach()).time(*scene.motion, start);
   if (time <= 0)

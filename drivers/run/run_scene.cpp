@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
+#include "drivers/engine/traction.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/report/patch_snapshots.hpp"
 #include "drivers/report/run_report.hpp"
@@ -225,11 +226,7 @@ void remove_results(const std::filesystem::path& directory) {
 /// Finds the faults of a scene that its model and its disk use show, before an earlier run is thrown away.
 void rehearse(const RunSession& session, const ResolvedScene& resolved) {
   preload_cache(session.options.cache);
-  const Model model = scene_model(resolved.scene, resolved, std::nullopt);
-  if (!model.scene.motion || !model.scene.output.disk_limit) return;
-  RunResults results;
-  results.dt = model.scene.motion->step_safety * step_limit(model).stable_step;
-  require_disk(model, results);
+  require_runnable(scene_model(resolved.scene, resolved, std::nullopt));
 }
 
 /// A run is not thrown away by mistake, finished or not, and not for a scene that cannot run.
@@ -325,6 +322,15 @@ void take_machine(const RunOptions& options) {
 }
 
 }  // namespace
+
+void require_runnable(const Model& model) {
+  steady_traction(model);
+  if (!model.scene.motion) return;
+  RunResults results;
+  results.dt = model.scene.motion->step_safety * step_limit(model).stable_step;
+  require_disk(model, results);
+  fork_step(model, results.dt);
+}
 
 void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
   RunOptions options = given;

@@ -96,6 +96,21 @@ TEST_F(Commands, WhatTheMeshDoesNotResolveIsAWarning) {
   EXPECT_TRUE(has(call("check --json -t 1 " + scene("smooth.toml")).out, "\"warnings\": []"));
 }
 
+TEST_F(Commands, CheckReportsWhatRunRefuses) {
+  const std::string check =
+      fmt::format("check -t 1 {} --set \"scene.element_size=11 mm\" --set \"motion.traction.ramp=0 ms\"",
+                  scene("smooth.toml"));
+  const Outcome sliding = call(check + " --set contact.friction=0.3 --set motion.traction.mu=0.3");
+  EXPECT_EQ(sliding.code, 2);
+  EXPECT_TRUE(has(sliding.errors, "its patch would slide")) << sliding.errors;
+  const Outcome large = call(check + " --set motion.traction.mu=0.1 --set \"output.disk_limit=1 kB\"");
+  EXPECT_EQ(large.code, 2);
+  EXPECT_TRUE(has(large.errors, "more than output.disk_limit")) << large.errors;
+  // Without friction and traction nothing slides.
+  const Outcome smooth = call(check + " --set contact.friction=0 --set motion.traction.mu=0");
+  EXPECT_EQ(smooth.code, 0) << smooth.errors;
+}
+
 TEST_F(Commands, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
   constexpr std::int64_t kNeeded = 220'000'000'000;  // [B]
   if (machine_memory() > kNeeded) GTEST_SKIP() << "this machine could hold the mesh";
