@@ -83,7 +83,8 @@ KeyFigures rolling_figures(const Run& run) {
                         {"Static wheel load", readable(-1e-3 * r.preload.contact.force_on_rail.z), "kN"},
                         {"F_L / F_N, steady", readable(r.traction_coefficient, 3), ""},
                         {"Creepage, steady", readable(100 * r.creepage, 3), "%"},
-                        {"Frictional work per way over F_L", readable(100 * r.creepage_of_work, 3), "%"},
+                        {"Frictional work per way over F_L",
+                         r.creepage_of_work ? readable(100 * *r.creepage_of_work, 3) : "–", "%"},
                         {"Energy error", readable(100 * r.energy_error, 2), "%"}};
   return figures;
 }

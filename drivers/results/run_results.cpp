@@ -169,7 +169,8 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
                           .mean;
 }
 
-/// Change of F_L / F_N along the steady stretch over its mean, and its size that is always accepted.
+/// Change of F_L / F_N along the steady stretch over its mean, and its size that is always accepted: smaller
+/// F_L / F_N is free rolling.
 constexpr double kSteady = 0.05;
 constexpr double kSmallTraction = 0.005;
 
@@ -311,6 +312,10 @@ Json measured_json(const Model& model, const RunResults& r) {
   return json;
 }
 
+Json percent_or_null(const std::optional<double>& share) {
+  return share ? Json(100 * *share) : Json();
+}
+
 void add_rolling_contact(const RunResults& r, Json& json) {
   json["vertical_force_N"] = statistics_json(r.vertical_force);
   json["dynamic_factor"] = r.dynamic_factor();
@@ -323,7 +328,7 @@ void add_rolling_contact(const RunResults& r, Json& json) {
   json["traction_drift"] = r.traction_drift;
   json["traction_steady"] = traction_is_steady(r);
   json["creepage_percent"] = 100 * r.creepage;
-  json["creepage_of_frictional_work_percent"] = 100 * r.creepage_of_work;
+  json["creepage_of_frictional_work_percent"] = percent_or_null(r.creepage_of_work);
   json["creepage_max_percent"] = 100 * r.creepage_max;
   json["full_slip_share"] = r.full_slip_share;
   json["max_pressure_Pa"] = r.max_pressure;
@@ -381,14 +386,14 @@ std::string summary_json(const Model& model, const ResolvedScene& resolved, cons
   return json_text(json);
 }
 
-double creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
+std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
   const auto inside = between(first, last);
   const auto begin = std::find_if(samples.begin(), samples.end(), inside);
   const auto end = std::find_if(samples.rbegin(), samples.rend(), inside);
-  if (begin == samples.end()) return 0;
+  if (begin == samples.end()) return std::nullopt;
   const double way = end->wheel_x - begin->wheel_x;
   const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
-  if (way <= 0 || force == 0) return 0;
+  if (way <= 0 || std::abs(traction_between(samples, first, last)) < kSmallTraction) return std::nullopt;
   return (end->energy.frictional_work - begin->energy.frictional_work) / (way * force);
 }
 

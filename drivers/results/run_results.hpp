@@ -78,10 +78,10 @@ struct RunResults {
   ForceSpectrum spectrum;         ///< of F_N there
   Statistics longitudinal_force;  ///< [N]
   double traction_coefficient =
-      0;                        ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
-  double traction_drift = 0;    ///< of the means over its second half and its first [-]
-  double creepage = 0;          ///< mean of 28 points of the tread there [-]
-  double creepage_of_work = 0;  ///< frictional work per way over F_L there [-]
+      0;                      ///< mean F_L / mean F_N over whole fastening spans before the corrugation [-]
+  double traction_drift = 0;  ///< of the means over its second half and its first [-]
+  double creepage = 0;        ///< mean of 28 points of the tread there [-]
+  std::optional<double> creepage_of_work;  ///< frictional work per way over F_L there, if F_L counts [-]
   double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
   double full_slip_share = 0;  ///< of the samples in contact there, those whose whole patch slides [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
@@ -99,9 +99,9 @@ struct RunResults {
 /// Fills the figures from the samples.
 void evaluate(const Model& model, RunResults& results);
 
-/// Creepage of the frictional work between two places of the wheel [m]: work per way over the mean of F_L; 0
-/// without F_L or without way. [theory.md, eq. 13a]
-double creepage_of_work(const std::vector<Sample>& samples, double first, double last);
+/// Creepage of the frictional work between two places of the wheel [m]: work per way over the mean of F_L.
+/// Nothing without way, or where F_L is too small against F_N. [theory.md, eq. 13a]
+std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last);
 
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
 /// 0.005 where the traction is small.

@@ -15,6 +15,7 @@ std::vector<Sample> rolling(double force, double creepage) {
   for (int i = 0; i <= 100; ++i) {
     Sample sample;
     sample.wheel_x = 0.01 * i;
+    sample.vertical_force = 80e3;
     sample.longitudinal_force = force;
     sample.energy.frictional_work = creepage * kForce * sample.wheel_x;
     samples.push_back(sample);
@@ -23,14 +24,16 @@ std::vector<Sample> rolling(double force, double creepage) {
 }
 
 TEST(CreepageOfWork, IsTheWorkPerWayOverTheForce) {
-  EXPECT_NEAR(creepage_of_work(rolling(kForce, 0.0027), 0.2, 0.8), 0.0027, 1e-12);
-  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 0.0027), 0.2, 0.8), -0.0027, 1e-12);  // braking
+  EXPECT_NEAR(creepage_of_work(rolling(kForce, 0.0027), 0.2, 0.8).value(), 0.0027, 1e-12);
+  EXPECT_NEAR(creepage_of_work(rolling(-kForce, 0.0027), 0.2, 0.8).value(), -0.0027, 1e-12);  // braking
 }
 
-TEST(CreepageOfWork, IsZeroWithoutForceOrWay) {
-  EXPECT_EQ(creepage_of_work(rolling(0, 0), 0.2, 0.8), 0);
-  EXPECT_EQ(creepage_of_work(rolling(kForce, 0.0027), 2.0, 3.0), 0);
-  EXPECT_EQ(creepage_of_work({}, 0.2, 0.8), 0);
+TEST(CreepageOfWork, IsAbsentWithoutForceOrWay) {
+  EXPECT_FALSE(creepage_of_work(rolling(0, 0), 0.2, 0.8));
+  EXPECT_FALSE(creepage_of_work(rolling(0.004 * 80e3, 0.0027), 0.2, 0.8));  // work of spin
+  EXPECT_TRUE(creepage_of_work(rolling(0.006 * 80e3, 0.0027), 0.2, 0.8));
+  EXPECT_FALSE(creepage_of_work(rolling(kForce, 0.0027), 2.0, 3.0));
+  EXPECT_FALSE(creepage_of_work({}, 0.2, 0.8));
 }
 
 TEST(Traction, IsSteadyIfItsHalvesAgree) {
