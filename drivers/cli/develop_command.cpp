@@ -26,6 +26,7 @@ void add_develop(CLI::App& app, const std::string& command_line) {
                      "start all passages from the state of a run over the smooth rail, DIR or DIR@TIME");
   command.add_option("-t,--threads", options.threads, "threads of a passage (default: all)")
       ->check(at_least(1));
+  add_device_option(command, options.device);
   command.add_flag("--json", options.json, "JSON on stdout");
   command.add_flag("--quiet", options.quiet, "no progress on stderr");
   command.callback([state] {

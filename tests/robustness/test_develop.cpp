@@ -128,8 +128,9 @@ TEST_F(Develop, KeepsWhatItBeganWith) {
   ASSERT_EQ(call(develop(folder_, 1, kCorrugation + kWear, from)), 0) << errors();
   EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear, "--from elsewhere")), 2);
   EXPECT_TRUE(has(errors(), "began with")) << errors();
-  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear)), 0) << errors();
+  EXPECT_EQ(call(develop(folder_, 2, kCorrugation + kWear, "--device emulated")), 0) << errors();
   EXPECT_TRUE(has(content_of(folder_ / "passage-0002/report.html"), "fork of"));
+  EXPECT_TRUE(has(content_of(folder_ / "passage-0002/summary.json"), "emulated"));
 }
 
 TEST_F(Develop, AStoppedPassageIsNoFailure) {

@@ -14,6 +14,7 @@ struct DevelopOptions {
   int passages = 10;             ///< simulated in all, those of earlier calls included
   std::string from;              ///< a run whose state all passages begin with, as in fork_from(); or empty
   int threads = 0;               ///< of a passage; 0: all
+  std::string device;            ///< takes the steps of all passages; empty: the processor
   bool json = false;             ///< instead of a table
   bool quiet = false;
   Provenance origin;

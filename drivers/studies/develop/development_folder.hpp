@@ -16,9 +16,10 @@ namespace tread {
 class DevelopmentFolder {
  public:
   struct Options {
-    std::string from;  ///< run with whose state all passages begin, as in fork_from(); empty: passage 0
-    int threads = 0;   ///< threads of a passage; 0: all
-    int passages = 0;  ///< passages of the whole development, for progress lines
+    std::string from;    ///< run with whose state all passages begin, as in fork_from(); empty: passage 0
+    int threads = 0;     ///< threads of a passage; 0: all
+    std::string device;  ///< takes the steps; empty: the processor
+    int passages = 0;    ///< passages of the whole development, for progress lines
   };
 
   /// Makes and locks the folder and writes the scenes of the passages. Throws InputError if the folder holds
