@@ -34,10 +34,12 @@ void check(const SectionSize& size, double depth, const std::string& name, const
         fmt::format("{}: element sizes {} and {} m, band half width {} m, {} layers: all have to be positive",
                     name, size.surface, size.coarse, size.band_half_width, size.fine_layers));
   if (size.fine_layers * size.surface > depth)
-    throw MeshSizeError(fmt::format(
-        "{}: {} layers of {:.4g} mm do not fit into {:.4g} mm below the surface; an element_size of "
-        "{:.4g} mm at most fits{}",
-        name, size.fine_layers, 1e3 * size.surface, 1e3 * depth, 1e3 * depth / size.fine_layers, way_out));
+    throw MeshSizeError(
+        fmt::format(
+            "{}: {} layers of {:.4g} mm do not fit into {:.4g} mm below the surface; an element_size of "
+            "{:.4g} mm at most fits{}",
+            name, size.fine_layers, 1e3 * size.surface, 1e3 * depth, 1e3 * depth / size.fine_layers, way_out),
+        depth / size.fine_layers);
 }
 
 std::vector<double> graded(std::span<const double> breaks, const std::function<double(double)>& size) {

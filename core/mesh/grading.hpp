@@ -12,7 +12,9 @@ namespace tread {
 
 /// Elements too large for a body.
 struct MeshSizeError : InputError {
-  using InputError::InputError;
+  explicit MeshSizeError(const std::string& text, double size = 0) : InputError(text), fits(size) {}
+
+  double fits;  ///< largest element size that the part takes; 0: not known [m]
 };
 
 /// Element sizes of a section with a running surface.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "core/mesh/grading.hpp"
@@ -24,6 +25,22 @@ std::string size_and_place(const ResolvedScene& origin) {
   return origin.name;
 }
 
+/// Largest element size that all parts of the mesh take [m], where one takes `fits`; 0: not known.
+double fitting_all(Scene scene, double fits) {
+  while (fits > 0) {
+    scene.element_size = fits;
+    try {
+      const Model coarse(scene, std::nullopt, require_memory);
+      return fits;
+    } catch (const MeshSizeError& next) {
+      fits = next.fits < fits ? next.fits : 0;
+    } catch (const Error&) {
+      return 0;
+    }
+  }
+  return 0;
+}
+
 }  // namespace
 
 void require_no_bodies(const Scene& scene, const char* of_others) {
@@ -41,7 +58,10 @@ Model scene_model(const Scene& scene, const ResolvedScene& origin, std::optional
   try {
     return Model(scene, corrugation_centre, require_memory);
   } catch (const MeshSizeError& error) {
-    throw InputError(fmt::format("{}: {}", size_and_place(origin), error.what()));
+    const double all = fitting_all(scene, error.fits);
+    const std::string others =
+        all < error.fits && all > 0 ? fmt::format(", the other parts need {:.4g} mm", 1e3 * all) : "";
+    throw InputError(fmt::format("{}: {}{}", size_and_place(origin), error.what(), others));
   }
 }
 

@@ -517,7 +517,8 @@ TEST_F(Commands, ElementsThatDoNotFitNameTheirLine) {
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(has(outcome.errors, scene.string() + ":3: scene.element_size = 14 mm: rail: 2 layers of 14 mm"))
       << outcome.errors;
-  EXPECT_TRUE(has(outcome.errors, "element_size of 12 mm at most")) << outcome.errors;
+  EXPECT_TRUE(has(outcome.errors, "element_size of 12 mm at most fits, the other parts need 11.5 mm"))
+      << outcome.errors;
 }
 
 TEST_F(Commands, VersionAndReferenceNeedNoScene) {
