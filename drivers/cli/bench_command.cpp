@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <array>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -85,23 +84,22 @@ void add_bench_ranks(CLI::App& bench) {
 
 void add_bench_compare(CLI::App& bench) {
   auto files = std::make_shared<std::array<std::string, 2>>();
-  auto measure = std::make_shared<BenchMeasure>(BenchMeasure::rate);
+  auto by = std::make_shared<std::string>("rate");
   CLI::App& command = *bench.add_subcommand(
       "compare",
       "compare two files of `bench kernels --json`; exit code 3 if the second is slower beyond the spread");
   command.add_option("before", (*files)[0], "file of the older program")->required();
   command.add_option("after", (*files)[1], "file of the newer program")->required();
-  const std::map<std::string, BenchMeasure> measures = {{"rate", BenchMeasure::rate},
-                                                        {"limit", BenchMeasure::fraction_of_limit},
-                                                        {"instructions", BenchMeasure::instructions}};
   command
-      .add_option("--by", *measure,
+      .add_option("--by", *by,
                   "rate (default; one quiet machine), limit (shares of each machine's limits) or "
                   "instructions (recorded with -t 1; busy machines)")
-      ->transform(CLI::CheckedTransformer(measures))
-      ->option_text("rate|limit|instructions");
-  command.callback([files, measure] {
-    if (!compare_benchmarks((*files)[0], (*files)[1], *measure))
+      ->check(CLI::IsMember({"rate", "limit", "instructions"}));
+  command.callback([files, by] {
+    const BenchMeasure measure = *by == "rate"    ? BenchMeasure::rate
+                                 : *by == "limit" ? BenchMeasure::fraction_of_limit
+                                                  : BenchMeasure::instructions;
+    if (!compare_benchmarks((*files)[0], (*files)[1], measure))
       throw NumericalError("bench compare: at least one kernel is slower beyond the recorded spread");
   });
 }

@@ -502,6 +502,7 @@ TEST_F(Commands, WrongWordsAreNamed) {
         {"run tyr", "tread: cannot read tyr: there is no such file; did you mean tyre?"},
         {"run x.toml -o y -t 0", "--threads: \"0\" is not a number of at least 1"},
         {"paper --jobs two", "--jobs: \"two\" is not a number of at least 1"},
+        {"bench compare --by foo a b", "--by: foo not in {rate,limit,instructions}"},
         {"ctl y stop --wait -1", "--wait: \"-1\" is not a number of at least 0"}}) {
     const Outcome outcome = call(wrong);
     EXPECT_EQ(outcome.code, 2) << wrong;
