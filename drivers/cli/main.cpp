@@ -28,6 +28,7 @@
 #include "drivers/run/followers.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
+#include "io/text/text.hpp"
 
 namespace {
 
@@ -95,7 +96,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(exit_codes());
   std::string command_line = "tread";
-  for (int i = 1; i < argc; ++i) command_line.append(" ").append(argv[i]);
+  for (int i = 1; i < argc; ++i) command_line.append(" ").append(tread::shell_word(argv[i]));
   for (tread::AddCommand* add : tread::kCommands) add(app, command_line);
   bool verbose = false;
   add_common_flags(app, verbose);

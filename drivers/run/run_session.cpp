@@ -9,6 +9,7 @@
 #include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -21,7 +22,7 @@ std::filesystem::path made(const std::filesystem::path& directory) {
 }
 
 std::string resumption(const std::filesystem::path& directory) {
-  return fmt::format("`tread resume {}`", directory.string());
+  return fmt::format("`tread resume {}`", shell_word(directory.string()));
 }
 
 /// A launcher that has lost a rank asks the others to stop, and ends them soon after.

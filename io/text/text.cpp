@@ -20,6 +20,17 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+std::string shell_word(const std::string& text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_-./:=,@%+").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string csv_cell(const std::string& text) {
   std::string quoted = text;
   std::replace(quoted.begin(), quoted.end(), '"', '\'');

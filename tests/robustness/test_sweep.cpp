@@ -140,6 +140,10 @@ TEST_F(Sweep, LauncherStartsTheRuns) {
 TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   const fs::path file = tyres();
   const fs::path script = program_.folder / "array.sh";
+  ASSERT_EQ(sweep(file, "--slurm " + script.string() + " --set 'output.progress_interval=2 ms'"), 0)
+      << errors();
+  EXPECT_TRUE(has(content_of(script), "--set 'output.progress_interval=2 ms'` without"))
+      << content_of(script);
   ASSERT_EQ(sweep(file, "--slurm " + script.string()), 0) << errors();
   const std::string text = content_of(script);
   EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;

@@ -9,23 +9,17 @@
 #include "drivers/process/child_process.hpp"
 #include "drivers/studies/study/study_runner.hpp"
 #include "io/files/output_file.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
 namespace {
 
-/// The text as one word of a shell.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 /// An element of the array: the folder of its run and the words after "tread run".
 std::string element(const StudyPlan& plan, const PlannedPoint& point, std::size_t number) {
   std::string words;
-  for (const std::string& word : point_arguments(plan, point, plan.threads)) words += " " + quoted(word);
-  return fmt::format("{}) folder={} words=({} ) ;;\n", number, quoted(point.folder.string()), words);
+  for (const std::string& word : point_arguments(plan, point, plan.threads)) words += " " + shell_word(word);
+  return fmt::format("{}) folder={} words=({} ) ;;\n", number, shell_word(point.folder.string()), words);
 }
 
 }  // namespace
@@ -64,7 +58,7 @@ fi
 exit $code
 )",
       fmt::arg("title", plan.study.name), fmt::arg("script", script.string()), fmt::arg("command", command),
-      fmt::arg("last", count - 1), fmt::arg("program", quoted(own_program().string())),
+      fmt::arg("last", count - 1), fmt::arg("program", shell_word(own_program().string())),
       fmt::arg("elements", elements));
   write_text_file(script, text);
 }
