@@ -362,6 +362,14 @@ TEST_F(Commands, MultibodyLeavesItsFiles) {
   EXPECT_EQ(fitted.code, 0);
   EXPECT_TRUE(has(fitted.out, "C / Hertz")) << fitted.out;
   EXPECT_TRUE(fs::exists(folder_ / "fit" / "calibration.csv"));
+  // A fastening has several spring-dampers.
+  const Outcome apart = call(fmt::format(
+      "multibody {0}/scene.resolved.toml -t 1 --quiet --modes 40 --step \"20 us\" --calibrate {0} "
+      "--set fastenings.columns=2",
+      folder_.string()));
+  EXPECT_EQ(apart.code, 2);
+  EXPECT_TRUE(has(apart.errors, "the number of the fastenings' spring-dampers along the rail is "))
+      << apart.errors;
 }
 
 TEST_F(Commands, MultibodyRefusesWhatItCannotDo) {

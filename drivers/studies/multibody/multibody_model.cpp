@@ -177,11 +177,12 @@ std::string track_difference(const MultibodyModel& here, const MultibodyModel& t
   const auto compare_each = [](const auto& ours, const auto& theirs, const auto& one) {
     for (std::size_t i = 0; i < std::min(ours.size(), theirs.size()); ++i) one(ours[i], theirs[i]);
   };
-  compare_number("the number of fastenings", here.supports, there.supports);
+  compare_number("the number of the fastenings' spring-dampers along the rail", here.supports,
+                 there.supports);
   compare_each(here.supports, there.supports, [&](const BeamSupport& ours, const BeamSupport& theirs) {
-    compare("a fastening's x", " m", ours.x, theirs.x);
-    compare("a fastening's stiffness", " N/m", ours.stiffness, theirs.stiffness);
-    compare("a fastening's damping", " N s/m", ours.damping, theirs.damping);
+    compare("a spring-damper's x", " m", ours.x, theirs.x);
+    compare("a spring-damper's stiffness", " N/m", ours.stiffness, theirs.stiffness);
+    compare("a spring-damper's damping", " N s/m", ours.damping, theirs.damping);
   });
   compare_number("the number of sleepers", here.sleepers, there.sleepers);
   compare_each(here.sleepers, there.sleepers, [&](const SleeperSupport& ours, const SleeperSupport& theirs) {
