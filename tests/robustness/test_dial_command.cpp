@@ -64,6 +64,20 @@ TEST_F(Dial, MeasuresAgainstTheFinestAndAdvises) {
   ASSERT_EQ(call(check + " --error 0.0001%"), 0) << errors();
   EXPECT_TRUE(has(program_.out(), "no setting measured is as near; the nearest")) << program_.out();
 
+  // A passage without a title is not named.
+  const fs::path untitled = program_.write("untitled.jsonl", [&] {
+    std::string lines = content_of(runs_ / "dial.jsonl");
+    for (auto at = lines.find("\"scene\""); at != std::string::npos; at = lines.find("\"scene\"", at + 1)) {
+      const auto first = lines.find('"', at + 8) + 1;
+      lines.erase(first, lines.find('"', first) - first);
+    }
+    return lines;
+  }());
+  ASSERT_EQ(call(fmt::format("check {} -t 1 --dial {} --error 99%", scene("tyre.toml"), untitled.string())),
+            0)
+      << errors();
+  EXPECT_TRUE(has(program_.out(), "          measured against ")) << program_.out();
+
   // The program's own table names a quality, which the tyre's element size hides.
   ASSERT_EQ(call(fmt::format("check {} -t 1 --error 5% --quantity pressure", scene("tyre.toml"))), 0)
       << errors();

@@ -57,6 +57,12 @@ std::string percent_text(double share) {
   return readable(100 * share, 2) + " %";
 }
 
+/// "measured on "TITLE" against REFERENCE"; a passage may have no title.
+std::string measured_text(const Advice& advice) {
+  const std::string on = advice.measured_on.empty() ? "" : fmt::format(" on \"{}\"", advice.measured_on);
+  return fmt::format("          measured{} against {}\n", on, advice.reference);
+}
+
 }  // namespace
 
 std::optional<Advice> advise(const ResolvedScene& resolved, const AdviceOptions& options) {
@@ -82,12 +88,11 @@ std::string advice_text(const Advice& advice) {
     if (advice.nearest)
       text += fmt::format("; the nearest, {}, is {} off", advice.nearest->point,
                           percent_text(error_of(*advice.nearest, advice.quantity).value_or(0)));
-    return text +
-           fmt::format("\n          measured on \"{}\" against {}\n", advice.measured_on, advice.reference);
+    return text + "\n" + measured_text(advice);
   }
   text += fmt::format("{}, which was {} off\n", advice.row->point,
                       percent_text(error_of(*advice.row, advice.quantity).value_or(0)));
-  text += fmt::format("          measured on \"{}\" against {}\n", advice.measured_on, advice.reference);
+  text += measured_text(advice);
   text += fmt::format("         {}\n", settings_text(*advice.row));
   if (advice.hidden_quality)
     text += "          and scene.element_size left out of the scene, which hides the quality\n";
