@@ -50,8 +50,14 @@ TEST_F(ExportCommand, LsDynaReadsOneFile) {
 
 TEST_F(ExportCommand, WithoutAPreloadThereIsTheDeckAlone) {
   ASSERT_EQ(export_tyre("rest.k", ""), 0) << errors();
+  EXPECT_TRUE(has(output(), "undeformed and just touch;")) << output();
   EXPECT_FALSE(fs::exists(root_ / "rest_0000.rad"));
   EXPECT_FALSE(has(content_of(root_ / "rest.k"), "*INITIAL_STRESS_SOLID"));
+}
+
+TEST_F(ExportCommand, AnOverlapWithoutAPreloadIsNamed) {
+  ASSERT_EQ(export_tyre("deep.k", "--overlap \"5 um\""), 0) << errors();
+  EXPECT_TRUE(has(output(), "undeformed and overlap by 5 um;")) << output();
 }
 
 TEST_F(ExportCommand, WrongChoicesAreRefused) {

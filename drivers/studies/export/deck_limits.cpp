@@ -141,10 +141,14 @@ class Differences {
                       options_.radioss_cards() ? "places free of stress" : "stresses"));
       return;
     }
+    const std::string touching = !model_.contact ? ""
+                                 : options_.overlap != 0
+                                     ? fmt::format(" and overlap by {:.4g} um", 1e6 * options_.overlap)
+                                     : " and just touch";
     add(fmt::format(
         "Preload: none. The bodies are undeformed{}; gravity and static loads {}. The deck settles by "
         "itself while it runs.",
-        model_.contact ? " and just touch" : "",
+        touching,
         options_.ramp > 0 ? fmt::format("grow over {:.4g} ms", 1e3 * options_.ramp)
                           : std::string("act in full from t = 0")));
   }
