@@ -43,8 +43,10 @@ def argument_of(words: str) -> str:
     words = words.removesuffix("REQUIRED").strip()
     several = " x 2" if words.endswith(" x 2") else ", several" if words.endswith(" ...") else ""
     words = re.sub(r"( x 2| \.\.\.)$", "", words)
-    kind, _, limits = words.partition(":")
-    text = KINDS.get(kind, kind)
+    typed = re.fullmatch(r"([A-Z]+)(?::(.*))?", words)
+    kind, limits = typed.groups("") if typed else (words, "")
+    # A bar would end the table's cell.
+    text = ", ".join(f"`{choice}`" for choice in kind.split("|")) if "|" in kind else KINDS.get(kind, kind)
     if choices := re.fullmatch(r"\{(.*)\}", limits):
         text = ", ".join(f"`{choice}`" for choice in choices[1].split(","))
     elif bounds := re.fullmatch(r"\w+ in \[(\S+) - (\S+)\]", limits):
