@@ -325,9 +325,10 @@ void take_machine(const RunOptions& options) {
 
 void require_runnable(const Model& model) {
   steady_traction(model);
-  if (!model.scene.motion) return;
+  const Scene& scene = model.scene;
+  if (!scene.motion || (!scene.output.disk_limit && !scene.forks)) return;
   RunResults results;
-  results.dt = model.scene.motion->step_safety * step_limit(model).stable_step;
+  results.dt = scene.motion->step_safety * step_limit(model).stable_step;
   require_disk(model, results);
   fork_step(model, results.dt);
 }
