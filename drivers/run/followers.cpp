@@ -177,17 +177,22 @@ void Followers::step(Simulation& simulation) {
 }
 
 bool Followers::find_better_shares(double left) {
-  constexpr double kLonger = 4;      // each interval than the last
-  constexpr double kGain = 0.02;     // part of the time that is saved
+  constexpr int kLonger = 4;         // each interval than the last
+  constexpr double kGain = 0.03;     // part of a step that is saved
   constexpr double kWorthwhile = 2;  // saved time over that of begin(): as measured, it may not come true
-  if (absent() || clock_.passed() < interval_) return false;
+  if (absent() || clock_.steps() < interval_) return false;
   interval_ *= kLonger;
   say(*ranks_, Word::times);
   const std::vector<double> worked = clock_.take(*ranks_);
-  EvenedShares evened = evened_shares(ranks_->shares, worked);
-  const double saved = 1 - evened.seconds / *std::max_element(worked.begin(), worked.end());
+  const SharesTried now{ranks_->shares, *std::max_element(worked.begin(), worked.end())};
+  const std::optional<SharesTried> before = std::exchange(before_, std::nullopt);
+  const bool worse = before && before->seconds < now.seconds;
+  const EvenedShares evened = evened_shares(now.shares, worked);
+  const SharesTried next = worse ? *before : SharesTried{evened.shares, evened.seconds};
+  const double saved = 1 - next.seconds / now.seconds;
   if (saved < kGain || saved * left < kWorthwhile * begin_seconds_) return false;
-  ranks_->shares = std::move(evened.shares);
+  if (!worse) before_ = now;
+  ranks_->shares = next.shares;
   return true;
 }
 

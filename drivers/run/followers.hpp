@@ -2,7 +2,9 @@
 // The ranks beside rank 0: they take the steps of its run with it, and hold nothing else of the run.
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/parallel/ranks.hpp"
 #include "drivers/engine/simulation.hpp"
@@ -39,10 +41,17 @@ class Followers {
   std::string shares() const;
 
  private:
+  /// Shares of the work, and the slowest rank's time of a step with them [s].
+  struct SharesTried {
+    std::vector<double> shares;
+    double seconds;
+  };
+
   std::shared_ptr<Ranks> ranks_;
   RankClock clock_;
-  double interval_ = 1;       ///< until ranks compare their times [s]
-  double begin_seconds_ = 0;  ///< that the last begin() took [s]
+  std::int64_t interval_ = 1000;       ///< steps until ranks compare their times
+  std::optional<SharesTried> before_;  ///< that those of now are to better
+  double begin_seconds_ = 0;           ///< that the last begin() took [s]
 };
 
 /// Does on another rank than 0 what rank 0 says, run by run, until dismiss(). Errors leave as those of

@@ -1,8 +1,10 @@
 #pragma once
-// What a rank works in steps, by the clock.
+// What a rank works in a step, by the clock.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
 #include "core/index.hpp"
@@ -20,33 +22,45 @@ class RankClock {
     const double idle = idle_seconds(ranks.traffic);
     const Clock::time_point begun = Clock::now();
     step();
-    worked_ += seconds_since(begun) - (idle_seconds(ranks.traffic) - idle);
+    worked_[index(steps_++ % kKept)] = seconds_since(begun) - (idle_seconds(ranks.traffic) - idle);
   }
 
+  std::int64_t steps() const { return steps_; }              ///< since the start
   double passed() const { return seconds_since(started_); }  ///< since the start [s]
 
-  /// What each rank has worked since its clock started [s]; starts all of them anew. All ranks call it.
+  /// Each rank's median of its last steps [s], in which looks at the energies and breaks for other programs
+  /// do not count; starts all clocks anew. All ranks call it.
   std::vector<double> take(Ranks& ranks) {
     std::vector<std::int64_t> first;
     for (std::int64_t rank = 0; rank <= ranks.count(); ++rank) first.push_back(rank);
-    std::vector<double> worked(index(ranks.count()));
-    worked[index(ranks.rank())] = worked_;
-    ranks.gather(worked.data(), first);
+    std::vector<double> medians(index(ranks.count()));
+    medians[index(ranks.rank())] = median();
+    ranks.gather(medians.data(), first);
     *this = {};
-    return worked;
+    return medians;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::int64_t kKept = 4096;
+
   static double seconds_since(Clock::time_point begun) {
     return std::chrono::duration<double>(Clock::now() - begun).count();
   }
   static double idle_seconds(const RankTraffic& traffic) {
     return traffic.seconds - traffic.beside + traffic.beside / threads();
   }
+  double median() const {
+    std::vector<double> worked(worked_.begin(), worked_.begin() + std::min(steps_, kKept));
+    if (worked.empty()) return 0;
+    const auto middle = worked.begin() + std::ssize(worked) / 2;
+    std::nth_element(worked.begin(), middle, worked.end());
+    return *middle;
+  }
 
   Clock::time_point started_ = Clock::now();
-  double worked_ = 0;
+  std::array<double, kKept> worked_{};  ///< in the last steps [s]
+  std::int64_t steps_ = 0;
 };
 
 }  // namespace tread
