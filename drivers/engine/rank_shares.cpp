@@ -13,7 +13,7 @@ namespace {
 
 /// Cost of search and tractions for each point that the search has room for. [ranks.md, What is shared]
 constexpr double kPointOfRoom = 16;
-/// Of an even share: METIS leaves no rank without any work.
+/// Part of an even share: METIS leaves no rank without any work.
 constexpr double kFewElements = 0.02;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// How much of the elements' work each rank gets, so that all take as long. [docs/records/ranks.md]
+// Shares of the elements' work, so that all ranks take as long. [docs/records/ranks.md]
 
 #include <cstdint>
 #include <span>

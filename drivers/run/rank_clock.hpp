@@ -1,5 +1,5 @@
 #pragma once
-// What a rank works in a step, by the clock.
+// Time that a rank works in a step.
 
 #include <algorithm>
 #include <array>

@@ -212,7 +212,7 @@ std::map<int, double> on_modes(const Aggregates& aggregates, const Spring& sprin
   return sum;
 }
 
-/// Whether springs differ by so little that the factor of one set serves the other.
+/// True for springs that differ by so little that the factor of one set serves the other.
 bool alike(const std::vector<Spring>& some, const std::vector<Spring>& others) {
   constexpr double kLittle = 0.01;
   const auto near = [](double a, double b, double size) { return std::abs(a - b) <= kLittle * size; };

@@ -45,7 +45,7 @@ void for_entries(const SparseFactor::Matrix& lower, int column, const Visit& vis
     visit(lower.innerIndexPtr()[at], lower.valuePtr()[at]);
 }
 
-/// How columns are dealt out in a level: into bundles of subtrees, none of which has more than one of `parts`
+/// Columns of a level are dealt out into bundles of subtrees, none of which has more than one of `parts`
 /// parts of the columns' work.
 struct Division {
   std::size_t bundles;

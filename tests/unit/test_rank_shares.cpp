@@ -59,7 +59,7 @@ TEST(RankShares, UnlikeRanksTakeAsLongAfterSome) {
     }
 }
 
-/// What rank 0 does beside its elements, such as samples, does not make it faster than it is.
+/// A rank 0 that is faster than the others keeps its own speed.
 TEST(RankShares, FasterFirstRankIsNotOverrated) {
   const std::vector<double> shares = Machine{{3, 1}, 0}.evened({0.5, 0.5}, 1);
   EXPECT_NEAR(shares[0], 0.75, 1e-12);
