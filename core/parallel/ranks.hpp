@@ -64,7 +64,7 @@ class Ranks {
   virtual bool spoils_copies() const { return false; }
 
   RankTraffic traffic;
-  /// Shares of the elements' work by measured times, by rank; empty: none were measured.
+  /// Shares of the elements' work, by rank, by which the next fields are cut; empty: these choose them.
   std::vector<double> shares;
 
  private:

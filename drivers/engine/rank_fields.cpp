@@ -26,7 +26,7 @@ TileShare share_of(const RankCut& cut, Ranks& ranks) {
   return share;
 }
 
-/// By measured shares, or else by the expected ones.
+/// By the ranks' shares; where they have none yet, by the expected ones, which they keep.
 template <class Internal>
 RankCut cut_of(const Model& model, const Internal& internal, Ranks& ranks) {
   const std::vector<TileWork> work = tile_work(model, internal);

@@ -35,7 +35,7 @@ std::vector<double> expected_shares(const Model& model, const std::vector<TileWo
   return shares;
 }
 
-EvenedShares evened_shares(std::span<const double> shares, std::span<const double> seconds) {
+TimedShares evened_shares(std::span<const double> shares, std::span<const double> seconds) {
   TREAD_EXPECT(shares.size() == seconds.size() && shares.size() > 1);
   static_assert(kContactRank == 0);
   std::vector<double> speed(shares.size());  // share of the work that a rank does in a second
@@ -49,7 +49,7 @@ EvenedShares evened_shares(std::span<const double> shares, std::span<const doubl
   double time = (1 + speed[0] * contact) / sum(speed);
   const double own = std::max((time - contact) * speed[0], least);
   if (own == least) time = (1 - least) / sum(std::span(speed).subspan(1));
-  EvenedShares evened{{own}, std::max(time, contact + own / speed[0])};
+  TimedShares evened{{own}, std::max(time, contact + own / speed[0])};
   for (std::size_t rank = 1; rank < shares.size(); ++rank) evened.shares.push_back(time * speed[rank]);
   return evened;
 }

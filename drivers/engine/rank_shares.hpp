@@ -15,14 +15,14 @@ std::int64_t contact_cost(const Model& model);
 /// Shares by rank, from the costs of elements, ties and contact.
 std::vector<double> expected_shares(const Model& model, const std::vector<TileWork>& work, int ranks);
 
-struct EvenedShares {
+struct TimedShares {
   std::vector<double> shares;  ///< by rank
-  double seconds;              ///< that the slowest rank would take
+  double seconds;              ///< that the slowest rank takes with them
 };
 
 /// Shares with which all ranks would have taken as long. `shares`: that they had; `seconds`: that each of
 /// them worked. Each rank keeps its speed; kContactRank has that of the others in the mean, and what it
 /// worked beyond that is the contact's time.
-EvenedShares evened_shares(std::span<const double> shares, std::span<const double> seconds);
+TimedShares evened_shares(std::span<const double> shares, std::span<const double> seconds);
 
 }  // namespace tread

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
-#include "drivers/engine/rank_shares.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/results/memory_need.hpp"
 #include "drivers/run/run_checkpoint.hpp"
@@ -184,11 +183,10 @@ bool Followers::find_better_shares(double left) {
   interval_ *= kLonger;
   say(*ranks_, Word::times);
   const std::vector<double> worked = clock_.take(*ranks_);
-  const SharesTried now{ranks_->shares, *std::max_element(worked.begin(), worked.end())};
-  const std::optional<SharesTried> before = std::exchange(before_, std::nullopt);
+  const TimedShares now{ranks_->shares, *std::max_element(worked.begin(), worked.end())};
+  const std::optional<TimedShares> before = std::exchange(before_, std::nullopt);
   const bool worse = before && before->seconds < now.seconds;
-  const EvenedShares evened = evened_shares(now.shares, worked);
-  const SharesTried next = worse ? *before : SharesTried{evened.shares, evened.seconds};
+  const TimedShares next = worse ? *before : evened_shares(now.shares, worked);
   const double saved = 1 - next.seconds / now.seconds;
   if (saved < kGain || saved * left < kWorthwhile * begin_seconds_) return false;
   if (!worse) before_ = now;

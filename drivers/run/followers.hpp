@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "core/parallel/ranks.hpp"
+#include "drivers/engine/rank_shares.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/run/rank_clock.hpp"
 #include "drivers/run/run_options.hpp"
@@ -37,20 +37,14 @@ class Followers {
 
   /// "3 ranks, threads of each: 2", with what a step exchanges once steps have been taken.
   std::string description(std::int64_t steps) const;
-  /// "elements of rank 0: 42.1 %, of others: 57.9 to 57.9 %".
+  /// "elements of rank 0: 42.1 %, of each other: 57.9 to 57.9 %".
   std::string shares() const;
 
  private:
-  /// Shares of the work, and the slowest rank's time of a step with them [s].
-  struct SharesTried {
-    std::vector<double> shares;
-    double seconds;
-  };
-
   std::shared_ptr<Ranks> ranks_;
   RankClock clock_;
   std::int64_t interval_ = 1000;       ///< steps until ranks compare their times
-  std::optional<SharesTried> before_;  ///< that those of now are to better
+  std::optional<TimedShares> before_;  ///< that those of now are to better, by a step's time
   double begin_seconds_ = 0;           ///< that the last begin() took [s]
 };
 

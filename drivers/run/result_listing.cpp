@@ -207,8 +207,8 @@ FolderState state_of(const fs::path& folder) {
   const bool resumable = CheckpointFolder(folder / kCheckpointFolder).holds_run();
   if (is_worked_on(folder)) return {state.text + "; a process works on it"};
   if (resumable)
-    return {fmt::format("not finished ({}); no process works on it, `tread resume {}` goes on", state.text,
-                        folder.string())};
+    return {fmt::format("not finished ({}); no process works on it, {} goes on", state.text,
+                        resume_text(folder))};
   return state;
 }
 

@@ -12,6 +12,7 @@
 #include "drivers/run/fork.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text.hpp"
 #include "kernels/device/device.hpp"
 
 namespace tread {
@@ -215,9 +216,9 @@ void Rolling::keep_for_forks() {
   results_->seconds_rolling = seconds();
   const CheckpointFolder folder(session_->folder / kForkFolder);
   folder.keep(simulation_->steps(), pack_all(files_->patch_bytes()));
-  session_->progress.say(
-      fmt::format("[fork] {} is kept: `tread run OTHER.toml --from {} -o OTHER` begins there",
-                  instant(simulation_->time(), simulation_->steps()), session_->folder.path().string()));
+  session_->progress.say(fmt::format(
+      "[fork] {} is kept: `tread run OTHER.toml --from {} -o OTHER` begins there",
+      instant(simulation_->time(), simulation_->steps()), shell_word(session_->folder.path().string())));
 }
 
 /// Writes a frame of a finite motion.
@@ -269,8 +270,7 @@ std::string Rolling::how_to_go_on() const {
       fmt::format("the last checkpoint is that of {}: ", instant(written_->time, written_->steps));
   const int most = model_->scene.stop.steps;
   if (most > 0 && written_->steps >= most)
-    return last + fmt::format("`tread resume {} --set stop.steps=0` goes on to the end",
-                              session_->folder.path().string());
+    return last + resume_text(session_->folder.path(), "--set stop.steps=0") + " goes on to the end";
   last += session_->resume_command() + " goes on from there";
   if (!std::is_same_v<E, NumericalError>) return last;
   return last + ", to the same end; --set \"output.history_interval=1 us\" shows more of it";

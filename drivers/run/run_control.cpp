@@ -47,7 +47,7 @@ void print_status(const std::filesystem::path& folder) {
   fmt::print("{}", json_text(status));
   if (resumable)
     throw Interrupted(
-        fmt::format("no process works on {}: `tread resume {}` goes on", folder.string(), folder.string()));
+        fmt::format("no process works on {}: {} goes on", folder.string(), resume_text(folder)));
   if (!alive) fmt::print(stderr, "tread: no process works on {}\n", folder.string());
 }
 
@@ -64,8 +64,8 @@ void control_run(const CtlOptions& options) {
   }
   if (!is_taken(folder))
     throw InputError(is_resumable(folder)
-                         ? fmt::format("no process works on {}; `tread resume {}` goes on with the run",
-                                       folder.string(), folder.string())
+                         ? fmt::format("no process works on {}; {} goes on with the run", folder.string(),
+                                       resume_text(folder))
                          : fmt::format("no process works on {}, and no run waits there", folder.string()));
   const bool stop = options.action == "stop";
   leave_request(folder, stop                        ? RunRequest::stop

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -27,7 +28,7 @@ FileLock take(const fs::path& folder) {
   throw ResourceError(fmt::format(
       "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
       "choose another folder",
-      folder.string(), folder.string(), folder.string()));
+      folder.string(), shell_word(folder.string()), shell_word(folder.string())));
 }
 
 const char* name_of(RunRequest request) {
@@ -109,6 +110,10 @@ bool require_folder_of(const fs::path& folder, std::string_view command) {
                     "choose another folder",
                     folder.string(), owner->command, owner->file, command));
   return owner.has_value();
+}
+
+std::string resume_text(const fs::path& folder, const std::string& more) {
+  return fmt::format("`tread resume {}{}{}`", shell_word(folder.string()), more.empty() ? "" : " ", more);
 }
 
 bool is_taken(const fs::path& folder) {

@@ -26,6 +26,9 @@ bool is_taken(const std::filesystem::path& folder);
 /// another one, which files of equal names would overwrite.
 bool require_folder_of(const std::filesystem::path& folder, std::string_view command);
 
+/// "`tread resume FOLDER MORE`", words as a shell takes them.
+std::string resume_text(const std::filesystem::path& folder, const std::string& more = "");
+
 /// Request of another process to the one that works on the folder.
 enum class RunRequest { checkpoint, frame, stop };
 

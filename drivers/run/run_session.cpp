@@ -9,7 +9,6 @@
 #include "drivers/process/host.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/version.hpp"
-#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -21,15 +20,11 @@ std::filesystem::path made(const std::filesystem::path& directory) {
   return directory;
 }
 
-std::string resumption(const std::filesystem::path& directory) {
-  return fmt::format("`tread resume {}`", shell_word(directory.string()));
-}
-
 /// A launcher that has lost a rank asks the others to stop, and ends them soon after.
 std::string last_word(const std::filesystem::path& directory) {
   if (!chosen_ranks()) return "";
   return fmt::format("tread: asked to stop, or a rank is lost; {} goes on from the last checkpoint",
-                     resumption(directory));
+                     resume_text(directory));
 }
 
 }  // namespace
@@ -40,13 +35,13 @@ RunSession::RunSession(const RunOptions& given)
       checkpoints(given.output / kCheckpointFolder),
       progress(given.quiet),
       interruption(fmt::format("tread: stopped before the first step; {} starts again",
-                               given.from.empty() ? resumption(given.output) : "the same command"),
+                               given.from.empty() ? resume_text(given.output) : "the same command"),
                    fmt::format("tread: stopped at once; {} goes on from the last checkpoint",
-                               resumption(given.output)),
+                               resume_text(given.output)),
                    last_word(given.output)) {}
 
 std::string RunSession::resume_command() const {
-  return resumption(folder.path());
+  return resume_text(folder.path());
 }
 
 Json RunSession::status(const std::string& stage) const {

@@ -41,7 +41,7 @@ double sum(const std::vector<double>& values) {
 TEST(RankShares, LikeRanksTakeAsLongAfterOneComparison) {
   const Machine machine{{2, 2, 2}, 0.03};
   const std::vector<double> shares = {0.2, 0.5, 0.3};
-  const EvenedShares evened = evened_shares(shares, machine.seconds(shares));
+  const TimedShares evened = evened_shares(shares, machine.seconds(shares));
   const std::vector<double> seconds = machine.seconds(evened.shares);
   EXPECT_LT(spread(seconds), 1e-12);
   EXPECT_NEAR(evened.seconds, seconds[0], 1e-12);
@@ -68,7 +68,7 @@ TEST(RankShares, FasterFirstRankIsNotOverrated) {
 TEST(RankShares, ContactLongerThanAShareLeavesAlmostNoElements) {
   const Machine machine{{1, 1, 1, 1}, 0.9};
   const std::vector<double> shares = {0.25, 0.25, 0.25, 0.25};
-  const EvenedShares evened = evened_shares(shares, machine.seconds(shares));
+  const TimedShares evened = evened_shares(shares, machine.seconds(shares));
   EXPECT_NEAR(evened.shares[0], 0.005, 1e-12);
   EXPECT_NEAR(evened.shares[1], 0.995 / 3, 1e-12);
   EXPECT_NEAR(evened.seconds, 0.905, 1e-12);
