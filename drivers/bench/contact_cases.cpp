@@ -78,7 +78,7 @@ struct Patch {
         fields(contact.nodes().grid()),
         u(static_cast<std::size_t>(3 * mesh.slots), 0.0),
         v(u.size(), 0.0),
-        inverse_mass(static_cast<std::size_t>(mesh.slots), 2 / (7790 * size * size * size)),
+        mass(static_cast<std::size_t>(mesh.slots), 0.5 * 7790 * size * size * size),
         dt(8.9e-8 * size / kFinest) {
     wheel.origin = {0, 0, contact.touching_height() - kApproach};
     wheel.velocity = {kSpeed, 0, 0};
@@ -116,7 +116,7 @@ struct Patch {
     contact.search({u.data(), v.data(), &wheel}, time, dt);
     time += dt;
   }
-  void resolve() { contact.resolve({u.data(), v.data(), inverse_mass.data()}, wheel, dt); }
+  void resolve() { contact.resolve({u.data(), v.data(), mass.data()}, wheel, dt); }
   void before_resolve() {
     u = u_before;
     std::fill(v.begin(), v.end(), 0.0);
@@ -126,7 +126,7 @@ struct Patch {
   Mesh mesh;
   Contact contact;
   SurfaceFields fields;
-  AlignedVector<double> u, v, u_before, inverse_mass;
+  AlignedVector<double> u, v, u_before, mass;
   BodyFrame wheel;
   double dt;        ///< [s]
   double time = 0;  ///< [s]

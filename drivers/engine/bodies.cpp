@@ -73,7 +73,7 @@ std::vector<FieldBytes> Bodies::fields() const {
   const bool copied = rounded(*model_);
   std::vector<FieldBytes> list = {
       {RunField::coefficients, model_->internal->bytes() + bytes_of_bodies(*model_)},
-      {RunField::mass, bytes_of(model_->mass) + bytes_of(model_->inverse_mass)},
+      {RunField::mass, bytes_of(model_->mass) + model_->mesh.slots * bytes.other},
       {RunField::displacement, components * static_cast<std::int64_t>(sizeof(double)), !copied},
       {RunField::velocity, components * bytes.other, true},
       {RunField::force, components * bytes.other}};
@@ -83,8 +83,7 @@ std::vector<FieldBytes> Bodies::fields() const {
   if (!model_->restrained.empty()) list.push_back({RunField::restrained, bytes_of(model_->restrained)});
   if (copied) {
     list.push_back({RunField::displacement_in_motion, components * bytes.displacement, true});
-    list.push_back(
-        {RunField::rounded_coefficients, model_->internal->bytes() / 2 + model_->mesh.slots * bytes.other});
+    list.push_back({RunField::rounded_coefficients, model_->internal->bytes() / 2});
   }
   return list;
 }

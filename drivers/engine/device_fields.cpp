@@ -17,9 +17,10 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
       device_(std::move(device)),
       kernels_(device_->template kernels<Real, U>()),
       marches_(*device_),
-      host_update_(model.mesh, this->inverse_mass()),
+      host_update_(model.mesh, this->inverse_masses()),
       contact_(model.contact.get()),
       looks_(*device_, model, this->unforced()) {
+  this->take_masses();
   const Mesh& mesh = model.mesh;
   Movers movers = movers_of(model);
   const std::size_t components = index(3 * mesh.slots);
@@ -42,7 +43,7 @@ DeviceFields<Real, U>::DeviceFields(const Model& model, std::shared_ptr<Device> 
   }
   if (this->q()) lag_ = DeviceArray<Real>(*device_, components);
   force_ = DeviceArray<Real>(*device_, components);
-  inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_mass(), index(mesh.slots)));
+  inverse_mass_ = DeviceArray<Real>(*device_, std::span(this->inverse_masses(), index(mesh.slots)));
   choose_movers(model, std::move(movers));
   if (contact_ != nullptr) surfaces_.emplace(*device_, mesh, *contact_);
   if (device_contact_) contact_->run_on(this);
@@ -73,7 +74,7 @@ void DeviceFields<Real, U>::choose_movers(const Model& model, Movers movers) {
   held_ = DeviceArray<unsigned char>(*device_, std::span<const unsigned char>(movers.held));
   held_ties_ = DeviceArray<std::int64_t>(*device_, std::span<const std::int64_t>(movers.held_ties));
   tied_surfaces_ = movers.tied_surfaces;
-  if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.inverse_mass.data());
+  if (movers.contact) device_contact_.emplace(*device_, model.mesh, *contact_, model.mass.data());
   if (std::count(group_mark_.begin(), group_mark_.end(), kKeeps) > 0)
     ties_.emplace(*device_, model.mesh, *model.ties);
   host_ties_ = model.ties && !ties_;

@@ -218,9 +218,6 @@ void Model::build_mass() {
   mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
   add_lumped_mass(mass.data());
   if (ties) ties->gather_mass(mass.data());
-  inverse_mass.assign(mass.size(), 0.0);
-  for (std::size_t i = 0; i < mass.size(); ++i)
-    if (mass[i] > 0) inverse_mass[i] = 1 / mass[i];
 }
 
 void Model::set_damping() {

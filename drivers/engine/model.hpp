@@ -56,8 +56,8 @@ struct Model {
   std::unique_ptr<InternalForce> internal;              ///< of the blocks
   std::vector<std::unique_ptr<BodyForce>> body_forces;  ///< by Mesh::bodies
   std::vector<std::int64_t> restrained;                 ///< unknowns that stay zero
-  PageVector<double> mass;                              ///< lumped, ties gathered; scalar node field [kg]
-  PageVector<double> inverse_mass;  ///< scalar node field, 0 where nothing moves by itself [1/kg]
+  PageVector<double>
+      mass;  ///< lumped, ties gathered; scalar node field, 0 where nothing moves by itself [kg]
 
   std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
   std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency

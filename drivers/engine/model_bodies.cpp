@@ -57,7 +57,7 @@ void Model::add_lumped_mass(double* of_nodes) const {
 }
 
 void Model::keep_masses(std::span<const unsigned char> groups) {
-  for (PageVector<double>* of : {&mass, &inverse_mass}) keep_marked(*of, groups, kLanes);
+  keep_marked(mass, groups, kLanes);
 }
 
 void Model::internal_force(const double* u, double* f) const {

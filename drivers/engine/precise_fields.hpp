@@ -18,51 +18,48 @@
 #include "drivers/engine/restraints.hpp"
 #include "kernels/material/branch_lag.hpp"
 #include "kernels/material/laws.hpp"
+#include "kernels/update/inverse_mass.hpp"
 
 namespace tread {
 
-/// The model's operator and inverse masses, in double.
-class SharedParts {
+/// The model's operator, in double.
+class SharedOperator {
  public:
-  explicit SharedParts(const Model& model) : model_(&model) {}
-  const InternalForce& internal() const { return *model_->internal; }
-  const double* inverse_mass() const { return model_->inverse_mass.data(); }
-  void keep_masses(std::span<const unsigned char> /*groups*/) {}  // they are the model's
+  explicit SharedOperator(const Model& model) : model_(&model) {}
+  const InternalForce& operator*() const { return *model_->internal; }
 
  private:
   const Model* model_;
 };
 
-/// Copies of them in single precision.
+/// A copy of it in single precision.
 template <class U>
-class RoundedParts {
+class RoundedOperator {
  public:
-  explicit RoundedParts(const Model& model)
-      : internal_(model.mesh), inverse_mass_(model.inverse_mass.begin(), model.inverse_mass.end()) {
+  explicit RoundedOperator(const Model& model) : internal_(model.mesh) {
     for (int b = 0; b < static_cast<int>(model.mesh.blocks.size()); ++b) {
       internal_.set_beta(b, model.internal->beta(b));
       internal_.set_branch(b, model.internal->branch(b));
       internal_.set_finite_rotation(b, model.internal->finite_rotation(b));
     }
   }
-  const BasicInternalForce<float, U>& internal() const { return internal_; }
-  const float* inverse_mass() const { return inverse_mass_.data(); }
-  void keep_masses(std::span<const unsigned char> groups) { keep_marked(inverse_mass_, groups, kLanes); }
+  const BasicInternalForce<float, U>& operator*() const { return internal_; }
 
  private:
   BasicInternalForce<float, U> internal_;
-  PageVector<float> inverse_mass_;
 };
 
 /// Fields that the processor moves. Real: velocities and forces, U: displacements.
 template <class Real, class U>
 class PreciseFields : public NodeFields {
  public:
+  /// The derived class calls take_masses() before steps.
   explicit PreciseFields(const Model& model)
       : model_(&model),
         sums_(model, unforced_unknowns(model)),
-        parts_(model),
-        update_(model.mesh, parts_.inverse_mass()),
+        operator_(model),
+        inverse_mass_(model.mass.size()),
+        update_(model.mesh, inverse_mass_.data()),
         u_(static_cast<std::size_t>(3 * model.mesh.slots)),
         v_(u_.size()),
         f_(u_.size()) {
@@ -74,8 +71,7 @@ class PreciseFields : public NodeFields {
       lag_ = q_->data();
     }
     if (has_laws(model.mesh)) laws_ = state_.emplace(model.mesh);
-    update_.defer(model.loaded_slots());
-    for (const auto& body : model.body_forces) bodies_.emplace_back(*body, parts_.inverse_mass());
+    for (const auto& body : model.body_forces) bodies_.emplace_back(*body, inverse_mass_.data());
   }
 
   void set(const AlignedVector<double>& displacement, const AlignedVector<double>& velocity) override {
@@ -86,9 +82,9 @@ class PreciseFields : public NodeFields {
   void internal_force_and_move(const StepLoads& loads, bool measured) override {
     force_bodies();
     if (measured)
-      parts_.internal().internal_force(force_fields());
+      internal().internal_force(force_fields());
     else
-      parts_.internal().move(update_, loads, force_fields());
+      internal().move(update_, loads, force_fields());
   }
   void move_rest(const StepLoads& loads, bool measured) override {
     const BasicUpdateFields<Real, U> fields = {u_.data(), v_.data(), f_.data()};
@@ -96,7 +92,7 @@ class PreciseFields : public NodeFields {
     if (measured)
       update_.move_all(loads, fields);
     else
-      update_.move_rest(loads, fields, parts_.internal().unmoved_tiles());
+      update_.move_rest(loads, fields, internal().unmoved_tiles());
   }
   void hold(std::span<const std::int64_t> unknowns) override {
     const std::int64_t touched = 2 * kLanes * std::ssize(unknowns);  // hardly two share a line of the cache
@@ -112,7 +108,7 @@ class PreciseFields : public NodeFields {
 
   DeformationEnergy energy(int part) const override {
     if (const BodyForce* body = model_->body_force_of(part)) return body->energy(displacement_);
-    return parts_.internal().energy(part, u_.data(), state());
+    return internal().energy(part, u_.data(), state());
   }
 
   ElementEnergy element_energy() override {
@@ -131,7 +127,7 @@ class PreciseFields : public NodeFields {
     auto sum = sum_tiles<BranchEnergy>(mesh(), sums_.all_blocks(), share(), [&](int block, int tile) {
       const std::optional<MaxwellBranch>& branch = q_->branch(block);
       if (!branch) return BranchEnergy{};
-      return energy_of(*branch, parts_.internal().linear_energy(block, tile, q_->data()));
+      return energy_of(*branch, internal().linear_energy(block, tile, q_->data()));
     });
     for (const auto& body : model_->body_forces)
       if (body->branch()) sum += energy_of(*body->branch(), whole(body->linear_energy(q_->data())));
@@ -182,20 +178,33 @@ class PreciseFields : public NodeFields {
   bool energy_by_forces(int b) const {
     return std::is_same_v<Real, double> &&
            mesh().blocks[static_cast<std::size_t>(b)].sweep == Sweep::extruded && !(q_ && q_->branch(b)) &&
-           is_linear(parts_.internal().law(b));
+           is_linear(internal().law(b));
   }
   /// Unknowns that forces do not move.
   const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
-  const BasicInternalForce<Real, U>& internal() const { return parts_.internal(); }
-  const Real* inverse_mass() const { return parts_.inverse_mass(); }
-  void keep_own_masses() { parts_.keep_masses(groups_with_mass()); }
+  const BasicInternalForce<Real, U>& internal() const { return *operator_; }
+  const Real* inverse_masses() const { return inverse_mass_.data(); }
+  /// Of the nodes that steps move (groups_with_mass()); the memory of others stays untouched. Those on which
+  /// more than elements acts then move after the elements.
+  void take_masses() {
+    const std::span<const unsigned char> groups = groups_with_mass();
+    const double* const mass = model_->mass.data();
+    for_chunks(mesh().slots / kLanes, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t group = first; group < last; ++group) {
+        if (!groups.empty() && groups[index(group)] == 0) continue;
+        for (std::int64_t slot = group * kLanes; slot < (group + 1) * kLanes; ++slot)
+          inverse_mass_[index(slot)] = static_cast<Real>(inverse_mass(mass[slot]));
+      }
+    });
+    update_.defer(model_->loaded_slots());
+  }
 
   /// By tile: the loop takes the tile behind it along.
   std::vector<unsigned char> joined_tiles() const {
     std::vector<unsigned char> joined;
     for (const SweptBlock& block : mesh().blocks)
       for (std::size_t tile = 0; tile < block.tiles.size(); ++tile)
-        joined.push_back(parts_.internal().joined(joined.size()));
+        joined.push_back(internal().joined(joined.size()));
     return joined;
   }
   /// Searches columns of the aimed contact; solves it once all are searched.
@@ -205,7 +214,7 @@ class PreciseFields : public NodeFields {
   }
   void solve_contact(const StepLoads& loads) {
     model_->contact->gather_points();
-    model_->contact->resolve({displacement_, velocity_, model_->inverse_mass.data()}, loads.frame, loads.dt);
+    model_->contact->resolve({displacement_, velocity_, model_->mass.data()}, loads.frame, loads.dt);
   }
   /// Forces of bodies from files.
   void force_bodies() {
@@ -244,13 +253,14 @@ class PreciseFields : public NodeFields {
         const std::int64_t first = 3 * block.base + tile * values;
         return {0.5 * dot_of_range(first, first + values, u_.data(), f_.data()), 0};
       }
-    const DeformationEnergy energy = parts_.internal().tile_energy(number, tile, u_.data(), state());
+    const DeformationEnergy energy = internal().tile_energy(number, tile, u_.data(), state());
     return {whole(energy), energy.dissipated};
   }
 
   const Model* model_;
   EnergySums sums_;
-  std::conditional_t<std::is_same_v<Real, double>, SharedParts, RoundedParts<U>> parts_;
+  std::conditional_t<std::is_same_v<Real, double>, SharedOperator, RoundedOperator<U>> operator_;
+  PageVector<Real> inverse_mass_;  ///< by slot [1/kg]
   BasicTimeUpdate<Real, U> update_;
   std::vector<BodyMotion<Real, U>> bodies_;
   PageVector<U> u_;

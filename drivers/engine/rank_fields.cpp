@@ -59,14 +59,14 @@ RankFields<Real, U>::RankFields(const Model& model, std::shared_ptr<Ranks> ranks
     other_forces_.add(rank, there, held_);
     if (solves() || rank == kContactRank) patch_motion_.add(rank, shared_.near(), solves() ? there : held_);
   }
+  this->take_masses();
   take_near();
-  this->keep_own_masses();
 }
 
 /// The rank that solves the patch moves nodes wherever the wheel comes.
 template <class Real, class U>
 std::span<const unsigned char> RankFields<Real, U>::groups_with_mass() const {
-  return solves() ? std::span<const unsigned char>{} : std::span<const unsigned char>(moved_);
+  return solves() ? std::span<const unsigned char>{} : std::span<const unsigned char>(held_.moved);
 }
 
 template <class Real, class U>

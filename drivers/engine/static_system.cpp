@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "kernels/solver/stable_step.hpp"
+#include "kernels/update/inverse_mass.hpp"
 
 namespace tread {
 
@@ -98,7 +99,7 @@ class AssembledBodies {
     for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
       for (int c = 0; c < 3; ++c) {
         double& value = inverse_mass_[static_cast<std::size_t>(dof(slot, c))];
-        if (value > 0) value = model.inverse_mass[static_cast<std::size_t>(slot)];
+        if (value > 0) value = inverse_mass(model.mass[static_cast<std::size_t>(slot)]);
       }
     if (model.guide)
       inverse_mass_[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();

@@ -15,6 +15,7 @@
 #include "drivers/verify/cases.hpp"
 #include "drivers/verify/free_wheelset.hpp"
 #include "kernels/harmonics/harmonic_solid.hpp"
+#include "kernels/update/inverse_mass.hpp"
 
 namespace tread {
 
@@ -134,7 +135,7 @@ ReceptanceCurve receptance_of_step(const Model& model, const LoadedRegion& regio
     const auto velocity = std::get<std::span<double>>(field.values);
     for (const LoadedRegion::Node& node : region.nodes)
       velocity[static_cast<std::size_t>(dof(node.slot, component))] =
-          kImpulse * node.weight * model.inverse_mass[static_cast<std::size_t>(node.slot)];
+          kImpulse * node.weight * inverse_mass(model.mass[static_cast<std::size_t>(node.slot)]);
   }
   const auto steps = static_cast<std::int64_t>(std::ceil(model.scene.motion->duration / stable));
   progress(fmt::format("{} elements, {} steps of {:.3e} s", model.elements(), steps, stable));

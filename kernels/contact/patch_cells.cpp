@@ -5,6 +5,7 @@
 
 #include "core/index.hpp"
 #include "kernels/lanes/tile_force.hpp"
+#include "kernels/update/inverse_mass.hpp"
 
 namespace tread {
 
@@ -36,8 +37,8 @@ void PatchCells::reserve(std::int64_t slots, std::size_t points, std::size_t nod
   for (std::vector<PatchVector>& sums : sums_) sums.reserve(points);
 }
 
-void PatchCells::link(const std::vector<ContactPoint>& points, const double* inverse_mass) {
-  inverse_mass_ = inverse_mass;
+void PatchCells::link(const std::vector<ContactPoint>& points, const double* mass) {
+  mass_ = mass;
   nodes_.clear();
   last_cell_.clear();
   cells_.clear();
@@ -72,7 +73,7 @@ int PatchCells::cell_of(const ContactPoint& point, int body) {
   Cell cell{};
   cell.body = body;
   for (std::size_t k = 0; k < kSupport; ++k) {
-    Node node{support.slot[k], body == 1, 1, 0, inverse_mass_[support.slot[k]]};
+    Node node{support.slot[k], body == 1, 1, 0, inverse_mass(mass_[support.slot[k]])};
     if (node.of_wheel) {
       node.cosine = point.wheel_cosine[k / 4];
       node.sine = point.wheel_sine[k / 4];

@@ -47,8 +47,8 @@ class PatchCells {
   /// Makes room for fields of `slots` nodes and for `points` points that carry `nodes` nodes at once.
   void reserve(std::int64_t slots, std::size_t points, std::size_t nodes);
 
-  /// Finds the cells and nodes of the points. `inverse_mass`: by slot [1/kg].
-  void link(const std::vector<ContactPoint>& points, const double* inverse_mass);
+  /// Finds the cells and nodes of the points. `mass`: by slot, above zero where surfaces have nodes [kg].
+  void link(const std::vector<ContactPoint>& points, const double* mass);
 
   const std::vector<Node>& nodes() const { return nodes_; }
 
@@ -81,7 +81,7 @@ class PatchCells {
   CellPoints points_of(const Cell& cell) const;
 
   const TileForces* lanes_;  ///< the widest instruction set's loops
-  const double* inverse_mass_ = nullptr;
+  const double* mass_ = nullptr;
   PageVector<int> node_of_;  ///< by slot, its number and one; 0: none
   std::vector<Node> nodes_;
   std::vector<int> last_cell_;  ///< by node, the last cell at whose corner it is, -1: none

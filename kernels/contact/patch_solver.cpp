@@ -130,7 +130,7 @@ void PatchSolver::solve(std::vector<ContactPoint>& points, const PointSprings& s
                         const BodyFrame& wheel, const NodeMotion& motion, double dt) {
   // The search may find more or fewer of them, which the bits do not show.
   std::erase_if(points, [&](const ContactPoint& point) { return stays_open(point, kSpareClosing, dt); });
-  cells_.link(points, motion.inverse_mass);
+  cells_.link(points, motion.mass);
   change_.resize(cells_.nodes().size());
   for (std::vector<PatchVector>* vectors : {&free_, &impulse_}) vectors->resize(points.size());
   mobility_.resize(points.size());

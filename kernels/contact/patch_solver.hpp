@@ -17,9 +17,9 @@ namespace tread {
 
 /// Nodal fields after a step without contact, components in the nodes' local bases.
 struct NodeMotion {
-  NodeField displacement;      ///< at the end of the step [m]
-  NodeField velocity;          ///< mean of the step, relative to the frame [m/s]
-  const double* inverse_mass;  ///< by slot [1/kg]
+  NodeField displacement;  ///< at the end of the step [m]
+  NodeField velocity;      ///< mean of the step, relative to the frame [m/s]
+  const double* mass;      ///< by slot [kg]
 };
 
 /// Jacobi's method with momentum: all points of an iteration respond to the motion that the iteration before

@@ -153,7 +153,7 @@ struct ContactTask {
   const FaceQuadrature::Point* quadrature = nullptr;
   PointSprings springs;
   SearchEnd end;
-  const double* inverse_mass = nullptr;  ///< by slot [1/kg]
+  const double* mass = nullptr;  ///< by slot [kg]
 
   FaceWindow window;
   SearchBounds bounds;

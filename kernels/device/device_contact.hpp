@@ -17,8 +17,8 @@ namespace tread {
 
 class DeviceContact {
  public:
-  /// Copies what does not change. Keeps references. `inverse_mass`: by slot of the mesh [1/kg].
-  DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* inverse_mass);
+  /// Copies what does not change. Keeps references. `mass`: by slot of the mesh [kg].
+  DeviceContact(Device& device, const Mesh& mesh, Contact& contact, const double* mass);
 
   /// When a step of dt [s] searches, and where.
   struct Instant {

@@ -16,7 +16,7 @@ class PatchFinder {
   TREAD_BODY void run() {
     number_points();
     if (points_ > 0) {
-      links_.link({task_.candidates.point, task_.candidates.origin}, points_, task_.inverse_mass);
+      links_.link({task_.candidates.point, task_.candidates.origin}, points_, task_.mass);
       fill_supports();
       list_items();
     }

@@ -6,6 +6,7 @@
 
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/device/contact_layout.hpp"
+#include "kernels/update/inverse_mass.hpp"
 
 namespace tread {
 
@@ -32,13 +33,13 @@ class LinkedPatch {
     return entry < count_ ? point.rail : point.wheel;
   }
 
-  /// Finds cells and nodes of the points. `inverse_mass`: by slot [1/kg].
-  TREAD_BODY void link(const PatchPoints& points, int count, const double* inverse_mass) {
+  /// Finds cells and nodes of the points. `mass`: by slot [kg].
+  TREAD_BODY void link(const PatchPoints& points, int count, const double* mass) {
     points_ = points;
     count_ = count;
     find_cells();
     list_entries();
-    find_nodes(inverse_mass);
+    find_nodes(mass);
     list_terms();
   }
 
@@ -86,7 +87,7 @@ class LinkedPatch {
         });
   }
 
-  TREAD_BODY void find_nodes(const double* inverse_mass) {
+  TREAD_BODY void find_nodes(const double* mass) {
     const auto slot = [&](int place) {
       return support(l_.sample[place / kCellNodes]).slot[static_cast<std::size_t>(place % kCellNodes)];
     };
@@ -95,7 +96,7 @@ class LinkedPatch {
         [&](int n, int p) {
           const int entry = l_.sample[p / kCellNodes];
           PatchNode node{slot(p), 1, 0, entry < count_ ? 0 : 1};
-          l_.inverse_mass[n] = inverse_mass[node.slot];
+          l_.inverse_mass[n] = inverse_mass(mass[node.slot]);
           if (node.of_wheel != 0) {
             const auto station = static_cast<std::size_t>(p % kCellNodes / 4);
             node.cosine = points_[entry - count_].wheel_cosine[station];

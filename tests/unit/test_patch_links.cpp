@@ -108,9 +108,9 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
   std::iota(origin.begin(), origin.end(), 0);
   PatchCells cells;
   cells.reserve(kSlots, points.size(), index(kSlots));
-  std::vector<double> inverse_mass(index(kSlots));
-  std::iota(inverse_mass.begin(), inverse_mass.end(), 1.0);
-  cells.link(points, inverse_mass.data());
+  std::vector<double> mass(index(kSlots));
+  std::iota(mass.begin(), mass.end(), 1.0);
+  cells.link(points, mass.data());
   std::vector<PatchVector> numbers(points.size());
   for (int i = 0; i < count; ++i) numbers[index(i)].value[0] = i + 1;
   std::vector<PatchVector> sums(cells.nodes().size());
@@ -120,7 +120,7 @@ TEST(LinkedPatch, HasTheNodesAndSumsOfPatchCells) {
     Room room(points.size());
     const Team team(backwards);
     LinkedPatch<Team> patch(team, room.links());
-    patch.link({points.data(), origin.data()}, count, inverse_mass.data());
+    patch.link({points.data(), origin.data()}, count, mass.data());
     const PatchLinks& links = patch.links();
     ASSERT_EQ(patch.nodes(), std::ssize(cells.nodes()));
     for (int n = 0; n < patch.nodes(); ++n) {

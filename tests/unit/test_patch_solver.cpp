@@ -39,14 +39,11 @@ class Patch {
  public:
   /// With `nodes` nodes on each body, the wheel's after the rail's.
   explicit Patch(int nodes = kWheel, std::size_t room = 16)
-      : wheel_(nodes),
-        u_(index(6 * nodes), 0.0),
-        v_(u_.size(), 0.0),
-        inverse_mass_(index(2 * nodes), 1 / kLight) {
+      : wheel_(nodes), u_(index(6 * nodes), 0.0), v_(u_.size(), 0.0), mass_(index(2 * nodes), kLight) {
     solver_.reserve(2 * nodes, room, index(2 * nodes));
   }
 
-  void set_mass(std::int64_t slot, double mass) { inverse_mass_[index(slot)] = 1 / mass; }
+  void set_mass(std::int64_t slot, double mass) { mass_[index(slot)] = mass; }
   void set_velocity(std::int64_t slot, const Vec3& v) {
     for (int c = 0; c < 3; ++c) v_[index(dof(slot, c))] = v[c];
   }
@@ -76,8 +73,7 @@ class Patch {
     BodyFrame wheel;
     wheel.velocity = wheel_velocity;
     Friction friction = std::move(law);
-    solver_.solve(points, {kPenalty, {kPenalty}}, friction, wheel,
-                  {u_.data(), v_.data(), inverse_mass_.data()}, kDt);
+    solver_.solve(points, {kPenalty, {kPenalty}}, friction, wheel, {u_.data(), v_.data(), mass_.data()}, kDt);
   }
 
   int iterations() const { return solver_.iterations(); }
@@ -96,7 +92,7 @@ class Patch {
   }
 
   int wheel_;  ///< first slot of the wheel's nodes
-  AlignedVector<double> u_, v_, inverse_mass_;
+  AlignedVector<double> u_, v_, mass_;
   PatchSolver solver_;
 };
 

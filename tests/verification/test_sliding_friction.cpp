@@ -163,8 +163,8 @@ class MassOnBelt {
   static constexpr FallingFriction kLaw{0.5, 0.2, 1, 50e-6};
 
   explicit MassOnBelt(double damping)
-      : damping_(damping), u_(3 * kSlots, 0.0), v_(u_.size(), 0.0), inverse_mass_(kSlots, 1 / kMass) {
-    inverse_mass_[kRail] = 1e-12;
+      : damping_(damping), u_(3 * kSlots, 0.0), v_(u_.size(), 0.0), mass_(kSlots, kMass) {
+    mass_[kRail] = 1e12;
     v_[dof(kRail, 0)] = kBelt;
     solver_.reserve(kSlots, 1, 2);
     // At steady sliding, but for a small speed.
@@ -235,7 +235,7 @@ class MassOnBelt {
     u += kDt * v;
     std::vector<ContactPoint> points{point};
     solver_.solve(points, {kPenalty, {kPenalty}}, friction_, BodyFrame{},
-                  {u_.data(), v_.data(), inverse_mass_.data()}, kDt);
+                  {u_.data(), v_.data(), mass_.data()}, kDt);
     shear_ = points.front().shear;
     for (const int normal : {1, 2})  // the mass slides along the belt only
       u_[dof(kWheel, normal)] = v_[dof(kWheel, normal)] = 0;
@@ -243,7 +243,7 @@ class MassOnBelt {
   }
 
   double damping_;  ///< [N s/m]
-  AlignedVector<double> u_, v_, inverse_mass_;
+  AlignedVector<double> u_, v_, mass_;
   PatchSolver solver_;
   Friction friction_;
   Traction shear_;

@@ -35,8 +35,7 @@ void WheelRailContact::search(const StepState& step) {
 }
 
 void WheelRailContact::add_tractions(StepState& step) {
-  if (!step.contact_beside)
-    contact_->resolve({step.displacement, step.velocity, inverse_mass_}, step.wheel, step.dt);
+  if (!step.contact_beside) contact_->resolve({step.displacement, step.velocity, mass_}, step.wheel, step.dt);
   if (contact_->point_at_the_end(step.wheel)) {
     step.end.stop_if_unstable();
     contact_->require_room(step.wheel);

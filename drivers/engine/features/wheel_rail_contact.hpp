@@ -9,9 +9,8 @@ namespace tread {
 
 class WheelRailContact final : public Feature {
  public:
-  /// Keeps references. `inverse_mass`: scalar node field [1/kg]
-  WheelRailContact(Contact& contact, const double* inverse_mass)
-      : contact_(&contact), inverse_mass_(inverse_mass) {}
+  /// Keeps references. `mass`: scalar node field [kg]
+  WheelRailContact(Contact& contact, const double* mass) : contact_(&contact), mass_(mass) {}
 
   const char* name() const override { return "contact"; }
   std::vector<PhaseInfo> phases() const override;
@@ -27,7 +26,7 @@ class WheelRailContact final : public Feature {
   Vec3 mean_normal() const;
 
   Contact* contact_;
-  const double* inverse_mass_;
+  const double* mass_;
 };
 
 }  // namespace tread
