@@ -48,11 +48,15 @@ double SpringDampers::energy(ConstNodeField u) const {
 
 namespace {
 
+/// A node's mass, and its weight in means [kg].
+struct Weighed {
+  double mass, weight;
+};
+
 /// Weights of a ring's nodes, node by node and station by station: their masses times 1 + a cos phi + b sin
 /// phi, such that the ring is centred on the axis; masses of unequal stations alone leave it micrometres off.
-/// [kg]
-std::vector<double> centred_weights(const SweptBlock& block, const std::vector<int>& path,
-                                    const double* mass) {
+std::vector<Weighed> centred_weights(const SweptBlock& block, const std::vector<int>& path,
+                                     const double* mass) {
   const auto visit = [&](auto act) {
     for (const int node : path)
       for (int station = 0; station < block.station_count(); ++station) {
@@ -72,9 +76,9 @@ std::vector<double> centred_weights(const SweptBlock& block, const std::vector<i
   const double determinant = cc * ss - cs * cs;
   const double a = (cs * s - ss * c) / determinant;
   const double b = (cs * c - cc * s) / determinant;
-  std::vector<double> weights;
+  std::vector<Weighed> weights;
   visit([&](double m, double, double cosine, double sine) {
-    weights.push_back(m * (1 + a * cosine + b * sine));
+    weights.push_back({m, m * (1 + a * cosine + b * sine)});
   });
   return weights;
 }
@@ -82,15 +86,19 @@ std::vector<double> centred_weights(const SweptBlock& block, const std::vector<i
 }  // namespace
 
 Journal::Journal(const SweptBlock& block, const std::vector<int>& path, const double* mass) {
-  const std::vector<double> weights = centred_weights(block, path, mass);
+  const std::vector<Weighed> weights = centred_weights(block, path, mass);
+  double sum = 0;
+  for (const Weighed& node : weights) sum += node.weight;
+  double mobility = 0;
   for (const int node : path)
     for (int station = 0; station < block.station_count(); ++station) {
       const double phi = block.stations[static_cast<std::size_t>(station)];
-      nodes_.push_back(
-          {block.base + block.slot(node, station), weights[nodes_.size()], std::cos(phi), std::sin(phi)});
-      mass_ += nodes_.back().weight;
+      const auto [m, weight] = weights[nodes_.size()];
+      nodes_.push_back({block.base + block.slot(node, station), weight / sum, weight / (sum * m),
+                        std::cos(phi), std::sin(phi)});
+      mobility += nodes_.back().weight * nodes_.back().per_mass;
     }
-  for (Node& node : nodes_) node.weight /= mass_;
+  mass_ = 1 / mobility;
 }
 
 namespace {
@@ -122,7 +130,7 @@ Vec3 Journal::velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& fram
   return frame.velocity + displacement(w, frame) + cross({0, frame.spin, 0}, displacement(u, frame));
 }
 
-Vec3 Journal::total(ConstNodeField force, const BodyFrame& frame) const {
+Vec3 Journal::acceleration(ConstNodeField force, const BodyFrame& frame) const {
   const double fc = std::cos(frame.angle);
   const double fs = std::sin(frame.angle);
   Vec3 sum;
@@ -130,7 +138,7 @@ Vec3 Journal::total(ConstNodeField force, const BodyFrame& frame) const {
     const auto [c, s] = space_angle(node.cosine, node.sine, fc, fs);
     const double t = force[dof(node.slot, 0)];
     const double r = force[dof(node.slot, 2)];
-    sum += {-c * t - s * r, force[dof(node.slot, 1)], s * t - c * r};
+    sum += node.per_mass * Vec3{-c * t - s * r, force[dof(node.slot, 1)], s * t - c * r};
   }
   return sum;
 }
@@ -147,12 +155,12 @@ void Journal::add(NodeField field, const BodyFrame& frame, const Vec3& load) con
 }
 
 AxleTorque::AxleTorque(const SweptBlock& block, const std::vector<int>& path, const double* mass) {
-  const std::vector<double> weights = centred_weights(block, path, mass);
+  const std::vector<Weighed> weights = centred_weights(block, path, mass);
   double inertia = 0;
   for (const int node : path)
     for (int station = 0; station < block.station_count(); ++station) {
       const double r = block.section.q[static_cast<std::size_t>(node)];
-      const double weight = weights[nodes_.size()];
+      const double weight = weights[nodes_.size()].weight;
       nodes_.push_back({block.base + block.slot(node, station), weight * r});
       inertia += weight * r * r;
     }

@@ -77,10 +77,13 @@ class Journal {
   /// Mean displacement from the axis and mean velocity, Cartesian [m], [m/s].
   Vec3 displacement(ConstNodeField u, const BodyFrame& frame) const;
   Vec3 velocity(ConstNodeField u, ConstNodeField w, const BodyFrame& frame) const;
-  Vec3 total(ConstNodeField force, const BodyFrame& frame) const;
+  /// The mean velocity's rate under forces on the nodes, gravity aside, Cartesian [m/s2].
+  Vec3 acceleration(ConstNodeField force, const BodyFrame& frame) const;
 
   /// Spreads a Cartesian force over the nodes: field += sign of the caller.
   void add(NodeField field, const BodyFrame& frame, const Vec3& load) const;
+  /// A force that add() spreads, over the acceleration that it gives the mean motion; the nodes' mass where
+  /// their weights are their masses [kg].
   double mass() const { return mass_; }
   bool empty() const { return nodes_.empty(); }
   std::vector<std::int64_t> slots() const;
@@ -89,7 +92,9 @@ class Journal {
  private:
   struct Node {
     std::int64_t slot;
-    double weight, cosine, sine;  ///< of the node's own angle
+    double weight;        ///< share of a load
+    double per_mass;      ///< weight over the node's mass [1/kg]
+    double cosine, sine;  ///< of the node's own angle
   };
   std::vector<Node> nodes_;
   double mass_ = 0;

@@ -49,12 +49,13 @@ void Vehicle::apply_suspension(StepState& step) {
 /// The unsprung mass shares the journal's acceleration, a carried sprung mass that along x; gravity and spin
 /// terms come with the update. [theory.md, eq. 8]
 void Vehicle::add_carried_masses(StepState& step) {
-  const Vec3 total = journal_->total(step.force, step.wheel);
-  const auto share = [&](double mass) { return -mass / (journal_->mass() + mass); };
-  const double along = unsprung_mass_ + carried_mass_;
+  const Vec3 alone = journal_->acceleration(step.force, step.wheel);
+  const auto left = [&](double mass) { return journal_->mass() / (journal_->mass() + mass); };
+  const double along = left(unsprung_mass_ + carried_mass_) * alone.x;
   journal_->add(step.force, step.wheel,
-                {share(along) * total.x, share(unsprung_mass_) * total.y, share(unsprung_mass_) * total.z});
-  sprung_.speed_along -= step.dt * total.x / (journal_->mass() + along);
+                {-(unsprung_mass_ + carried_mass_) * along, -unsprung_mass_ * left(unsprung_mass_) * alone.y,
+                 -unsprung_mass_ * left(unsprung_mass_) * alone.z});
+  sprung_.speed_along -= step.dt * along;
 }
 
 void Vehicle::begin(const Motion& motion, const SprungStart& start) {
