@@ -37,6 +37,10 @@ double contact_modulus(double youngs_modulus, double poissons_ratio) {
   return youngs_modulus / (2 * (1 - poissons_ratio * poissons_ratio));
 }
 
+double line_semi_axis(double radius, double contact_modulus, double line_load) {
+  return std::sqrt(4 * radius * line_load / (std::numbers::pi * contact_modulus));
+}
+
 double line_load(double radius, double contact_modulus, double semi_axis) {
   return std::numbers::pi * contact_modulus * semi_axis * semi_axis / (4 * radius);
 }

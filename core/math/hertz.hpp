@@ -17,6 +17,9 @@ double contact_modulus(double youngs_modulus, double poissons_ratio);
 /// `contact_modulus` E* [Pa].
 HertzPatch hertz(double radius_x, double radius_y, double contact_modulus, double load);
 
+/// Semi-axis of the contact of a cylinder and a plane under a load per width [m].
+double line_semi_axis(double radius, double contact_modulus, double line_load);
+
 /// Load per width under which a cylinder on a plane touches over two semi-axes [N/m].
 double line_load(double radius, double contact_modulus, double semi_axis);
 

@@ -93,8 +93,11 @@ std::string start_warning(const Model& model) {
       1e6 * deepest, scene.start_x(), 2e3 * half);
 }
 
-/// Length of the shorter axis of the patch [m].
+/// Length of the shorter axis of the patch; of a slice in plane strain, its length along the rail [m].
 double shorter_axis(const Model& model) {
+  if (model.scene.plane_strain)
+    return 2 * line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(),
+                              model.wheel_load() / model.scene.rail->width);
   return 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
 }
 

@@ -83,7 +83,8 @@ struct RunResults {
   double creepage = 0;        ///< mean of 28 points of the tread there [-]
   std::optional<double> creepage_of_work;  ///< frictional work per way over F_L there, if F_L counts [-]
   double creepage_max = 0;  ///< mean of 28 points, the largest in size over the stretch of vertical_force [-]
-  double full_slip_share = 0;  ///< of the samples in contact there, those whose whole patch slides [-]
+  double full_slip_share = 0;    ///< of the samples in contact there, those whose whole patch slides [-]
+  double steady_slip_share = 0;  ///< the same, of the steady stretch [-]
   double max_pressure = 0, max_shear = 0, patch_area = 0;  ///< mean of the samples there [Pa], [Pa], [m2]
   double vertical_force_steady = 0;                        ///< mean there [N]
   double energy_error = 0;          ///< largest residual over what was dissipated or stored [-]
@@ -103,8 +104,11 @@ void evaluate(const Model& model, RunResults& results);
 /// Nothing without way, or where F_L is too small against F_N. [theory.md, eq. 13a]
 std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last);
 
+/// Returns true if the whole patch slides in most samples of the steady stretch, under traction.
+bool traction_slides(const RunResults& results);
+
 /// Returns true if the means of F_L / F_N over both halves of the steady stretch agree within 5 %, or within
-/// 0.005 where the traction is small.
+/// 0.005 where the traction is small, and the patch does not slide.
 bool traction_is_steady(const RunResults& results);
 
 /// Statistics of a measured column over the evaluated stretch, or over the whole run without contact; values

@@ -21,8 +21,27 @@ bool is_plate(const BlockIndex& index, int block) {
   return block == index.slab || std::ranges::count(index.sleepers, block) > 0;
 }
 
+/// Residual over what was dissipated or stored above which results are doubted. Sound runs without friction,
+/// which dissipate little, have had 0.1.
+constexpr double kEnergyError = 0.5;
+
+std::string balance_warning(const RunResults& r) {
+  if (r.energy_error <= kEnergyError) return "";
+  return fmt::format(
+      "the energies miss by {:.0f} % of what was dissipated and stored: above {:.0f} % results are in doubt; "
+      "a "
+      "smaller motion.step_safety shows whether the time step is the cause",
+      100 * r.energy_error, 100 * kEnergyError);
+}
+
 std::string steadiness_warning(const Model& model, const RunResults& r) {
   if (model.torque.empty() || traction_is_steady(r)) return "";
+  if (traction_slides(r))
+    return fmt::format(
+        "the whole patch slides in {:.0f} % of the samples of the steady stretch (x = {:.3f} to {:.3f} m): "
+        "friction does not carry the torque of motion.traction, so that the wheel spins up or brakes to a "
+        "stop",
+        100 * r.steady_slip_share, r.steady_first, r.steady_last);
   const double half = 0.5 * r.traction_drift;
   return fmt::format(
       "F_L / F_N goes from {:.4f} to {:.4f} along the steady stretch (x = {:.3f} to {:.3f} m): traction and "
@@ -59,6 +78,7 @@ std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
     warnings.push_back(empty_warning(r));
     warnings.push_back(steadiness_warning(model, r));
   }
+  warnings.push_back(balance_warning(r));
   for (std::size_t b = 0; b < r.part_energy.size(); ++b)
     if (!is_plate(model.index, static_cast<int>(b)))
       warnings.push_back(hourglass_warning(model.mesh.part_name(static_cast<int>(b)), r.part_energy[b]));

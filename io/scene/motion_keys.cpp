@@ -84,10 +84,10 @@ void add_motion(Keys& keys) {
       "motion.traction.mu",
       quantity("motion.traction.torque", {Effect::motion}, at(&Scene::motion, &MotionSpec::traction_torque),
                kTorque, "kN m", {-1e6, 1e6}, "Torque on the axle after the ramp; negative brakes"))));
-  keys.push_back(rolling(
-      quantity("motion.traction.ramp", {Effect::motion}, at(&Scene::motion, &MotionSpec::ramp), kTime, "ms",
-               from(0, 100),
-               "Time T1 in which the torque grows from zero; 0: the wheel has long been rolling under it")));
+  keys.push_back(rolling(quantity("motion.traction.ramp", {Effect::motion},
+                                  at(&Scene::motion, &MotionSpec::ramp), kTime, "ms", from(0, 100),
+                                  "Time T1 in which the torque grows from zero; 0: the wheel has long been "
+                                  "rolling under it; a guided bore gets it at once")));
   keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
                                 at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
                                 "Growth and reversal of the torque: linear, or as half a cosine")));

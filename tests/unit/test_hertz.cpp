@@ -66,6 +66,7 @@ TEST(Hertz, SlenderPatchNearsALine) {
   // Load per length at the middle is 3/4 of the total over the semi-axis: line contact of that load.
   const double line = 0.75 * kLoad / patch.semi_axis_x;
   EXPECT_NEAR(line_load(0.3, kModulus, patch.semi_axis_y) / line, 1, 2e-3);
+  EXPECT_NEAR(line_semi_axis(0.3, kModulus, line) / patch.semi_axis_y, 1, 1e-3);
 }
 
 }  // namespace

@@ -1,8 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
+#include "drivers/engine/model.hpp"
+#include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
+#include "drivers/results/run_warnings.hpp"
+#include "tests/tyre_scene.hpp"
 
 namespace tread {
 namespace {
@@ -43,10 +48,39 @@ TEST(Traction, IsSteadyIfItsHalvesAgree) {
   EXPECT_TRUE(traction_is_steady(results));
   results.traction_drift = -0.0151;
   EXPECT_FALSE(traction_is_steady(results));
+  results.traction_drift = 0;
+  results.steady_slip_share = 0.6;
+  EXPECT_FALSE(traction_is_steady(results)) << "the wheel spins up";
   // A wheel that rolls freely has no traction to compare with.
   results.traction_coefficient = 0.001;
   results.traction_drift = 0.0049;
   EXPECT_TRUE(traction_is_steady(results));
+}
+
+/// The patch of a slice in plane strain is that of its load per width, however narrow it is.
+TEST(Warnings, ASliceHasThePatchOfItsLoadPerWidth) {
+  const auto warnings = [](int width) {
+    const std::string mm = std::to_string(width) + " mm";
+    return resolution_warnings(Model(samples::tyre_scene(
+        {"scene.plane_strain=true", "scene.element_size=6 mm", "scene.gravity=0 m/s2", "wheel.width=" + mm,
+         "rail.width=" + mm, "load.wheel_load=" + std::to_string(3 * width) + " kN"})));
+  };
+  const std::vector<std::string> narrow = warnings(6);
+  ASSERT_FALSE(narrow.empty());
+  EXPECT_NE(narrow.front().find("1.3 elements across (7.62 mm of Hertz"), std::string::npos)
+      << narrow.front();
+  EXPECT_EQ(narrow, warnings(60));
+}
+
+TEST(Warnings, EnergiesThatDoNotBalance) {
+  const Model model(samples::tyre_scene({"scene.element_size=12 mm"}));
+  RunResults results;
+  results.samples.resize(1);
+  const std::size_t before = run_warnings(model, results).size();
+  results.energy_error = 0.4;
+  EXPECT_EQ(run_warnings(model, results).size(), before);
+  results.energy_error = 0.6;
+  EXPECT_EQ(run_warnings(model, results).size(), before + 1);
 }
 
 }  // namespace

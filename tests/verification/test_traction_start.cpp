@@ -62,6 +62,9 @@ TEST(TractionStart, RefusesAPatchThatSlides) {
   };
   refused(scene_of(0.5));
   refused(scene_of(-0.5));
+  // Rounding of torque and load must not let a coefficient that is that of friction pass.
+  for (const char* load : {"80 kN", "81 kN", "87.6 kN"})
+    EXPECT_THROW(steady_traction(Model(scene_of(0.5, {std::string("load.wheel_load=") + load}))), InputError);
   Scene slippery = scene_of(0.2);
   slippery.contact->friction_law = "table";
   slippery.contact->friction_x = {0, 1};

@@ -1,0 +1,159 @@
+// Figures of a run from its samples.
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/results/run_results.hpp"
+
+namespace tread {
+
+namespace {
+
+/// Returns a test for samples with the wheel between two places [m]. The first sample lies at the start but
+/// for rounding.
+auto between(double first, double last) {
+  constexpr double kRounding = 1e-9;  // [m]
+  return [first, last](const Sample& s) {
+    return s.wheel_x >= first - kRounding && s.wheel_x <= last + kRounding;
+  };
+}
+
+/// Those whose whole patch slides, of the samples in contact that count.
+template <class Counts>
+double full_slip_share(const std::vector<Sample>& samples, const Counts& counts) {
+  constexpr double kWhole = 0.98;  // of the patch: the rest may be the rim of an integration point
+  return statistics(
+             samples, [&](const Sample& s) { return counts(s) && s.patch_area > 0; },
+             [](const Sample& s) { return s.slip_area > kWhole * s.patch_area ? 1.0 : 0.0; })
+      .mean;
+}
+
+/// Fills forces, creepage and sliding over the evaluated stretch.
+void evaluate_stretch(const Model& model, double reached, RunResults& r) {
+  const Corrugation& corrugation = model.contact->corrugation();
+  const Span stretch = evaluated_stretch(model.scene, corrugation);
+  r.evaluated_first = stretch.first;
+  r.evaluated_last = std::min(reached, stretch.last);
+  if (r.evaluated_first > reached) r.evaluated_first = model.scene.start_x();
+  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  r.evaluated_samples = std::count_if(r.samples.begin(), r.samples.end(), evaluated);
+  r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
+  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
+  r.longitudinal_force =
+      statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
+  const Statistics creepage =
+      statistics(r.samples, evaluated, [](const Sample& s) { return s.creepage_mean; });
+  r.creepage_max = -creepage.min > creepage.max ? creepage.min : creepage.max;
+  r.full_slip_share = full_slip_share(r.samples, evaluated);
+}
+
+/// Change of F_L / F_N along the steady stretch over its mean, and its size that is always accepted: smaller
+/// F_L / F_N is free rolling.
+constexpr double kSteady = 0.05;
+constexpr double kSmallTraction = 0.005;
+
+/// Mean F_L over mean F_N between two places of the wheel [m]; 0 without load.
+double traction_between(const std::vector<Sample>& samples, double first, double last) {
+  const auto mean = [&](auto value) { return statistics(samples, between(first, last), value).mean; };
+  const double vertical = mean([](const Sample& s) { return s.vertical_force; });
+  return vertical > 0 ? mean([](const Sample& s) { return s.longitudinal_force; }) / vertical : 0.0;
+}
+
+/// Fills the means over the last whole fastening span in the solution zone, or before the patch meets the
+/// corrugation.
+void evaluate_steady(const Model& model, double reached, RunResults& r) {
+  const Scene& scene = model.scene;
+  const Corrugation& corrugation = model.contact->corrugation();
+  const double span = scene.fastenings ? scene.fastenings->spacing : 0.1;
+  const double end = std::min(
+      reached, corrugation.smooth() ? scene.zone_start + scene.zone_length : corrugation.first() - 0.02);
+  r.steady_last = end;
+  r.steady_first = std::max(scene.start_x(), end - span);
+  const auto mean = [&](auto value) {
+    return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
+  };
+  r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
+  r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
+  const double middle = 0.5 * (r.steady_first + r.steady_last);
+  r.traction_drift = traction_between(r.samples, middle, r.steady_last) -
+                     traction_between(r.samples, r.steady_first, middle);
+  r.creepage = mean([](const Sample& s) { return s.creepage_mean; });
+  r.creepage_of_work = creepage_of_work(r.samples, r.steady_first, r.steady_last);
+  r.steady_slip_share = full_slip_share(r.samples, between(r.steady_first, r.steady_last));
+  r.max_pressure = mean([](const Sample& s) { return s.max_pressure; });
+  r.max_shear = mean([](const Sample& s) { return s.max_shear; });
+  r.patch_area = mean([](const Sample& s) { return s.patch_area; });
+  // The patch has passed what lies behind its search window.
+  const double reach = model.contact->reach();
+  if (r.surface_fields)
+    r.surface = surface_results(*r.surface_fields, std::max(r.evaluated_first, model.scene.start_x() + reach),
+                                std::min(r.evaluated_last, reached - reach));
+}
+
+/// Fills the errors of energy and momentum.
+void evaluate_balance(RunResults& r) {
+  double worst = 0;
+  double strain_low = r.samples.front().energy.strain;
+  double strain_high = strain_low;
+  for (std::size_t i = 0; i < r.samples.size(); ++i) {
+    const EnergyLedger& e = r.samples[i].energy;
+    worst = std::max(worst, std::abs(e.residual));
+    strain_low = std::min(strain_low, e.strain);
+    strain_high = std::max(strain_high, e.strain);
+    if (i > 0)
+      r.frictional_work_decrease =
+          std::max(r.frictional_work_decrease, r.samples[i - 1].energy.frictional_work - e.frictional_work);
+  }
+  const EnergyLedger& last = r.samples.back().energy;
+  const double scale = last.frictional_work + last.connector_loss + last.material_loss + last.plastic_work +
+                       strain_high - strain_low;
+  r.energy_error = scale > 0 ? worst / scale : 0;
+  r.energy_error_of_work = last.frictional_work > 0 ? worst / last.frictional_work : 0;
+  const Vec3 miss = r.momentum.impulse - r.momentum.change;
+  if (r.momentum.contact_impulse.z > 0)
+    r.momentum_error = std::hypot(miss.x, miss.z) / r.momentum.contact_impulse.z;
+}
+
+}  // namespace
+
+bool traction_slides(const RunResults& r) {
+  return r.steady_slip_share > 0.5 && std::abs(r.traction_coefficient) > kSmallTraction;
+}
+
+bool traction_is_steady(const RunResults& r) {
+  if (traction_slides(r)) return false;
+  return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
+}
+
+void evaluate(const Model& model, RunResults& r) {
+  if (r.samples.empty()) return;
+  if (model.contact) {
+    const double reached = r.samples.back().wheel_x;
+    evaluate_stretch(model, reached, r);
+    evaluate_steady(model, reached, r);
+  }
+  evaluate_balance(r);
+}
+
+Statistics measured_statistics(const Model& model, const RunResults& r, std::size_t column) {
+  const auto evaluated = between(r.evaluated_first, r.evaluated_last);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < r.samples.size(); ++i)
+    if ((!model.contact || evaluated(r.samples[i])) && std::isfinite(r.measured.row(i)[column]))
+      values.push_back(r.measured.row(i)[column]);
+  return statistics(values);
+}
+
+std::optional<double> creepage_of_work(const std::vector<Sample>& samples, double first, double last) {
+  const auto inside = between(first, last);
+  const auto begin = std::find_if(samples.begin(), samples.end(), inside);
+  const auto end = std::find_if(samples.rbegin(), samples.rend(), inside);
+  if (begin == samples.end()) return std::nullopt;
+  const double way = end->wheel_x - begin->wheel_x;
+  const double force = statistics(samples, inside, [](const Sample& s) { return s.longitudinal_force; }).mean;
+  if (way <= 0 || std::abs(traction_between(samples, first, last)) < kSmallTraction) return std::nullopt;
+  return (end->energy.frictional_work - begin->energy.frictional_work) / (way * force);
+}
+
+}  // namespace tread
