@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/error.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
@@ -36,6 +37,18 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
+/// Throws InputError for a header of names, units and sides alone, "z [mm]; y [mm]", with names out of order.
+void require_order(const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const std::string& word : words) {
+    if (word == "x" || word == "y" || word == "z")
+      names.push_back(word);
+    else if (!units().contains(word) && word != "left" && word != "right")
+      return;
+  }
+  if (names.size() > 1) require_column_order(names, kProfileNames);
+}
+
 }  // namespace
 
 FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& faults) {
@@ -53,7 +66,13 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
     const std::vector<double> row = leading_numbers(line, 6);
     if (columns == 0 && row.size() < 2) {
       announced = row.size() == 1 && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
-      for (const std::string& word : words_of(line)) {
+      const std::vector<std::string> words = words_of(line);
+      try {
+        require_order(words);
+      } catch (const InputError& error) {
+        faults.push_back({number, error.what()});
+      }
+      for (const std::string& word : words) {
         if (const auto unit = units().find(word); unit != units().end()) {
           scale = unit->second.metres;
           points.units = unit->second.name;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/text/column_order.hpp"
 #include "io/text/line_fault.hpp"
 #include "io/text/text.hpp"
 
@@ -21,6 +22,9 @@ struct FilePoints {
   std::vector<double> z = {};           ///< [m]
   std::vector<std::string> notes = {};  ///< changes by the header, things left out
 };
+
+/// Names of the columns of a profile; drawings name them x and y, too.
+inline const std::vector<ColumnNames> kProfileNames = {{"y", "x"}, {"z", "y"}};
 
 /// Lines of a text, without the ends that Unix and DOS give them.
 std::vector<std::string> lines_of(const std::string& text);

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "io/profiles/profile_format.hpp"
+#include "io/profiles/profile_points.hpp"
 #include "io/scene/profile_checks.hpp"
 #include "io/scene/table_reader.hpp"
 
@@ -45,7 +46,8 @@ UnderstoodProfile read(const std::string& text, const std::filesystem::path& pat
   FilePoints points;
   if (format == ProfileFormat::two_columns) {
     const bool strict = axes == ColumnAxes::as_documented;
-    TwoColumns columns = parse_two_columns(text, path, {.increasing = strict}, problems);
+    TwoColumns columns =
+        parse_two_columns(text, path, {.increasing = strict, .names = kProfileNames}, problems);
     if (problems.size() > known) return {};
     if (strict) return documented(std::move(columns), wish);
     points.format = kTwoColumns;

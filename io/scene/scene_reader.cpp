@@ -251,8 +251,8 @@ class SceneBuilder {
 
   void read_named_files() {
     if (scene_.contact && scene_.contact->friction_law == "table")
-      read_columns("contact.friction_file", {.needs_units = true, .increasing = true, .pure_second = true},
-                   scene_.contact->friction_x, scene_.contact->friction_at_x);
+      read_columns("contact.friction_file", kFrictionTable, scene_.contact->friction_x,
+                   scene_.contact->friction_at_x);
     if (scene_.fastenings)
       read_file_of("fastenings.supports", [&](const std::string& text, const std::string& name) {
         scene_.fastenings->listed = parse_supports(text, name, problems_);
@@ -281,9 +281,7 @@ class SceneBuilder {
         read_file_of(table + ".file", read, read_mesh_text);
     }
     if (scene_.wheel) read_profile("wheel.profile", *scene_.wheel);
-    if (scene_.wheel)
-      read_columns("wheel.web", {.needs_units = true, .example = "r [mm]"}, scene_.wheel->web_y,
-                   scene_.wheel->web_r);
+    if (scene_.wheel) read_columns("wheel.web", kWebOutline, scene_.wheel->web_y, scene_.wheel->web_r);
     if (scene_.rail) read_profile("rail.profile", *scene_.rail);
   }
 

@@ -69,7 +69,9 @@ void set_depths(const std::string& text, const std::string& name, CorrugationSpe
                 std::vector<Problem>& problems) {
   if (corrugation.kind != "map") {
     TwoColumns columns = parse_two_columns(
-        text, name, {.needs_units = true, .increasing = true, .deepest = kDeepestSurface}, problems);
+        text, name,
+        {.needs_units = true, .increasing = true, .names = kDepthNames, .deepest = kDeepestSurface},
+        problems);
     corrugation.table_x = std::move(columns.first);
     corrugation.table_depth = std::move(columns.second);
     return;
@@ -89,8 +91,11 @@ void set_depths(const std::string& text, const std::string& name, double wheel_r
     surface.file_depth = std::move(grid.z);
     return;
   }
-  const TableRules rules{
-      .needs_units = true, .increasing = true, .angle_first = surface.on_wheel(), .deepest = kDeepestSurface};
+  const TableRules rules{.needs_units = true,
+                         .increasing = true,
+                         .angle_first = surface.on_wheel(),
+                         .names = kDepthNames,
+                         .deepest = kDeepestSurface};
   TwoColumns columns = parse_two_columns(text, name, rules, problems);
   if (columns.angles)
     for (double& x : columns.first) x *= wheel_radius;

@@ -92,7 +92,7 @@ class TableParser {
     ++line_;
     const std::vector<std::string> units = bracketed(line);
     if (rows.empty() && units.size() == columns_) {
-      read_header(units);
+      read_header(units, line);
       return;
     }
     const std::vector<std::string> row = table_cells(line);
@@ -136,8 +136,9 @@ class TableParser {
     return {0, std::numbers::pi, 180, {}};
   }
 
-  void read_header(const std::vector<std::string>& texts) {
+  void read_header(const std::vector<std::string>& texts, const std::string& line) {
     try {
+      require_column_order(names_before_units(line), rules_.names);
       state_units(texts);
     } catch (const InputError&) {
       // This header is the problem, not that there is none.
@@ -308,7 +309,8 @@ TwoColumns parse_two_columns(const std::string& content, const std::filesystem::
 
 GridColumns parse_grid(const std::string& content, const std::filesystem::path& path,
                        std::vector<Problem>& problems, double deepest) {
-  TableParser parser({.needs_units = true, .deepest = deepest}, 3);
+  const std::vector<ColumnNames> names = {{"x", "s"}, {"y"}, {"d", "depth", "z", "height"}};
+  TableParser parser({.needs_units = true, .names = names, .deepest = deepest}, 3);
   if (!parse_rows(parser, content, path, 4, problems)) return {};
   std::vector<std::vector<double>>& rows = parser.rows;
   GridColumns grid{distinct(rows, 0), distinct(rows, 1), {}};

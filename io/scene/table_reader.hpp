@@ -10,6 +10,7 @@
 
 #include "core/function_ref.hpp"
 #include "io/scene/problems.hpp"
+#include "io/text/column_order.hpp"
 #include "io/text/units.hpp"
 
 namespace tread {
@@ -24,9 +25,23 @@ struct TableRules {
   std::vector<Quantity> first = {kLength};               ///< quantities that the first column may hold
   std::vector<Quantity> second = {kLength};              ///< quantities that the second column may hold
   std::string example = "d [mm]";                        ///< name and unit of the second column in messages
-  std::string units_option = {};                         ///< that states the units too, for messages
+  std::vector<ColumnNames> names = {};  ///< by column; with these the header's order is checked
+  std::string units_option = {};        ///< that states the units too, for messages
   double deepest = std::numeric_limits<double>::infinity();  ///< largest magnitude in the last column [m]
 };
+
+/// Names of depths or heights along a way.
+inline const std::vector<ColumnNames> kDepthNames = {{"x", "s", "angle"}, {"d", "depth", "z", "height"}};
+
+/// x and coefficient of friction.
+inline const TableRules kFrictionTable = {.needs_units = true,
+                                          .increasing = true,
+                                          .pure_second = true,
+                                          .names = {{"x", "s"}, {"f", "mu", "friction"}}};
+
+/// Across and from the axle.
+inline const TableRules kWebOutline = {
+    .needs_units = true, .example = "r [mm]", .names = {{"y"}, {"r", "z", "radius"}}};
 
 struct TwoColumns {
   std::vector<double> first;   ///< in SI; [rad] where the rules allow angles and the file states [deg]

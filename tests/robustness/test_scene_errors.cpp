@@ -515,6 +515,39 @@ TEST_F(Files, MeasuredDepths) {
                 "angles are for [surface] with kind = \"profile\" on the wheel");
 }
 
+/// The header's names tell that the columns stand in another order.
+TEST_F(Files, ColumnsInAnotherOrder) {
+  const auto refusal = [&](const std::string& keys, const std::string& rows) {
+    write("columns.txt", rows);
+    return scene_error(write("columns.toml", kBase + keys + " = \"columns.txt\"\n"));
+  };
+  const std::string file = (folder_ / "columns.txt").string();
+  const std::string map = "[surface.a]\nkind = \"map\"\nat = \"2.7 m\"\nfile";
+  const std::string grid = " d [um]\n0 0 1\n1 0 2\n0 1 1\n1 1 3\n";
+  EXPECT_EQ(refusal(map, "# y [mm]  x [mm] " + grid),
+            file +
+                ":1: the columns are named y, x, d; expected x, y, d in this order: move the columns, and "
+                "their names");
+  expect_part(refusal("[corrugation]\nkind = \"map\"\nfile", "# depth [mm], x [mm], y [mm]\n0 0 1\n"),
+              ":1: the columns are named depth, x, y; expected x, y, d");
+  EXPECT_EQ(refusal(map, "# x [mm]  y [mm] " + grid), "accepted");
+  EXPECT_EQ(refusal(map, "# Along, s [mm]  across [mm] " + grid), "accepted");
+  const std::string depth = "[surface.a]\nkind = \"profile\"\nat = \"2.7 m\"\nfile";
+  expect_part(refusal(depth, "# d [mm]  x [m]\n0 0\n0.1 1\n"),
+              ":1: the columns are named d, x; expected x, d");
+  expect_part(refusal("[contact]\nfriction_law = \"table\"\nfriction_file", "# f [-]  x [m]\n0.1 0\n0.2 1\n"),
+              ":1: the columns are named f, x; expected x, f");
+  for (const char* key : {"[rail]\nprofile", "[wheel]\nprofile"}) {
+    expect_part(refusal(key, "# z [mm]  y [mm]\n0 -36\n1 0\n"),
+                ":1: the columns are named z, y; expected y, z");
+    expect_part(refusal(key, "A profile\nZ [mm]; Y [mm]\n0; -36\n1; 0\n"),
+                ":2: the columns are named z, y; expected y, z");
+  }
+  EXPECT_EQ(
+      table_error(write("table.txt", "# x [mm]  y [mm]\n0 0\n1 1\n"), {.names = {{"y", "x"}, {"z", "y"}}}),
+      "accepted");
+}
+
 TEST_F(Files, DepthsOfAWrongUnit) {
   const auto refusal = [&](const std::string& table, const std::string& rows) {
     write("depth.txt", rows);

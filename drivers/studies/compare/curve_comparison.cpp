@@ -18,6 +18,7 @@ ForceCurve read_force_curve(const std::filesystem::path& path, const std::string
   TableRules rules{.needs_units = true, .increasing = true};
   rules.first = {kLength, kTime};
   rules.second = {kForce};
+  rules.names = {{"x", "s", "t", "time"}, {"f_n", "f", "force"}};
   rules.example = "F_N [kN]";
   TwoColumns columns = read_two_columns(path, rules);
   ForceCurve curve{path.string(), columns.dimension == kTime.dimension, std::move(columns.first),

@@ -125,7 +125,7 @@ Report report_of(const Outcome& o, const RoughnessOptions& options) {
 }
 
 TableRules rules_of(const RoughnessOptions& options) {
-  TableRules rules{.needs_units = true, .increasing = true};
+  TableRules rules{.needs_units = true, .increasing = true, .names = kDepthNames};
   rules.example = options.depth ? "depth [um]" : "height [um]";
   rules.units_option = "--units m,um";
   if (options.units.empty()) return rules;
