@@ -44,7 +44,11 @@ std::int64_t limit() {
   const std::string stated = environment("TREAD_CACHE_LIMIT");
   if (stated.empty()) return static_cast<std::int64_t>(kUsual);
   try {
-    return static_cast<std::int64_t>(std::clamp(parse_quantity(stated, kData), 0.0, 1e18));
+    const double bytes = parse_quantity(stated, kData);
+    if (bytes < 1)
+      throw InputError(fmt::format(
+          "\"{}\" is no size above 0; state one such as \"4 GB\"; TREAD_CACHE=off keeps nothing", stated));
+    return static_cast<std::int64_t>(std::min(bytes, 1e18));
   } catch (const InputError& error) {
     throw InputError(fmt::format("TREAD_CACHE_LIMIT: {}", error.what()));
   }

@@ -136,6 +136,15 @@ TEST_F(PreloadCache, AFolderThatCannotBeWrittenEndsNothing) {
   EXPECT_TRUE(has(errors(), "TREAD_CACHE_LIMIT")) << errors();
 }
 
+TEST_F(PreloadCache, ALimitOfNothingEmptiesNothing) {
+  ASSERT_EQ(call(run("first")), 0) << errors();
+  for (const char* limit : {"-4GB", "-1 GB", "0 GB", "0"}) {
+    ASSERT_EQ(call(run("second"), fmt::format("export TREAD_CACHE_LIMIT='{}';", limit)), 2) << limit;
+    EXPECT_TRUE(has(errors(), fmt::format("TREAD_CACHE_LIMIT: \"{}\"", limit))) << errors();
+  }
+  EXPECT_EQ(entries().size(), 1U);
+}
+
 TEST_F(PreloadCache, TwoProcessesAtOnce) {
   const pid_t one = start(run("one"));
   const pid_t other = start(run("other"));
