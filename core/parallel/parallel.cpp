@@ -41,12 +41,16 @@ const ParallelBackend* backend_named(std::string_view name, std::string_view whe
   throw InputError(fmt::format("{} = {}: threads can be run by {}", where, name, known));
 }
 
-const ParallelBackend*& chosen() {
-  static const ParallelBackend* backend = [] {
+/// Null before the first use.
+const ParallelBackend* g_backend = nullptr;
+
+const ParallelBackend* chosen() {
+  if (g_backend == nullptr) {
     const char* name = std::getenv("TREAD_BACKEND");
-    return name && *name != '\0' ? backend_named(name, "the environment's TREAD_BACKEND") : kBackends.front();
-  }();
-  return backend;
+    g_backend =
+        name && *name != '\0' ? backend_named(name, "the environment's TREAD_BACKEND") : kBackends.front();
+  }
+  return g_backend;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -233,7 +237,7 @@ std::vector<std::string_view> backends() {
   return names;
 }
 void set_backend(std::string_view name) {
-  chosen() = backend_named(name, "backend");
+  g_backend = backend_named(name, "backend");
 }
 std::string_view backend() {
   return chosen()->name;

@@ -45,7 +45,10 @@ void use_threads(const ThreadOptions& options) {
   if (options.number > kMostThreads)
     throw InputError(fmt::format("-t {}: at most {} threads are possible; this machine has {} cores",
                                  options.number, kMostThreads, machine_cores()));
-  if (!options.backend.empty()) set_backend(options.backend);
+  if (options.backend.empty())
+    backend();  // refuses what the environment names before work begins
+  else
+    set_backend(options.backend);
   const std::shared_ptr<Ranks> ranks = chosen_ranks();
   const int cores = ranks ? std::max(1, machine_cores() / ranks->on_cores()) : machine_cores();
   if (options.number > cores && (!ranks || ranks->rank() == 0))

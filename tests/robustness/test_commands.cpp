@@ -338,6 +338,18 @@ TEST_F(Commands, WrongWordsAreNamed) {
   }
 }
 
+TEST_F(Commands, AnUnknownLibraryOfThreadsInTheEnvironmentIsRefused) {
+  const std::string check = "check -t 1 " + scene("bar-wave.toml");
+  ::setenv("TREAD_BACKEND", "foo", 1);
+  const Outcome refused = call(check);
+  const Outcome overridden = call(check + " --backend openmp");
+  ::unsetenv("TREAD_BACKEND");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(has(refused.errors, "TREAD_BACKEND = foo: threads can be run by tbb, openmp"))
+      << refused.errors;
+  EXPECT_EQ(overridden.code, 0) << overridden.errors;
+}
+
 TEST_F(Commands, ElementsThatDoNotFitNameTheirLine) {
   const fs::path scene = folder_ / "large.toml";
   std::ofstream(scene) << "[scene]\nbased_on = \"highspeed-slab-2014\"\nelement_size = \"14 mm\"\n";
