@@ -51,8 +51,9 @@ using Found = CheckpointFolder::Found;
 
 /// Newest of the states that the run keeps for good and of the last two of a run that is not finished.
 std::optional<Found> newest(const fs::path& folder, std::int64_t last, std::vector<std::string>& refused) {
-  std::optional<Found> found = CheckpointFolder(folder / kForkFolder).newest(refused, last);
-  std::optional<Found> other = CheckpointFolder(folder / kCheckpointFolder).newest(refused, last);
+  std::optional<Found> found = CheckpointFolder(folder / kForkFolder).newest(refused, require_state, last);
+  std::optional<Found> other =
+      CheckpointFolder(folder / kCheckpointFolder).newest(refused, require_state, last);
   return other && (!found || other->steps > found->steps) ? std::move(other) : std::move(found);
 }
 

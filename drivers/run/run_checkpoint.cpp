@@ -55,6 +55,7 @@ const std::string kSamples = "samples";
 const std::string kMeasured = "measured";
 const std::string kFormat = "made/format";
 const std::string kVersion = "made/version";
+constexpr const char* kSteps = "state/steps";
 
 /// InputError where the content has another format than kCheckpointFormat, or states none.
 void require_format(const SealedContent& content) {
@@ -223,6 +224,17 @@ void leave_to_spread(Simulation& simulation, SealedContent& content) {
 void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation) {
   check_mesh(content, model);
   unpack(content, "state", simulation.state().without(simulation.nodal_state()));
+}
+
+void require_state(const CheckpointFolder::Found& found) {
+  const SealedContent& content = found.content;
+  if (!content.contains(kFormat) || sealed_value<std::int64_t>(content, kFormat) != kCheckpointFormat) return;
+  for (const char* name : {"results/dt", "made/state_hash", kSteps})
+    if (!content.contains(name))
+      throw InputError(fmt::format("it holds no state of a run: '{}' is missing", name));
+  const std::int64_t steps = sealed_value<std::int64_t>(content, kSteps);
+  if (steps != found.steps)
+    throw InputError(fmt::format("it holds the state of step {}, not that of its name", steps));
 }
 
 std::string other_origin(const SealedContent& content, const Model& model) {

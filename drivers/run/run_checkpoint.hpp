@@ -10,6 +10,7 @@
 #include "core/state_list.hpp"
 #include "drivers/engine/simulation.hpp"
 #include "drivers/results/run_results.hpp"
+#include "io/files/checkpoint_folder.hpp"
 #include "io/files/sealed_file.hpp"
 #include "io/scene/scene_reader.hpp"
 
@@ -62,6 +63,10 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
 void leave_to_spread(Simulation& simulation, SealedContent& content);
 /// unpack_state() of the rest, on another rank.
 void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation);
+
+/// InputError where the file holds no state of a run, or that of another step than its name states. Another
+/// format is left to unpack_order(), which says how to go on.
+void require_state(const CheckpointFolder::Found& found);
 
 /// Reason why the bits may differ from those of the program that wrote the checkpoint; empty if they do not.
 std::string other_origin(const SealedContent& content, const Model& model);

@@ -270,7 +270,7 @@ std::string listed(const std::vector<std::string>& sentences) {
 /// The newest sound checkpoint; nothing where the run has none yet. InputError where none is sound.
 std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session) {
   std::vector<std::string> refused;
-  std::optional<CheckpointFolder::Found> found = session.checkpoints.newest(refused);
+  std::optional<CheckpointFolder::Found> found = session.checkpoints.newest(refused, require_state);
   if (!found && !refused.empty())
     throw InputError(
         fmt::format("no checkpoint is of use: {}; start the run anew with `tread run ... "

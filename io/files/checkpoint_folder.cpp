@@ -93,12 +93,18 @@ bool CheckpointFolder::holds_run() const {
 }
 
 std::optional<CheckpointFolder::Found> CheckpointFolder::newest(std::vector<std::string>& refused,
-                                                                std::int64_t last) const {
+                                                                const Check& check, std::int64_t last) const {
   for (const std::int64_t steps : newest_first(folder_)) {
     if (steps > last) continue;
     const fs::path path = step_file(folder_, steps, kSuffix);
     try {
-      return Found{path, steps, read_sealed(path, kKind, kCheckpointFileVersion)};
+      Found found{path, steps, read_sealed(path, kKind, kCheckpointFileVersion)};
+      try {
+        if (check) check(found);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("cannot use {}: {}", path.string(), error.what()));
+      }
+      return found;
     } catch (const InputError& error) {
       refused.emplace_back(error.what());
     }

@@ -46,9 +46,11 @@ class CheckpointFolder {
     std::int64_t steps;
     SealedContent content;
   };
-  /// Newest sound state after at most `last` steps. Reasons why newer states are unsound go to `refused`, a
-  /// sentence each.
-  std::optional<Found> newest(std::vector<std::string>& refused,
+  /// Throws InputError where a file of sound bytes holds no state.
+  using Check = std::function<void(const Found&)>;
+  /// Newest sound state after at most `last` steps that passes the check. Reasons why newer states are
+  /// unsound go to `refused`, a sentence each.
+  std::optional<Found> newest(std::vector<std::string>& refused, const Check& check = {},
                               std::int64_t last = std::numeric_limits<std::int64_t>::max()) const;
 
   /// Paths of the states, the newest first.

@@ -176,6 +176,19 @@ TEST_F(Resume, ADamagedCheckpointIsReplacedByThePreviousOne) {
   EXPECT_TRUE(has(errors(), "no checkpoint is of use")) << errors();
 }
 
+TEST_F(Resume, AFileThatHoldsNoStateIsReplacedByThePreviousOne) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  const fs::path checkpoints = folder_ / "checkpoint";
+  const std::vector<fs::path> states = CheckpointFolder(checkpoints).states();
+  ASSERT_EQ(states.size(), 2U);
+  fs::copy_file(states[1], checkpoints / "step-000000009998.h5");
+  fs::copy_file(checkpoints / "order.h5", checkpoints / "step-000000009999.h5");
+  EXPECT_EQ(call(resume("--set stop.steps=800")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "step-000000009999.h5: it holds no state of a run")) << errors();
+  EXPECT_TRUE(has(errors(), "step-000000009998.h5: it holds the state of step")) << errors();
+  EXPECT_TRUE(has(errors(), "from " + states[0].string())) << errors();
+}
+
 TEST_F(Resume, ACheckpointOfAnotherFormatIsRefusedByName) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=40 --set motion.duration=\"0.1 ms\"")), 4) << errors();
   const CheckpointFolder checkpoints(folder_ / "checkpoint");
