@@ -58,22 +58,33 @@ std::optional<Found> newest(const fs::path& folder, std::int64_t last, std::vect
 }
 
 Found find_state(const Place& place, const Progress& progress) {
+  if (!fs::is_directory(place.folder))
+    throw InputError(fmt::format("--from: there is no folder {}: give the one that `tread run -o` was given",
+                                 place.folder.string()));
   std::vector<std::string> refused;
   std::optional<Found> found = newest(place.folder, std::numeric_limits<std::int64_t>::max(), refused);
   if (found && place.time) {
     const std::int64_t last = steps_until(*place.time, sealed_value<double>(found->content, "results/dt"));
     if (found->steps > last) {
       found.reset();
+      refused.clear();
       found = newest(place.folder, last, refused);
     }
   }
-  for (const std::string& reason : refused) progress.say("[fork] " + reason);
-  if (found) return std::move(*found);
+  if (found) {
+    for (const std::string& reason : refused) progress.say("[fork] " + reason);
+    return std::move(*found);
+  }
+  const std::string until = place.time ? fmt::format(" up to {:g} ms", 1e3 * *place.time) : "";
+  if (!refused.empty())
+    throw InputError(
+        fmt::format("--from: no state{} in {} is of use: {}; begin from another run, or leave "
+                    "--from out",
+                    until, place.folder.string(), fmt::join(refused, "; ")));
   throw InputError(
       fmt::format("--from: {} has no state{} to begin with; a run keeps one for good where its scene has "
-                  "[forks], and its "
-                  "last two checkpoints until it is finished",
-                  place.folder.string(), place.time ? fmt::format(" up to {:g} ms", 1e3 * *place.time) : ""));
+                  "[forks], and its last two checkpoints until it is finished",
+                  place.folder.string(), until));
 }
 
 /// Text of the file that a value names; empty if it names none.

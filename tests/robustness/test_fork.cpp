@@ -116,10 +116,23 @@ TEST_F(Fork, TakesTheLastStateUpToTheTime) {
   fs::remove_all(folder_);
   expect_refused(from("sine.toml", "smooth@0.1ms"), "no state up to 0.1 ms");
   expect_refused(from("sine.toml", "smooth@often"), "such as out@10ms");
-  expect_refused(from("sine.toml", "absent"), "has no state to begin with");
+  expect_refused(from("sine.toml", "absent"), fmt::format("there is no folder {}/absent", root_.string()));
+  fs::create_directory(root_ / "empty");
+  expect_refused(from("sine.toml", "empty"), "has no state to begin with");
   fs::resize_file(kept, 4000);
   EXPECT_EQ(call(from("sine.toml", "unfinished@0.8ms", "--set stop.steps=1010")), 4) << errors();
   EXPECT_TRUE(has(errors(), "it has 4000 of") && has(errors(), "(step 0)")) << errors();
+}
+
+TEST_F(Fork, DamagedStatesAreNamedInTheError) {
+  fs::copy(root_ / "smooth", root_ / "damaged", fs::copy_options::recursive);
+  const auto states = CheckpointFolder(root_ / "damaged/forks").states();
+  ASSERT_FALSE(states.empty());
+  for (const fs::path& state : states)
+    std::fstream(state, std::ios::in | std::ios::out | std::ios::binary).seekp(5000).put('x');
+  expect_refused(from("sine.toml", "damaged", "--quiet"),
+                 fmt::format("in {}/damaged is of use: cannot use {}: it is damaged", root_.string(),
+                             states.front().string()));
 }
 
 TEST_F(Fork, WhatTheStateDependsOnIsRefusedByName) {
