@@ -97,10 +97,11 @@ void check_header(const std::filesystem::path& path, const std::string& text, co
   std::string program, found_kind, name;
   int found_version = 0;
   words >> program >> found_kind >> name >> found_version;
-  if (program != "tread" || found_kind != kind) refuse(path, fmt::format("it is not a {} of tread", kind));
+  if (program != "tread" || found_kind != kind)
+    refuse(path, fmt::format("it is not a {} file of tread", kind));
   if (!words || found_version != version)
     refuse(path,
-           fmt::format("it is a {} of version {}, this program reads version {}; go on with the program "
+           fmt::format("it is a {} file of version {}, this program reads version {}; go on with the program "
                        "that wrote it",
                        kind, found_version, version));
 }
@@ -120,7 +121,7 @@ Seal check_bytes(const std::filesystem::path& path, int file, const std::string&
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "it is not a regular file");
   std::string found(kHeader, '\0');
   if (read_at(file, found.data(), kHeader, 0) != static_cast<ssize_t>(kHeader))
-    refuse(path, fmt::format("it is not a {} of tread, or cut short", kind));
+    refuse(path, fmt::format("it is not a {} file of tread, or cut short", kind));
   check_header(path, found, kind, version);
   Seal seal{static_cast<std::uint64_t>(status.st_size), number_after("index ", found), 0};
   const std::uint64_t stated = number_after("bytes ", found);

@@ -102,13 +102,13 @@ TEST_F(SealedFiles, OtherFilesAreRefusedWithTheReason) {
   };
   expect("No such file");
   overwrite(path_, std::string(2000, 'x'));
-  expect("not a checkpoint of tread");
+  expect("not a checkpoint file of tread");
   Hdf5File::create(path_).write<double>("/x", std::vector<double>(100, 1.0));
-  expect("not a checkpoint of tread");
+  expect("not a checkpoint file of tread");
   write_sealed(path_, "mesh", 1, sample(1));
-  expect("not a checkpoint of tread");
+  expect("not a checkpoint file of tread");
   write_sealed(path_, "checkpoint", 0, sample(1));
-  expect("version 0, this program reads version 1");
+  expect("it is a checkpoint file of version 0, this program reads version 1");
   write_sealed(folder_ / "b.h5", "checkpoint", 1, sample(1));
   fs::create_symlink(folder_ / "b.h5", path_);
   expect("symbolic link");
