@@ -290,7 +290,10 @@ bool read_table_lines(const std::string& content, const std::filesystem::path& p
 }
 
 std::string read_table_text(const std::filesystem::path& path) {
-  return read_text_file(path, kLargestTable);
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // with which spreadsheets begin a file in UTF-8
+  std::string text = read_text_file(path, kLargestTable);
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  return text;
 }
 
 TwoColumns parse_two_columns(const std::string& content, const std::filesystem::path& path,

@@ -65,7 +65,7 @@ std::vector<std::string> table_cells(const std::string& line);
 bool read_table_lines(const std::string& content, const std::filesystem::path& path,
                       FunctionRef<void(const std::string& line)> read, std::vector<Problem>& problems);
 
-/// The text of such a file. Throws InputError.
+/// The text of such a file, without a byte-order mark. Throws InputError.
 std::string read_table_text(const std::filesystem::path& path);
 
 /// Reads two numbers a line, separated by blanks, commas or semicolons; '#' starts a comment. A line before

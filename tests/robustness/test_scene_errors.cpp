@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/profiles/profile_format.hpp"
 #include "io/scene/problems.hpp"
 #include "io/scene/scene_checks.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -546,6 +547,18 @@ TEST_F(Files, ColumnsInAnotherOrder) {
   EXPECT_EQ(
       table_error(write("table.txt", "# x [mm]  y [mm]\n0 0\n1 1\n"), {.names = {{"y", "x"}, {"z", "y"}}}),
       "accepted");
+}
+
+/// Spreadsheets begin a file with three bytes that are no part of the first number.
+TEST_F(Files, AByteOrderMarkIsSkipped) {
+  EXPECT_EQ(read_two_columns(write("mark.txt",
+                                   "\xEF\xBB\xBF"
+                                   "1 2\n3 4\n"),
+                             {})
+                .first,
+            (std::vector<double>{1e-3, 3e-3}));
+  const std::string text = read_table_text(folder_ / "mark.txt");
+  EXPECT_EQ(profile_format(text, "mark.txt"), ProfileFormat::two_columns);
 }
 
 TEST_F(Files, DepthsOfAWrongUnit) {
