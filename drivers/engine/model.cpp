@@ -331,6 +331,8 @@ void Model::build_contact(const Corrugation& shape) {
   const double line_load = scene.plane_strain ? wheel_load() / scene.rail->width : 0;
   const double border_gap = std::max(hertz_patch.approach, 2 * line_load / (std::numbers::pi * modulus));
   options.reach_gap = std::max(options.reach_gap, 3 * border_gap);
+  options.static_force = wheel_load();
+  options.yields = scene.wheel_material().law == "j2" || scene.head_material().law == "j2";
   options.depth_room = depth_room(scene);
   options.rail_depth = rail_surface(scene);
   options.wheel_depth = wheel_surface(scene);

@@ -129,13 +129,27 @@ void Contact::require_room(const BodyFrame& wheel) const {
   const ContactPoint* point = point_at_the_end(wheel);
   if (!point) return;
   throw NumericalError(fmt::format(
-      "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the surface "
-      "that "
-      "is searched (within {:.2f} mm along the rail); the contact force of {:.4g} kN is beyond what "
-      "the wheel load lets expect; raise the load that the scene states, or lower speed or corrugation "
-      "depth; a wheel's edge on the rail is such an end too: widen the wheel",
-      1e3 * (point->position.x - wheel.origin.x), 1e3 * point->position.y, 1e3 * reach(),
-      1e-3 * norm(totals_.force_on_rail)));
+      "contact: the patch reaches {:.2f} mm ahead of the wheel and {:.2f} mm aside, the end of the "
+      "surface that is searched (within {:.2f} mm along the rail); {}; a wheel's edge on the rail "
+      "is such an end too: widen the wheel",
+      1e3 * (point->position.x - wheel.origin.x), 1e3 * point->position.y, 1e3 * reach(), why_no_room()));
+}
+
+std::string Contact::why_no_room() const {
+  constexpr double kClearly = 1.2;  // rolling on a smooth rail adds less
+  const double force = norm(totals_.force_on_rail);
+  const std::string measured = fmt::format("the contact force of {:.4g} kN", 1e-3 * force);
+  if (force > kClearly * options_.static_force)
+    return fmt::format(
+        "{} is beyond what the wheel load of {:.4g} kN lets expect; raise the load that the scene states, or "
+        "lower speed or corrugation depth",
+        measured, 1e-3 * options_.static_force);
+  return fmt::format(
+      "{}, at a wheel load of {:.4g} kN, is no reason for that: the surfaces touch over more of their "
+      "length or width than elastic bodies of such radii would; look after the profiles, "
+      "wheel.crown_radius and rail.crown_radius{}",
+      measured, 1e-3 * options_.static_force,
+      options_.yields ? ", and the material's yield_stress: a surface that yields is flattened" : "");
 }
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {

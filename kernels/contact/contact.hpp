@@ -42,6 +42,8 @@ struct ContactOptions {
   double reach_gap = 4e-4;  ///< gap of the undeformed surfaces up to which points are searched [m]
   RunningSurface rail_depth;   ///< of the rail's surface besides the corrugation
   RunningSurface wheel_depth;  ///< of the wheel's surface
+  double static_force = 0;     ///< vertical force that the search expects [N]
+  bool yields = false;         ///< a surface is plastic
 };
 
 class SurfaceFields;
@@ -180,6 +182,8 @@ class Contact {
   void list_state(StateList& list);
 
  private:
+  /// Likely reason for a patch at the end of the searched surface.
+  std::string why_no_room() const;
   void make_room();
   void close_step();
 

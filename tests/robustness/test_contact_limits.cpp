@@ -99,6 +99,33 @@ TEST(ContactLimits, PatchAtTheEndOfTheSearchedSurfaceStops) {
   contact.find_static({preload.displacement.data(), nullptr, &preload.wheel});
   EXPECT_THROW(contact.require_room(preload.wheel), NumericalError);
   model.contact->require_room(preload.wheel);
+  // The force is said to be too large only where it is.
+  const auto refusal = [&](double expected, bool yields) {
+    narrow.static_force = expected;
+    narrow.yields = yields;
+    Contact other(model.mesh, narrow, Corrugation{});
+    other.find_static({preload.displacement.data(), nullptr, &preload.wheel});
+    try {
+      other.require_room(preload.wheel);
+    } catch (const NumericalError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  expect_part(refusal(0.3 * model.wheel_load(), false), "is beyond what the wheel load of");
+  for (const bool yields : {false, true}) {
+    const std::string message = refusal(model.wheel_load(), yields);
+    expect_part(message, "is no reason for that");
+    expect_part(message, "wheel.crown_radius");
+    EXPECT_EQ(message.find("yield_stress") != std::string::npos, yields) << message;
+  }
+  EXPECT_EQ(model.contact->options().static_force, model.wheel_load());
+}
+
+TEST(ContactLimits, AFlatCrownIsNotTakenForALargeForce) {
+  const std::string message = outcome({"wheel.crown_radius=1000 m"});
+  expect_part(message, "is no reason for that: the surfaces touch over more of their length or width");
+  EXPECT_EQ(message.find("is beyond what"), std::string::npos) << message;
 }
 
 }  // namespace
