@@ -156,14 +156,16 @@ std::optional<ContactSearch::Aim> ContactSearch::aim_at(const BodyFrame& wheel, 
   return aim;
 }
 
-void ContactSearch::refuse(const BodyFrame& wheel) const {
+void ContactSearch::refuse(const BodyFrame& wheel, bool at_rest) const {
   const std::vector<double>& stations = surfaces_.rail().stations;
   const double wheel_x = wheel.origin.x;
   if (!(wheel_x - reach() >= stations.front() && wheel_x + reach() <= stations.back()))
     throw NumericalError(
         fmt::format("the wheel at x = {:.4f} m reaches beyond the meshed rail surface ({:.3f} ... {:.3f} "
-                    "m); shorten motion.duration or lengthen rail.length",
-                    wheel_x, stations.front(), stations.back()));
+                    "m), as the patch is searched for within {:.1f} mm; {}",
+                    wheel_x, stations.front(), stations.back(), 1e3 * reach(),
+                    at_rest ? "state a lower load, lengthen rail.length, or move rail.origin"
+                            : "shorten motion.duration or lengthen rail.length"));
   throw NumericalError(fmt::format(
       "the wheel at x = {:.4f} m rolls beyond its tread; lengthen wheel.overhang or leave it out", wheel_x));
 }
@@ -218,7 +220,7 @@ void ContactSearch::find_static(const ContactState& state, std::vector<ContactPo
 
 void ContactSearch::aim(const BodyFrame& wheel, double dt) {
   const std::optional<Aim> aim = aim_at(wheel, dt);
-  if (!aim) refuse(wheel);
+  if (!aim) refuse(wheel, dt == 0);
   aim_ = *aim;
 }
 

@@ -114,7 +114,7 @@ class ContactSearch {
   };
   void choose_edges();
   void make_room();
-  [[noreturn]] void refuse(const BodyFrame& wheel) const;
+  [[noreturn]] void refuse(const BodyFrame& wheel, bool at_rest) const;
   void visit_column(const Visit& visit, int station);
   std::size_t points_per_face() const { return static_cast<std::size_t>(quadrature_.size()); }
   /// Number of a rail face among all.

@@ -128,5 +128,13 @@ TEST(ContactLimits, AFlatCrownIsNotTakenForALargeForce) {
   EXPECT_EQ(message.find("is beyond what"), std::string::npos) << message;
 }
 
+TEST(ContactLimits, ALoadTooLargeForTheBlockAtRestIsNamed) {
+  const std::string message =
+      outcome({"motion.present=false", "solution_zone.start=-12 mm", "solution_zone.length=24 mm",
+               "load.wheel_load=10 MN", "rail.length=0.1 m", "rail.origin=0.05 m"});
+  expect_part(message, "state a lower load");
+  EXPECT_EQ(message.find("motion.duration"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace tread
