@@ -63,8 +63,9 @@ template <class Part>
 void add_profile_file(Keys& keys, const std::string& table, std::optional<Part> Scene::*part,
                       double Part::*shift, double Part::*smoothing) {
   const std::string profile = table + ".profile";
-  keys.push_back(with_file(profile, quantity(profile + "_shift", {Effect::mesh}, at(part, shift), kLength,
-                                             "mm", {-0.2, 0.2}, "Added to y of the file's points")));
+  keys.push_back(
+      with_file(profile, quantity(profile + "_shift", {Effect::mesh}, at(part, shift), kLength, "mm",
+                                  {-0.2, 0.2}, "Added to y of the file's points, after mirroring")));
   keys.push_back(with_file(
       profile, quantity(profile + "_smoothing", {Effect::mesh}, at(part, smoothing), kLength, "mm", {0, 1e-3},
                         "Largest distance of a smoothing spline from the file's points; 0: the points are "
