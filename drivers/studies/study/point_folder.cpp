@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
@@ -15,6 +16,7 @@
 #include "io/files/checkpoint_folder.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text_file.hpp"
 
 namespace tread {
 
@@ -43,15 +45,41 @@ std::string last_words(const fs::path& log) {
 }
 
 /// Returns true if another attempt would come to the same end. Missing resources may be available at the next
-/// attempt.
-bool leads_to_the_same_end(const ProcessEnd& end) {
-  return end.signal == 0 && end.code != static_cast<int>(ExitCode::resources);
+/// attempt; other codes are a launcher's, which says nothing of the run.
+bool leads_to_the_same_end(std::optional<double> code) {
+  return code == static_cast<double>(ExitCode::input) || code == static_cast<double>(ExitCode::numerical);
+}
+
+bool asks_to_stop(int signal) {
+  return signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+}
+
+/// Returns true for an exit code by which shells and `timeout` say that they passed such a signal on.
+bool tells_of_a_stop(int code) {
+  constexpr int kTimeout = 124;
+  constexpr int kSignals = 128;
+  return code == kTimeout || asks_to_stop(code - kSignals);
+}
+
+bool is_own_failure(int code) {
+  for (const ExitCode own : {ExitCode::input, ExitCode::numerical, ExitCode::resources})
+    if (code == static_cast<int>(own)) return true;
+  return false;
+}
+
+/// Stage in the text of a status.json; empty if it has none.
+std::string stage_in(const std::string& status) {
+  try {
+    return status.empty() ? "" : text_in(parse_json(status, "status.json"), "stage");
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 std::string reason(const fs::path& folder, const ProcessEnd& end) {
   if (end.signal != 0)
-    return fmt::format("signal {} ({}) ended it; the system ends processes when memory is short", end.signal,
-                       ::strsignal(end.signal));
+    return fmt::format("signal {} ({}) ended it{}", end.signal, ::strsignal(end.signal),
+                       end.signal == SIGKILL ? "; the system ends processes when memory is short" : "");
   const std::string words = last_words(log_of(folder));
   return fmt::format("exit {}: {}", end.code, words.empty() ? "see log.txt in its folder" : words);
 }
@@ -77,10 +105,10 @@ void look_at_scene(const fs::path& folder, const SceneContent& scene, PointStatu
 }
 
 void write_failure(const fs::path& folder, const ProcessEnd& end, const std::string& why) {
-  write_text_file(
-      folder / kFailure,
-      json_text(
-          {{"exit", end.code}, {"signal", end.signal}, {"why", why}, {"anew", leads_to_the_same_end(end)}}));
+  write_text_file(folder / kFailure, json_text({{"exit", end.code},
+                                                {"signal", end.signal},
+                                                {"why", why},
+                                                {"anew", leads_to_the_same_end(end.code)}}));
 }
 
 }  // namespace
@@ -114,17 +142,39 @@ PointStatus look_into(const fs::path& folder, const SceneContent& scene) {
     status.state = PointState::failed;
     if (!status.foreign) status.why = text_in(failure, "why");
     status.code = exit_code(number_in(failure, "exit"));
-    status.anew = !begun || truth_in(failure, "anew");
+    status.anew = !begun || (truth_in(failure, "anew") && leads_to_the_same_end(number_in(failure, "exit")));
   } else if (begun) {
     status.state = PointState::interrupted;
   }
   return status;
 }
 
-void note_end(const fs::path& folder, const ProcessEnd& end) {
-  const bool stopped = end.signal == 0 && end.code == static_cast<int>(ExitCode::resumable);
+std::string shown_status(const fs::path& folder) {
+  constexpr std::size_t kLargest = 1 << 20;  // [B]
+  try {
+    return read_text_file(folder / "status.json", kLargest);
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+bool was_stopped(const fs::path& folder, const PointProcess& process) {
+  const ProcessEnd& end = process.end;
+  if (end.signal == 0 && end.code == static_cast<int>(ExitCode::resumable)) return true;
+  // An older status tells of an older process.
+  const std::string status = shown_status(folder);
+  const std::string stage = status == process.status_before ? "" : stage_in(status);
+  if (stage == "failed") return false;
+  if (stage == "stopped" && CheckpointFolder(folder / "checkpoint").holds_run()) return true;
+  // A signal before the process has its handlers, or the launcher's own.
+  if (end.signal != 0) return process.told_to_stop && asks_to_stop(end.signal);
+  return tells_of_a_stop(end.code) || (process.told_to_stop && !is_own_failure(end.code));
+}
+
+void note_end(const fs::path& folder, const PointProcess& process) {
+  const ProcessEnd& end = process.end;
   const bool done = end.signal == 0 && end.code == static_cast<int>(ExitCode::done);
-  if (done || stopped) {
+  if (done || was_stopped(folder, process)) {
     std::error_code ignored;
     fs::remove(folder / kFailure, ignored);
     return;

@@ -35,9 +35,23 @@ struct PointStatus {
 /// Status of the folder, which need not exist. A run in it counts whoever began it, if its scene is this one.
 PointStatus look_into(const std::filesystem::path& folder, const SceneContent& scene);
 
+/// Text of the folder's status.json; empty if there is none.
+std::string shown_status(const std::filesystem::path& folder);
+
+/// A process of the folder, which a launcher may have started and ended in place of the run.
+struct PointProcess {
+  ProcessEnd end;
+  bool told_to_stop = false;       ///< true if the study itself was being stopped
+  std::string status_before = {};  ///< shown_status() at its start
+};
+
+/// Returns true if the run was stopped and can go on: by the process's end or, whatever a launcher made of
+/// the exit code, by the folder.
+bool was_stopped(const std::filesystem::path& folder, const PointProcess& process);
+
 /// Notes the end of the folder's process: keeps the reason of a failure, or removes an older one. Throws
 /// ResourceError.
-void note_end(const std::filesystem::path& folder, const ProcessEnd& end);
+void note_end(const std::filesystem::path& folder, const PointProcess& process);
 
 /// Keeps the reason of a failure before the start. Throws ResourceError.
 void note_failure(const std::filesystem::path& folder, ExitCode code, const std::string& why);

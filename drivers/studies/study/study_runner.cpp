@@ -133,9 +133,10 @@ void StudyRunner::start(PlannedPoint& point, int threads) {
   const int card = free_card();
   const std::vector<std::string> arguments =
       point_arguments(*plan_, point, plan_->launcher.empty() ? threads : plan_->threads, card);
+  std::string before = shown_status(point.folder);
   progress_->say(fmt::format("[{}] {}", point.name, arguments[0] == "run" ? "begins" : "goes on"));
   running_.push_back({&point, ChildProcess(arguments, log_of(point.folder), plan_->launcher), threads, card,
-                      progress_->seconds()});
+                      progress_->seconds(), std::move(before)});
   point.status = {PointState::running, ""};
 }
 
@@ -153,8 +154,7 @@ void StudyRunner::collect_ended() {
 
 void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
   PlannedPoint& point = *running.point;
-  const bool told_to_stop = !stopped_by_.empty() && end.signal == SIGTERM;
-  note_end(point.folder, told_to_stop ? ProcessEnd{static_cast<int>(ExitCode::resumable), 0} : end);
+  note_end(point.folder, {end, !stopped_by_.empty(), running.status_before});
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign)
     point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};

@@ -34,8 +34,9 @@ class StudyRunner {
     PlannedPoint* point;
     ChildProcess process;
     int threads;
-    int card;        ///< StudyPlan::cards; -1: none of its own
-    double started;  ///< start on the clock of the progress [s]
+    int card;                   ///< StudyPlan::cards; -1: none of its own
+    double started;             ///< start on the clock of the progress [s]
+    std::string status_before;  ///< PointProcess::status_before
   };
   int threads_for_next() const;
   PlannedPoint* take_next();

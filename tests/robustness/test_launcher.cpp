@@ -1,0 +1,124 @@
+// Launchers that hide the end of a run from its study: exit codes of their own, signals kept to themselves.
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "drivers/studies/study/point_folder.hpp"
+#include "io/files/checkpoint_folder.hpp"
+#include "tests/program.hpp"
+
+namespace tread {
+namespace {
+
+namespace fs = std::filesystem;
+using samples::content_of;
+using samples::has;
+
+/// A point's folder with a checkpoint's order, and a status.
+class PointFolder : public testing::Test {
+ protected:
+  PointFolder() { fs::create_directories(folder() / "checkpoint"), write("checkpoint/order.h5", ""); }
+  const fs::path& folder() const { return program_.folder; }
+  void write(const std::string& name, const std::string& text) const { program_.write(name, text); }
+  void show(const std::string& stage) const {
+    write("status.json", fmt::format("{{\"stage\": \"{}\"}}\n", stage));
+  }
+  bool stopped(ProcessEnd end, bool told = false, const std::string& before = "") const {
+    return was_stopped(folder(), {end, told, before});
+  }
+
+  samples::Program program_;
+};
+
+TEST_F(PointFolder, TellsOfAStopThatTheExitCodeHides) {
+  show("stopped");
+  for (const ProcessEnd end : {ProcessEnd{75, 0}, {124, 0}, {143, 0}, {1, 0}, {0, SIGTERM}, {0, SIGKILL}})
+    EXPECT_TRUE(stopped(end)) << end.code << " " << end.signal;
+  // The status of an earlier process says nothing of a launcher that cannot start the run.
+  EXPECT_FALSE(stopped({127, 0}, false, content_of(folder() / "status.json")));
+  show("failed");
+  for (const ProcessEnd end : {ProcessEnd{3, 0}, {124, 0}, {143, 0}})
+    EXPECT_FALSE(stopped(end, true)) << end.code;
+  show("preload");  // a stop before the first step leaves the stage
+  for (const int code : {124, 129, 130, 143}) EXPECT_TRUE(stopped({code, 0})) << code;
+  for (const int code : {1, 2, 127, 137}) EXPECT_FALSE(stopped({code, 0})) << code;
+}
+
+TEST_F(PointFolder, SignalsOfTheStudysOwnStopAreNoFailure) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    EXPECT_TRUE(stopped({0, signal}, true)) << signal;
+    EXPECT_FALSE(stopped({0, signal}, false)) << signal;
+  }
+  EXPECT_FALSE(stopped({0, SIGKILL}, true));
+  EXPECT_TRUE(stopped({1, 0}, true));  // of srun that waits for its place
+  EXPECT_FALSE(stopped({2, 0}, true));
+}
+
+TEST_F(PointFolder, AnotherAttemptKeepsTheCheckpointUnlessTheRunItselfFailed) {
+  for (const auto& [code, anew] : {std::pair(2, true), {3, true}, {4, false}, {1, false}, {137, false}}) {
+    note_end(folder(), {{code, 0}});
+    const PointStatus status = look_into(folder(), {});
+    EXPECT_EQ(status.state, PointState::failed) << code;
+    EXPECT_EQ(status.anew, anew) << code;
+  }
+  // An earlier version wrote so of a stop.
+  write("failed.json", "{\"exit\": 124, \"signal\": 0, \"why\": \"exit 124\", \"anew\": true}\n");
+  EXPECT_FALSE(look_into(folder(), {}).anew);
+  note_end(folder(), {{0, SIGKILL}});
+  EXPECT_TRUE(has(look_into(folder(), {}).why, "memory is short"));
+  note_end(folder(), {{0, SIGTERM}});
+  EXPECT_FALSE(has(look_into(folder(), {}).why, "memory is short"));
+}
+
+class Launcher : public testing::Test {
+ protected:
+  /// A tyre that rolls for some seconds, unless it is stopped.
+  fs::path tyre() const {
+    return program_.write("study.toml",
+                          fmt::format(R"([study]
+scene = "{}"
+[set]
+scene.element_size = "6 mm"
+motion.duration = "5 ms"
+output.progress_interval = "10 ms"
+[grid]
+motion.traction.mu = [0.1]
+)",
+                                      (fs::path(TREAD_SOURCE_DIR) / "scenes/tyre.toml").string()));
+  }
+  std::string launcher(const std::string& lines) const {
+    const fs::path path = program_.write("launcher", "#!/bin/bash\n" + lines);
+    fs::permissions(path, fs::perms::owner_all);
+    return fmt::format("--launcher {}", path.string());
+  }
+  std::string command(const std::string& more) const {
+    return fmt::format("sweep {} -o {} -t 1 {}", tyre().string(), runs_.string(), more);
+  }
+  int sweep(const std::string& more = "") const { return program_.call(command(more)); }
+  std::string errors() const { return program_.errors(); }
+
+  samples::Program program_;
+  fs::path runs_ = program_.folder / "runs";
+  fs::path point_ = runs_ / "mu=0.1";
+};
+
+TEST_F(Launcher, ItsExitCodeDoesNotFailAStoppedRun) {
+  const std::string stops =
+      launcher(fmt::format("\"$@\" & run=$!\nuntil grep -q '\"rolling\"' {}; do sleep 0.02; done\n"
+                           "kill -TERM $run; wait $run; exit 143\n",
+                           (point_ / "status.json").string()));
+  EXPECT_EQ(sweep(stops), 75) << errors();
+  EXPECT_TRUE(has(errors(), "[mu=0.1] interrupted after")) << errors();
+  EXPECT_FALSE(fs::exists(point_ / "failed.json"));
+  EXPECT_FALSE(CheckpointFolder(point_ / "checkpoint").states().empty());
+  ASSERT_EQ(sweep("--retry"), 0) << errors();
+  EXPECT_TRUE(has(errors(), "[mu=0.1] goes on")) << errors();
+}
+
+}  // namespace
+}  // namespace tread
