@@ -120,5 +120,14 @@ TEST_F(Launcher, ItsExitCodeDoesNotFailAStoppedRun) {
   EXPECT_TRUE(has(errors(), "[mu=0.1] goes on")) << errors();
 }
 
+TEST_F(Launcher, ASignalToTheStudyAndItsStartingRunsStops) {
+  for (const char* signal : {"TERM", "INT", "HUP"}) {
+    EXPECT_EQ(sweep(launcher(fmt::format("kill -{0} $PPID; kill -{0} $$\nsleep 10\n", signal))), 75)
+        << errors();
+    EXPECT_TRUE(has(errors(), "stopped by SIG")) << errors();
+    EXPECT_FALSE(fs::exists(point_ / "failed.json")) << content_of(point_ / "failed.json");
+  }
+}
+
 }  // namespace
 }  // namespace tread

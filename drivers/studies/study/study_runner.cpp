@@ -152,9 +152,14 @@ void StudyRunner::collect_ended() {
   }
 }
 
+/// Returns true from the signal or the request on, even if obey() has not seen it yet.
+bool StudyRunner::is_being_stopped() const {
+  return !stopped_by_.empty() || Interruption::stop_wanted();
+}
+
 void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
   PlannedPoint& point = *running.point;
-  note_end(point.folder, {end, !stopped_by_.empty(), running.status_before});
+  note_end(point.folder, {end, is_being_stopped(), running.status_before});
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign)
     point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};

@@ -44,6 +44,7 @@ class StudyRunner {
   void start(PlannedPoint& point, int threads);
   void collect_ended();
   void note_ended(const Running& running, const ProcessEnd& end);
+  bool is_being_stopped() const;
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
   void obey();
   void stop(const std::string& why);
