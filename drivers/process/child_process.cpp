@@ -83,4 +83,9 @@ void ChildProcess::send(int signal) const {
   ::kill(process_, signal);
 }
 
+void ChildProcess::send_to_group(int signal) const {
+  // The child may not have made its group yet.
+  if (::kill(-process_, signal) != 0) send(signal);
+}
+
 }  // namespace tread

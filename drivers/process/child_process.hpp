@@ -33,6 +33,8 @@ class ChildProcess {
 
   /// Sends a signal. It has no effect on a process that has ended.
   void send(int signal) const;
+  /// Sends a signal to the process and to those that it has started.
+  void send_to_group(int signal) const;
 
  private:
   pid_t process_;

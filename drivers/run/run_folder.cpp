@@ -124,13 +124,17 @@ void leave_request(const fs::path& folder, RunRequest request) {
   write_text_file(folder / kRequest, fmt::format("{}\n", name_of(request)));
 }
 
+void withdraw_request(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove(folder / kRequest, ignored);
+}
+
 bool is_pending(const fs::path& folder) {
   return fs::exists(folder / kRequest);
 }
 
 RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_)) {
-  std::error_code ignored;
-  fs::remove(path_ / kRequest, ignored);
+  withdraw_request(path_);
 }
 
 std::optional<RunRequest> RunFolder::take_request() const {

@@ -34,6 +34,8 @@ enum class RunRequest { checkpoint, frame, stop };
 
 /// Leaves the request for take_request(). Throws ResourceError if it cannot be written.
 void leave_request(const std::filesystem::path& folder, RunRequest request);
+/// Removes a request that nothing has taken.
+void withdraw_request(const std::filesystem::path& folder);
 /// Returns true if the last request still lies in the folder.
 bool is_pending(const std::filesystem::path& folder);
 

@@ -8,8 +8,10 @@
 #include <fstream>
 #include <string>
 
+#include "drivers/run/run_folder.hpp"
 #include "drivers/studies/study/point_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
+#include "io/text/json.hpp"
 #include "tests/program.hpp"
 
 namespace tread {
@@ -101,6 +103,7 @@ motion.traction.mu = [0.1]
   }
   int sweep(const std::string& more = "") const { return program_.call(command(more)); }
   std::string errors() const { return program_.errors(); }
+  bool rolls() const { return has(content_of(point_ / "status.json"), "\"rolling\""); }
 
   samples::Program program_;
   fs::path runs_ = program_.folder / "runs";
@@ -118,6 +121,18 @@ TEST_F(Launcher, ItsExitCodeDoesNotFailAStoppedRun) {
   EXPECT_FALSE(CheckpointFolder(point_ / "checkpoint").states().empty());
   ASSERT_EQ(sweep("--retry"), 0) << errors();
   EXPECT_TRUE(has(errors(), "[mu=0.1] goes on")) << errors();
+}
+
+TEST_F(Launcher, AStopReachesTheRunBehindADeafLauncher) {
+  const pid_t study = program_.start(command(launcher("\"$@\"\n")));
+  ASSERT_TRUE(samples::wait_until([&] { return rolls(); })) << errors();
+  ::kill(study, SIGTERM);
+  EXPECT_EQ(samples::wait_for(study), 75) << errors();
+  EXPECT_FALSE(is_taken(point_));
+  EXPECT_EQ(text_in(read_json(point_ / "status.json"), "stage"), "stopped");
+  EXPECT_FALSE(CheckpointFolder(point_ / "checkpoint").states().empty());
+  EXPECT_FALSE(is_pending(point_));
+  ASSERT_EQ(sweep(), 0) << errors();
 }
 
 TEST_F(Launcher, ASignalToTheStudyAndItsStartingRunsStops) {

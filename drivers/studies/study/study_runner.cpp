@@ -142,12 +142,15 @@ void StudyRunner::start(PlannedPoint& point, int threads) {
 
 void StudyRunner::collect_ended() {
   for (std::size_t i = 0; i < running_.size();) {
+    Running& running = running_[i];
     ProcessEnd end;
-    if (!running_[i].process.ended(end)) {
+    if (!running.end && running.process.ended(end)) running.end = end;
+    // A launcher that ends by itself may leave the run to go on.
+    if (!running.end || (!plan_->launcher.empty() && is_taken(running.point->folder))) {
       ++i;
       continue;
     }
-    note_ended(running_[i], end);
+    note_ended(running);
     running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
@@ -157,9 +160,10 @@ bool StudyRunner::is_being_stopped() const {
   return !stopped_by_.empty() || Interruption::stop_wanted();
 }
 
-void StudyRunner::note_ended(const Running& running, const ProcessEnd& end) {
+void StudyRunner::note_ended(const Running& running) {
   PlannedPoint& point = *running.point;
-  note_end(point.folder, {end, is_being_stopped(), running.status_before});
+  note_end(point.folder, {*running.end, is_being_stopped(), running.status_before});
+  if (!plan_->launcher.empty()) withdraw_request(point.folder);
   point.status = look_into(point.folder, point.content);
   if (point.status.foreign)
     point.status = {PointState::failed, "the scene has changed since the study began: " + point.status.why};
@@ -182,21 +186,58 @@ void StudyRunner::fail_with(const PlannedPoint& keeper, PlannedPoint& point) {
 }
 
 void StudyRunner::obey() {
-  if (!stopped_by_.empty()) return;
+  if (!stopped_by_.empty()) return pass_on_stop();
   if (const char* signal = Interruption::stop_wanted()) stop(signal);
   bool checkpoint = Interruption::take_checkpoint_wanted();
   const std::optional<RunRequest> request = folder_->take_request();
   if (request == RunRequest::stop) stop("tread ctl");
   checkpoint = checkpoint || request == RunRequest::checkpoint;
-  if (checkpoint)
-    for (const Running& running : running_) running.process.send(SIGUSR1);
+  if (!checkpoint) return;
+  for (const Running& running : running_) {
+    if (plan_->launcher.empty())
+      running.process.send(SIGUSR1);
+    else if (owns_folder(running))  // the signal would end a launcher that does not pass it on
+      leave(running, RunRequest::checkpoint);
+  }
 }
 
 void StudyRunner::stop(const std::string& why) {
   stopped_by_ = why;
   progress_->say(fmt::format("[{}] {}: waiting until {} runs have left a checkpoint", label_.command, why,
                              running_.size()));
-  for (const Running& running : running_) running.process.send(SIGTERM);
+  for (const Running& running : running_) {
+    if (running.end) continue;
+    // Until the run takes its folder, nothing but the signal reaches it behind its launcher.
+    if (plan_->launcher.empty() || owns_folder(running))
+      running.process.send(SIGTERM);
+    else
+      running.process.send_to_group(SIGTERM);
+  }
+  pass_on_stop();
+}
+
+/// Returns true once the run shows that it has taken its folder, which forgets earlier requests then.
+bool StudyRunner::owns_folder(const Running& running) {
+  return shown_status(running.point->folder) != running.status_before;
+}
+
+/// Leaves the request to stop in the folders of launched runs that can read it by now.
+void StudyRunner::pass_on_stop() {
+  if (plan_->launcher.empty()) return;
+  for (Running& running : running_) {
+    if (running.asked || !owns_folder(running)) continue;
+    running.asked = true;
+    leave(running, RunRequest::stop);
+  }
+}
+
+/// A full disk must not end the study before its runs.
+void StudyRunner::leave(const Running& running, RunRequest request) const {
+  try {
+    leave_request(running.point->folder, request);
+  } catch (const ResourceError& error) {
+    progress_->say(fmt::format("[{}] no request reaches it: {}", running.point->name, error.what()));
+  }
 }
 
 double StudyRunner::seconds_left() const {

@@ -1,6 +1,7 @@
 #pragma once
 // The runs of a study as child processes, as many at once as the plan allows.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct StudyLabel {
 
 /// Runs the points: a point begins with `tread run`, with another one's state if rolling is shared, and goes
 /// on with `tread resume`. Owns the study's folder by `folder` and shows status.json there; obeys `tread
-/// ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each.
+/// ctl`. A stop, by signal or request, is passed to the children, which leave a checkpoint each; where a
+/// launcher starts them, also to their folders, since it may keep signals to itself.
 class StudyRunner {
  public:
   StudyRunner(StudyPlan& plan, const RunFolder& folder, Progress& progress, StudyLabel label);
@@ -34,20 +36,25 @@ class StudyRunner {
     PlannedPoint* point;
     ChildProcess process;
     int threads;
-    int card;                   ///< StudyPlan::cards; -1: none of its own
-    double started;             ///< start on the clock of the progress [s]
-    std::string status_before;  ///< PointProcess::status_before
+    int card;                            ///< StudyPlan::cards; -1: none of its own
+    double started;                      ///< start on the clock of the progress [s]
+    std::string status_before;           ///< PointProcess::status_before
+    std::optional<ProcessEnd> end = {};  ///< end of a process whose run may go on elsewhere
+    bool asked = false;                  ///< true once the folder has the request to stop
   };
   int threads_for_next() const;
   PlannedPoint* take_next();
   int free_card() const;
   void start(PlannedPoint& point, int threads);
   void collect_ended();
-  void note_ended(const Running& running, const ProcessEnd& end);
+  void note_ended(const Running& running);
   bool is_being_stopped() const;
+  static bool owns_folder(const Running& running);
   void fail_with(const PlannedPoint& keeper, PlannedPoint& point);
   void obey();
   void stop(const std::string& why);
+  void pass_on_stop();
+  void leave(const Running& running, RunRequest request) const;
   void show();
   double seconds_left() const;
 
