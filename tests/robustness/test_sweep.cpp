@@ -175,6 +175,9 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
   EXPECT_TRUE(fs::exists(runs_ / "mu=0.1" / "checkpoint"));
   EXPECT_EQ(element(0), 0) << log();
   EXPECT_EQ(element(1), 0) << log();
+  const auto written = fs::last_write_time(runs_ / "mu=0.1/summary.json");
+  EXPECT_EQ(element(0), 0) << log();  // queued again by the system after its end
+  EXPECT_EQ(fs::last_write_time(runs_ / "mu=0.1/summary.json"), written);
   ASSERT_EQ(sweep(file), 0) << errors();
   EXPECT_EQ(number_in(status(), "done"), 2);
   EXPECT_EQ(sweep(file, "--slurm " + script.string()), 2);

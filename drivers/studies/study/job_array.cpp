@@ -42,7 +42,7 @@ tread={program}
 case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
 {elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
 esac
-if [[ -d $folder/checkpoint ]]; then
+if [[ -d $folder/checkpoint || -e $folder/summary.json ]]; then # of a finished run it says so
   words=(resume "$folder")
 fi
 "$tread" "${{words[@]}}" &
