@@ -210,6 +210,8 @@ TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {
   EXPECT_FALSE(has(errors(), "[ends] goes on")) << errors();
   EXPECT_EQ(sweep(file, "--retry"), 4);
   EXPECT_TRUE(has(errors(), "[ends] goes on")) << errors();
+  EXPECT_TRUE(has(errors(), " --retry` tries them again")) << errors();
+  EXPECT_FALSE(has(errors(), "--retry --retry")) << errors();
 }
 
 TEST_F(Sweep, AnotherSceneInAFolderIsNotTouched) {

@@ -156,7 +156,7 @@ void leave_scene(const Study& study) {
 
 /// The error that reports points without an end.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
-                               const std::string& resume_command) {
+                               const std::string& resume_command, bool retry) {
   std::string failures;
   int failed = 0;
   int left = 0;
@@ -170,8 +170,9 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
     return Interrupted(fmt::format("stopped by {}; nothing is lost: `{}` goes on with {} points", stopped_by,
                                    resume_command, left));
   if (failed > 0)
-    return Error(plan.failure_code(), fmt::format("{} of {} points failed:{}\n`{} --retry` tries them again",
-                                                  failed, plan.points.size(), failures, resume_command));
+    return Error(plan.failure_code(),
+                 fmt::format("{} of {} points failed:{}\n`{}{}` tries them again", failed, plan.points.size(),
+                             failures, resume_command, retry ? "" : " --retry"));
   if (left > 0)
     return Interrupted(
         fmt::format("{} points are not done (see the log above); `{}` goes on", left, resume_command));
@@ -248,7 +249,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
   leave(plan);
-  return shortfall(plan, stopped_by, resume_command);
+  return shortfall(plan, stopped_by, resume_command, options.retry);
 }
 
 }  // namespace tread
