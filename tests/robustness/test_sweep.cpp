@@ -214,6 +214,19 @@ TEST_F(Sweep, FailuresAreReportedAndTheRestGoesOn) {
   EXPECT_FALSE(has(errors(), "--retry --retry")) << errors();
 }
 
+TEST_F(Sweep, DamagedResultsOfAPointNameItsFolder) {
+  const fs::path file = bars("[grid]\npulse.velocity = [\"1 m/s\", \"2 m/s\"]\n");
+  ASSERT_EQ(sweep(file), 0) << errors();
+  const fs::path point = runs_ / "velocity=1m_s";
+  program_.write("runs/velocity=1m_s/summary.json", "{\"steps\": ");
+  EXPECT_EQ(sweep(file), 2);
+  EXPECT_TRUE(has(errors(), "summary.json: no JSON object")) << errors();
+  EXPECT_TRUE(has(errors(), "remove " + point.string() + ", and start")) << errors();
+  EXPECT_FALSE(has(errors(), "writes the file anew")) << errors();
+  fs::remove_all(point);
+  EXPECT_EQ(sweep(file), 0) << errors();
+}
+
 TEST_F(Sweep, AnotherSceneInAFolderIsNotTouched) {
   ASSERT_EQ(sweep(bars("[[point]]\nname = \"a\"\npulse.velocity = \"1 m/s\"\n")), 0) << errors();
   EXPECT_EQ(sweep(bars("[[point]]\nname = \"a\"\npulse.velocity = \"2 m/s\"\n")), 2);
@@ -247,6 +260,9 @@ TEST_F(Sweep, AStopPassesToTheRunsAndTheNextSweepGoesOn) {
     const auto subscript = shown.find("F_L");
     EXPECT_TRUE(has(report, subscript == 0 ? "F<sub>L</sub>, mu=0.3" : shown)) << part;
   }
+  fs::remove(first / "histories.csv");
+  EXPECT_EQ(sweep(file), 2);
+  EXPECT_TRUE(has(errors(), "remove " + first.string() + ", and start")) << errors();
 }
 
 /// The paper's passages on a mesh that is fast rather than good, for an instant.

@@ -1,12 +1,27 @@
 #include "drivers/studies/study/finished_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "core/error.hpp"
 #include "drivers/engine/sections.hpp"
+#include "io/text/text_file.hpp"
 
 namespace tread {
+
+namespace {
+
+[[noreturn]] void refuse_damaged(const std::filesystem::path& folder, const InputError& error) {
+  throw InputError(
+      fmt::format("{}; the results of this finished run are damaged: remove {}, and start the run "
+                  "or its study again with the same command",
+                  error.what(), folder.string()));
+}
+
+}  // namespace
 
 Corrugation FinishedRun::corrugation() const {
   return scene.corrugation ? corrugation_of(*scene.corrugation, 0) : Corrugation();
@@ -14,7 +29,13 @@ Corrugation FinishedRun::corrugation() const {
 
 FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& scene,
                               const std::string& label) {
-  return {label, folder, scene, read_json(folder / "summary.json")};
+  constexpr std::size_t kLargest = 1 << 24;  // [B]
+  const std::filesystem::path summary = folder / "summary.json";
+  try {
+    return {label, folder, scene, parse_json(read_text_file(summary, kLargest), summary.string())};
+  } catch (const InputError& error) {
+    refuse_damaged(folder, error);
+  }
 }
 
 const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label) {
@@ -24,7 +45,12 @@ const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::str
 }
 
 CurvePoints read_curve(const FinishedRun& run, const RunCurve& curve) {
-  std::vector<std::vector<double>> columns = read_history(run.folder / curve.file, {curve.x, curve.y});
+  std::vector<std::vector<double>> columns;
+  try {
+    columns = read_history(run.folder / curve.file, {curve.x, curve.y});
+  } catch (const InputError& error) {
+    refuse_damaged(run.folder, error);
+  }
   for (double& x : columns[0]) x *= curve.x_scale;
   for (double& y : columns[1]) y *= curve.y_scale;
   return {std::move(columns[0]), std::move(columns[1])};
