@@ -50,12 +50,13 @@ void Vehicle::apply_suspension(StepState& step) {
 /// terms come with the update. [theory.md, eq. 8]
 void Vehicle::add_carried_masses(StepState& step) {
   const Vec3 alone = journal_->acceleration(step.force, step.wheel);
-  const auto left = [&](double mass) { return journal_->mass() / (journal_->mass() + mass); };
-  const double along = left(unsprung_mass_ + carried_mass_) * alone.x;
+  const auto share = [&](double mass) { return journal_->mass() / (journal_->mass() + mass); };
+  const double along = unsprung_mass_ + carried_mass_;
+  const Vec3 together{share(along) * alone.x, share(unsprung_mass_) * alone.y,
+                      share(unsprung_mass_) * alone.z};
   journal_->add(step.force, step.wheel,
-                {-(unsprung_mass_ + carried_mass_) * along, -unsprung_mass_ * left(unsprung_mass_) * alone.y,
-                 -unsprung_mass_ * left(unsprung_mass_) * alone.z});
-  sprung_.speed_along -= step.dt * along;
+                {-along * together.x, -unsprung_mass_ * together.y, -unsprung_mass_ * together.z});
+  sprung_.speed_along -= step.dt * together.x;
 }
 
 void Vehicle::begin(const Motion& motion, const SprungStart& start) {
