@@ -44,7 +44,7 @@ struct WheelSpec {
   std::string bore = "free";   ///< of a tyre: "free" or "guided" (rigid, moves at the motion's speed)
   /// Tread of a guided tyre beyond the run, before and behind it; absent: the whole ring. [m]
   std::optional<double> overhang;
-  double profile_shift = 0;       ///< added to y of the profile's file, after mirroring [m]
+  double profile_shift = 0;       ///< added to y of the profile's file [m]
   double profile_smoothing = 0;   ///< largest deviation of a spline from the file's points; 0: none [m]
   std::vector<double> profile_y;  ///< of the profile's file, growing, to the field side [m]
   std::vector<double> profile_z;  ///< towards the flange tip [m]
@@ -64,8 +64,8 @@ struct RailSpec {
   double width = 0.060;                ///< [m] (box)
   double height = 0.060;               ///< [m] (box)
   double crown_radius = 0;             ///< radius of the running surface across the rail, 0 = flat [m] (box)
-  double profile_shift = 0;            ///< added to y of the profile's file, after mirroring [m]
-  bool profile_mirrored = false;       ///< y of the profile's file changes its sign
+  double profile_shift = 0;            ///< added to y of the profile's file [m]
+  bool profile_mirrored = false;       ///< y of the profile's file changes its sign, before the shift
   double profile_smoothing = 0;        ///< largest deviation of a spline from the file's points; 0: none [m]
   std::vector<double> profile_y;       ///< of the profile's file, growing, to the field side [m]
   std::vector<double> profile_z;       ///< upwards [m]

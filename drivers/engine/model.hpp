@@ -56,8 +56,7 @@ struct Model {
   std::unique_ptr<InternalForce> internal;              ///< of the blocks
   std::vector<std::unique_ptr<BodyForce>> body_forces;  ///< by Mesh::bodies
   std::vector<std::int64_t> restrained;                 ///< unknowns that stay zero
-  PageVector<double>
-      mass;  ///< lumped, ties gathered; scalar node field, 0 where nothing moves by itself [kg]
+  PageVector<double> mass;  ///< lumped, ties gathered; scalar node field, 0: tied or unused [kg]
 
   std::vector<double> beta;  ///< by block: stiffness-proportional damping at all frequencies [s]
   std::vector<std::optional<MaxwellBranch>> branches;  ///< by block: damping up to a frequency
@@ -75,7 +74,8 @@ struct Model {
   double hertz_radius_y = 0;  ///< effective lateral radius used for it [m]
 
   bool has_branches() const;
-  double wheel_load() const;    ///< static vertical contact force [N]
+  double wheel_load() const;  ///< static vertical contact force [N]
+  double line_load() const { return wheel_load() / scene.rail->width; }  ///< of a slice [N/m]
   double journal_load() const;  ///< the part of it that comes in at the journal: vehicle or load [N]
   double wheel_radius() const { return 0.5 * scene.wheel->diameter; }
   std::int64_t elements() const;

@@ -184,8 +184,8 @@ class PreciseFields : public NodeFields {
   const std::vector<std::int64_t>& unforced() const { return sums_.unforced(); }
   const BasicInternalForce<Real, U>& internal() const { return *operator_; }
   const Real* inverse_masses() const { return inverse_mass_.data(); }
-  /// Of the nodes that steps move (groups_with_mass()); the memory of others stays untouched. Those on which
-  /// more than elements acts then move after the elements.
+  /// Gets the masses of nodes that steps move (groups_with_mass()); the memory of others stays untouched.
+  /// Nodes on which more than elements acts then move after the elements.
   void take_masses() {
     const std::span<const unsigned char> groups = groups_with_mass();
     const double* const mass = model_->mass.data();

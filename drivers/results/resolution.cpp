@@ -97,7 +97,7 @@ std::string start_warning(const Model& model) {
 double shorter_axis(const Model& model) {
   if (model.scene.plane_strain)
     return 2 * line_semi_axis(model.wheel_radius(), model.scene.elastic_pair().contact_modulus(),
-                              model.wheel_load() / model.scene.rail->width);
+                              model.line_load());
   return 2 * std::min(model.hertz_patch.semi_axis_x, model.hertz_patch.semi_axis_y);
 }
 

@@ -63,9 +63,8 @@ template <class Part>
 void add_profile_file(Keys& keys, const std::string& table, std::optional<Part> Scene::*part,
                       double Part::*shift, double Part::*smoothing) {
   const std::string profile = table + ".profile";
-  keys.push_back(
-      with_file(profile, quantity(profile + "_shift", {Effect::mesh}, at(part, shift), kLength, "mm",
-                                  {-0.2, 0.2}, "Added to y of the file's points, after mirroring")));
+  keys.push_back(with_file(profile, quantity(profile + "_shift", {Effect::mesh}, at(part, shift), kLength,
+                                             "mm", {-0.2, 0.2}, "Added to y of the file's points")));
   keys.push_back(with_file(
       profile, quantity(profile + "_smoothing", {Effect::mesh}, at(part, smoothing), kLength, "mm", {0, 1e-3},
                         "Largest distance of a smoothing spline from the file's points; 0: the points are "
@@ -158,10 +157,10 @@ void add_rail(Keys& keys) {
   keys.push_back(with_file("rail.profile",
                            choice("rail.section", {Effect::mesh}, at(&Scene::rail, &RailSpec::section),
                                   {"CN60", "60E1", "60E2", "49E1"}, "Rail whose head the file replaces")));
-  keys.push_back(
-      with_file("rail.profile",
-                flag("rail.profile_mirrored", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile_mirrored),
-                     "The file's y counts to the gauge side: its sign and the order are turned")));
+  keys.push_back(with_file(
+      "rail.profile",
+      flag("rail.profile_mirrored", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile_mirrored),
+           "The file's y counts to the gauge side: its sign and the order are turned, before the shift")));
   add_profile_file(keys, "rail", &Scene::rail, &RailSpec::profile_shift, &RailSpec::profile_smoothing);
   keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
                         {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio));

@@ -73,7 +73,7 @@ int PatchCells::cell_of(const ContactPoint& point, int body) {
   Cell cell{};
   cell.body = body;
   for (std::size_t k = 0; k < kSupport; ++k) {
-    Node node{support.slot[k], body == 1, 1, 0, inverse_mass(mass_[support.slot[k]])};
+    Node node{support.slot[k], body == 1, 1, 0, 0};
     if (node.of_wheel) {
       node.cosine = point.wheel_cosine[k / 4];
       node.sine = point.wheel_sine[k / 4];
@@ -91,6 +91,7 @@ int PatchCells::number(const Node& node) {
   int& known = node_of_[index(node.slot)];
   if (known == 0) {
     nodes_.push_back(node);
+    nodes_.back().inverse_mass = inverse_mass(mass_[node.slot]);
     last_cell_.push_back(-1);
     known = static_cast<int>(std::ssize(nodes_));
   }
