@@ -218,6 +218,7 @@ void Model::build_mass() {
   mass.assign(static_cast<std::size_t>(mesh.slots), 0.0);
   add_lumped_mass(mass.data());
   if (ties) ties->gather_mass(mass.data());
+  if (scene.wheel) balance(mesh, index.wheel(), mass.data());
 }
 
 void Model::set_damping() {

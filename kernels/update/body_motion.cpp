@@ -1,6 +1,8 @@
 #include "kernels/update/body_motion.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/index.hpp"
@@ -64,6 +66,22 @@ Sum sum_views(const Mesh& mesh, const std::vector<int>& blocks, const TileShare*
   });
 }
 
+/// First and second moments about the axis, in the axes x and z.
+struct Unbalance {
+  double x = 0, z = 0, xx = 0, xz = 0, zz = 0;
+  Unbalance& operator+=(const Unbalance& o) {
+    x += o.x;
+    z += o.z;
+    xx += o.xx;
+    xz += o.xz;
+    zz += o.zz;
+    return *this;
+  }
+  void add(double m, double at_x, double at_z) {
+    *this += {m * at_x, m * at_z, m * at_x * at_x, m * at_x * at_z, m * at_z * at_z};
+  }
+};
+
 struct Moments {
   double mass = 0, first_y = 0, second_y = 0, polar = 0;
   Moments& operator+=(const Moments& o) {
@@ -88,6 +106,42 @@ struct MotionSums {
 };
 
 }  // namespace
+
+void balance(const Mesh& mesh, const std::vector<int>& blocks, double* mass) {
+  double radius = 0;
+  for (const int b : blocks) {
+    const SweptBlock& block = mesh.blocks[index(b)];
+    if (!block.closed) return;
+    radius = std::max(radius, *std::ranges::max_element(block.section.q));
+  }
+  auto sums = sum_views<Unbalance>(mesh, blocks, nullptr, [mass](const TileView& view) {
+    Unbalance sum;
+    for (int lane = 0; lane < view.tile.stations; ++lane) {
+      const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, 1});
+      for (int node = 0; node < view.block.section.nodes(); ++node)
+        sum.add(mass[view.slot(node) + lane], view.radius(node) * down.x, view.radius(node) * down.z);
+    }
+    return sum;
+  });
+  for_each_body_node(mesh, true,
+                     [&](std::int64_t slot, const Vec3& at) { sums.add(mass[slot], at.x, at.z); });
+
+  const double determinant = sums.xx * sums.zz - sums.xz * sums.xz;
+  if (!(determinant > 0)) return;
+  const double a = (sums.xz * sums.z - sums.zz * sums.x) / determinant;
+  const double b = (sums.xz * sums.x - sums.xx * sums.z) / determinant;
+  constexpr double kOfMesh = 0.01;
+  if (std::hypot(a, b) * radius > kOfMesh) return;
+  for_each_tile(mesh, blocks, [&](const TileView& view, std::size_t) {
+    for (int lane = 0; lane < view.tile.stations; ++lane) {
+      const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, 1});
+      for (int node = 0; node < view.block.section.nodes(); ++node)
+        mass[view.slot(node) + lane] *= 1 + view.radius(node) * (a * down.x + b * down.z);
+    }
+  });
+  for_each_body_node(mesh, true,
+                     [&](std::int64_t slot, const Vec3& at) { mass[slot] *= 1 + a * at.x + b * at.z; });
+}
 
 SpinningBody::SpinningBody(const Mesh& mesh, std::vector<int> blocks, const double* mass)
     : mesh_(&mesh), blocks_(std::move(blocks)), nodal_mass_(mass) {

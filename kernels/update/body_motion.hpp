@@ -11,6 +11,12 @@
 
 namespace tread {
 
+/// Balances a wheel as a workshop does: scales the masses by 1 + a x + b z, so that their centre comes to lie
+/// on the axis. Fine and coarse arcs of a mesh are polygons, whose unequal chords leave it some g m beside
+/// it. A body that is not round, or so far out of balance that a mass would change by a hundredth, is left as
+/// it is. `mass`: lumped nodal masses of the blocks and of all of the mesh's bodies that spin [kg].
+void balance(const Mesh& mesh, const std::vector<int>& blocks, double* mass);
+
 class SpinningBody {
  public:
   SpinningBody() = default;

@@ -117,6 +117,31 @@ class Ring : public testing::Test {
   SpinningBody body_;
 };
 
+TEST_F(Ring, IsBalancedLikeAWheelInAWorkshop) {
+  const auto first_moment = [this] {
+    Vec3 sum;
+    samples::for_each_node(mesh_, [&](const SweptBlock& block, int node, int station, std::int64_t slot) {
+      sum += mass_[index(slot)] * position(block, node, station);
+    });
+    return Vec3{sum.x, 0, sum.z};
+  };
+  const auto make_heavier = [this](double share) {  // one of 19 stations
+    samples::for_each_node(mesh_, [&](const SweptBlock&, int, int station, std::int64_t slot) {
+      if (station == 4) mass_[index(slot)] *= 1 + share;
+    });
+  };
+  make_heavier(0.01);
+  const double before = norm(first_moment());
+  balance(mesh_, {0}, mass_.data());
+  EXPECT_LT(norm(first_moment()), 1e-12 * before);
+  EXPECT_NEAR(SpinningBody(mesh_, {0}, mass_.data()).mass() / body_.mass(), 1 + 0.01 / 19, 1e-5);
+
+  make_heavier(0.5);  // a body that is made so
+  const std::vector<double> made = mass_;
+  balance(mesh_, {0}, mass_.data());
+  EXPECT_EQ(mass_, made);
+}
+
 TEST_F(Ring, MomentsAreSumsOverTheNodes) {
   double mass = 0, polar = 0, centre = 0;
   samples::for_each_node(mesh_, [&](const SweptBlock& block, int node, int station, std::int64_t slot) {

@@ -77,13 +77,17 @@ Vec3 momentum(const ReadDeck& deck) {
   return sum;
 }
 
-/// Momentum of the model's wheel that rolls rigidly [kg m/s].
+/// Momentum of the model's wheel that rolls rigidly, with the elements' masses, which are not balanced
+/// [kg m/s].
 Vec3 momentum_of_wheel(const Model& model) {
   BodyFrame frame;
   frame.velocity = {model.scene.motion->speed, 0, 0};
   frame.spin = model.scene.motion->speed / model.wheel_radius();
   const AlignedVector<double> rest(static_cast<std::size_t>(3 * model.mesh.slots), 0.0);
-  return model.wheelset->momentum(rest.data(), rest.data(), frame);
+  AlignedVector<double> mass(static_cast<std::size_t>(model.mesh.slots), 0.0);
+  model.add_lumped_mass(mass.data());
+  if (model.ties) model.ties->gather_mass(mass.data());
+  return SpinningBody(model.mesh, model.index.wheel(), mass.data()).momentum(rest.data(), rest.data(), frame);
 }
 
 void expect_near(const Vec3& a, const Vec3& b) {
