@@ -41,7 +41,7 @@ CaseResult extremes_speed(const VerifyInputs& inputs, const ProgressText& progre
         {{at + "F_N", "kN", 1e-3 * normal, -1e-3 * run.preload.contact.force_on_rail.z, 0.01},
          {at + "F_L / F_N", "-", mean([](const Sample& s) { return s.longitudinal_force; }) / normal, mu, {}},
          {at + "F_N at rest", "kN", -1e-3 * run.preload.contact.force_on_rail.z, 1e-3 * model.wheel_load(),
-          1e-6},
+          1e-4},
          {at + "angular momentum error", "-", angular_momentum_error(model, run), 0, 0.002, true},
          {at + "patch area", "mm2", 1e6 * mean([](const Sample& s) { return s.patch_area; }),
           1e6 * std::numbers::pi * hertz.semi_axis_x * hertz.semi_axis_y, 0.04 * bodies.fineness()},
