@@ -120,6 +120,11 @@ class Checker {
           "a frequency up to which damping holds belongs to damping = { kind = \"rayleigh_beta\", value = "
           "\"1e-4 s\" }");
     }
+    for (const auto& [name, material] : scene_.materials)
+      require(scene_.motion || material.law == "elastic", {std::string(kMaterialTables) + name + ".law"},
+              fmt::format("law = \"{}\" has no effect without [motion]: the static state is elastic; state "
+                          "\"elastic\", or add [motion]",
+                          material.law));
     std::set<std::string> missing;
     for (const MaterialUse& use : material_uses(scene_))
       if (!knows(use.name) && missing.insert(use.name).second) report_missing(use);

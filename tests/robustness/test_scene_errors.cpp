@@ -271,6 +271,10 @@ TEST(SceneErrors, KeysWithoutEffect) {
        "false"},
       {"[slab]\npresent = false\n[material.mortar]\ndensity = \"1600 kg/m3\"",
        "x.toml:5:11: material.mortar: has no effect without [slab]"},
+      {"[motion]\npresent = false\n[material.steel]\nlaw = \"j2\"\nyield_stress = \"300 MPa\"",
+       "x.toml:6:1: material.steel.law: law = \"j2\" has no effect without [motion]: the static state is "
+       "elastic; "
+       "state \"elastic\", or add [motion]"},
       {"[corrugation]\nkind = \"table\"\ndepth = \"1 mm\"",
        "2 problems\nx.toml:3:2: corrugation.file: is missing; [corrugation] needs a value: File of two "
        "columns, x from "
