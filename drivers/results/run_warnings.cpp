@@ -21,6 +21,20 @@ bool is_plate(const BlockIndex& index, int block) {
   return block == index.slab || std::ranges::count(index.sleepers, block) > 0;
 }
 
+/// Sag of the rail under the wheel at rest beyond which its supports are doubted [m]. Soft ballasted tracks
+/// sag by 5 mm; springs stay linear, however far they are pressed.
+constexpr double kSag = 0.02;
+
+std::string sag_warning(const Model& model, const Preload& preload) {
+  if (preload.rail_deflection <= kSag) return "";
+  return fmt::format(
+      "the rail sinks by {:.3g} mm under the wheel: above {:.3g} mm its supports are doubted; a larger {} "
+      "holds "
+      "it",
+      1e3 * preload.rail_deflection, 1e3 * kSag,
+      model.scene.sleepers ? "fastenings.stiffness or sleepers.stiffness" : "fastenings.stiffness");
+}
+
 /// Residual over what was dissipated or stored above which results are doubted. Sound runs without friction,
 /// which dissipate little, have had 0.1.
 constexpr double kEnergyError = 0.5;
@@ -69,11 +83,7 @@ std::string hourglass_warning(const std::string& body, const DeformationEnergy& 
       100 * energy.hourglass / whole, body, 100 * kHourglass);
 }
 
-}  // namespace
-
-std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
-  std::vector<std::string> warnings = resolution_warnings(model);
-  if (r.samples.empty()) return warnings;
+void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<std::string>& warnings) {
   if (model.contact) {
     warnings.push_back(empty_warning(r));
     warnings.push_back(steadiness_warning(model, r));
@@ -82,6 +92,14 @@ std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
   for (std::size_t b = 0; b < r.part_energy.size(); ++b)
     if (!is_plate(model.index, static_cast<int>(b)))
       warnings.push_back(hourglass_warning(model.mesh.part_name(static_cast<int>(b)), r.part_energy[b]));
+}
+
+}  // namespace
+
+std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
+  std::vector<std::string> warnings = resolution_warnings(model);
+  warnings.push_back(sag_warning(model, r.preload));
+  if (!r.samples.empty()) add_rolling_warnings(model, r, warnings);
   std::erase(warnings, "");
   return warnings;
 }

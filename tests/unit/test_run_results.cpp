@@ -72,6 +72,20 @@ TEST(Warnings, ASliceHasThePatchOfItsLoadPerWidth) {
   EXPECT_EQ(narrow, warnings(60));
 }
 
+TEST(Warnings, ARailThatSinks) {
+  const Model model(samples::tyre_scene({"scene.element_size=12 mm"}));
+  RunResults results;
+  const std::size_t before = run_warnings(model, results).size();
+  results.preload.rail_deflection = 0.006;
+  EXPECT_EQ(run_warnings(model, results).size(), before);
+  results.preload.rail_deflection = 0.7;
+  const std::vector<std::string> warnings = run_warnings(model, results);
+  ASSERT_EQ(warnings.size(), before + 1);
+  EXPECT_EQ(warnings.back(),
+            "the rail sinks by 700 mm under the wheel: above 20 mm its supports are doubted; a larger "
+            "fastenings.stiffness holds it");
+}
+
 TEST(Warnings, EnergiesThatDoNotBalance) {
   const Model model(samples::tyre_scene({"scene.element_size=12 mm"}));
   RunResults results;
