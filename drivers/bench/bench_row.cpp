@@ -28,6 +28,7 @@ std::string json_line(const BenchRow& row) {
                {"flops_per_element_step", row.work.flops},
                {"spread", row.measured.spread},
                {"repetitions", row.measured.repetitions}};
+  if (row.counted_calls > 0) json["counted_calls"] = row.counted_calls;
   if (row.instructions > 0) json["instructions_per_element_step"] = row.instructions;
   return json_line(json);
 }

@@ -42,6 +42,7 @@ struct BenchRow {
   Work work;                ///< work per unit
   Limit limit;              ///< limit of a step over all units
   double instructions = 0;  ///< instructions per unit, by the hardware's counter; 0: not counted
+  int counted_calls = 0;    ///< calls made for such counters, or for callgrind
 
   double rate() const { return static_cast<double>(key.elements) / measured.seconds; }  ///< units a second
   /// Share of the rate that the binding limit allows; 0 where nothing is counted.

@@ -49,4 +49,11 @@ CounterValues HardwareCounters::read() const {
   return {value_of(files_[0]), value_of(files_[1]), value_of(files_[2])};
 }
 
+[[gnu::noinline]] std::int64_t tread_counted_call(const HardwareCounters& counters,
+                                                  const std::function<void()>& call) {
+  const std::int64_t before = counters.read().instructions;
+  call();
+  return counters.read().instructions - before;
+}
+
 }  // namespace tread

@@ -93,21 +93,20 @@ void add_limits(const BenchKernelsOptions& options, Limits& limits, Rows& rows) 
     }
 }
 
-/// Instructions of a call. Returns 0 if they are not counted, and for several threads, whose waiting would
-/// count.
-double instructions(const TimedCall& timed, const HardwareCounters& counters) {
-  if (!counters.available() || threads() > 1) return 0;
-  constexpr std::int64_t kEnough = 100'000'000;  // instructions for a mean: calls of a kernel may differ
+/// Counts the instructions of a row. Several threads are not counted, because their waiting would count.
+void count_instructions(const TimedCall& timed, const HardwareCounters& counters, BenchRow& row) {
+  if (threads() > 1) return;
+  // Calls of contact_search differ, so a small kernel takes the mean of many. No counter chooses their
+  // number: callgrind counts the same calls.
+  constexpr std::int64_t kEnough = 200'000;  // units
+  row.counted_calls = static_cast<int>(std::clamp<std::int64_t>(kEnough / row.key.elements, 2, 60));
   std::int64_t sum = 0;
-  int calls = 0;
-  while (calls < 2 || (sum < kEnough && sum > 0)) {
+  for (int i = 0; i < row.counted_calls; ++i) {
     if (timed.reset) timed.reset();
-    const std::int64_t before = counters.read().instructions;
-    timed.call();
-    sum += counters.read().instructions - before;
-    ++calls;
+    sum += tread_counted_call(counters, timed.call);
   }
-  return static_cast<double>(sum) / calls;
+  row.instructions = static_cast<double>(sum) /
+                     (static_cast<double>(row.counted_calls) * static_cast<double>(row.key.elements));
 }
 
 void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, const PreparedKernel& kernel,
@@ -126,7 +125,7 @@ void add_kernel(const BenchKernelsOptions& options, const KernelCase& measured, 
     const auto units = static_cast<double>(kernel.units);
     row.limit = limits.of({kernel.work.flops * units, kernel.work.bytes * units, kernel.working_set},
                           measured.precision == "double", lanes);
-    row.instructions = instructions(kernel.timed, counters) / units;
+    count_instructions(kernel.timed, counters, row);
     rows.add(std::move(row));
   }
 }

@@ -63,6 +63,7 @@ TEST_F(Bench, KernelsStateEveryKey) {
     EXPECT_GT(number(row, "elements"), 0) << name;
     EXPECT_GT(number(row, "element_steps_per_s"), 0) << name;
     EXPECT_GE(number(row, "spread"), 0) << name;
+    EXPECT_EQ(row.contains("counted_calls"), text(row, "kernel") != "multiply_add") << name;
     if (text(row, "kernel") == "empty") continue;
     EXPECT_GT(number(row, "gb_per_s") + number(row, "gflops"), 0) << name;
     EXPECT_GT(number(row, "fraction_of_limit"), 0) << name;
