@@ -19,6 +19,7 @@ struct Recorded {
   double spread;  ///< [-]
 };
 
+constexpr const char* kRate = "element_steps_per_s";
 constexpr const char* kInstructions = "instructions_per_element_step";
 constexpr double kInstructionSpread = 0.03;  ///< calls of contact_search differ
 
@@ -49,9 +50,12 @@ std::map<BenchKey, Recorded> read_rows(const std::filesystem::path& path, BenchM
                        text("lanes"),
                        static_cast<int>(number("threads")),
                        static_cast<std::int64_t>(number("elements"))};
+    if (measure != BenchMeasure::instructions && record.contains(kInstructions) && !record.contains(kRate))
+      throw InputError(
+          fmt::format("{} states instructions and no rates: compare it --by instructions", path.string()));
     Recorded& row = rows[key];
     if (measure == BenchMeasure::rate)
-      row = {1e-6 * number("element_steps_per_s"), number("spread")};
+      row = {1e-6 * number(kRate), number("spread")};
     else if (measure == BenchMeasure::fraction_of_limit)
       row = {number("fraction_of_limit"), number("spread")};
     else if (record.contains(kInstructions))

@@ -115,6 +115,12 @@ TEST_F(Bench, CompareFindsWhatIsSlowerBeyondTheSpread) {
   for (const auto& [after, code] : {std::pair{"slow", 0}, {"shorter", 0}, {"longer", 3}})
     EXPECT_EQ(call(fmt::format("compare --by instructions {} {}", path("before"), path(after))), code)
         << after;
+  // Rows without rates, as perf/count_instructions.sh prints them.
+  std::ofstream(folder_ / "counted")
+      << R"({"kernel": "k", "path": "p", "precision": "double", "backend": "openmp", "lanes": "avx2", )"
+      << R"("threads": 2, "elements": 10, "instructions_per_element_step": 102})" << '\n';
+  EXPECT_EQ(call(fmt::format("compare --by instructions {} {}", path("before"), path("counted"))), 0);
+  EXPECT_EQ(call(fmt::format("compare {} {}", path("counted"), path("before"))), 2);
   EXPECT_EQ(call(fmt::format("compare --by time {} {}", path("before"), path("same"))), 2);
   std::ofstream(folder_ / "other") << "{\"kernel\": \"k\"}\n";
   EXPECT_EQ(call(fmt::format("compare {} {}", path("before"), path("other"))), 2);
