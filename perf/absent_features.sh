@@ -9,18 +9,12 @@
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
+. "$here/callgrind.sh"
 program=${1:-$here/../build/release/tread}
 scene=$here/absent_features.toml
 bound=0.005
 
-command -v valgrind >/dev/null || {
-  echo "There is no valgrind on this machine; install it (package valgrind) to count instructions." >&2
-  exit 4
-}
-[[ -x $program ]] || {
-  echo "There is no program $program; build it, or name it as the first argument." >&2
-  exit 4
-}
+need_callgrind "$program"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export TREAD_INSTRUCTION_SET=baseline
@@ -31,9 +25,8 @@ value_of() { sed -n "s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$work/out/summary
 count() {
   local duration=$1
   shift
-  valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='tread::Simulation::step()' \
-    "$program" run "$scene" -t 1 --quiet -o "$work/out" --set "motion.duration=$duration" "$@" 2>"$work/log" ||
-    { cat "$work/log" >&2; exit 3; }
+  under_callgrind "$work/log" 'tread::Simulation::step()' --callgrind-out-file=/dev/null \
+    "$program" run "$scene" -t 1 --quiet -o "$work/out" --set "motion.duration=$duration" "$@"
   instructions=$(sed -n 's/.*Collected *: *//p' "$work/log")
   steps=$(value_of steps)
   state=$(value_of state_hash)
