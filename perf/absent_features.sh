@@ -26,7 +26,7 @@ count() {
   local duration=$1
   shift
   under_callgrind "$work/log" 'tread::Simulation::step()' --callgrind-out-file=/dev/null \
-    "$program" run "$scene" -t 1 --quiet -o "$work/out" --set "motion.duration=$duration" "$@"
+    "$program" run "$scene" -t 1 --quiet -o "$work/out" --overwrite --set "motion.duration=$duration" "$@"
   instructions=$(sed -n 's/.*Collected *: *//p' "$work/log")
   steps=$(value_of steps)
   state=$(value_of state_hash)
