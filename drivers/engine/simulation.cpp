@@ -69,9 +69,10 @@ StateList Simulation::state() {
   return list;
 }
 
-StateList Simulation::nodal_state() {
+StateList Simulation::unshared_state() {
   StateList list;
   fields_->list_state(list);
+  features_.list_unshared_state(list);
   return list;
 }
 

@@ -52,8 +52,8 @@ class Simulation final : private RunEnd {
   /// Every field that outlives a step, those of the model's parts too.
   StateList state();
 
-  /// The part of state() that spread() brings to other ranks.
-  StateList nodal_state();
+  /// The part of state() that other ranks than 0 get by spread(), as far as they need any of it.
+  StateList unshared_state();
   /// Gives other ranks what they hold of rank 0's values, instead of state(). All ranks call it.
   void spread() { fields_->spread(); }
   /// As NodeFields' of this name.

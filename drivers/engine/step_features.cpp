@@ -93,4 +93,15 @@ void StepFeatures::list_state(StateList& list) {
   for (const std::unique_ptr<Feature>& feature : all_) list.add_part(feature->name(), *feature);
 }
 
+void StepFeatures::list_unshared_state(StateList& list) {
+  struct Unshared {
+    Feature* feature;
+    void list_state(StateList& fields) const { feature->list_unshared_state(fields); }
+  };
+  for (const std::unique_ptr<Feature>& feature : all_) {
+    Unshared part{feature.get()};
+    list.add_part(feature->name(), part);
+  }
+}
+
 }  // namespace tread

@@ -35,6 +35,7 @@ class StepFeatures {
   /// Adds up the momentum of wheelset and vehicle [N s].
   Vec3 momentum(const Motion& motion) const;
   void list_state(StateList& list);
+  void list_unshared_state(StateList& list);
 
   const Sampling& sampling() const { return *sampling_; }
   const Measurements& measurements() const { return *measurements_; }

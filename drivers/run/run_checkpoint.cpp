@@ -217,13 +217,13 @@ void unpack_state(const SealedContent& content, const Model& model, Simulation& 
 }
 
 void leave_to_spread(Simulation& simulation, SealedContent& content) {
-  const StateList nodal = simulation.nodal_state();
-  for (const StateList::Field& field : nodal.fields()) content.erase("state/" + field.name);
+  const StateList unshared = simulation.unshared_state();
+  for (const StateList::Field& field : unshared.fields()) content.erase("state/" + field.name);
 }
 
 void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation) {
   check_mesh(content, model);
-  unpack(content, "state", simulation.state().without(simulation.nodal_state()));
+  unpack(content, "state", simulation.state().without(simulation.unshared_state()));
 }
 
 void require_state(const CheckpointFolder::Found& found) {

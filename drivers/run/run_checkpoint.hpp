@@ -59,7 +59,7 @@ MeasuredRows::Kept unpack_measured(const SealedContent& content);
 /// made on another mesh.
 void unpack_state(const SealedContent& content, const Model& model, Simulation& simulation);
 
-/// Takes out of a run's content what Simulation::spread() gives to other ranks.
+/// Takes Simulation::unshared_state() out of a run's content.
 void leave_to_spread(Simulation& simulation, SealedContent& content);
 /// unpack_state() of the rest, on another rank.
 void unpack_followed(const SealedContent& content, const Model& model, Simulation& simulation);

@@ -230,10 +230,14 @@ std::vector<Spring> Contact::springs() const {
 }
 
 void Contact::list_state(StateList& list) {
-  list.add_records("history", std::span(history_));
-  list.add("wake_time", search_.wake_time());
+  list_searched(list);
   list.add("frictional_work", frictional_work_);
   list.add("damping_work", damping_work_);
+}
+
+void Contact::list_searched(StateList& list) {
+  list.add_records("history", std::span(history_));
+  list.add("wake_time", std::span(search_.wake_time()));
   std::visit([&](auto& of) { list_states(of, list); }, friction_);
 }
 

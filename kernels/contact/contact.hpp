@@ -180,6 +180,8 @@ class Contact {
 
   /// Lists the state that search() and resolve() do not find anew.
   void list_state(StateList& list);
+  /// The part of it by points and faces of the whole rail, for search() and resolve() here alone.
+  void list_searched(StateList& list);
 
  private:
   /// Likely reason for a patch at the end of the searched surface.

@@ -119,7 +119,7 @@ double ContactSearch::touching_depth(double wheel_x) const {
 
 void ContactSearch::make_room() {
   const SweptBlock& rail = surfaces_.rail();
-  wake_time_.assign(static_cast<std::size_t>(face_index(rail.station_count(), 0)), kEver);
+  wake_time_ = PageVector<double>(static_cast<std::size_t>(face_index(rail.station_count(), 0)));
   double pitch = 1e30;
   for (const PitchClass& c : rail.classes) pitch = std::min(pitch, c.pitch);
   const SurfaceProfile& wheel = surfaces_.wheel_profile();

@@ -9,6 +9,7 @@
 
 #include "core/body_frame.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 #include "kernels/contact/contact_point.hpp"
 #include "kernels/contact/contact_state.hpp"
 #include "kernels/contact/face_quadrature.hpp"
@@ -46,7 +47,8 @@ class ContactSearch {
   ContactSearch(const SweptBlock& rail, const SweptBlock& wheel, const Options& options,
                 Corrugation corrugation);
 
-  /// Lowers the rail's surface, makes room for its depth and forgets all wake times.
+  /// Lowers the rail's surface, makes room for its depth and forgets all wake times. Those of faces are zeros
+  /// that take no memory until wake_all(): a search from time 0 on finds the same with them.
   void set_corrugation(Corrugation corrugation);
 
   /// Sets `points` to those in contact, with the pressures of statics.
@@ -102,7 +104,7 @@ class ContactSearch {
   std::size_t window_capacity() const { return columns_.size(); }                         ///< stations
   std::size_t capacity() const { return columns_.size() * columns_.front().capacity(); }  ///< points
   std::size_t rail_points() const { return wake_time_.size() * points_per_face(); }  ///< of the whole rail
-  std::vector<double>& wake_time() { return wake_time_; }                            ///< by face [s]
+  PageVector<double>& wake_time() { return wake_time_; }                             ///< by face [s]
   /// Bytes of the wake times.
   std::int64_t bytes() const { return static_cast<std::int64_t>(wake_time_.size() * sizeof(double)); }
 
@@ -131,7 +133,7 @@ class ContactSearch {
   double touching_height_ = 0;
   double least_radius_ = 0;  ///< of the wheel's surface [m]
   Aim aim_;
-  std::vector<double> wake_time_;                   ///< by face: contact cannot start before [s]
+  PageVector<double> wake_time_;                    ///< by face: contact cannot start before [s]
   std::vector<std::vector<ContactPoint>> columns_;  ///< points found, by rail station of the window
 };
 

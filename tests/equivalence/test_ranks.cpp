@@ -158,7 +158,7 @@ class Case {
       shared.back()->set_sampling_interval(kSampling);
       samples::copy(one_->state(), shared.back()->state());
       models.back()->keep_masses(shared.back()->groups_with_mass());
-      if (rank > 0) spoil(shared.back()->nodal_state());
+      if (rank > 0) spoil(shared.back()->unshared_state());
     }
     on_threads(shared, [](Simulation& simulation) {
       simulation.spread();

@@ -113,6 +113,8 @@ class Feature {
 
   /// Lists the state that outlives a step.
   virtual void list_state(StateList& /*list*/) {}
+  /// Lists the part of it that only rank 0 reads and writes.
+  virtual void list_unshared_state(StateList& /*list*/) {}
 
   /// Takes over the static state.
   virtual void settle(const StaticStart& /*start*/) {}

@@ -17,6 +17,7 @@ class WheelRailContact final : public Feature {
   std::vector<FieldBytes> fields() const override;
   void apply(StepPhase phase, StepState& step) override;
   void list_state(StateList& list) override { contact_->list_state(list); }
+  void list_unshared_state(StateList& list) override { contact_->list_searched(list); }
   void meet(const StaticStart& start) override;
   void end_sample(const StepState& step, Sample& sample) const override;
 
