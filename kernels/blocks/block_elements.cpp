@@ -103,9 +103,10 @@ void BlockElements<Real>::build_swept() {
       elements.cosine = std::cos(pitch / 2);
       elements.sine = std::sin(pitch / 2);
     }
+    elements.constants.reserve(plan_.quads.size());
     for (const FrontPlan::Quad& entry : plan_.quads) {
       const HexNodes nodes = swept_nodes(swept.section, entry.quad, swept.sweep, pitch);
-      const ElementGeometry& shape = elements.geometry.emplace_back(element_geometry(nodes));
+      const ElementGeometry shape = element_geometry(nodes);
       const Material& material = swept.material(entry.quad, pitch_class);
       faults.check(shape, entry.quad, 0);
       elements.constants.push_back(
@@ -284,8 +285,7 @@ HexNodes BlockElements<Real>::element_nodes(const ElementPlace& at) const {
 
 template <class Real>
 ElementGeometry BlockElements<Real>::geometry(const ElementPlace& at) const {
-  if (at.perturbed) return element_geometry(element_nodes(at));
-  return classes_[index(at.pitch_class)].geometry[index(at.place)];
+  return element_geometry(element_nodes(at));
 }
 
 /// Index into the shifts, 0 where there is none.
@@ -338,8 +338,7 @@ std::int64_t BlockElements<Real>::bytes() const {
   std::size_t sum =
       shifts_.size() * sizeof(LaneShifts<Real>) + shifted_.size() * sizeof(int) + perturbed_.size();
   for (const Class& elements : classes_)
-    sum += elements.constants.size() * (sizeof(SweptConstants<Real>) + sizeof(ElementGeometry)) +
-           elements.laws.size();
+    sum += elements.constants.size() * sizeof(SweptConstants<Real>) + elements.laws.size();
   return static_cast<std::int64_t>(sum);
 }
 

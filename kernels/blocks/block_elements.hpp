@@ -38,7 +38,6 @@ class BlockElements {
   struct Class {
     double cosine = 1;  ///< of half the pitch
     double sine = 0;
-    std::vector<ElementGeometry> geometry;
     AlignedVector<SweptConstants<Real>> constants;
     AlignedVector<std::byte> laws;  ///< ElementLaw by place; empty for a linear law
   };

@@ -78,13 +78,18 @@ ElementFrequency max_frequency(const BlockElements<Real>& elements) {
 template <class Real>
 void add_lumped_mass(const BlockElements<Real>& elements, double* mass) {
   const SweptBlock& swept = elements.block();
+  const std::size_t quads = swept.section.quads.size();
+  using Volumes = std::array<double, 8>;
+  std::vector<std::optional<Volumes>> known(quads * swept.classes.size());
   elements.for_each_element([&](const ElementPlace& at) {
     const double density = swept.material(at.quad, at.pitch_class).density;
-    const ElementGeometry shape = elements.geometry(at);
+    std::optional<Volumes>& shared = known[index(at.pitch_class) * quads + index(at.quad)];
+    if (!at.perturbed && !shared) shared = elements.geometry(at).nodal_volume;
+    const Volumes volume = at.perturbed ? elements.geometry(at).nodal_volume : *shared;
     for (int node = 0; node < 8; ++node) {
       const int station = node < 4 ? at.station : far_station(swept, at.station);
       const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
-      mass[swept.base + swept.slot(section_node, station)] += density * shape.nodal_volume[index(node)];
+      mass[swept.base + swept.slot(section_node, station)] += density * volume[index(node)];
     }
   });
 }
