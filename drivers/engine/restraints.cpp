@@ -27,6 +27,7 @@ class Restraints {
     release_secondary_nodes();
     std::sort(unknowns_.begin(), unknowns_.end());
     unknowns_.erase(std::unique(unknowns_.begin(), unknowns_.end()), unknowns_.end());
+    unknowns_.shrink_to_fit();
     return std::move(unknowns_);
   }
 
@@ -122,6 +123,7 @@ std::vector<std::int64_t> held_unknowns(const Mesh& mesh, std::vector<std::int64
              unknown / kLanes % 3 != 2;
     });
   }
+  restrained.shrink_to_fit();
   return restrained;
 }
 
