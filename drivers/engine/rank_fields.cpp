@@ -100,6 +100,7 @@ void RankFields<Real, U>::take_near() {
     if (solves()) moved_[index(group)] = 1;
     deferred_[index(group)] = 1;
   }
+  knows_held_ = false;
   this->update().defer_only(deferred_, shared_.near());
   patch_motion_.follow(shared_.near());
   patch_forces_.follow(shared_.near());

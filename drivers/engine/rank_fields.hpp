@@ -7,9 +7,12 @@
 // motion (PatchMotion). The views of NodeFields hold the nodes that the rank moves, watched ones in samples
 // and, on rank 0 after fetch(), all.
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/parallel/ranks.hpp"
@@ -40,6 +43,15 @@ class RankFields final : public PreciseFields<Real, U> {
   void internal_force_and_move(const StepLoads& loads, bool measured) override;
   void move_with_contact(const StepLoads& loads, double time) override;
   void move_rest(const StepLoads& loads, bool measured) override;
+  /// Those of nodes that move here: the memory of the others stays untouched.
+  void hold(std::span<const std::int64_t> unknowns) override {
+    if (!std::exchange(knows_held_, true)) {
+      held_unknowns_.clear();
+      std::copy_if(unknowns.begin(), unknowns.end(), std::back_inserter(held_unknowns_),
+                   [this](std::int64_t unknown) { return moved_[index(unknown / kGroupValues)] != 0; });
+    }
+    Base::hold(held_unknowns_);
+  }
   void spread_patch(bool measured) override;
   void advance_lag(double dt) override;
   void anchor(const SpinningBody& body, const MeanMotion& mean, BodyFrame& wheel, double dt) override;
@@ -93,8 +105,10 @@ class RankFields final : public PreciseFields<Real, U> {
   std::vector<unsigned char> own_tiles_;  ///< marks of this rank's
 
   SharedGroups shared_;
-  HeldGroups held_;              ///< of this rank, the patch aside
-  GroupMarks moved_, deferred_;  ///< with the patch
+  HeldGroups held_;                          ///< of this rank, the patch aside
+  GroupMarks moved_, deferred_;              ///< with the patch
+  std::vector<std::int64_t> held_unknowns_;  ///< of moved_
+  bool knows_held_ = false;
   TieItems tie_items_;
   RankForces<Real> patch_forces_, other_forces_;
   PatchTiles patch_tiles_;
