@@ -5,8 +5,6 @@
 #include <sys/mman.h>
 
 #include <cstddef>
-#include <cstdlib>
-#include <memory>
 #include <new>
 #include <span>
 #include <utility>
@@ -24,18 +22,13 @@ struct PageAllocator {
   template <class U>
   PageAllocator(const PageAllocator<U>& /*other*/) {}
 
+  /// From the kernel: calloc() clears memory that was used before, and so touches it.
   T* allocate(std::size_t n) {
-    const std::size_t pages = (n * sizeof(T) + kPage - 1) / kPage;
-    void* const whole = std::calloc(pages + 2, kPage);
-    if (whole == nullptr) throw std::bad_alloc();
-    // The first page boundary behind a pointer's length: the place before it holds where all began.
-    void* first = static_cast<std::byte*>(whole) + sizeof(void*);
-    std::size_t room = (pages + 2) * kPage - sizeof(void*);
-    auto* const values = static_cast<void**>(std::align(kPage, pages * kPage, first, room));
-    values[-1] = whole;
-    return reinterpret_cast<T*>(values);
+    void* const pages = ::mmap(nullptr, bytes(n), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (pages == MAP_FAILED) throw std::bad_alloc();
+    return static_cast<T*>(pages);
   }
-  void deallocate(T* p, std::size_t /*n*/) { std::free(reinterpret_cast<void**>(p)[-1]); }
+  void deallocate(T* p, std::size_t n) { ::munmap(p, bytes(n)); }
 
   template <class U>
   void construct(U* /*zeros*/) {}
@@ -44,6 +37,9 @@ struct PageAllocator {
     ::new (static_cast<void*>(place)) U(std::forward<Value>(value));
   }
   bool operator==(const PageAllocator& /*other*/) const { return true; }
+
+ private:
+  static std::size_t bytes(std::size_t n) { return (n * sizeof(T) + kPage - 1) / kPage * kPage; }
 };
 
 template <class T>
