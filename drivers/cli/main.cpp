@@ -24,6 +24,7 @@
 #include "drivers/process/launched_ranks.hpp"
 #include "drivers/process/machine.hpp"
 #include "drivers/process/progress.hpp"
+#include "drivers/process/standard_files.hpp"
 #include "drivers/process/version.hpp"
 #include "drivers/run/followers.hpp"
 #include "io/report/plain_text.hpp"
@@ -175,6 +176,7 @@ void require_shown() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tread::open_standard_files();
   return reported("", [&] {
     tread::give_back_large_arrays();
     const std::shared_ptr<tread::Ranks> ranks = tread::launched_ranks();

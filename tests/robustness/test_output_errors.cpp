@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "io/files/history_file.hpp"
 #include "io/files/output_file.hpp"
+#include "tests/commands_test.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace tread {
@@ -144,6 +145,26 @@ TEST_F(OutputErrors, AFileThatCannotBeReplacedStays) {
   EXPECT_NE(message.find("File too large"), std::string::npos) << message;
   EXPECT_EQ(content(path), "old");
   EXPECT_FALSE(fs::exists(path.string() + ".part"));
+}
+
+/// The program in a shell that runs `before` first; its errors go to a file except where `before` closes
+/// them.
+class Descriptors : public samples::Commands {
+ protected:
+  /// Exit code of `tread arguments`; after a signal 128 + its number.
+  int shell(const std::string& before, const std::string& arguments) const {
+    const std::string command = fmt::format("cd {}; exec 2>errors; {}; {} {}; exit $?", folder_.string(),
+                                            before, TREAD_EXECUTABLE, arguments);
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+};
+
+TEST_F(Descriptors, ClosedOnesGoToNoFileOfARun) {
+  const std::string run =
+      fmt::format("run {} -o run -t 1 --set 'scene.element_size=8 mm'", scene("tyre.toml"));
+  EXPECT_EQ(shell("exec 0<&- 1>&- 2>&-", run), 0);
+  EXPECT_EQ(content("run/histories.csv").find("tread"), std::string::npos);
+  EXPECT_EQ(content("run/histories.csv").find("[roll]"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+#include "drivers/process/standard_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace tread {
+
+void open_standard_files() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(number, F_GETFD) < 0) {
+      const int flags = number == STDERR_FILENO ? O_WRONLY : O_RDONLY;
+      [[maybe_unused]] const int opened = ::open("/dev/null", flags);  // takes the lowest number, this one
+    }
+}
+
+}  // namespace tread

@@ -1,0 +1,10 @@
+#pragma once
+// Standard input, output and error.
+
+namespace tread {
+
+/// Puts /dev/null in the place of standard files that are closed, so that no file of a run takes their
+/// numbers. Writing to a standard output that was closed still fails. Call it first.
+void open_standard_files();
+
+}  // namespace tread
