@@ -71,8 +71,8 @@ tread::CommandEntry named_command(const CLI::App& app) {
 
 /// Says program and machine on stderr.
 void say_origin() {
-  fmt::print(stderr, "[tread] {}; {}, {}, {} cores\n", tread::program_name(), tread::host_name(),
-             tread::processor_name(), tread::machine_cores());
+  tread::print_error(fmt::format("[tread] {}; {}, {}, {} cores\n", tread::program_name(), tread::host_name(),
+                                 tread::processor_name(), tread::machine_cores()));
 }
 
 /// Gives `--version` to every command, and `--quiet` and `--verbose` to those that act. Commands without
@@ -128,15 +128,14 @@ int reported(const std::string& who, const std::function<int()>& act) {
     // An error of the command line names the command, "tread run: ...".
     const std::string_view what = error.what();
     const bool named = what.starts_with("tread ") || what.starts_with("tread: ");
-    fmt::print(stderr, "{}{}{}\n", who, named ? "" : "tread: ", error.what());
+    tread::print_error(fmt::format("{}{}{}\n", who, named ? "" : "tread: ", error.what()));
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(
-        stderr,
-        "{}tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n", who);
+    tread::print_error(
+        who + "tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n");
     return static_cast<int>(tread::ExitCode::resources);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}tread: unexpected failure: {}\n", who, error.what());
+    tread::print_error(fmt::format("{}tread: unexpected failure: {}\n", who, error.what()));
     return static_cast<int>(tread::ExitCode::resources);
   }
 }

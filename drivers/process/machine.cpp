@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/parallel/parallel.hpp"
 #include "core/parallel/ranks.hpp"
+#include "drivers/process/standard_files.hpp"
 
 namespace tread {
 
@@ -52,8 +53,8 @@ void use_threads(const ThreadOptions& options) {
   const std::shared_ptr<Ranks> ranks = chosen_ranks();
   const int cores = ranks ? std::max(1, machine_cores() / ranks->on_cores()) : machine_cores();
   if (options.number > cores && (!ranks || ranks->rank() == 0))
-    fmt::print(stderr, "tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
-               options.number, cores, cores);
+    print_error(fmt::format("tread: warning: {} threads on {} cores wait for one another; -t {} is faster\n",
+                            options.number, cores, cores));
   set_threads(options.number > 0 ? options.number : cores);
   if (!options.bind) return;
   std::vector<int> own = allowed_cores();

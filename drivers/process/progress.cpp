@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "drivers/process/standard_files.hpp"
 
 namespace tread {
 
@@ -12,9 +12,7 @@ Progress::Progress(bool quiet)
 
 void Progress::say(const std::string& text) const {
   if (quiet_) return;
-  // A missing listener is no reason to stop.
-  std::fputs((text + "\n").c_str(), stderr);
-  std::fflush(stderr);
+  print_error(text + "\n");
 }
 
 bool Progress::due(double interval) {

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cstdio>
+
 namespace tread {
 
 void open_standard_files() {
@@ -11,6 +13,11 @@ void open_standard_files() {
       const int flags = number == STDERR_FILENO ? O_WRONLY : O_RDONLY;
       [[maybe_unused]] const int opened = ::open("/dev/null", flags);  // takes the lowest number, this one
     }
+}
+
+void print_error(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
 }
 
 }  // namespace tread

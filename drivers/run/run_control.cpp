@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "drivers/process/standard_files.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "io/text/json.hpp"
@@ -48,7 +49,7 @@ void print_status(const std::filesystem::path& folder) {
   if (resumable)
     throw Interrupted(
         fmt::format("no process works on {}: {} goes on", folder.string(), resume_text(folder)));
-  if (!alive) fmt::print(stderr, "tread: no process works on {}\n", folder.string());
+  if (!alive) print_error(fmt::format("tread: no process works on {}\n", folder.string()));
 }
 
 }  // namespace

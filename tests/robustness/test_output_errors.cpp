@@ -167,5 +167,14 @@ TEST_F(Descriptors, ClosedOnesGoToNoFileOfARun) {
   EXPECT_EQ(content("run/histories.csv").find("[roll]"), std::string::npos);
 }
 
+TEST_F(Descriptors, ErrorsWithoutAListenerHaveTheirExitCode) {
+  for (const char* closed : {"exec 1>&- 2>&-", "exec 1>&- 2>/dev/full"}) {
+    EXPECT_EQ(shell(closed, "version"), 4) << closed;
+    EXPECT_EQ(shell(closed, "run nope"), 2) << closed;
+    EXPECT_EQ(shell(closed, "run nope --json"), 2) << closed;
+    EXPECT_EQ(shell(closed, "check --json " + scene("tyre.toml")), 4) << closed;
+  }
+}
+
 }  // namespace
 }  // namespace tread

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "drivers/process/standard_files.hpp"
 #include "drivers/run/run_folder.hpp"
 #include "drivers/studies/dial/dial_report.hpp"
 #include "drivers/studies/study/study_report.hpp"
@@ -106,8 +107,8 @@ DialOutcome evaluate(const DialOptions& options, const DialDesign& design, const
   const FinishedRun* named = find_run(outcome.runs, options.reference);
   if (!named && !options.reference.empty()) {
     if (find_point(plan, options.reference)) {
-      fmt::print(stderr, "tread: --reference {} is not done; there is nothing to compare with yet\n",
-                 options.reference);
+      print_error(fmt::format("tread: --reference {} is not done; there is nothing to compare with yet\n",
+                              options.reference));
       outcome.runs.clear();
       return outcome;
     }
