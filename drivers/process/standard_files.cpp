@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 namespace tread {
@@ -13,6 +14,10 @@ void open_standard_files() {
       const int flags = number == STDERR_FILENO ? O_WRONLY : O_RDONLY;
       [[maybe_unused]] const int opened = ::open("/dev/null", flags);  // takes the lowest number, this one
     }
+}
+
+void ignore_file_size_signal() {
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void print_error(const std::string& text) {

@@ -9,6 +9,9 @@ namespace tread {
 /// numbers. Writing to a standard output that was closed still fails. Call it first.
 void open_standard_files();
 
+/// Lets writes beyond a bound on the size of files fail, where SIGXFSZ would kill the process.
+void ignore_file_size_signal();
+
 /// Writes to stderr. A missing listener is no reason to stop.
 void print_error(const std::string& text);
 

@@ -176,5 +176,10 @@ TEST_F(Descriptors, ErrorsWithoutAListenerHaveTheirExitCode) {
   }
 }
 
+TEST_F(Descriptors, ABoundOnTheSizeOfFilesIsAnError) {
+  EXPECT_EQ(shell("ulimit -f 0", "profile LMA -o u.txt >/dev/null 2>&1"), 4);
+  EXPECT_EQ(shell("ulimit -f 0", "version >out"), 4);
+}
+
 }  // namespace
 }  // namespace tread
