@@ -15,13 +15,41 @@ namespace tread {
 
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, int error) {
-  throw ResourceError(fmt::format("cannot write {}: {}", path.string(), std::strerror(error)));
+/// "; make room there, or choose another disk"; empty for an error without a known remedy.
+const char* remedy_of(int error) {
+  switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+      return "; make its folder, or choose another";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; change the permissions of its folder, or choose another";
+    case ENOSPC:
+    case EDQUOT:
+      return "; make room there, or choose another disk";
+    case EFBIG:
+      return "; a larger `ulimit -f` allows it";
+    case EMFILE:
+      return "; a larger `ulimit -n` allows it";
+    case ENAMETOOLONG:
+      return "; choose a shorter name";
+    case EISDIR:
+      return "; choose the name of a file";
+    default:
+      return "";
+  }
 }
 
-int open_or_fail(const std::filesystem::path& path, int flags) {
+[[noreturn]] void fail(const std::filesystem::path& path, int error) {
+  throw ResourceError(
+      fmt::format("cannot write {}: {}{}", path.string(), std::strerror(error), remedy_of(error)));
+}
+
+/// Opens the file; an error names `shown`.
+int open_or_fail(const std::filesystem::path& path, int flags, const std::filesystem::path& shown) {
   const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(path, errno);
+  if (descriptor < 0) fail(shown, errno);
   return descriptor;
 }
 
@@ -37,7 +65,7 @@ int write_all(int descriptor, std::string_view bytes) {
 
 /// Result of fsync for a file or folder: 0 or an errno.
 int sync(const std::filesystem::path& path) {
-  const int descriptor = open_or_fail(path, O_RDONLY);
+  const int descriptor = open_or_fail(path, O_RDONLY, path);
   const int error = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   return error;
@@ -58,8 +86,9 @@ void rename_finished(const std::filesystem::path& path,
   }
 }
 
-void write_text(const std::filesystem::path& path, std::string_view text) {
-  GrowingFile file(path);
+void write_text(const std::filesystem::path& path, std::string_view text,
+                const std::filesystem::path& shown) {
+  GrowingFile file(path, shown);
   file.append(text);
   file.close();
 }
@@ -80,19 +109,23 @@ void replace_file(const std::filesystem::path& path,
 void create_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", folder.string(), error.message()));
+  if (error)
+    throw ResourceError(
+        fmt::format("cannot create {}: {}{}", folder.string(), error.message(), remedy_of(error.value())));
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
-  replace_file(path, [&](const std::filesystem::path& part) { write_text(part, text); });
+  replace_file(path, [&](const std::filesystem::path& part) { write_text(part, text, path); });
 }
 
 void show_text_file(const std::filesystem::path& path, std::string_view text) {
-  rename_finished(path, [&](const std::filesystem::path& part) { write_text(part, text); });
+  rename_finished(path, [&](const std::filesystem::path& part) { write_text(part, text, path); });
 }
 
-GrowingFile::GrowingFile(std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(open_or_fail(path_, O_WRONLY | O_CREAT | O_TRUNC)) {}
+GrowingFile::GrowingFile(const std::filesystem::path& path) : GrowingFile(path, path) {}
+
+GrowingFile::GrowingFile(const std::filesystem::path& path, std::filesystem::path shown)
+    : path_(std::move(shown)), descriptor_(open_or_fail(path, O_WRONLY | O_CREAT | O_TRUNC, path_)) {}
 
 GrowingFile::~GrowingFile() {
   if (descriptor_ >= 0) ::close(descriptor_);

@@ -29,7 +29,9 @@ void show_text_file(const std::filesystem::path& path, std::string_view text);
 class GrowingFile {
  public:
   /// Starts an empty file.
-  explicit GrowingFile(std::filesystem::path path);
+  explicit GrowingFile(const std::filesystem::path& path);
+  /// Starts an empty file that errors and path() call `shown`.
+  GrowingFile(const std::filesystem::path& path, std::filesystem::path shown);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -179,6 +180,33 @@ TEST_F(Descriptors, ErrorsWithoutAListenerHaveTheirExitCode) {
 TEST_F(Descriptors, ABoundOnTheSizeOfFilesIsAnError) {
   EXPECT_EQ(shell("ulimit -f 0", "profile LMA -o u.txt >/dev/null 2>&1"), 4);
   EXPECT_EQ(shell("ulimit -f 0", "version >out"), 4);
+}
+
+TEST_F(Descriptors, ANamedPipeIsWrittenToAndALinkFollowed) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(shell("{ cat pipe >piped & }", "profile LMA -o pipe >/dev/null; wait"), 0) << content("errors");
+  EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));
+  std::filesystem::create_symlink("behind.txt", folder_ / "link");
+  for (int i = 0; i < 2; ++i) {  // a link to nothing, to a file
+    EXPECT_EQ(shell(":", "profile LMA -o link >/dev/null"), 0) << content("errors");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link"));
+  }
+  EXPECT_EQ(shell(":", "profile LMA -o /dev/stdout >shown"), 0) << content("errors");
+  const std::string columns = content("behind.txt");
+  EXPECT_GT(columns.size(), 1000U);
+  EXPECT_TRUE(content("piped") == columns);
+  EXPECT_TRUE(content("shown").starts_with(columns));
+  EXPECT_GT(content("shown").size(), columns.size());
+  std::filesystem::create_directory(folder_ / "folder");
+  EXPECT_EQ(shell(":", "profile LMA -o folder"), 4);
+}
+
+TEST_F(Descriptors, AFolderThatIsMissingIsNamed) {
+  for (const std::string command : {"profile LMA -o none/x.txt", "profile LMA --svg none/x.svg"}) {
+    EXPECT_EQ(shell(":", command), 2);
+    EXPECT_TRUE(samples::has(content("errors"), "cannot write none/x.")) << content("errors");
+    EXPECT_TRUE(samples::has(content("errors"), "there is no folder none")) << content("errors");
+  }
 }
 
 }  // namespace

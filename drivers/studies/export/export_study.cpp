@@ -2,9 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "drivers/engine/lateral_gap.hpp"
@@ -15,6 +16,7 @@
 #include "drivers/studies/export/deck_units.hpp"
 #include "drivers/studies/export/keyword_export.hpp"
 #include "io/deck/radioss_file.hpp"
+#include "io/files/named_output.hpp"
 #include "io/files/output_file.hpp"
 #include "io/text/json.hpp"
 #include "io/text/units.hpp"
@@ -38,12 +40,29 @@ std::filesystem::path radioss_file(std::filesystem::path deck, int number) {
   return deck.replace_filename(fmt::format("{}_{:04}.rad", deck.stem().string(), number));
 }
 
-void close_whole(std::ofstream& file, const std::filesystem::path& path) {
-  file.close();
-  if (!file)
-    throw ResourceError(
-        fmt::format("cannot write {}: does its folder exist, and is there room on the disk?", path.string()));
-}
+/// A file that takes its text in large pieces. Errors name `shown`.
+class DeckText {
+ public:
+  DeckText(const std::filesystem::path& path, const std::filesystem::path& shown) : file_(path, shown) {}
+  void add(std::string_view text) {
+    constexpr std::size_t kPiece = 1 << 20;  // [B]
+    text_ += text;
+    if (text_.size() >= kPiece) hand_over();
+  }
+  void close() {
+    hand_over();
+    file_.close();
+  }
+
+ private:
+  void hand_over() {
+    file_.append(text_);
+    text_.clear();
+  }
+
+  GrowingFile file_;
+  std::string text_;
+};
 
 double quantity_of(const char* option, const std::string& text, const Quantity& expected) {
   try {
@@ -103,17 +122,17 @@ void write_radioss_files(const std::filesystem::path& deck, const Scene& scene, 
   if (scene.output.frames > 0) run.frames = run.end / scene.output.frames;
   run.step = deck_unit::kTime * summary.step;
   run.factor = summary.step_factor;
-  write_text_file(radioss_file(deck, 1), radioss_run(run));
-  replace_file(radioss_file(deck, 0), [&](const std::filesystem::path& part) {
-    std::ofstream file(part, std::ios::binary);
-    RadiossFile out([&](std::string_view text) { file << text; });
+  write_named_text(radioss_file(deck, 1), radioss_run(run));
+  write_named_file(radioss_file(deck, 0), [&](const std::filesystem::path& part) {
+    DeckText file(part, radioss_file(deck, 0));
+    RadiossFile out([&](std::string_view text) { file.add(text); });
     out.begin(run.name, deck.filename().string());
     for (const RadiossTie& tie : summary.radioss.ties) out.tie(tie);
     for (const RadiossContact& contact : summary.radioss.contacts) out.contact(contact);
     for (const RadiossReference& reference : summary.radioss.references) out.reference(reference);
     out.velocities(summary.radioss.velocities);
     out.end();
-    close_whole(file, part);
+    file.close();
   });
 }
 
@@ -136,12 +155,13 @@ void export_scene(const ResolvedScene& resolved, const ExportOptions& options) {
     corrugate(model);
   }
   DeckSummary summary;
-  replace_file(options.output, [&](const std::filesystem::path& part) {
-    std::ofstream file(part, std::ios::binary);
-    KeywordDeck deck([&](std::string_view text) { file << text; });
+  write_named_file(options.output, [&](const std::filesystem::path& part) {
+    DeckText file(part, options.output);
+    KeywordDeck deck([&](std::string_view text) { file.add(text); });
     summary = write_keyword_deck(model, deck_choice, options.program, deck);
-    close_whole(file, part);
+    file.close();
   });
+  if (!has_neighbours(options.output)) summary.radioss.velocities.clear();  // no files beside it
   if (!summary.radioss.velocities.empty()) write_radioss_files(options.output, scene, summary);
   if (options.json)
     fmt::print("{}", json_text(summary_json(summary, options)));

@@ -13,7 +13,7 @@
 #include "core/millimetre.hpp"
 #include "drivers/studies/profile/profile_figures.hpp"
 #include "drivers/studies/profile/shown_profile.hpp"
-#include "io/files/output_file.hpp"
+#include "io/files/named_output.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/report/report.hpp"
 #include "io/text/json.hpp"
@@ -205,14 +205,14 @@ void profile(const ProfileOptions& options) {
   std::vector<ShownProfile> all = {shown};
   if (other) all.push_back(*other);
   require_what_options_change(options, all);
-  if (!options.output.empty()) write_text_file(options.output, columns_of(shown));
+  if (!options.output.empty()) write_named_text(options.output, columns_of(shown));
   if (!options.svg.empty()) {
-    write_text_file(options.svg, figure_svg(profile_figure(shown)));
-    if (other) {
+    write_named_text(options.svg, figure_svg(profile_figure(shown)));
+    if (other && has_neighbours(options.svg)) {
       std::filesystem::path beside = options.svg;
       beside.replace_filename(options.svg.stem().string() + "-touching.svg");
       const ShownProfile &rail = shown.wheel ? *other : shown, &wheel = shown.wheel ? shown : *other;
-      write_text_file(beside, figure_svg(touching_figure(fine, rail, wheel)));
+      write_named_text(beside, figure_svg(touching_figure(fine, rail, wheel)));
     }
   }
   if (options.json) {

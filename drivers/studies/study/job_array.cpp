@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "drivers/process/child_process.hpp"
 #include "drivers/studies/study/study_runner.hpp"
-#include "io/files/output_file.hpp"
+#include "io/files/named_output.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
@@ -60,7 +60,7 @@ exit $code
       fmt::arg("title", plan.study.name), fmt::arg("script", script.string()), fmt::arg("command", command),
       fmt::arg("last", count - 1), fmt::arg("program", shell_word(own_program().string())),
       fmt::arg("elements", elements));
-  write_text_file(script, text);
+  write_named_text(script, text);
 }
 
 }  // namespace tread

@@ -1,0 +1,92 @@
+#include "io/files/named_output.hpp"
+
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "io/files/output_file.hpp"
+
+namespace tread {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Number of stdout or stderr if the path leads to the file that it writes, otherwise -1.
+int standard_file(const fs::path& path) {
+  struct stat named {};
+  if (::stat(path.c_str(), &named) != 0) return -1;
+  for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat own {};
+    if (::fstat(number, &own) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino) return number;
+  }
+  return -1;
+}
+
+bool is_pipe_or_device(const fs::path& path) {
+  std::error_code error;
+  return fs::is_other(fs::status(path, error));
+}
+
+/// Path of the file behind links, which need not exist.
+fs::path behind_links(fs::path path) {
+  constexpr int kMost = 40;  // as the kernel
+  std::error_code error;
+  for (int i = 0; i < kMost && fs::is_symlink(path, error); ++i)
+    path = path.parent_path() / fs::read_symlink(path, error);
+  return path;
+}
+
+/// Appends the bytes of a file to an open one.
+void pour(const fs::path& from, int to, const fs::path& shown) {
+  std::ifstream file(from, std::ios::binary);
+  std::array<char, 1 << 16> bytes{};
+  while (file.read(bytes.data(), bytes.size()), file.gcount() > 0)
+    for (std::streamsize done = 0; done < file.gcount();) {
+      const ssize_t written =
+          ::write(to, bytes.data() + done, static_cast<std::size_t>(file.gcount() - done));
+      if (written < 0 && errno != EINTR)
+        throw ResourceError(fmt::format("cannot write {}: {}", shown.string(), std::strerror(errno)));
+      if (written > 0) done += written;
+    }
+}
+
+}  // namespace
+
+bool has_neighbours(const fs::path& path) {
+  return !is_pipe_or_device(path) && standard_file(path) < 0;
+}
+
+void write_named_file(const fs::path& path, const std::function<void(const fs::path& part)>& write) {
+  std::fflush(stdout);  // before what goes to the same place
+  if (is_pipe_or_device(path)) return write(path);
+  const fs::path file = behind_links(path);
+  std::error_code error;
+  if (const fs::path folder = file.parent_path(); !folder.empty() && !fs::is_directory(folder, error))
+    throw InputError(fmt::format("cannot write {}: there is no folder {}; make it, or choose another",
+                                 path.string(), folder.string()));
+  const int standard = standard_file(file);
+  if (standard < 0) return replace_file(file, write);
+  fs::path beside = file;
+  beside += ".tmp";
+  replace_file(beside, write);
+  pour(beside, standard, path);
+  fs::remove(beside, error);
+}
+
+void write_named_text(const fs::path& path, std::string_view text) {
+  write_named_file(path, [&](const fs::path& part) {
+    GrowingFile file(part, path);
+    file.append(text);
+    file.close();
+  });
+}
+
+}  // namespace tread
