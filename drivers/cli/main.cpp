@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <new>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -75,12 +77,25 @@ void say_origin() {
                                  tread::processor_name(), tread::machine_cores()));
 }
 
+/// Refuses names that no file can have.
+std::string refusal_of_name(const std::string& name) {
+  constexpr std::size_t kLongest = 255;  // [B] of most file systems
+  for (const std::filesystem::path& part : std::filesystem::path(name))
+    if (part.native().size() > kLongest)
+      return fmt::format("a name of {} characters is too long; at most {} are possible", part.native().size(),
+                         kLongest);
+  return "";
+}
+
 /// Gives `--version` to every command, and `--quiet` and `--verbose` to those that act. Commands without
 /// progress are quiet anyway.
 void add_common_flags(CLI::App& command, bool& verbose) {
   command.set_version_flag("--version", version_line, "print the version and exit");
   for (CLI::App* part : command.get_subcommands({})) add_common_flags(*part, verbose);
   if (!command.get_subcommands({}).empty()) return;
+  for (const char* named : {"--output", "--svg", "--slurm"})
+    if (CLI::Option* option = command.get_option_no_throw(named))
+      option->check(CLI::Validator(refusal_of_name, ""));
   if (!command.get_option_no_throw("--quiet"))
     command.add_flag("--quiet")->description("no progress on stderr");
   CLI::Option* option = command.get_option_no_throw("--verbose");
@@ -120,6 +135,27 @@ int run(int argc, char** argv) {
   return 0;
 }
 
+std::string incomplete_output(const std::string& reason) {
+  return fmt::format("standard output: {}; what it shows is not complete", reason);
+}
+
+std::string missing_thread(const std::string& reason) {
+  return fmt::format(
+      "cannot start a thread: {}; fewer threads (-t) need less, and a larger `ulimit -u` allows more",
+      reason);
+}
+
+/// The message for what the system refused to functions of libraries.
+std::string system_refusal(const std::system_error& error) {
+  const std::string reason = error.code().message();
+  if (std::ferror(stdout) != 0) return incomplete_output(reason);
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return fmt::format("cannot use {}: {}; change its permissions, or choose another place",
+                       file->path1().string(), reason);
+  if (error.code() == std::errc::resource_unavailable_try_again) return missing_thread(reason);
+  return fmt::format("unexpected failure: {}", error.what());
+}
+
 /// Returns the exit code of `act`; its error goes to stderr behind `who`.
 int reported(const std::string& who, const std::function<int()>& act) {
   try {
@@ -134,8 +170,15 @@ int reported(const std::string& who, const std::function<int()>& act) {
     tread::print_error(
         who + "tread: not enough memory for this scene; a coarser quality needs less (see `tread check`)\n");
     return static_cast<int>(tread::ExitCode::resources);
+  } catch (const std::system_error& error) {
+    tread::print_error(fmt::format("{}tread: {}\n", who, system_refusal(error)));
+    return static_cast<int>(tread::ExitCode::resources);
   } catch (const std::exception& error) {
-    tread::print_error(fmt::format("{}tread: unexpected failure: {}\n", who, error.what()));
+    const std::string_view what = error.what();
+    const bool thread = what.starts_with("pthread_create ");  // TBB throws no std::system_error
+    tread::print_error(
+        fmt::format("{}tread: {}\n", who,
+                    thread ? missing_thread(error.what()) : fmt::format("unexpected failure: {}", what)));
     return static_cast<int>(tread::ExitCode::resources);
   }
 }
@@ -168,8 +211,7 @@ int run_on(tread::Ranks& ranks, int argc, char** argv) {
 /// ResourceError where standard output has not taken all that was printed.
 void require_shown() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
-  throw tread::ResourceError(
-      fmt::format("standard output: {}; what it shows is not complete", std::strerror(errno)));
+  throw tread::ResourceError(incomplete_output(std::strerror(errno)));
 }
 
 }  // namespace

@@ -164,8 +164,11 @@ void RunFolder::show_status(const std::string& json) const {
 std::int64_t folder_bytes(const fs::path& folder) {
   std::int64_t sum = 0;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, ignored))
-    if (entry.is_regular_file(ignored)) sum += static_cast<std::int64_t>(entry.file_size(ignored));
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, ignored);
+  for (; entry != fs::recursive_directory_iterator(); entry.increment(ignored))
+    if (entry->is_regular_file(ignored))
+      if (const std::uintmax_t bytes = entry->file_size(ignored); !ignored)  // error: it was removed
+        sum += static_cast<std::int64_t>(bytes);
   return sum;
 }
 

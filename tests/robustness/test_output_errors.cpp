@@ -182,6 +182,24 @@ TEST_F(Descriptors, ABoundOnTheSizeOfFilesIsAnError) {
   EXPECT_EQ(shell("ulimit -f 0", "version >out"), 4);
 }
 
+TEST_F(Descriptors, LongTextIntoAFullOutputIsNamedLikeShortText) {
+  for (const char* command : {"version", "scene-reference", "scene-reference --json", "verify --list"})
+    for (const char* output : {">/dev/full", ">&-"}) {
+      EXPECT_EQ(shell(":", fmt::format("{} {}", command, output)), 4) << command << output;
+      EXPECT_TRUE(samples::has(content("errors"), "tread: standard output: ")) << content("errors");
+      EXPECT_FALSE(samples::has(content("errors"), "unexpected")) << content("errors");
+    }
+}
+
+TEST_F(Descriptors, ANameThatIsTooLongNamesItsOption) {
+  const std::string name(300, 'x');
+  for (const std::string command :
+       {"run tyre -o ", "profile LMA --svg ", "export tyre -o ", "mesh tyre -o "}) {
+    EXPECT_EQ(shell(":", command + name), 2) << command;
+    EXPECT_TRUE(samples::has(content("errors"), "a name of 300 characters is too long")) << content("errors");
+  }
+}
+
 TEST_F(Descriptors, ANamedPipeIsWrittenToAndALinkFollowed) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_EQ(shell("{ cat pipe >piped & }", "profile LMA -o pipe >/dev/null; wait"), 0) << content("errors");
