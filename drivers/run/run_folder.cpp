@@ -1,8 +1,12 @@
 #include "drivers/run/run_folder.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -55,6 +59,13 @@ std::optional<RunRequest> read_request(const fs::path& path) {
   for (const RunRequest request : {RunRequest::checkpoint, RunRequest::frame, RunRequest::stop})
     if (text == fmt::format("{}\n", name_of(request))) return request;
   return std::nullopt;
+}
+
+/// Lets the request in `part` be read at `path`, except over one to stop. Returns false with errno set.
+bool leave_behind_others(const fs::path& part, const fs::path& path, RunRequest request) {
+  if (::link(part.c_str(), path.c_str()) == 0) return true;
+  const std::optional<RunRequest> there = errno == EEXIST ? read_request(path) : std::nullopt;
+  return there == RunRequest::stop || there == request || ::rename(part.c_str(), path.c_str()) == 0;
 }
 
 /// The command whose results a folder holds, and the file that shows it.
@@ -121,7 +132,18 @@ bool is_taken(const fs::path& folder) {
 }
 
 void leave_request(const fs::path& folder, RunRequest request) {
-  write_text_file(folder / kRequest, fmt::format("{}\n", name_of(request)));
+  const fs::path path = folder / kRequest;
+  const fs::path part = folder / fmt::format("{}.{}.part", kRequest, ::getpid());
+  GrowingFile file(part, path);
+  file.append(fmt::format("{}\n", name_of(request)));
+  file.close();
+  const bool left = request == RunRequest::stop ? ::rename(part.c_str(), path.c_str()) == 0
+                                                : leave_behind_others(part, path, request);
+  const int error = errno;
+  ::unlink(part.c_str());
+  if (!left)
+    throw ResourceError(fmt::format("cannot write {}: {}; does the folder still exist?", path.string(),
+                                    std::strerror(error)));
 }
 
 void withdraw_request(const fs::path& folder) {
@@ -138,11 +160,12 @@ RunFolder::RunFolder(fs::path path) : path_(std::move(path)), lock_(take(path_))
 }
 
 std::optional<RunRequest> RunFolder::take_request() const {
-  const fs::path path = path_ / kRequest;
+  // A request that comes meanwhile stays.
+  const fs::path taken = path_ / "request.taken";
+  if (::rename((path_ / kRequest).c_str(), taken.c_str()) != 0) return std::nullopt;
+  const std::optional<RunRequest> request = read_request(taken);
   std::error_code ignored;
-  if (!fs::exists(path, ignored)) return std::nullopt;
-  const std::optional<RunRequest> request = read_request(path);
-  fs::remove(path, ignored);
+  fs::remove(taken, ignored);
   return request;
 }
 

@@ -5,12 +5,15 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/run/run_checkpoint.hpp"
+#include "drivers/run/run_folder.hpp"
 #include "drivers/run/run_scene.hpp"
 #include "io/files/checkpoint_folder.hpp"
 #include "tests/program_test.hpp"
@@ -98,6 +101,28 @@ TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
   EXPECT_EQ(wait_for(process), 75);
   EXPECT_TRUE(has(errors(), "tread resume")) << errors();
   expect_finishes_as_if_never_stopped();
+}
+
+TEST(RunRequests, OfSeveralProcessesDoNotDisturbOneAnother) {
+  const TemporaryFolder temporary;
+  const RunFolder folder(temporary.path);
+  std::vector<pid_t> processes;
+  for (int i = 0; i < 4; ++i)
+    processes.push_back(child([&] {
+      try {
+        for (int k = 0; k < 200; ++k) leave_request(temporary.path, RunRequest::checkpoint);
+      } catch (const std::exception&) {
+        ::_exit(1);
+      }
+    }));
+  for (const pid_t process : processes) EXPECT_EQ(wait_for(process), 0);
+  EXPECT_EQ(folder.take_request(), RunRequest::checkpoint);
+  EXPECT_EQ(folder.take_request(), std::nullopt);
+  leave_request(temporary.path, RunRequest::frame);
+  leave_request(temporary.path, RunRequest::stop);
+  leave_request(temporary.path, RunRequest::checkpoint);
+  EXPECT_EQ(folder.take_request(), RunRequest::stop);
+  EXPECT_TRUE(fs::is_empty(temporary.path));
 }
 
 TEST_F(Resume, ControlledFromOutside) {
