@@ -64,7 +64,11 @@ void GrowingFiles::append(const Sample& sample, std::span<const double> measured
 std::string GrowingFiles::patch_bytes() {
   if (!patch_) return "";
   patch_->flush();
-  return read_bytes(directory_ / kPatchFile, std::numeric_limits<std::size_t>::max());
+  try {
+    return read_bytes(directory_ / kPatchFile, std::numeric_limits<std::size_t>::max());
+  } catch (const InputError& error) {  // a file of this run
+    throw ResourceError(fmt::format("{}; a run needs its folder as long as it rolls", error.what()));
+  }
 }
 
 void GrowingFiles::close() {

@@ -94,6 +94,13 @@ TEST_F(Resume, SigkillLosesWhatFollowedTheLastCheckpoint) {
   EXPECT_EQ(call("ctl " + folder_.string() + " status"), 0);
 }
 
+TEST_F(Resume, ARunWhoseFolderIsRemovedLacksAResource) {
+  const pid_t process = start_rolling();
+  fs::remove_all(folder_);
+  ::kill(process, SIGUSR1);
+  EXPECT_EQ(wait_for(process), 4) << errors();
+}
+
 TEST_F(Resume, ASignalBeforeTheFirstStepLosesNothing) {
   const pid_t process = start(run(folder_));
   ASSERT_TRUE(wait_until([&] { return fs::exists(folder_ / "checkpoint/order.h5"); }));
