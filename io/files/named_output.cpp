@@ -44,9 +44,8 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-/// Appends the bytes of a file to an open one.
-void pour(const fs::path& from, int to, const fs::path& shown) {
-  std::ifstream file(from, std::ios::binary);
+/// Writes the bytes of a file to an open one.
+void pour(std::ifstream& file, int to, const fs::path& shown) {
   std::array<char, 1 << 16> bytes{};
   while (file.read(bytes.data(), bytes.size()), file.gcount() > 0)
     for (std::streamsize done = 0; done < file.gcount();) {
@@ -77,8 +76,9 @@ void write_named_file(const fs::path& path, const std::function<void(const fs::p
   fs::path beside = file;
   beside += ".tmp";
   replace_file(beside, write);
-  pour(beside, standard, path);
-  fs::remove(beside, error);
+  std::ifstream written(beside, std::ios::binary);
+  fs::remove(beside, error);  // its bytes stay until they are read
+  pour(written, standard, path);
 }
 
 void write_named_text(const fs::path& path, std::string_view text) {
