@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -56,6 +57,22 @@ const std::string kMeasured = "measured";
 const std::string kFormat = "made/format";
 const std::string kVersion = "made/version";
 constexpr const char* kSteps = "state/steps";
+
+/// First line of a resolved scene that another lacks.
+std::string line_missing_in(const std::string& other, const std::string& scene) {
+  std::istringstream lines(scene);
+  for (std::string line; std::getline(lines, line);)
+    if (("\n" + other).find("\n" + line + "\n") == std::string::npos) return line;
+  return "";
+}
+
+/// Contents of the files that a scene names, by entry.
+SealedContent files_of_order(const SealedContent& content) {
+  SealedContent files;
+  for (const auto& entry : content)
+    if (entry.first.starts_with("order/file_")) files.insert(entry);
+  return files;
+}
 
 /// InputError where the content has another format than kCheckpointFormat, or states none.
 void require_format(const SealedContent& content) {
@@ -235,6 +252,23 @@ void require_state(const CheckpointFolder::Found& found) {
   const std::int64_t steps = sealed_value<std::int64_t>(content, kSteps);
   if (steps != found.steps)
     throw InputError(fmt::format("it holds the state of step {}, not that of its name", steps));
+}
+
+void require_same_order(const SealedContent& state, const SealedContent& order) {
+  for (const SealedContent* content : {&state, &order})
+    if (!content->contains(kFormat) || sealed_value<std::int64_t>(*content, kFormat) != kCheckpointFormat)
+      return;
+  const auto& stated = sealed_entry<std::string>(order, "order/resolved");
+  const auto& found = sealed_entry<std::string>(state, "order/resolved");
+  if (found != stated)
+    throw InputError(
+        fmt::format("it is the state of another run than order.h5 beside it: its scene has '{}', that of the "
+                    "order '{}'; remove the file that is not of this run",
+                    line_missing_in(stated, found), line_missing_in(found, stated)));
+  if (files_of_order(state) != files_of_order(order))
+    throw InputError(
+        "it is the state of another run than order.h5 beside it: files that the scene names have another "
+        "content; remove the file that is not of this run");
 }
 
 std::string other_origin(const SealedContent& content, const Model& model) {

@@ -68,6 +68,10 @@ void unpack_followed(const SealedContent& content, const Model& model, Simulatio
 /// format is left to unpack_order(), which says how to go on.
 void require_state(const CheckpointFolder::Found& found);
 
+/// InputError where the state is that of another run than the order: values that `tread resume` changes are
+/// in neither scene. Other formats are left to unpack_order().
+void require_same_order(const SealedContent& state, const SealedContent& order);
+
 /// Reason why the bits may differ from those of the program that wrote the checkpoint; empty if they do not.
 std::string other_origin(const SealedContent& content, const Model& model);
 

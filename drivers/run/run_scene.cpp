@@ -267,10 +267,24 @@ std::string listed(const std::vector<std::string>& sentences) {
   return text;
 }
 
+/// What the run was asked for; nothing where a run that has states has lost it.
+std::optional<SealedContent> kept_order(const RunSession& session) {
+  try {
+    return session.checkpoints.read_order();
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 /// The newest sound checkpoint; nothing where the run has none yet. InputError where none is sound.
 std::optional<CheckpointFolder::Found> find_checkpoint(const RunSession& session) {
   std::vector<std::string> refused;
-  std::optional<CheckpointFolder::Found> found = session.checkpoints.newest(refused, require_state);
+  const std::optional<SealedContent> order = kept_order(session);
+  std::optional<CheckpointFolder::Found> found =
+      session.checkpoints.newest(refused, [&](const CheckpointFolder::Found& state) {
+        require_state(state);
+        if (order) require_same_order(state.content, *order);
+      });
   if (!found && !refused.empty())
     throw InputError(
         fmt::format("no checkpoint is of use: {}; start the run anew with `tread run ... "

@@ -221,6 +221,20 @@ TEST_F(Resume, AFileThatHoldsNoStateIsReplacedByThePreviousOne) {
   EXPECT_TRUE(has(errors(), "from " + states[0].string())) << errors();
 }
 
+TEST_F(Resume, AStateOfAnotherRunIsReplacedByThePreviousOne) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  const fs::path other = root_ / "other";
+  ASSERT_EQ(call(run(other, "--set contact.friction=0.3 --set stop.steps=800")), 4);
+  const fs::path state = CheckpointFolder(other / "checkpoint").states().front();
+  const fs::path copy = folder_ / "checkpoint" / state.filename();
+  fs::copy_file(state, copy);
+  EXPECT_EQ(call(resume("--set stop.steps=750 --set output.checkpoint_interval=\"1 h\"")), 4) << errors();
+  EXPECT_TRUE(has(errors(), "cannot use " + copy.string() + ": it is the state of another run")) << errors();
+  EXPECT_TRUE(has(errors(), "friction = 0.3") && has(errors(), "[resume] from ")) << errors();
+  fs::remove(copy);
+  expect_finishes_as_if_never_stopped("--set stop.steps=0");
+}
+
 TEST_F(Resume, ACheckpointOfAnotherFormatIsRefusedByName) {
   ASSERT_EQ(call(run(folder_, "--set stop.steps=40 --set motion.duration=\"0.1 ms\"")), 4) << errors();
   const CheckpointFolder checkpoints(folder_ / "checkpoint");
