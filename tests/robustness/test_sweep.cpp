@@ -223,6 +223,15 @@ TEST_F(Sweep, DamagedResultsOfAPointNameItsFolder) {
   EXPECT_TRUE(has(errors(), "summary.json: no JSON object")) << errors();
   EXPECT_TRUE(has(errors(), "remove " + point.string() + ", and start")) << errors();
   EXPECT_FALSE(has(errors(), "writes the file anew")) << errors();
+  program_.write("runs/velocity=1m_s/summary.json", "{}");
+  EXPECT_EQ(sweep(file), 2);
+  EXPECT_TRUE(has(errors(), "summary.json: 'elements' is not a number; the results")) << errors();
+  const std::string sound = content_of(runs_ / "velocity=2m_s/summary.json");
+  program_.write("runs/velocity=1m_s/summary.json", sound);
+  fs::resize_file(point / "run.h5", 100);
+  EXPECT_EQ(sweep(file), 2);
+  EXPECT_TRUE(has(errors(), "run.h5") && has(errors(), "remove " + point.string() + ", and start"))
+      << errors();
   fs::remove_all(point);
   EXPECT_EQ(sweep(file), 0) << errors();
 }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "drivers/engine/sections.hpp"
+#include "io/files/hdf5_file.hpp"
 #include "io/text/text_file.hpp"
 
 namespace tread {
@@ -35,6 +36,26 @@ FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& 
     return {label, folder, scene, parse_json(read_text_file(summary, kLargest), summary.string())};
   } catch (const InputError& error) {
     refuse_damaged(folder, error);
+  }
+}
+
+void require_sound_results(const FinishedRun& run) {
+  std::vector<std::string> needed = {"elements", "steps", "dt_s"};
+  if (run.rolled() && run.scene.rail && run.scene.contact)
+    for (const char* path : {"vertical_force_N.mean", "vertical_force_N.min", "vertical_force_N.max",
+                             "longitudinal_force_N.mean", "max_pressure_Pa", "frictional_work_J"})
+      needed.emplace_back(path);
+  const auto missing = [&](const std::string& path) { return !run.number(path); };
+  for (const ResultColumn& column : result_columns())
+    if (run.summary.contains(column.path)) needed.push_back(column.path);
+  const auto wrong = std::find_if(needed.begin(), needed.end(), missing);
+  try {
+    if (wrong != needed.end())
+      throw InputError(
+          fmt::format("{}: '{}' is not a number", (run.folder / "summary.json").string(), *wrong));
+    if (run.scene.motion) Hdf5File::open_to_read(run.folder / "run.h5");
+  } catch (const InputError& error) {
+    refuse_damaged(run.folder, error);
   }
 }
 

@@ -31,6 +31,10 @@ struct FinishedRun {
 FinishedRun read_finished_run(const std::filesystem::path& folder, const Scene& scene,
                               const std::string& label);
 
+/// Throws InputError where the summary lacks a number that every run has, or states another thing in the
+/// place of one, or where the run's histories do not open.
+void require_sound_results(const FinishedRun& run);
+
 /// First run of that label; nullptr if there is none.
 const FinishedRun* find_run(const std::vector<FinishedRun>& runs, const std::string& label);
 

@@ -93,8 +93,10 @@ void add_curves(const CurvesSpec& spec, const std::vector<FinishedRun>& runs, Ch
 std::vector<FinishedRun> finished_runs(const StudyPlan& plan) {
   std::vector<FinishedRun> runs;
   for (const PlannedPoint& point : plan.points)
-    if (point.status.state == PointState::done)
+    if (point.status.state == PointState::done) {
       runs.push_back(read_finished_run(point.folder, point.resolved.scene, point.name));
+      require_sound_results(runs.back());
+    }
   return runs;
 }
 
