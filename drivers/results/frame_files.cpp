@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -36,6 +38,15 @@ struct SurfaceRow {
   int row = -1;  ///< -1: none
   Vec3 across;   ///< unit vector to the field side
 };
+
+/// Returns false for a file that is cut off in the eight bytes with which HDF5 begins, or has others.
+bool begins_as_hdf5(const fs::path& file) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  std::array<char, kSignature.size()> first{};
+  std::ifstream stream(file, std::ios::binary);
+  return stream.read(first.data(), first.size()) &&
+         std::string_view(first.data(), first.size()) == kSignature;
+}
 
 std::vector<SurfaceRow> rows_of_nodes(const Section& section, const SurfaceGrid& grid) {
   std::vector<SurfaceRow> rows(static_cast<std::size_t>(section.nodes()));
@@ -136,10 +147,31 @@ FrameFiles::FrameFiles(const Model& model, fs::path directory, std::int64_t step
       dt_(dt),
       due_(frame_steps(model.scene.output.frames, steps)) {
   remove_parts(folder());
-  const std::vector<std::int64_t> there = steps_in(folder(), kSuffix);
+  const std::vector<std::int64_t> frames = there();
   std::erase_if(due_,
-                [&](std::int64_t step) { return std::binary_search(there.begin(), there.end(), step); });
-  if (!there.empty()) write_series();
+                [&](std::int64_t step) { return std::binary_search(frames.begin(), frames.end(), step); });
+  if (!steps_in(folder(), kSuffix).empty()) write_series();
+}
+
+std::vector<std::int64_t> FrameFiles::there() const {
+  std::vector<std::int64_t> steps = steps_in(folder(), kSuffix);
+  std::erase_if(steps,
+                [&](std::int64_t step) { return !begins_as_hdf5(step_file(folder(), step, kSuffix)); });
+  return steps;
+}
+
+std::vector<std::string> FrameFiles::gaps(std::int64_t steps) const {
+  std::vector<std::string> texts;
+  for (const std::int64_t step : steps_in(folder(), kSuffix))
+    if (const fs::path file = step_file(folder(), step, kSuffix); !begins_as_hdf5(file))
+      texts.push_back(fmt::format("{}: it is no HDF5 file, so {} leaves it out; remove it", file.string(),
+                                  (directory_ / kSeries).string()));
+  if (const auto lacking = std::upper_bound(due_.begin(), due_.end(), steps) - due_.begin(); lacking > 0)
+    texts.push_back(fmt::format(
+        "{}: {} of the frames up to step {} are not there, and this run writes only later ones; start the "
+        "run anew for all",
+        folder().string(), lacking, steps));
+  return texts;
 }
 
 fs::path FrameFiles::folder() const {
@@ -151,7 +183,7 @@ bool FrameFiles::due(std::int64_t steps) const {
 }
 
 std::size_t FrameFiles::count() const {
-  return steps_in(folder(), kSuffix).size();
+  return there().size();
 }
 
 void FrameFiles::copy(const Simulation& simulation) {
@@ -194,7 +226,7 @@ void FrameFiles::write_copy() {
 
 void FrameFiles::write_series() const {
   Json files = Json::array();
-  for (const std::int64_t steps : steps_in(folder(), kSuffix))
+  for (const std::int64_t steps : there())
     files.push_back(
         {{"name", step_file(kFolder, steps, kSuffix).string()}, {"time", static_cast<double>(steps) * dt_}});
   show_text_file(directory_ / kSeries, json_text({{"file-series-version", "1.0"}, {"files", files}}));

@@ -43,6 +43,9 @@ class FrameFiles {
   /// Writes the frame of the last copy() and frees the copy. Steps may go on meanwhile. Throws ResourceError.
   void write();
 
+  /// Sentences on files in the folder that are no frames, and on frames up to a step that it lacks.
+  std::vector<std::string> gaps(std::int64_t steps) const;
+
   /// Number of frames in the folder.
   std::size_t count() const;
 
@@ -67,6 +70,8 @@ class FrameFiles {
   };
 
   std::filesystem::path folder() const;
+  /// Steps of the frames in the folder, ascending; files that are no HDF5 are left out.
+  std::vector<std::int64_t> there() const;
   void begin();
   void write_copy();
   void write_series() const;

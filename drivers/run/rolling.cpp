@@ -54,6 +54,8 @@ void Rolling::go_on(const SealedContent& checkpoint) {
   files_.emplace(*model_, session_->folder.path(), *results_,
                  patch == checkpoint.end() ? "" : std::get<std::string>(patch->second));
   frames_.emplace(*model_, session_->folder.path(), end_, results_->dt);
+  for (const std::string& gap : frames_->gaps(simulation_->steps()))
+    session_->progress.say("[warning] " + gap);
   written_ = Mark{simulation_->steps(), simulation_->time()};
   seconds_before_ = results_->seconds_rolling;
   if (simulation_->steps() > end_)

@@ -320,6 +320,23 @@ TEST_F(Resume, AStopSaysWhyAndKeepsTheState) {
   EXPECT_TRUE(has(errors(), "the run needs about")) << errors();
 }
 
+TEST_F(Resume, FramesThatAreDamagedOrDeletedAreNamed) {
+  ASSERT_EQ(call(run(folder_, "--set stop.steps=700")), 4);
+  EXPECT_EQ(call(resume("--set stop.steps=720")), 4);
+  EXPECT_FALSE(has(errors(), "[warning] " + (folder_ / "frames").string())) << errors();
+  std::vector<std::string> steps;
+  for (const std::string& name : frames_in(folder_))
+    if (name.starts_with("step-")) steps.push_back(name);
+  ASSERT_GE(steps.size(), 2U);
+  const fs::path damaged = folder_ / "frames" / steps[0];
+  std::ofstream(damaged) << "x\n";
+  fs::remove(folder_ / "frames" / steps[1]);
+  EXPECT_EQ(call(resume("--set stop.steps=730")), 4);
+  EXPECT_TRUE(has(errors(), damaged.string() + ": it is no HDF5 file")) << errors();
+  EXPECT_TRUE(has(errors(), ": 2 of the frames up to step 7")) << errors();
+  EXPECT_FALSE(has(content_of(folder_ / "frames.hdf.series"), steps[0]));
+}
+
 TEST_F(Resume, AFrameThatDoesNotFitEndsTheRunAndComesLater) {
   // [512 B]: a checkpoint fits, the mesh of all elements does not.
   EXPECT_EQ(call(run(folder_, "--set output.frame_cells=elements"), "ulimit -f 2200;"), 4);
