@@ -7,8 +7,13 @@ namespace tread {
 
 namespace fs = std::filesystem;
 
+std::string stated_share() {
+  const char* stated = std::getenv("TREAD_SHARE");
+  return stated != nullptr ? stated : "";
+}
+
 std::vector<fs::path> share_folders() {
-  if (const char* stated = std::getenv("TREAD_SHARE"); stated && *stated != '\0') return {stated};
+  if (const std::string stated = stated_share(); !stated.empty()) return {stated};
   std::vector<fs::path> folders;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -22,6 +27,10 @@ namespace {
 std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders;
   for (const fs::path& folder : share_folders()) folders.push_back(folder / "scenes");
+  if (!stated_share().empty()) {  // an installed folder, or share/ of a source tree
+    folders.push_back((fs::absolute(stated_share()) / ".." / "scenes").lexically_normal());
+    return folders;
+  }
   if (const fs::path source = TREAD_SOURCE_SHARE; !source.empty())
     folders.push_back(source.parent_path() / "scenes");
   return folders;

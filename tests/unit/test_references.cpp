@@ -139,6 +139,21 @@ TEST_F(ShareFolder, HoldsTheReferencesOfTheLibrary) {
   EXPECT_EQ(levels[0].at, 0.276);
 }
 
+TEST_F(ShareFolder, ScenesAreOnlyWhereTheEnvironmentSays) {
+  const fs::path share = folder_.path / "share";
+  fs::create_directories(folder_.path / "scenes");
+  ::setenv("TREAD_SHARE", share.c_str(), 1);
+  EXPECT_EQ(find_scene("tyre"), "tyre");
+  EXPECT_TRUE(shipped_scenes().empty());
+  std::ofstream(folder_.path / "scenes/beside.toml") << "";
+  EXPECT_EQ(shipped_scenes(), std::vector<std::string>{"beside"});
+  fs::create_directories(share / "scenes");
+  std::ofstream(share / "scenes/own.toml") << "";
+  EXPECT_EQ(find_scene("own"), share / "scenes/own.toml");
+  ::setenv("TREAD_SHARE", TREAD_SOURCE_DIR "/share", 1);
+  EXPECT_NE(find_scene("tyre"), "tyre");
+}
+
 TEST_F(ShareFolder, IsWhereTheEnvironmentSays) {
   fs::create_directories(folder_.path / "references");
   ::setenv("TREAD_SHARE", folder_.path.c_str(), 1);
