@@ -1,10 +1,12 @@
 #include "drivers/cli/common_options.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -32,9 +34,41 @@ void add_quality_option(CLI::App& command, std::string& quality, const char* tex
   command.add_option("-q,--quality", quality, text)->type_name("draft|standard|paper");
 }
 
+/// Returns true if a line of the file begins with the text.
+bool has_line(const std::string& file, std::string_view text) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(text)) return true;
+  return false;
+}
+
+void require_file(const std::string& stated, const char* kind) {
+  if (stated.empty())
+    throw InputError(fmt::format("the name of the {} is empty; state a file or a shipped one", kind));
+  std::error_code ignored;
+  if (std::filesystem::exists(stated, ignored)) return;
+  const std::string share = stated_share();
+  const std::string place = share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}", share);
+  throw InputError(fmt::format("cannot read {}: there is no such file; shipped{}: {}", stated, place,
+                               fmt::join(shipped_scenes(), ", ")));
+}
+
 }  // namespace
 
+void require_scene_file(const std::string& stated) {
+  require_file(stated, "scene");
+  if (has_line(stated, "[study]"))
+    throw InputError(fmt::format("{} is a study, not a scene: `tread sweep {}` runs it", stated, stated));
+}
+
+void require_study_file(const std::string& stated) {
+  require_file(stated, "study");
+  if (!has_line(stated, "[study]") && has_line(stated, "[scene]"))
+    throw InputError(fmt::format("{} is a scene, not a study: `tread run {}` runs it", stated, stated));
+}
+
 ResolvedScene SceneArguments::resolve() const {
+  require_scene_file(scene);
   std::vector<std::string> all;
   if (!quality.empty()) all.push_back("scene.quality=" + quality);
   if (!precision.empty()) all.push_back("scene.precision=" + precision);

@@ -50,6 +50,11 @@ void add_study_options(CLI::App& command, StudyOptions& options);
 /// come first.
 CLI::Option* or_shipped(CLI::Option* option);
 
+/// InputError where the path that or_shipped() left leads to no file, or to a study.
+void require_scene_file(const std::string& stated);
+/// InputError where it leads to no file, or to a scene.
+void require_study_file(const std::string& stated);
+
 /// Returns the option of the scene itself.
 CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments);
 

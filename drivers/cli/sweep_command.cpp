@@ -16,7 +16,11 @@ void add_sweep(CLI::App& app, const std::string& command_line) {
       "sweep", "run a study: a scene with varied keys, one run a point; continues a stopped one");
   or_shipped(command.add_option("study", options->study, "study file (TOML), or the name of a shipped one"))
       ->required();
-  add_study(command, options, sweep);
+  add_study(
+      command, options, +[](const SweepOptions& stated) {
+        require_study_file(stated.study.string());
+        return sweep(stated);
+      });
 }
 
 }  // namespace tread
