@@ -202,7 +202,9 @@ class TableParser {
   void add_row(const std::vector<std::string>& row, const std::string& line) {
     if (row.size() != columns_)
       throw InputError(fmt::format("expected {} numbers, found {} columns{}", columns_, row.size(),
-                                   comma_hint(line, columns_)));
+                                   row.size() > 2 * columns_
+                                       ? "; leave the others out, with a line of units at the top"
+                                       : comma_hint(line, columns_)));
     const bool missing = !units_ && rules_.needs_units;
     if (!units_) units_ = std::vector<Unit>(columns_, length_unit("mm"));
     if (missing)

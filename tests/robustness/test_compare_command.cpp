@@ -74,7 +74,13 @@ TEST_F(CompareCommand, NamesWhatIsWrong) {
   refused(curve().string() + " --offset 1s", "--offset \"1s\"");
   refused(curve().string() + " --offset 5m", "move the curve by --offset");
   refused(curve().string() + " --mean -1mm", "--mean \"-1mm\" is negative");
+  refused(curve().string() + " --from 5m", "--from 5 m leaves too little");
+  refused(curve().string() + " --mean 10m", "--mean 10 m leaves too little");
+  refused(curve().string() + " --from 2mm --to 1mm", "--from \"2mm\" is not before --to \"1mm\"");
   refused((root_ / "none.txt").string(), "cannot read");
+  refused((folder() / "histories.csv").string(), "columns; leave the others out");
+  EXPECT_EQ(call(fmt::format("compare {} {}", (root_ / "absent").string(), curve().string())), 2);
+  EXPECT_TRUE(has(errors(), "there is no folder")) << errors();
 
   const fs::path still = root_ / "static";
   const fs::path scene = fs::path(TREAD_SOURCE_DIR) / "scenes/sphere-on-block.toml";

@@ -40,6 +40,9 @@ ComparisonOptions comparison_options(const CompareOptions& options) {
     throw InputError(fmt::format("--mean \"{}\" is negative; state a way such as \"7 mm\"", options.mean));
   comparison.first = length_of("--from", options.first);
   comparison.last = length_of("--to", options.last);
+  if (comparison.first && comparison.last && *comparison.first >= *comparison.last)
+    throw InputError(fmt::format("--from \"{}\" is not before --to \"{}\"; state them in this order",
+                                 options.first, options.last));
   return comparison;
 }
 

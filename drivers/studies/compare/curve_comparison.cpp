@@ -73,16 +73,32 @@ OverTheWay over_the_way(const ForceCurve& curve, const TransientRun& run) {
   return over;
 }
 
-[[noreturn]] void too_little_in_common(const TransientRun& run, const ForceCurve& curve) {
+/// "--from 5 m, --mean 10 m", the stated limits of the compared stretch.
+std::string stated_limits(const ComparisonOptions& options) {
+  std::vector<std::string> texts;
+  if (options.first) texts.push_back(fmt::format("--from {:.6g} m", *options.first));
+  if (options.last) texts.push_back(fmt::format("--to {:.6g} m", *options.last));
+  if (options.mean > 0) texts.push_back(fmt::format("--mean {:.6g} m", options.mean));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+[[noreturn]] void too_little_in_common(const TransientRun& run, const ForceCurve& curve,
+                                       const ComparisonOptions& options) {
   const char* unit = curve.over_time ? "s" : "m";
-  const double first = curve.over_time ? run.time.front() : run.x.front();
-  const double last = curve.over_time ? run.time.back() : run.x.back();
+  const auto rounded = [](double value) { return std::abs(value) < 1e-9 ? 0 : value; };
+  const double first = rounded(curve.over_time ? run.time.front() : run.x.front());
+  const double last = rounded(curve.over_time ? run.time.back() : run.x.back());
+  const std::string limits = stated_limits(options);
+  const std::string cure = limits.empty() ? "move the curve by --offset"
+                                          : fmt::format(
+                                                "{} leaves too little: state others, or move the "
+                                                "curve by --offset; the wheel is at {:.6g} to {:.6g} m",
+                                                limits, rounded(run.x.front()), rounded(run.x.back()));
   throw InputError(fmt::format(
       "{}: it covers {:.6g} to {:.6g} {unit}, the run {} covers {:.6g} to {:.6g} {unit}: fewer than "
-      "two samples of the run lie in both; move the curve by --offset, or state other --from, --to "
-      "and --mean",
-      curve.name, curve.at.front(), curve.at.back(), run.directory.string(), first, last,
-      fmt::arg("unit", unit)));
+      "two samples of the run lie in both; {}",
+      curve.name, rounded(curve.at.front()), rounded(curve.at.back()), run.directory.string(), first, last,
+      cure, fmt::arg("unit", unit)));
 }
 
 /// Lead of the peaks before the crests of the scene's sine [rad].
@@ -112,7 +128,7 @@ CurveComparison compare(const TransientRun& run, const ForceCurve& curve, const 
     c.curve.push_back(theirs);
     squares += (ours - theirs) * (ours - theirs);
   }
-  if (c.x.size() < 2) too_little_in_common(run, curve);
+  if (c.x.size() < 2) too_little_in_common(run, curve, options);
   c.of_run = statistics(c.run);
   c.of_curve = statistics(c.curve);
   c.misfit = std::sqrt(squares / static_cast<double>(c.x.size()));

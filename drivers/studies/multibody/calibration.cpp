@@ -113,6 +113,9 @@ double TransientRun::speed_between(double first, double last) const {
 TransientRun read_transient_run(const std::filesystem::path& directory, const std::string& force) {
   TransientRun run;
   run.directory = directory;
+  if (!std::filesystem::is_directory(directory))
+    throw InputError(
+        fmt::format("there is no folder {}: give the one that `tread run -o` was given", directory.string()));
   run.scene = read_scene(directory / kKeptScene);
   if (!run.scene.motion)
     throw InputError(
