@@ -146,7 +146,9 @@ TEST_F(Commands, RoughnessNamesTheBrokenLine) {
   EXPECT_TRUE(has(answer("# [m] [kg]\n0 1\n").out, "not a length"));
   EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n0.003 2\n0.5 2\n").out, "no rows between"));
   EXPECT_TRUE(has(answer(head + "0.001 2\n0.002 2\n").out, "no band of"));
+  EXPECT_TRUE(has(answer("# x [m] r [um]\n0 0\n0.001 0\n0.002 0\n").out, "rail.txt: the record is flat"));
   EXPECT_TRUE(has(answer("").out, "at least two rows"));
+  EXPECT_TRUE(has(call("roughness --units m,kg " + file.string()).errors, "--units m,kg: "));
   EXPECT_EQ(call("roughness " + (folder_ / "none.txt").string()).code, 2);
   EXPECT_EQ(call("roughness --segment 2 " + file.string()).code, 2);
 }

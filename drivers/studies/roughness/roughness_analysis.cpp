@@ -134,12 +134,25 @@ TableRules rules_of(const RoughnessOptions& options) {
     throw InputError(
         fmt::format("--units {}: expected the units of both columns, for example m,um", options.units));
   rules.units = {options.units.substr(0, comma), options.units.substr(comma + 1)};
+  for (const std::string& unit : *rules.units) {
+    try {
+      parse_quantity("1 " + unit, kLength);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--units {}: {}", options.units, error.what()));
+    }
+  }
   return rules;
 }
 
 Outcome processed(const RoughnessOptions& options) {
   Outcome o;
   TwoColumns rows = read_two_columns(options.file, rules_of(options));
+  const auto [lowest, highest] = std::minmax_element(rows.second.begin(), rows.second.end());
+  if (lowest != rows.second.end() && *lowest == *highest)
+    throw InputError(fmt::format(
+        "{}: the record is flat, all heights are {:.6g} um, so it has no levels; is it the column "
+        "of the height, and has the file its digits?",
+        options.file.string(), 1e6 * *lowest));
   if (options.depth)
     for (double& value : rows.second) value = -value;
   o.profile = even_profile(rows, options.file.string());
