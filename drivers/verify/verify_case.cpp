@@ -13,7 +13,12 @@ namespace tread {
 bool VerifyInputs::set(std::string_view name, std::string_view value) {
   for (VerifyInput& input : inputs_) {
     if (input.name != name) continue;
-    const double number = input.quantity ? parse_quantity(value, *input.quantity) : parse_number(value);
+    double number = 0;
+    try {
+      number = input.quantity ? parse_quantity(value, *input.quantity) : parse_number(value);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--set {}={}: {}", name, value, error.what()));
+    }
     const auto shown = [&](double si) {
       return input.quantity ? format_quantity(si, input.unit) : fmt::format("{:g}", si);
     };
