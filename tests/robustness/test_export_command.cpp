@@ -65,6 +65,10 @@ TEST_F(ExportCommand, WrongChoicesAreRefused) {
   EXPECT_TRUE(has(errors(), "leave one out")) << errors();
   EXPECT_EQ(export_tyre("no.k", "--overlap \"3 kg\""), 2);
   EXPECT_TRUE(has(errors(), "--overlap")) << errors();
+  for (const char* wrong : {"5 m", "-20 um"}) {
+    EXPECT_EQ(export_tyre("no.k", fmt::format("--overlap=\"{}\"", wrong)), 2);
+    EXPECT_TRUE(has(errors(), "lies between 0 and 1 mm")) << errors();
+  }
   EXPECT_FALSE(fs::exists(root_ / "no.k"));
 }
 

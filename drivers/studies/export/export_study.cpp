@@ -76,6 +76,12 @@ DeckOptions deck_options(const ExportOptions& options) {
   DeckOptions deck;
   if (options.reader == "ls-dyna") deck.reader = DeckReader::ls_dyna;
   if (!options.overlap.empty()) deck.overlap = quantity_of("--overlap", options.overlap, kLength);
+  constexpr double kMostOverlap = 1e-3;  // [m]
+  if (deck.overlap < 0 || deck.overlap > kMostOverlap)
+    throw InputError(
+        fmt::format("--overlap \"{}\": it lies between 0 and 1 mm; state what carries the load, such as \"20 "
+                    "um\"",
+                    options.overlap));
   if (options.ramp.empty()) return deck;
   deck.ramp = quantity_of("--ramp", options.ramp, kTime);
   if (options.preload)
