@@ -27,7 +27,9 @@ void refuse_long_lines(const std::string& text, const std::string& file) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
     if (end - start > kLongestLine) {
       throw ProblemsError(
-          {{file, line, 0, "", fmt::format("the line has more than {} bytes", kLongestLine)}});
+          {{file, line, 0, "",
+            fmt::format("the line has more than {} bytes; an array may go on in the next lines",
+                        kLongestLine)}});
     }
     start = end + 1;
   }

@@ -392,7 +392,8 @@ TEST(SceneErrors, Syntax) {
   expect_part(error_of("[rail]\nlength = = 3\n"), "x.toml:2:10: ");
   expect_part(error_of("[rail]\nlength = \"3 m\"\nlength = \"4 m\"\n"), "x.toml:3:");
   expect_part(error_of("[rail\n"), "x.toml:1:");
-  EXPECT_EQ(error_of("a" + std::string(400000, '.')), "x.toml:1: the line has more than 2000 bytes");
+  EXPECT_EQ(error_of("a" + std::string(400000, '.')),
+            "x.toml:1: the line has more than 2000 bytes; an array may go on in the next lines");
   expect_part(error_of("a = " + std::string(1000, '[')), "x.toml:1:");
   EXPECT_EQ(error_of("[scene]\n[\\x]\n[rail]\n"), "x.toml:2: the line is not valid TOML");
   const std::string foreign = "a character that is not ASCII stands outside of quotes and comments";

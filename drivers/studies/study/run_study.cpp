@@ -156,7 +156,7 @@ void leave_scene(const Study& study) {
 
 /// The error that reports points without an end.
 std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped_by,
-                               const std::string& resume_command, bool retry) {
+                               const std::string& resume_command, const StudyOptions& options) {
   std::string failures;
   int failed = 0;
   int left = 0;
@@ -172,10 +172,11 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
   if (failed > 0)
     return Error(plan.failure_code(),
                  fmt::format("{} of {} points failed:{}\n`{}{}` tries them again", failed, plan.points.size(),
-                             failures, resume_command, retry ? "" : " --retry"));
+                             failures, resume_command, options.retry ? "" : " --retry"));
   if (left > 0)
-    return Interrupted(
-        fmt::format("{} points are not done (see the log above); `{}` goes on", left, resume_command));
+    return Interrupted(fmt::format("{} points are not done ({}); `{}` goes on", left,
+                                   options.quiet ? "see log.txt in their folders" : "see the log above",
+                                   resume_command));
   return std::nullopt;
 }
 
@@ -249,7 +250,7 @@ std::optional<Error> run_study(const Study& study, const StudyOptions& options,
   interruption.defer();
   const std::string stopped_by = StudyRunner(plan, *folder, progress, {command}).run(options.retry);
   leave(plan);
-  return shortfall(plan, stopped_by, resume_command, options.retry);
+  return shortfall(plan, stopped_by, resume_command, options);
 }
 
 }  // namespace tread
