@@ -142,6 +142,7 @@ void begin_fork(const RunSession& session, const Fork& fork, const Model& model,
   if (model.scene.output.frames > 0)
     FrameFiles::take_over(origin.folder, session.folder.path(), origin.steps);
   session.checkpoints.write(origin.steps, fork.content);
+  session.checkpoints.write_order(pack_order(session.order));  // not before: without a state it begins anew
   session.progress.say(
       fmt::format("[fork] from {} at t = {:.6e} s (step {}); histories and frames up to there are copies",
                   origin.folder, origin.time, origin.steps));
@@ -309,6 +310,9 @@ Fork read_other(const RunOptions& options, const RunOrder& wanted) {
 void read_order(RunSession& session, const std::optional<CheckpointFolder::Found>& found) {
   RunOrder& order = session.order;
   order = unpack_order(found ? found->content : session.checkpoints.read_order());
+  if (!found && order.origin)
+    throw InputError(fmt::format("{} has lost the states of its fork; start it anew with --from {}",
+                                 session.folder.path().string(), order.origin->folder));
   const std::vector<std::string>& now = session.options.overrides;
   refuse_other_keys(now);
   resolve_order(order, session.folder.path());

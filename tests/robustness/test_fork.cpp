@@ -95,6 +95,15 @@ TEST_F(Fork, CanBeKilledAndResumedWithoutTheOtherRun) {
   expect_same_run(root_ / "sine", folder_);
 }
 
+TEST_F(Fork, ThatHasLostItsStatesDoesNotBeginAtTheStart) {
+  ASSERT_EQ(call(from("sine.toml", "smooth", "--set stop.steps=1010")), 4) << errors();
+  const auto states = CheckpointFolder(folder_ / "checkpoint").states();
+  ASSERT_FALSE(states.empty());
+  for (const fs::path& state : states) fs::remove(state);
+  EXPECT_EQ(call("resume " + folder_.string()), 2);
+  EXPECT_TRUE(has(errors(), "has lost the states of its fork")) << errors();
+}
+
 TEST_F(Fork, EndsEarlierWhereItsSceneSaysSo) {
   EXPECT_EQ(call(from("sine.toml", "smooth", "--set \"motion.duration=1.6 ms\"")), 0) << errors();
   const std::string histories = content_of(folder_ / "histories.csv");
