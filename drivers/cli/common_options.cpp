@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -48,9 +49,15 @@ void require_file(const std::string& stated, const char* kind) {
   std::error_code ignored;
   if (std::filesystem::exists(stated, ignored)) return;
   const std::string share = stated_share();
-  const std::string place = share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}", share);
-  throw InputError(fmt::format("cannot read {}: there is no such file; shipped{}: {}", stated, place,
-                               fmt::join(shipped_scenes(), ", ")));
+  std::vector<std::string> shipped = shipped_scenes();
+  std::sort(shipped.begin(), shipped.end());
+  if (shipped.empty())
+    throw InputError(
+        fmt::format("cannot read {}: there is no such file, and no shipped scene{}", stated,
+                    share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}; correct or unset it", share)));
+  throw InputError(fmt::format("cannot read {}: there is no such file; shipped{}: {}", stated,
+                               share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}", share),
+                               fmt::join(shipped, ", ")));
 }
 
 }  // namespace
