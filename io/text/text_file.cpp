@@ -23,6 +23,7 @@ namespace {
 
 std::string read_bytes(const fs::path& path, std::size_t limit) {
   std::error_code error;
+  if (path.empty()) throw InputError("the name of a file to read is empty; state one");
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) refuse(path, error ? error.message() : "no such file");
   if (fs::is_directory(status)) refuse(path, "it is a directory, not a file");

@@ -74,6 +74,7 @@ double quantity_of(const char* option, const std::string& text, const Quantity& 
 
 DeckOptions deck_options(const ExportOptions& options) {
   DeckOptions deck;
+  if (options.output.empty()) throw InputError("-o: the name of the deck is empty; state a file");
   if (options.reader == "ls-dyna") deck.reader = DeckReader::ls_dyna;
   if (!options.overlap.empty()) deck.overlap = quantity_of("--overlap", options.overlap, kLength);
   constexpr double kMostOverlap = 1e-3;  // [m]
