@@ -82,6 +82,13 @@ inline Apart apart(std::int64_t values, const Simulation& a, const Simulation& b
           difference(values, a.velocity(), b.velocity())};
 }
 
+/// Root of the sum of the squared differences of two fields.
+inline double noise(std::int64_t values, ConstNodeField a, ConstNodeField b) {
+  double sum = 0;
+  for (std::int64_t i = 0; i < values; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
 /// Largest difference of two lists, by the largest value of the former.
 inline double difference(std::span<const double> a, std::span<const double> b) {
   double largest = 0;
@@ -141,11 +148,13 @@ inline Apart expect_same_fields(const Simulation& in_double, DeviceCase& at, con
     expect_same_contact(in_double, on_device);
     expect_same_energies(in_double.sample(), on_device.sample());
   } else {
-    // Velocities hold the noise of rounding: the device's must not exceed the processor's.
+    // Velocities hold the noise of rounding: the device's must not exceed the processor's by more than sums
+    // in another order do. The largest of all values would scatter.
     const auto on_processor = roll(at.start(nullptr), in_double.steps());
     EXPECT_LT(apart(at.values(), *on_processor, on_device).displacement, 1e-5);
     EXPECT_LT(error.displacement, 1e-5);
-    EXPECT_LT(error.velocity, 2 * apart(at.values(), in_double, *on_processor).velocity);
+    EXPECT_LT(noise(at.values(), in_double.velocity(), on_device.velocity()),
+              1.25 * noise(at.values(), in_double.velocity(), on_processor->velocity()));
     // Nor must rounding work on the bodies more than there: a mistake in it repeats in every step.
     const EnergyLedger& ledger = on_processor->sample().energy;
     EXPECT_NEAR(on_device.sample().energy.residual, ledger.residual, 3e-5 * ledger.strain);
