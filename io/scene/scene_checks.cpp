@@ -88,6 +88,10 @@ class Checker {
             "a wheel carries a vehicle or a load; leave one out, for example with vehicle.present = false");
     require(!s.contact || (s.wheel && s.rail), {"contact"}, "contact needs [wheel] and [rail]");
     require(!(s.wheel && s.rail) || s.contact, {"wheel", "rail"}, "wheel and rail need [contact]");
+    require(
+        !s.vehicle || s.gravity > 0, {"scene.gravity", "vehicle"},
+        "a vehicle without weight presses no wheel on the rail; state scene.gravity above 0, or [load] in "
+        "place of [vehicle]");
     require(!s.contact || s.vehicle || s.load || s.gravity > 0, {"contact", "load"},
             "nothing presses the wheel on the rail; add [load] or [vehicle], or state scene.gravity");
     require(!s.corrugation || s.contact, {"corrugation"}, "a corrugation needs [contact]");

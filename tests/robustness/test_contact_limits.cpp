@@ -44,6 +44,10 @@ TEST(ContactLimits, TooStiffAPenaltyIsRefusedWithTheLeastRatio) {
 TEST(ContactLimits, AnythingThatPressesMustBeThere) {
   expect_part(outcome({"load.present=false", "scene.gravity=0 m/s2"}),
               "nothing presses the wheel on the rail");
+  expect_part(
+      outcome({"load.present=false", "scene.gravity=0 m/s2", "vehicle.sprung_mass=8000 kg",
+               "vehicle.unsprung_mass=300 kg", "vehicle.stiffness=1 MN/m", "vehicle.damping=1 kN s/m"}),
+      "a vehicle without weight presses no wheel on the rail");
   EXPECT_EQ(outcome({"load.wheel_load=10 kN"}), "done");
 }
 
