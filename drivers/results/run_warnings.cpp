@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "drivers/engine/traction.hpp"
 #include "drivers/results/resolution.hpp"
 
 namespace tread {
@@ -49,7 +50,8 @@ std::string balance_warning(const RunResults& r) {
 }
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
-  if (model.torque.empty() || traction_is_steady(r)) return "";
+  const bool driven = !model.torque.empty() && full_torque(model) != 0;
+  if (!driven || traction_is_steady(r)) return "";
   if (traction_slides(r))
     return fmt::format(
         "the whole patch slides in {:.0f} % of the samples of the steady stretch (x = {:.3f} to {:.3f} m): "

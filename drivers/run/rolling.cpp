@@ -171,10 +171,14 @@ void Rolling::notice_busy_cores() {
   const double share = (processor_seconds() - started_processor_) / (passed * threads());
   if (share >= kBusyShare) return;
   noticed_busy_cores_ = true;
-  session_->progress.say(fmt::format(
-      "[roll] {} threads work {:.0f} % of the time: other programs use the cores, or the scene is too "
-      "small for so many; fewer threads (-t) may be faster",
-      threads(), 100 * share));
+  session_->progress.say(
+      threads() == 1
+          ? fmt::format("[roll] the thread works {:.0f} % of the time: other programs use the cores",
+                        100 * share)
+          : fmt::format(
+                "[roll] {} threads work {:.0f} % of the time: other programs use the cores, or the scene "
+                "is too small for so many; fewer threads (-t) may be faster",
+                threads(), 100 * share));
 }
 
 void Rolling::check_disk() {
