@@ -69,8 +69,8 @@ void write_named_file(const fs::path& path, const std::function<void(const fs::p
   const fs::path file = behind_links(path);
   std::error_code error;
   if (const fs::path folder = file.parent_path(); !folder.empty() && !fs::is_directory(folder, error))
-    throw InputError(fmt::format("cannot write {}: there is no folder {}; make it, or choose another",
-                                 path.string(), folder.string()));
+    throw ResourceError(fmt::format("cannot write {}: there is no folder {}; make it, or choose another",
+                                    path.string(), folder.string()));
   const int standard = standard_file(file);
   if (standard < 0) return replace_file(file, write);
   fs::path beside = file;

@@ -13,7 +13,7 @@ bool has_neighbours(const std::filesystem::path& path);
 
 /// Replaces the file as replace_file() does. A link stays, and the file that it leads to is replaced; a pipe
 /// or device is written to directly, and a file that stdout or stderr leads to gets the data at its place
-/// there. Throws InputError for a folder that does not exist, ResourceError.
+/// there. Throws ResourceError.
 void write_named_file(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& part)>& write);
 

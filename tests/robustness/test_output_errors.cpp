@@ -221,7 +221,7 @@ TEST_F(Descriptors, ANamedPipeIsWrittenToAndALinkFollowed) {
 
 TEST_F(Descriptors, AFolderThatIsMissingIsNamed) {
   for (const std::string command : {"profile LMA -o none/x.txt", "profile LMA --svg none/x.svg"}) {
-    EXPECT_EQ(shell(":", command), 2);
+    EXPECT_EQ(shell(":", command), 4);
     EXPECT_TRUE(samples::has(content("errors"), "cannot write none/x.")) << content("errors");
     EXPECT_TRUE(samples::has(content("errors"), "there is no folder none")) << content("errors");
   }
