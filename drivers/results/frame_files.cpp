@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -38,15 +36,6 @@ struct SurfaceRow {
   int row = -1;  ///< -1: none
   Vec3 across;   ///< unit vector to the field side
 };
-
-/// Returns false for a file that is cut off in the eight bytes with which HDF5 begins, or has others.
-bool begins_as_hdf5(const fs::path& file) {
-  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
-  std::array<char, kSignature.size()> first{};
-  std::ifstream stream(file, std::ios::binary);
-  return stream.read(first.data(), first.size()) &&
-         std::string_view(first.data(), first.size()) == kSignature;
-}
 
 std::vector<SurfaceRow> rows_of_nodes(const Section& section, const SurfaceGrid& grid) {
   std::vector<SurfaceRow> rows(static_cast<std::size_t>(section.nodes()));
@@ -147,25 +136,27 @@ FrameFiles::FrameFiles(const Model& model, fs::path directory, std::int64_t step
       dt_(dt),
       due_(frame_steps(model.scene.output.frames, steps)) {
   remove_parts(folder());
+  for (const std::int64_t step : steps_in(folder(), kSuffix))
+    if (!begins_as_hdf5(step_file(folder(), step, kSuffix))) damaged_.push_back(step);
   const std::vector<std::int64_t> frames = there();
   std::erase_if(due_,
                 [&](std::int64_t step) { return std::binary_search(frames.begin(), frames.end(), step); });
-  if (!steps_in(folder(), kSuffix).empty()) write_series();
+  if (!frames.empty() || !damaged_.empty()) write_series();
 }
 
 std::vector<std::int64_t> FrameFiles::there() const {
   std::vector<std::int64_t> steps = steps_in(folder(), kSuffix);
-  std::erase_if(steps,
-                [&](std::int64_t step) { return !begins_as_hdf5(step_file(folder(), step, kSuffix)); });
+  std::erase_if(
+      steps, [&](std::int64_t step) { return std::binary_search(damaged_.begin(), damaged_.end(), step); });
   return steps;
 }
 
 std::vector<std::string> FrameFiles::gaps(std::int64_t steps) const {
   std::vector<std::string> texts;
-  for (const std::int64_t step : steps_in(folder(), kSuffix))
-    if (const fs::path file = step_file(folder(), step, kSuffix); !begins_as_hdf5(file))
-      texts.push_back(fmt::format("{}: it is no HDF5 file, so {} leaves it out; remove it", file.string(),
-                                  (directory_ / kSeries).string()));
+  for (const std::int64_t step : damaged_)
+    texts.push_back(fmt::format("{}: it is no HDF5 file, so {} leaves it out; remove it",
+                                step_file(folder(), step, kSuffix).string(),
+                                (directory_ / kSeries).string()));
   if (const auto lacking = std::upper_bound(due_.begin(), due_.end(), steps) - due_.begin(); lacking > 0)
     texts.push_back(fmt::format(
         "{}: {} of the frames up to step {} are not there, and this run writes only later ones; start the "
@@ -221,6 +212,7 @@ void FrameFiles::write_copy() {
     places_[static_cast<std::size_t>(block)] = {at_.wheel.origin, at_.wheel.angle};
   write_vtk_frame(step_file(folder(), at_.steps, kSuffix),
                   {mesh_name(grid_.kind), at_.time, points(), arrays(), root_attributes(model_->scene)});
+  std::erase(damaged_, at_.steps);
   write_series();
 }
 

@@ -70,7 +70,7 @@ class FrameFiles {
   };
 
   std::filesystem::path folder() const;
-  /// Steps of the frames in the folder, ascending; files that are no HDF5 are left out.
+  /// Steps of the frames in the folder, ascending; damaged ones are left out.
   std::vector<std::int64_t> there() const;
   void begin();
   void write_copy();
@@ -83,8 +83,9 @@ class FrameFiles {
   const Model* model_;
   std::filesystem::path directory_;
   double dt_;
-  std::vector<std::int64_t> due_;  ///< ascending
-  std::vector<Placement> places_;  ///< placements of the blocks at the instant
+  std::vector<std::int64_t> due_;      ///< ascending
+  std::vector<std::int64_t> damaged_;  ///< steps of files that were no HDF5 at the start, ascending
+  std::vector<Placement> places_;      ///< placements of the blocks at the instant
   VtkGrid grid_;
   Instant at_;
   bool begun_ = false;

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 #include <hdf5.h>
 
+#include <array>
+#include <fstream>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -68,6 +70,13 @@ Id access() {
 }
 
 }  // namespace
+
+bool begins_as_hdf5(const std::filesystem::path& path) {
+  constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
+  std::array<char, kSignature.size()> first{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(first.data(), first.size()) && std::string_view(first.data(), first.size()) == kSignature;
+}
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Id list = access();

@@ -15,6 +15,9 @@ namespace tread {
 /// Attributes of an object by name: numbers and texts.
 using Hdf5Attributes = std::map<std::string, std::variant<double, std::string>>;
 
+/// Returns true if the file begins as HDF5 files do.
+bool begins_as_hdf5(const std::filesystem::path& path);
+
 /// An open HDF5 file. The element type T of data is double, float, std::int64_t, std::int32_t or
 /// std::uint8_t. Errors name the file, the object and the system's reason: InputError if a file or object to
 /// read is missing or of another shape, ResourceError if something cannot be written. Move-only.

@@ -4,8 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,15 +15,6 @@
 namespace tread {
 
 namespace {
-
-constexpr std::string_view kHdf5 = "\x89HDF\r\n\x1a\n";  // how such a file begins
-
-bool is_hdf5(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(kHdf5.size(), '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start == kHdf5;
-}
 
 /// InputError where the dataset states no unit.
 std::string unit_of(const Hdf5File& file, const std::string& dataset) {
@@ -62,7 +51,7 @@ std::string text_of(const Hdf5File& file) {
 }  // namespace
 
 std::string read_map_text(const std::filesystem::path& path) {
-  return is_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
+  return begins_as_hdf5(path) ? text_of(Hdf5File::open_to_read(path)) : read_table_text(path);
 }
 
 void set_depths(const std::string& text, const std::string& name, CorrugationSpec& corrugation,
