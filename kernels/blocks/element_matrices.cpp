@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/index.hpp"
@@ -75,17 +76,32 @@ ElementFrequency max_frequency(const BlockElements<Real>& elements) {
   return {*highest, at.quad, at.station};
 }
 
+namespace {
+
+/// compute(element), once for the elements of a quad and pitch class that touch no moved nodes.
+template <class Real, class Compute>
+auto shared_by_class(const BlockElements<Real>& elements, const Compute& compute) {
+  const SweptBlock& swept = elements.block();
+  const std::size_t quads = swept.section.quads.size();
+  std::vector<std::optional<decltype(compute(ElementPlace{}))>> known(quads * swept.classes.size());
+  return [&compute, quads, known = std::move(known)](const ElementPlace& at) mutable {
+    if (at.perturbed) return compute(at);
+    auto& shared = known[index(at.pitch_class) * quads + index(at.quad)];
+    if (!shared) shared = compute(at);
+    return *shared;
+  };
+}
+
+}  // namespace
+
 template <class Real>
 void add_lumped_mass(const BlockElements<Real>& elements, double* mass) {
   const SweptBlock& swept = elements.block();
-  const std::size_t quads = swept.section.quads.size();
-  using Volumes = std::array<double, 8>;
-  std::vector<std::optional<Volumes>> known(quads * swept.classes.size());
+  const auto volume_of = [&](const ElementPlace& at) { return elements.geometry(at).nodal_volume; };
+  auto shared_volume = shared_by_class(elements, volume_of);
   elements.for_each_element([&](const ElementPlace& at) {
     const double density = swept.material(at.quad, at.pitch_class).density;
-    std::optional<Volumes>& shared = known[index(at.pitch_class) * quads + index(at.quad)];
-    if (!at.perturbed && !shared) shared = elements.geometry(at).nodal_volume;
-    const Volumes volume = at.perturbed ? elements.geometry(at).nodal_volume : *shared;
+    const std::array<double, 8> volume = shared_volume(at);
     for (int node = 0; node < 8; ++node) {
       const int station = node < 4 ? at.station : far_station(swept, at.station);
       const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
@@ -97,23 +113,15 @@ void add_lumped_mass(const BlockElements<Real>& elements, double* mass) {
 template <class Real>
 void add_diagonal(const BlockElements<Real>& elements, double* d) {
   const SweptBlock& swept = elements.block();
-  const std::size_t quads = swept.section.quads.size();
   const auto diagonal_of = [&](const ElementPlace& at) {
     const ElementStiffness k = element_stiffness(elements, at);
     std::array<double, 24> values{};
     for (std::size_t i = 0; i < 24; ++i) values[i] = k[i][i];
     return values;
   };
-  std::vector<std::optional<std::array<double, 24>>> known(quads * swept.classes.size());
+  auto shared_diagonal = shared_by_class(elements, diagonal_of);
   elements.for_each_element([&](const ElementPlace& at) {
-    std::array<double, 24> values;
-    if (at.perturbed) {
-      values = diagonal_of(at);
-    } else {
-      auto& shared = known[index(at.pitch_class) * quads + index(at.quad)];
-      if (!shared) shared = diagonal_of(at);
-      values = *shared;
-    }
+    const std::array<double, 24> values = shared_diagonal(at);
     for (int node = 0; node < 8; ++node) {
       const int station = node < 4 ? at.station : far_station(swept, at.station);
       const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
