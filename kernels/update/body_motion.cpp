@@ -66,6 +66,16 @@ Sum sum_views(const Mesh& mesh, const std::vector<int>& blocks, const TileShare*
   });
 }
 
+/// Calls visit(mass, radius, down) for the nodes of a tile; `down`: unit vector from the axis to the node.
+template <class Visit>
+void for_each_mass(const TileView& view, double* mass, const Visit& visit) {
+  for (int lane = 0; lane < view.tile.stations; ++lane) {
+    const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, 1});
+    for (int node = 0; node < view.block.section.nodes(); ++node)
+      visit(mass[view.slot(node) + lane], view.radius(node), down);
+  }
+}
+
 /// First and second moments about the axis, in the axes x and z.
 struct Unbalance {
   double x = 0, z = 0, xx = 0, xz = 0, zz = 0;
@@ -116,11 +126,8 @@ void balance(const Mesh& mesh, const std::vector<int>& blocks, double* mass) {
   }
   auto sums = sum_views<Unbalance>(mesh, blocks, nullptr, [mass](const TileView& view) {
     Unbalance sum;
-    for (int lane = 0; lane < view.tile.stations; ++lane) {
-      const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, 1});
-      for (int node = 0; node < view.block.section.nodes(); ++node)
-        sum.add(mass[view.slot(node) + lane], view.radius(node) * down.x, view.radius(node) * down.z);
-    }
+    for_each_mass(view, mass,
+                  [&](double m, double r, const Vec3& down) { sum.add(m, r * down.x, r * down.z); });
     return sum;
   });
   for_each_body_node(mesh, true,
@@ -132,12 +139,9 @@ void balance(const Mesh& mesh, const std::vector<int>& blocks, double* mass) {
   const double b = (sums.xz * sums.x - sums.xx * sums.z) / determinant;
   constexpr double kOfMesh = 0.01;
   if (std::hypot(a, b) * radius > kOfMesh) return;
-  for_each_tile(mesh, blocks, [&](const TileView& view, std::size_t) {
-    for (int lane = 0; lane < view.tile.stations; ++lane) {
-      const Vec3 down = Turn(view.angle(lane)).to_cartesian({0, 0, 1});
-      for (int node = 0; node < view.block.section.nodes(); ++node)
-        mass[view.slot(node) + lane] *= 1 + view.radius(node) * (a * down.x + b * down.z);
-    }
+  for_each_tile(mesh, blocks, [&](const TileView& view, std::size_t /*tile*/) {
+    for_each_mass(view, mass,
+                  [&](double& m, double r, const Vec3& down) { m *= 1 + r * (a * down.x + b * down.z); });
   });
   for_each_body_node(mesh, true,
                      [&](std::int64_t slot, const Vec3& at) { mass[slot] *= 1 + a * at.x + b * at.z; });
