@@ -58,9 +58,7 @@ std::optional<Found> newest(const fs::path& folder, std::int64_t last, std::vect
 }
 
 Found find_state(const Place& place, const Progress& progress) {
-  if (!fs::is_directory(place.folder))
-    throw InputError(fmt::format("--from: there is no folder {}: give the one that `tread run -o` was given",
-                                 place.folder.string()));
+  require_run_folder(place.folder, "--from: ");
   std::vector<std::string> refused;
   std::optional<Found> found = newest(place.folder, std::numeric_limits<std::int64_t>::max(), refused);
   if (found && place.time) {

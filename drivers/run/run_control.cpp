@@ -56,9 +56,7 @@ void print_status(const std::filesystem::path& folder) {
 
 void control_run(const CtlOptions& options) {
   const std::filesystem::path& folder = options.folder;
-  if (!std::filesystem::is_directory(folder))
-    throw InputError(
-        fmt::format("there is no folder {}: give the one that `tread run -o` was given", folder.string()));
+  require_run_folder(folder);
   if (options.action == "status") {
     print_status(folder);
     return;

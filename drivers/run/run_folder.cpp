@@ -127,6 +127,12 @@ std::string resume_text(const fs::path& folder, const std::string& more) {
   return fmt::format("`tread resume {}{}{}`", shell_word(folder.string()), more.empty() ? "" : " ", more);
 }
 
+void require_run_folder(const fs::path& folder, std::string_view option) {
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}there is no folder {}: give the one that `tread run -o` was given",
+                                 option, folder.string()));
+}
+
 bool is_taken(const fs::path& folder) {
   return !FileLock::try_folder(folder);
 }
@@ -134,9 +140,7 @@ bool is_taken(const fs::path& folder) {
 void leave_request(const fs::path& folder, RunRequest request) {
   const fs::path path = folder / kRequest;
   const fs::path part = folder / fmt::format("{}.{}.part", kRequest, ::getpid());
-  GrowingFile file(part, path);
-  file.append(fmt::format("{}\n", name_of(request)));
-  file.close();
+  write_text(part, fmt::format("{}\n", name_of(request)), path);
   const bool left = request == RunRequest::stop ? ::rename(part.c_str(), path.c_str()) == 0
                                                 : leave_behind_others(part, path, request);
   const int error = errno;

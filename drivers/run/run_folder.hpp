@@ -19,6 +19,9 @@ std::string folder_name(const std::filesystem::path& folder);
 /// Size of all files in a folder [B].
 std::int64_t folder_bytes(const std::filesystem::path& folder);
 
+/// InputError where there is no such folder; `option` begins its text, "--from: ".
+void require_run_folder(const std::filesystem::path& folder, std::string_view option = "");
+
 /// Returns true if a process works on the folder.
 bool is_taken(const std::filesystem::path& folder);
 

@@ -268,7 +268,7 @@ std::string listed(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// What the run was asked for; nothing where a run that has states has lost it.
+/// The order of the run; nothing where a run that has states has lost it.
 std::optional<SealedContent> kept_order(const RunSession& session) {
   try {
     return session.checkpoints.read_order();
@@ -373,9 +373,7 @@ void run_scene(const ResolvedScene& resolved, const RunOptions& given) {
 
 void resume_run(const RunOptions& options) {
   take_machine(options);
-  if (!std::filesystem::is_directory(options.output))
-    throw InputError(fmt::format("there is no folder {}: give the one that `tread run -o` was given",
-                                 options.output.string()));
+  require_run_folder(options.output);
   RunSession session(options);
   if (!session.checkpoints.holds_run()) {
     if (!std::filesystem::exists(session.folder / "summary.json"))

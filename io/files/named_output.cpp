@@ -82,11 +82,7 @@ void write_named_file(const fs::path& path, const std::function<void(const fs::p
 }
 
 void write_named_text(const fs::path& path, std::string_view text) {
-  write_named_file(path, [&](const fs::path& part) {
-    GrowingFile file(part, path);
-    file.append(text);
-    file.close();
-  });
+  write_named_file(path, [&](const fs::path& part) { write_text(part, text, path); });
 }
 
 }  // namespace tread

@@ -86,13 +86,6 @@ void rename_finished(const std::filesystem::path& path,
   }
 }
 
-void write_text(const std::filesystem::path& path, std::string_view text,
-                const std::filesystem::path& shown) {
-  GrowingFile file(path, shown);
-  file.append(text);
-  file.close();
-}
-
 }  // namespace
 
 void replace_file(const std::filesystem::path& path,
@@ -112,6 +105,13 @@ void create_folder(const std::filesystem::path& folder) {
   if (error)
     throw ResourceError(
         fmt::format("cannot create {}: {}{}", folder.string(), error.message(), remedy_of(error.value())));
+}
+
+void write_text(const std::filesystem::path& path, std::string_view text,
+                const std::filesystem::path& shown) {
+  GrowingFile file(path, shown);
+  file.append(text);
+  file.close();
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) {

@@ -9,6 +9,7 @@
 #include "core/math/interpolation.hpp"
 #include "core/parallel/each_item.hpp"
 #include "drivers/engine/evaluated_stretch.hpp"
+#include "drivers/run/run_folder.hpp"
 #include "drivers/run/scene_content.hpp"
 #include "io/files/history_reader.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -113,9 +114,7 @@ double TransientRun::speed_between(double first, double last) const {
 TransientRun read_transient_run(const std::filesystem::path& directory, const std::string& force) {
   TransientRun run;
   run.directory = directory;
-  if (!std::filesystem::is_directory(directory))
-    throw InputError(
-        fmt::format("there is no folder {}: give the one that `tread run -o` was given", directory.string()));
+  require_run_folder(directory);
   run.scene = read_scene(directory / kKeptScene);
   if (!run.scene.motion)
     throw InputError(
