@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/parallel/chunks.hpp"
 #include "kernels/solver/stable_step.hpp"
 #include "kernels/update/inverse_mass.hpp"
 
@@ -96,11 +97,13 @@ struct Stiffening {
 class AssembledBodies {
  public:
   explicit AssembledBodies(const Model& model) : system_(model), inverse_mass_(system_.diagonal()) {
-    for (std::int64_t slot = 0; slot < model.mesh.slots; ++slot)
-      for (int c = 0; c < 3; ++c) {
-        double& value = inverse_mass_[static_cast<std::size_t>(dof(slot, c))];
-        if (value > 0) value = inverse_mass(model.mass[static_cast<std::size_t>(slot)]);
-      }
+    for_chunks(model.mesh.slots, [&](std::int64_t first, std::int64_t last) {
+      for (std::int64_t slot = first; slot < last; ++slot)
+        for (int c = 0; c < 3; ++c) {
+          double& value = inverse_mass_[static_cast<std::size_t>(dof(slot, c))];
+          if (value > 0) value = inverse_mass(model.mass[static_cast<std::size_t>(slot)]);
+        }
+    });
     if (model.guide)
       inverse_mass_[static_cast<std::size_t>(model.guide->unknown())] = 1 / model.guide->static_mass();
     if (!model.fastenings) return;

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/parallel/parallel.hpp"
 #include "kernels/element/law_body.hpp"
 #include "kernels/material/laws.hpp"
 
@@ -124,10 +125,16 @@ void BlockElements<Real>::build_perturbed() {
   if (swept.node_shift.empty()) return;
   mark_perturbed();
   store_shifts();
-  ElementFaults faults(swept);
+  std::vector<ElementPlace> places;
   for_each_element([&](const ElementPlace& at) {
-    if (at.perturbed) faults.check(geometry(at), at.quad, at.station);
+    if (at.perturbed) places.push_back(at);
   });
+  std::vector<ElementGeometry> shapes(places.size());
+  parallel_ranges(std::ssize(places), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) shapes[index(i)] = geometry(places[index(i)]);
+  });
+  ElementFaults faults(swept);
+  for (std::size_t i = 0; i < places.size(); ++i) faults.check(shapes[i], places[i].quad, places[i].station);
   faults.raise("reduce the shift of their nodes or make the elements larger");
 }
 

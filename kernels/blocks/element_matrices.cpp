@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -78,57 +77,90 @@ ElementFrequency max_frequency(const BlockElements<Real>& elements) {
 
 namespace {
 
-/// compute(element), once for the elements of a quad and pitch class that touch no moved nodes.
+/// compute(element) by quad and pitch class, of elements that touch no moved nodes.
 template <class Real, class Compute>
-auto shared_by_class(const BlockElements<Real>& elements, const Compute& compute) {
+auto values_of_classes(const BlockElements<Real>& elements, const Compute& compute) {
+  const std::int64_t quads = std::ssize(elements.plan().quads);
+  std::vector<decltype(compute(ElementPlace{}))> values(index(quads * std::ssize(elements.classes())));
+  parallel_ranges(std::ssize(values), [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const auto place = static_cast<int>(i % quads);
+      values[index(i)] =
+          compute({elements.plan().quads[index(place)].quad, 0, place, static_cast<int>(i / quads), false});
+    }
+  });
+  return values;
+}
+
+/// add(slot, element, compute(element), node of the element), at each slot in the order of tiles, the plan's
+/// quads and stations. A tile has its slots to itself, and computes the elements that end in it anew.
+template <class Real, class Compute, class Add>
+void add_at_nodes(const BlockElements<Real>& elements, const Compute& compute, const Add& add) {
   const SweptBlock& swept = elements.block();
   const std::size_t quads = swept.section.quads.size();
-  std::vector<std::optional<decltype(compute(ElementPlace{}))>> known(quads * swept.classes.size());
-  return [&compute, quads, known = std::move(known)](const ElementPlace& at) mutable {
-    if (at.perturbed) return compute(at);
-    auto& shared = known[index(at.pitch_class) * quads + index(at.quad)];
-    if (!shared) shared = compute(at);
-    return *shared;
+  const auto of_class = values_of_classes(elements, compute);
+  const auto add_end = [&](const ElementPlace& at, const auto& values, int first_node, int station) {
+    for (int node = first_node; node < first_node + 4; ++node)
+      add(swept.base + swept.slot(swept.section.quads[index(at.quad)][index(node % 4)], station), at, values,
+          node);
   };
+  const auto with_values = [&](const ElementPlace& at, const auto& use) {
+    if (at.perturbed)
+      use(compute(at));
+    else
+      use(of_class[index(at.pitch_class) * quads + index(at.place)]);
+  };
+  const auto add_before = [&](int tile) {
+    const Tile& before = swept.tiles[index(elements.previous(tile))];
+    for (const FrontPlan::Quad& entry : elements.plan().quads) {
+      const ElementPlace at = elements.locate(entry.quad, before.first_station + before.elements - 1);
+      with_values(at, [&](const auto& values) { add_end(at, values, 4, far_station(swept, at.station)); });
+    }
+  };
+  const auto add_own = [&](int tile) {
+    const Tile& own = swept.tiles[index(tile)];
+    for (const FrontPlan::Quad& entry : elements.plan().quads)
+      for (int lane = 0; lane < own.elements; ++lane) {
+        const ElementPlace at = elements.locate(entry.quad, own.first_station + lane);
+        with_values(at, [&](const auto& values) {
+          add_end(at, values, 0, at.station);
+          if (lane + 1 < own.elements) add_end(at, values, 4, at.station + 1);
+        });
+      }
+  };
+  parallel_ranges(std::ssize(swept.tiles), [&](std::int64_t first, std::int64_t last) {
+    for (auto tile = static_cast<int>(first); tile < static_cast<int>(last); ++tile) {
+      const bool follows = elements.previous(tile) >= 0;
+      if (follows && tile > 0) add_before(tile);
+      add_own(tile);
+      if (follows && tile == 0) add_before(tile);
+    }
+  });
 }
 
 }  // namespace
 
 template <class Real>
 void add_lumped_mass(const BlockElements<Real>& elements, double* mass) {
-  const SweptBlock& swept = elements.block();
   const auto volume_of = [&](const ElementPlace& at) { return elements.geometry(at).nodal_volume; };
-  auto shared_volume = shared_by_class(elements, volume_of);
-  elements.for_each_element([&](const ElementPlace& at) {
-    const double density = swept.material(at.quad, at.pitch_class).density;
-    const std::array<double, 8> volume = shared_volume(at);
-    for (int node = 0; node < 8; ++node) {
-      const int station = node < 4 ? at.station : far_station(swept, at.station);
-      const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
-      mass[swept.base + swept.slot(section_node, station)] += density * volume[index(node)];
-    }
-  });
+  add_at_nodes(
+      elements, volume_of, [&](std::int64_t slot, const ElementPlace& at, const auto& volume, int node) {
+        mass[slot] += elements.block().material(at.quad, at.pitch_class).density * volume[index(node)];
+      });
 }
 
 template <class Real>
 void add_diagonal(const BlockElements<Real>& elements, double* d) {
-  const SweptBlock& swept = elements.block();
   const auto diagonal_of = [&](const ElementPlace& at) {
     const ElementStiffness k = element_stiffness(elements, at);
     std::array<double, 24> values{};
     for (std::size_t i = 0; i < 24; ++i) values[i] = k[i][i];
     return values;
   };
-  auto shared_diagonal = shared_by_class(elements, diagonal_of);
-  elements.for_each_element([&](const ElementPlace& at) {
-    const std::array<double, 24> values = shared_diagonal(at);
-    for (int node = 0; node < 8; ++node) {
-      const int station = node < 4 ? at.station : far_station(swept, at.station);
-      const int section_node = swept.section.quads[index(at.quad)][index(node % 4)];
-      const std::int64_t slot = swept.base + swept.slot(section_node, station);
-      for (int i = 0; i < 3; ++i) d[dof(slot, i)] += values[index(3 * node + i)];
-    }
-  });
+  add_at_nodes(elements, diagonal_of,
+               [&](std::int64_t slot, const ElementPlace& /*at*/, const auto& values, int node) {
+                 for (int i = 0; i < 3; ++i) d[dof(slot, i)] += values[index(3 * node + i)];
+               });
 }
 
 template ElementStiffness element_stiffness(const BlockElements<double>&, const ElementPlace&);

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/page_vector.hpp"
 #include "core/parallel/chunks.hpp"
 #include "kernels/solver/sparse_factor.hpp"
 
@@ -132,7 +133,7 @@ SparseMatrix probe(const Aggregates& aggregates, const std::vector<std::vector<i
   for (std::size_t i = 0; i < colour.size(); ++i)
     members[static_cast<std::size_t>(colour[i])].push_back(static_cast<int>(i));
 
-  AlignedVector<double> x(static_cast<std::size_t>(values)), y(x.size());
+  PageVector<double> x(static_cast<std::size_t>(values)), y(x.size());
   std::vector<double> coarse(static_cast<std::size_t>(aggregates.modes()));
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& group : members)
@@ -172,7 +173,7 @@ void check_probes(const Aggregates& aggregates, const Operator& a, const SparseM
                   std::int64_t values) {
   Eigen::VectorXd coarse(aggregates.modes()), product(aggregates.modes());
   for (int i = 0; i < aggregates.modes(); ++i) coarse[i] = std::sin(1.0 + 1.7 * i * i);
-  AlignedVector<double> x(static_cast<std::size_t>(values), 0.0), y(x.size());
+  PageVector<double> x(static_cast<std::size_t>(values)), y(x.size());
   aggregates.prolongate_add(coarse.data(), x.data());
   a(x.data(), y.data());
   aggregates.restrict_to_modes(y.data(), product.data());

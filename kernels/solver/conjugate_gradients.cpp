@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/contract.hpp"
@@ -24,7 +25,7 @@ void JacobiPreconditioner::apply(const double* r, double* z) const {
 namespace {
 
 /// Computes x += alpha p and r -= alpha q; returns <r, r>.
-double advance(double alpha, const AlignedVector<double>& p, const AlignedVector<double>& q,
+double advance(double alpha, const PageVector<double>& p, const PageVector<double>& q,
                AlignedVector<double>& x, AlignedVector<double>& r) {
   return sum_chunks(static_cast<std::int64_t>(p.size()), [&](std::int64_t first, std::int64_t last) {
     double lane[8] = {};
@@ -39,7 +40,7 @@ double advance(double alpha, const AlignedVector<double>& p, const AlignedVector
 }
 
 /// Computes p = z + beta p; of beta = 0 whatever p held.
-void turn(double beta, const AlignedVector<double>& z, AlignedVector<double>& p) {
+void turn(double beta, const PageVector<double>& z, PageVector<double>& p) {
   for_chunks(static_cast<std::int64_t>(z.size()), [&](std::int64_t first, std::int64_t last) {
     for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
       p[i] = beta == 0 ? z[i] : z[i] + beta * p[i];
@@ -67,7 +68,7 @@ CgResult conjugate_gradients(const Operator& a, const Preconditioner* preconditi
     if (preconditioner)
       preconditioner->apply(r.data(), w.data());
     else
-      w = r;
+      std::copy(r.begin(), r.end(), w.begin());
     if (held) held->remove_mean(w.data());
     const double rz_before = rz;
     rz = dot(n, r.data(), w.data());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/aligned.hpp"
+#include "core/page_vector.hpp"
 #include "kernels/solver/held_motions.hpp"
 #include "kernels/solver/linear_operator.hpp"
 
@@ -36,7 +37,7 @@ struct CgOptions {
 /// Buffers for systems of one size, which are solved one after another: the next begin with memory that is
 /// there.
 struct CgVectors {
-  AlignedVector<double> direction, image;
+  PageVector<double> direction, image;
 };
 
 struct CgResult {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "core/page_vector.hpp"
 #include "core/parallel/chunks.hpp"
 
 namespace tread {
@@ -11,7 +12,7 @@ namespace {
 
 /// Fills p with a vector of unit mass without structure. Any vector will do that is not orthogonal to the
 /// wanted one.
-void fill_without_structure(const AlignedVector<double>& inverse_mass, AlignedVector<double>& p) {
+void fill_without_structure(const AlignedVector<double>& inverse_mass, PageVector<double>& p) {
   const auto n = static_cast<std::int64_t>(p.size());
   const double size = std::sqrt(sum_chunks(n, [&](std::int64_t first, std::int64_t last) {
     double sum = 0;
@@ -35,9 +36,9 @@ HighestFrequency highest_frequency(const Operator& a, const AlignedVector<double
                                    int max_iterations) {
   const auto n = static_cast<std::int64_t>(inverse_mass.size());
   // In place of Lanczos' vectors q on M^-1/2 A M^-1/2 the loop keeps p = M^-1/2 q, which A takes unchanged.
-  AlignedVector<double> p(inverse_mass.size());
-  AlignedVector<double> previous(inverse_mass.size(), 0.0);
-  AlignedVector<double> y(inverse_mass.size());
+  PageVector<double> p(inverse_mass.size());
+  PageVector<double> previous(inverse_mass.size());
+  PageVector<double> y(inverse_mass.size());
   fill_without_structure(inverse_mass, p);
 
   HighestFrequency best;

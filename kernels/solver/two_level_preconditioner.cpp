@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/index.hpp"
 #include "core/parallel/chunks.hpp"
 #include "kernels/solver/stable_step.hpp"
 
@@ -18,11 +19,17 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const Mesh& mesh, const Operator&
       coarse_(aggregates_, aggregate_graph(mesh, aggregates_, ties), elastic,
               static_cast<std::int64_t>(diagonal.size())),
       coarse_values_(static_cast<std::size_t>(aggregates_.modes())) {
-  for (double& value : diagonal) value = value > 0 ? 1 / value : 0;
+  const auto values = std::ssize(diagonal);
+  for_chunks(values, [&](std::int64_t first, std::int64_t last) {
+    for (auto i = index(first); i < index(last); ++i) diagonal[i] = diagonal[i] > 0 ? 1 / diagonal[i] : 0;
+  });
   constexpr int kSteps = 20;
   constexpr double kRounding = 1e-6;  // relative rounding of the diagonal stored in float
   lambda_max_ = (1 + kRounding) * std::pow(highest_frequency(elastic, diagonal, kSteps).omega, 2);
-  inverse_.assign(diagonal.begin(), diagonal.end());
+  inverse_.resize(diagonal.size());
+  for_chunks(values, [&](std::int64_t first, std::int64_t last) {
+    for (auto i = index(first); i < index(last); ++i) inverse_[i] = static_cast<float>(diagonal[i]);
+  });
   AlignedVector<double>().swap(diagonal);
   a_z_.resize(inverse_.size());
 }

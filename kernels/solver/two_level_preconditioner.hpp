@@ -7,6 +7,7 @@
 
 #include "core/aligned.hpp"
 #include "core/mesh/swept_block.hpp"
+#include "core/page_vector.hpp"
 #include "kernels/solver/aggregates.hpp"
 #include "kernels/solver/coarse_solver.hpp"
 #include "kernels/solver/conjugate_gradients.hpp"
@@ -47,11 +48,11 @@ class TwoLevelPreconditioner : public Preconditioner {
   Aggregates aggregates_;
   CoarseSolver coarse_;
   Operator a_;
-  AlignedVector<float> inverse_;  ///< inverse diagonal with springs; 0 where an unknown is not free [m/N]
+  PageVector<float> inverse_;  ///< inverse diagonal with springs; 0 where an unknown is not free [m/N]
   std::vector<std::pair<std::size_t, float>> changes_;  ///< changes of inverse_ by springs: place, value
                                                         ///< before
   double lambda_max_ = 0;                               ///< largest eigenvalue of D^-1 A
-  mutable AlignedVector<double> a_z_;
+  mutable PageVector<double> a_z_;
   mutable std::vector<double> coarse_values_;
 };
 
