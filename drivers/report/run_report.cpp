@@ -20,6 +20,7 @@
 #include "drivers/report/surface_figures.hpp"
 #include "drivers/results/deflection.hpp"
 #include "drivers/results/inventory.hpp"
+#include "drivers/results/run_warnings.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/report/markup.hpp"
 #include "io/report/plain_text.hpp"
@@ -235,8 +236,8 @@ Chapter energy_chapter(const Run& run) {
     chapter.blocks.emplace_back(energy_figure(run.model, r));
     chapter.blocks.emplace_back(
         Text{fmt::format("Energy error {} %: largest residual over the sum of frictional work, losses in "
-                         "dampers and range of strain energy.",
-                         readable(100 * r.energy_error, 2))});
+                         "dampers and range of strain energy{}.",
+                         readable(100 * r.energy_error, 2), uncounted_loss(run.model))});
     if (run.model.contact) chapter.blocks.emplace_back(momentum_table(r.momentum, r.momentum_error));
   }
   chapter.blocks.emplace_back(body_energy_table(run.model, r));

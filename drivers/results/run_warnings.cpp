@@ -1,9 +1,10 @@
 #include "drivers/results/run_warnings.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 
 #include "drivers/engine/traction.hpp"
 #include "drivers/results/resolution.hpp"
@@ -40,13 +41,12 @@ std::string sag_warning(const Model& model, const Preload& preload) {
 /// which dissipate little, have had 0.1.
 constexpr double kEnergyError = 0.5;
 
-std::string balance_warning(const RunResults& r) {
+std::string balance_warning(const Model& model, const RunResults& r) {
   if (r.energy_error <= kEnergyError) return "";
   return fmt::format(
       "the energies miss by {:.0f} % of what was dissipated and stored: above {:.0f} % results are in doubt; "
-      "a "
-      "smaller motion.step_safety shows whether the time step is the cause",
-      100 * r.energy_error, 100 * kEnergyError);
+      "a smaller motion.step_safety shows whether the time step is the cause{}",
+      100 * r.energy_error, 100 * kEnergyError, uncounted_loss(model));
 }
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
@@ -90,13 +90,26 @@ void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<s
     warnings.push_back(empty_warning(r));
     warnings.push_back(steadiness_warning(model, r));
   }
-  warnings.push_back(balance_warning(r));
+  warnings.push_back(balance_warning(model, r));
   for (std::size_t b = 0; b < r.part_energy.size(); ++b)
     if (!is_plate(model.index, static_cast<int>(b)))
       warnings.push_back(hourglass_warning(model.mesh.part_name(static_cast<int>(b)), r.part_energy[b]));
 }
 
 }  // namespace
+
+std::string uncounted_loss(const Model& model) {
+  std::set<std::string> keys;
+  const auto look_at = [&](const std::vector<Material>& materials) {
+    for (const Material& material : materials)
+      if (material.high_frequency_fraction > 0 || (material.rayleigh_beta > 0 && !material.branch()))
+        keys.insert(fmt::format("material.{}.damping", material.name));
+  };
+  for (const SweptBlock& block : model.mesh.blocks) look_at(block.materials);
+  for (const HexBody& body : model.mesh.bodies) look_at(body.materials);
+  if (keys.empty()) return "";
+  return fmt::format("; the loss of {}, which no energy counts, is part of the miss", fmt::join(keys, ", "));
+}
 
 std::vector<std::string> run_warnings(const Model& model, const RunResults& r) {
   std::vector<std::string> warnings = resolution_warnings(model);

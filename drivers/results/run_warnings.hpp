@@ -13,4 +13,8 @@ namespace tread {
 /// the bound, the consequence and the way out. Empty for a sound run.
 std::vector<std::string> run_warnings(const Model& model, const RunResults& results);
 
+/// "; the loss of material.steel.damping, ..." where materials have damping at all frequencies, whose loss
+/// the energy balance does not hold, else "". [theory.md, Energy stop]
+std::string uncounted_loss(const Model& model);
+
 }  // namespace tread

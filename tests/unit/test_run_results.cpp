@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -95,6 +96,20 @@ TEST(Warnings, EnergiesThatDoNotBalance) {
   EXPECT_EQ(run_warnings(model, results).size(), before);
   results.energy_error = 0.6;
   EXPECT_EQ(run_warnings(model, results).size(), before + 1);
+}
+
+TEST(Warnings, NameTheDampingWhoseLossNoEnergyCounts) {
+  const auto loss = [](std::initializer_list<const char*> settings) {
+    std::vector<std::string> all = {"scene.element_size=12 mm"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return uncounted_loss(Model(samples::tyre_scene(all)));
+  };
+  EXPECT_EQ(loss({}), "");
+  EXPECT_EQ(loss({"material.steel.damping={ kind = \"high_frequency_fraction\", value = 0.1 }"}),
+            "; the loss of material.steel.damping, which no energy counts, is part of the miss");
+  EXPECT_EQ(loss({"material.steel.damping={ kind = \"rayleigh_beta\", value = \"1e-5 s\" }",
+                  "material.steel.damping_up_to=10 kHz"}),
+            "");
 }
 
 }  // namespace
