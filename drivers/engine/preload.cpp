@@ -324,6 +324,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
   TangentSolver solver(model, equilibrium);
   double before = 1;   // residual of the last iteration
   bool rolls = false;  // the state has what rolling adds to that at rest
+  int first = 0;       // iteration of the state that is looked for
   for (int iteration = 0;; ++iteration) {
     equilibrium.residual(out, residual.data());
     require_contact(model, iteration, out.residual * scale, size);
@@ -336,6 +337,7 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       if (!rolls) describe(model, out);
       if (rolls || (!motion.rolling && motion.traction == 0)) break;
       rolls = true;
+      first = iteration;
       if (motion.rolling) out.run_in = run_in(model, axle_bending(model, out.displacement.data(), out.wheel));
       if (motion.traction != 0)
         out.free_spin = free_spin(model, out.displacement, out.wheel, model.scene.motion->speed);
@@ -343,10 +345,10 @@ Preload solve_preload(Model& model, const SteadyMotion& motion, const ProgressTe
       out.traction = motion.traction * (out.run_in ? model.wheel_load() / out.run_in->force : 1);
       continue;
     }
-    if (iteration == kMaxNewton)
+    if (iteration - first == kMaxNewton)
       throw NumericalError(fmt::format(
           "preload: residual {:.2e} of the load after {} iterations (wanted {:.0e}): {}", out.residual,
-          iteration, kTolerance, why_unbalanced(model, out.residual * scale, size)));
+          iteration - first, kTolerance, why_unbalanced(model, out.residual * scale, size)));
     // The tangent of bodies that rotate is not exact: a step gains a digit or two however well it is solved.
     const double forcing = std::clamp(0.5 * out.residual / before, kForcing, kRoughly);
     before = out.residual;

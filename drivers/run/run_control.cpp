@@ -77,7 +77,10 @@ void control_run(const CtlOptions& options) {
         "the preload it stops at the next iteration of Newton's method and answers other requests "
         "after the first steps",
         folder.string(), options.patience));
-  fmt::print("{}: {}\n", folder.string(), stop ? "stopped" : "writes a " + options.action);
+  const std::string answer = !stop                ? "writes a " + options.action
+                             : is_pending(folder) ? "had ended before it read the request"
+                                                  : "stopped";
+  fmt::print("{}: {}\n", folder.string(), answer);
 }
 
 }  // namespace tread

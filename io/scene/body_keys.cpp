@@ -162,8 +162,9 @@ void add_rail(Keys& keys) {
       flag("rail.profile_mirrored", {Effect::mesh}, at(&Scene::rail, &RailSpec::profile_mirrored),
            "The file's y counts to the gauge side: its sign and the order are turned, before the shift")));
   add_profile_file(keys, "rail", &Scene::rail, &RailSpec::profile_shift, &RailSpec::profile_smoothing);
-  keys.push_back(number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
-                        {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio));
+  keys.push_back(not_with("rail.profile", "box", 0,
+                          number("rail.inclination", {Effect::mesh}, at(&Scene::rail, &RailSpec::inclination),
+                                 {0, 0.1}, "Slope of the rail towards the track's middle", Kind::ratio)));
   keys.push_back(quantity("rail.length", {Effect::mesh}, at(&Scene::rail, &RailSpec::length), kLength, "m",
                           above(0, 1000), "Length of the rail"));
   keys.push_back(quantity("rail.origin", {Effect::mesh}, at(&Scene::rail, &RailSpec::origin), kLength, "m",

@@ -28,8 +28,8 @@ void TableNames::add(std::string_view table) {
 }
 
 std::string Condition::why_idle() const {
-  return needs_table() ? fmt::format("has no effect without [{}]", key)
-                       : fmt::format("has an effect only with {} = {}", key, alternatives());
+  if (needs_table()) return fmt::format("has no effect without [{}]", key);
+  return fmt::format("has {} with {} = {}", excludes ? "no effect" : "an effect only", key, alternatives());
 }
 
 std::optional<double> number_at(const Field& field) {

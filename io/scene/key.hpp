@@ -48,11 +48,12 @@ struct Bounds {
 };
 
 /// The key has an effect only where the table `key` is present (no `values`), the text key `key` has one of
-/// these values, or, with `names_file`, that text key names a file.
+/// these values, or another one with `excludes`, or, with `names_file`, that text key names a file.
 struct Condition {
   std::string key;
   std::vector<std::string> values;
   bool names_file = false;
+  bool excludes = false;
 
   bool needs_table() const { return values.empty() && !names_file; }
   /// The values, "\"sine\" or \"random\"", or "a file".
@@ -74,7 +75,8 @@ struct Key {
   bool takes_file = false;  ///< a text that may also name a file, relative to the scene's folder
   bool required = false;    ///< must be given where the table is present
   Condition only_with = {};
-  std::string excludes = {};    ///< a key that a later layer's value of this one replaces
+  std::optional<double> idle_value = {};  ///< may be stated where only_with does not hold
+  std::string excludes = {};              ///< a key that a later layer's value of this one replaces
   bool names_material = false;  ///< a text that names the material of the part that the key's table describes
 };
 

@@ -86,6 +86,12 @@ Key with_file(std::string other, Key key) {
   return key;
 }
 
+Key not_with(std::string condition, std::string value, double idle_value, Key key) {
+  key.only_with = {std::move(condition), {std::move(value)}, false, true};
+  key.idle_value = idle_value;
+  return key;
+}
+
 Key only_with(std::string condition, std::string value, Key key) {
   return only_with(std::move(condition), std::vector<std::string>{std::move(value)}, std::move(key));
 }

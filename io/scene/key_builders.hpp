@@ -82,6 +82,8 @@ Key required(Key key);
 Key or_file(Key key);
 Key only_with(std::string condition, std::vector<std::string> values, Key key);
 Key only_with(std::string condition, std::string value, Key key);
+/// A key without effect where the text key `condition` has this value; `idle_value` may be stated there.
+Key not_with(std::string condition, std::string value, double idle_value, Key key);
 Key with_table(std::string table, Key key);
 /// A key with an effect only where the text key `other` names a file.
 Key with_file(std::string other, Key key);

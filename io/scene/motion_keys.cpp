@@ -87,7 +87,8 @@ void add_motion(Keys& keys) {
   keys.push_back(rolling(quantity("motion.traction.ramp", {Effect::motion},
                                   at(&Scene::motion, &MotionSpec::ramp), kTime, "ms", from(0, 100),
                                   "Time T1 in which the torque grows from zero; 0: the wheel has long been "
-                                  "rolling under it; a guided bore gets it at once")));
+                                  "rolling under it, as the static state has, too; a guided bore gets it at "
+                                  "once")));
   keys.push_back(rolling(choice("motion.traction.shape", {Effect::motion},
                                 at(&Scene::motion, &MotionSpec::ramp_shape), {"linear", "smooth"},
                                 "Growth and reversal of the torque: linear, or as half a cosine")));

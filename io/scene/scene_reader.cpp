@@ -238,7 +238,8 @@ class SceneBuilder {
     const Setting& setting = found->second;
     if (!applies(key, scene_)) {
       const bool unclear = bad_.count(key.only_with.key) || (tables_unclear_ && key.only_with.needs_table());
-      if (setting.origin.level == Level::library || unclear) return;
+      if (setting.origin.level == Level::library || unclear || is_idle_value(key, *setting.node, scene_))
+        return;
       report(setting.origin.place, key.path, key.only_with.why_idle());
       return;
     }

@@ -86,7 +86,8 @@ std::string meaning_of(const Key& key) {
   const Condition& condition = key.only_with;
   return text + (condition.needs_table()
                      ? fmt::format(" (only with `[{}]`)", condition.key)
-                     : fmt::format(" (only with `{} = {}`)", condition.key, condition.alternatives()));
+                     : fmt::format(" ({} with `{} = {}`)", condition.excludes ? "not" : "only", condition.key,
+                                   condition.alternatives()));
 }
 
 std::string table_section(const SceneTable& table, const std::vector<Key>& keys, Scene& scene) {

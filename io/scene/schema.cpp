@@ -116,7 +116,8 @@ bool applies(const Key& key, const Scene& scene) {
   const std::optional<Key> other = find_key(key.only_with.key);
   const std::string& value = *std::get<std::string*>(other->locate(copy));
   const std::vector<std::string>& values = key.only_with.names_file ? other->allowed : key.only_with.values;
-  return (std::find(values.begin(), values.end(), value) != values.end()) != key.only_with.names_file;
+  const bool listed = std::find(values.begin(), values.end(), value) != values.end();
+  return listed != (key.only_with.names_file || key.only_with.excludes);
 }
 
 std::string names_in(std::string_view table) {

@@ -116,4 +116,17 @@ void read_value(const Key& key, const toml::node& node, const fs::path& folder, 
   if (const auto* damping = std::get_if<DampingField>(&field)) read_damping(*damping, node);
 }
 
+bool is_idle_value(const Key& key, const toml::node& node, Scene scene) {
+  if (!key.idle_value) return false;
+  const Field field = key.locate(scene);
+  const std::optional<double> before = number_at(field);
+  try {
+    read_value(key, node, {}, field);
+  } catch (const InputError&) {
+    return false;
+  }
+  const std::optional<double> stated = number_at(field);
+  return stated == key.idle_value || stated == before;
+}
+
 }  // namespace tread

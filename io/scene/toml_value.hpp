@@ -14,6 +14,10 @@ namespace tread {
 void read_value(const Key& key, const toml::node& node, const std::filesystem::path& folder,
                 const Field& field);
 
+/// Returns true if a number's value may be stated though it has no effect: the key's idle_value, or what the
+/// scene has already.
+bool is_idle_value(const Key& key, const toml::node& node, Scene scene);
+
 /// Throws InputError.
 bool to_boolean(const toml::node& node);
 

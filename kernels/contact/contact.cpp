@@ -147,9 +147,10 @@ std::string Contact::why_no_room() const {
   return fmt::format(
       "{}, at a wheel load of {:.4g} kN, is no reason for that: the surfaces touch over more of their "
       "length or width than elastic bodies of such radii would; look after the profiles, "
-      "wheel.crown_radius and rail.crown_radius{}",
+      "wheel.crown_radius and rail.crown_radius; on a coarse mesh a smaller scene.element_size or "
+      "contact.surface = \"exact\" helps{}",
       measured, 1e-3 * options_.static_force,
-      options_.yields ? ", and the material's yield_stress: a surface that yields is flattened" : "");
+      options_.yields ? "; a small yield_stress of the material flattens a surface" : "");
 }
 
 void Contact::resolve(const NodeMotion& motion, const BodyFrame& wheel, double dt) {

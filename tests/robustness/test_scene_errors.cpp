@@ -265,6 +265,8 @@ TEST(SceneErrors, KeysWithoutEffect) {
        "x.toml:4:1: rail.section: has an effect only with rail.profile = a file"},
       {"[wheel]\nprofile_smoothing = \"0.1 mm\"",
        "x.toml:4:1: wheel.profile_smoothing: has an effect only with wheel.profile = a file"},
+      {"[rail]\nprofile = \"box\"\nwidth = \"160 mm\"\ninclination = \"1:20\"",
+       "x.toml:6:1: rail.inclination: has no effect with rail.profile = \"box\""},
       {"[rail]\nwidth = \"60 mm\"", "x.toml:4:1: rail.width: has an effect only with rail.profile = \"box\""},
       {"[slab]\npresent = false\nwidth = \"1 m\"",
        "x.toml:5:1: slab.width: has no effect, because slab.present = "

@@ -21,7 +21,7 @@ struct Sample {
   double lateral_creepage = 0;             ///< mean lateral speed of the wheelset over its forward speed [-]
   double spin_creepage = 0;        ///< wheel's rotation about the rail's outward normal, over the way [1/m]
   double torque = 0;               ///< [N m]
-  double corrugation_depth = 0;    ///< below the wheel [m]
+  double corrugation_depth = 0;    ///< of the rail, below the wheel [m]
   double hammer_force = 0;         ///< on the rail, downwards [N]
   double hammer_displacement = 0;  ///< of the struck point since the start, downwards [m]
   EnergyLedger energy;
