@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -43,17 +42,16 @@ bool has_line(const std::string& file, std::string_view text) {
   return false;
 }
 
-void require_file(const std::string& stated, const char* kind) {
+/// `shipped`: names of the files of this kind that come with the program.
+void require_file(const std::string& stated, const char* kind, const std::vector<std::string>& shipped) {
   if (stated.empty())
     throw InputError(fmt::format("the name of the {} is empty; state a file or a shipped one", kind));
   std::error_code ignored;
   if (std::filesystem::exists(stated, ignored)) return;
   const std::string share = stated_share();
-  std::vector<std::string> shipped = shipped_scenes();
-  std::sort(shipped.begin(), shipped.end());
   if (shipped.empty())
     throw InputError(
-        fmt::format("cannot read {}: there is no such file, and no shipped scene{}", stated,
+        fmt::format("cannot read {}: there is no such file, and no shipped {}{}", stated, kind,
                     share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}; correct or unset it", share)));
   throw InputError(fmt::format("cannot read {}: there is no such file; shipped{}: {}", stated,
                                share.empty() ? "" : fmt::format(" in TREAD_SHARE = {}", share),
@@ -63,13 +61,13 @@ void require_file(const std::string& stated, const char* kind) {
 }  // namespace
 
 void require_scene_file(const std::string& stated) {
-  require_file(stated, "scene");
+  require_file(stated, "scene", shipped_scenes());
   if (has_line(stated, "[study]"))
     throw InputError(fmt::format("{} is a study, not a scene: `tread sweep {}` runs it", stated, stated));
 }
 
 void require_study_file(const std::string& stated) {
-  require_file(stated, "study");
+  require_file(stated, "study", shipped_studies());
   if (!has_line(stated, "[study]") && has_line(stated, "[scene]"))
     throw InputError(fmt::format("{} is a scene, not a study: `tread run {}` runs it", stated, stated));
 }
@@ -131,12 +129,13 @@ void add_cache_option(CLI::App& command, std::string& place) {
       "or ~/.cache)");
 }
 
-CLI::Option* or_shipped(CLI::Option* option) {
-  return option->transform([](const std::string& stated) {
+CLI::Option* or_shipped(CLI::Option* option, std::vector<std::string> (*names)()) {
+  return option->transform([names](const std::string& stated) {
+    const std::vector<std::string> shipped = names();
     std::string found = find_scene(stated).string();
     std::error_code ignored;
     if (!std::filesystem::exists(found, ignored))
-      if (const std::string near = similar_text(stated, shipped_scenes()); !near.empty())
+      if (const std::string near = similar_text(stated, shipped); !near.empty())
         throw InputError(
             fmt::format("cannot read {}: there is no such file; did you mean {}?", stated, near));
     return found;
@@ -152,7 +151,8 @@ CLI::Option* add_scene_options(CLI::App& command, SceneArguments& arguments) {
                   "key=value that overrides the scene, e.g. --set \"motion.speed=250 km/h\"")
       ->allow_extra_args(false);
   return or_shipped(
-      command.add_option("scene", arguments.scene, "scene file (TOML), or the name of a shipped scene"));
+      command.add_option("scene", arguments.scene, "scene file (TOML), or the name of a shipped scene"),
+      shipped_scenes);
 }
 
 CLI::Option* add_cost_option(CLI::App& command, std::string& cost) {

@@ -48,7 +48,7 @@ void add_study_options(CLI::App& command, StudyOptions& options);
 
 /// Lets an option that names a scene or a study take the name of a shipped one, too. Files that are there
 /// come first.
-CLI::Option* or_shipped(CLI::Option* option);
+CLI::Option* or_shipped(CLI::Option* option, std::vector<std::string> (*names)());
 
 /// InputError where the path that or_shipped() left leads to no file, or to a study.
 void require_scene_file(const std::string& stated);

@@ -6,6 +6,7 @@
 #include "drivers/cli/common_options.hpp"
 #include "drivers/cli/program_name.hpp"
 #include "drivers/studies/dial/dial_study.hpp"
+#include "io/files/share_folder.hpp"
 
 namespace tread {
 
@@ -13,7 +14,8 @@ void add_dial(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<DialOptions>();
   options->common.origin = {program_name(), command_line};
   CLI::App& command = *app.add_subcommand("dial", "cost and error of the settings of a passage");
-  or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"))
+  or_shipped(command.add_option("file", options->file, "scene, or study file that states the runs (TOML)"),
+             shipped_scenes)
       ->required();
   command
       .add_option("--base", options->axes.base,

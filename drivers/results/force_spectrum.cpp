@@ -5,7 +5,19 @@
 
 namespace tread {
 
-ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last) {
+SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last) {
+  SampleIntervals intervals;
+  // The last sample is that of the last step.
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
+    if (samples[i - 1].wheel_x < first || samples[i].wheel_x > last) continue;
+    const double interval = samples[i].time - samples[i - 1].time;
+    intervals.least = intervals.most == 0 ? interval : std::min(intervals.least, interval);
+    intervals.most = std::max(intervals.most, interval);
+  }
+  return intervals;
+}
+
+ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last, double dt) {
   constexpr std::size_t kLeast = 16;      // samples
   constexpr double kWaves = 4;            // in the stretch, at least
   constexpr double kSamplesInWave = 2.5;  // at least
@@ -20,7 +32,7 @@ ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, d
     force.push_back(s.vertical_force);
   }
   ForceSpectrum spectrum;
-  if (force.size() < kLeast) return spectrum;
+  if (force.size() < kLeast || !sample_intervals(samples, first, last).even(dt)) return spectrum;
   const auto count = static_cast<double>(force.size());
   const double interval = (end - begin) / (count - 1);
   spectrum.spacing = 1 / (count * interval);

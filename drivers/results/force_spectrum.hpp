@@ -15,8 +15,19 @@ struct ForceSpectrum {
   std::vector<double> rms;         ///< root mean square of F_N by band [N]
 };
 
-/// Spectrum of F_N with the wheel between two places [m]; without lines where fewer than 16 samples lie
-/// there.
-ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last);
+/// Shortest and longest time between samples [s]; 0 where there are not two.
+struct SampleIntervals {
+  double least = 0, most = 0;
+
+  /// Returns true if whole steps of dt [s] make the difference.
+  bool even(double dt) const { return most - least < 1.5 * dt; }
+};
+
+/// Of the samples with the wheel between two places [m], but for the last of all.
+SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last);
+
+/// Spectrum of F_N with the wheel between two places [m], in steps of dt [s]; without lines where fewer than
+/// 16 samples lie there, or where their interval changes.
+ForceSpectrum force_spectrum(const std::vector<Sample>& samples, double first, double last, double dt);
 
 }  // namespace tread

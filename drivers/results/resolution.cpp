@@ -208,6 +208,17 @@ std::string surface_warning(const Model& model, const std::string& name, const S
   return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
 }
 
+/// Sentence where the histories have hardly a sample.
+std::string history_warning(const Scene& scene) {
+  constexpr double kFewest = 10;
+  if (!scene.motion || scene.motion->duration >= kFewest * scene.output.history_interval) return "";
+  return fmt::format(
+      "output.history_interval = {:.4g} ms gives fewer than {:g} samples of a run of {:.4g} ms: state a "
+      "shorter "
+      "one",
+      1e3 * scene.output.history_interval, kFewest, 1e3 * scene.motion->duration);
+}
+
 }  // namespace
 
 std::optional<double> too_few_elements_across_patch(const Model& model) {
@@ -219,6 +230,7 @@ std::optional<double> too_few_elements_across_patch(const Model& model) {
 std::vector<std::string> resolution_warnings(const Model& model) {
   std::vector<std::string> warnings;
   if (!model.contact) return warnings;
+  warnings.push_back(history_warning(model.scene));
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
   if (model.scene.corrugation) warnings.push_back(start_warning(model));

@@ -39,7 +39,7 @@ void evaluate_stretch(const Model& model, double reached, RunResults& r) {
   const auto evaluated = between(r.evaluated_first, r.evaluated_last);
   r.evaluated_samples = std::count_if(r.samples.begin(), r.samples.end(), evaluated);
   r.vertical_force = statistics(r.samples, evaluated, [](const Sample& s) { return s.vertical_force; });
-  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last);
+  r.spectrum = force_spectrum(r.samples, r.evaluated_first, r.evaluated_last, r.dt);
   r.longitudinal_force =
       statistics(r.samples, evaluated, [](const Sample& s) { return s.longitudinal_force; });
   const Statistics creepage =
@@ -73,6 +73,8 @@ void evaluate_steady(const Model& model, double reached, RunResults& r) {
   const auto mean = [&](auto value) {
     return statistics(r.samples, between(r.steady_first, r.steady_last), value).mean;
   };
+  r.steady_samples =
+      std::count_if(r.samples.begin(), r.samples.end(), between(r.steady_first, r.steady_last));
   r.vertical_force_steady = mean([](const Sample& s) { return s.vertical_force; });
   r.traction_coefficient = traction_between(r.samples, r.steady_first, r.steady_last);
   const double middle = 0.5 * (r.steady_first + r.steady_last);
@@ -122,7 +124,7 @@ bool traction_slides(const RunResults& r) {
 }
 
 bool traction_is_steady(const RunResults& r) {
-  if (traction_slides(r)) return false;
+  if (r.steady_samples == 0 || traction_slides(r)) return false;
   return std::abs(r.traction_drift) <= std::max(kSteady * std::abs(r.traction_coefficient), kSmallTraction);
 }
 

@@ -93,6 +93,7 @@ struct RunResults {
   double evaluated_first = 0, evaluated_last = 0;  ///< the stretch of vertical_force [m]
   std::int64_t evaluated_samples = 0;              ///< within it
   double steady_first = 0, steady_last = 0;        ///< the stretch of the steady values [m]
+  std::int64_t steady_samples = 0;                 ///< within it
   std::vector<std::string> warnings;               ///< sentences for the user (run_warnings.hpp)
   double frictional_work_decrease = 0;             ///< largest fall between two samples, 0 when monotone [J]
 };

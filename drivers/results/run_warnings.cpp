@@ -7,6 +7,7 @@
 #include <set>
 
 #include "drivers/engine/traction.hpp"
+#include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
 
 namespace tread {
@@ -51,6 +52,13 @@ std::string balance_warning(const Model& model, const RunResults& r) {
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
   const bool driven = !model.torque.empty() && full_torque(model) != 0;
+  if (r.steady_samples == 0)
+    return fmt::format(
+        "no sample lies in the steady stretch, which ends at x = {:.6g} m: its values in the summary are 0 "
+        "and "
+        "no results; a later corrugation.start or solution_zone.start, or a longer motion.duration, gives it "
+        "the way",
+        r.steady_last);
   if (!driven || traction_is_steady(r)) return "";
   if (traction_slides(r))
     return fmt::format(
@@ -76,6 +84,17 @@ std::string empty_warning(const RunResults& r) {
       r.evaluated_first, r.evaluated_last);
 }
 
+/// Sentence where the interval of samples changes along the evaluated stretch.
+std::string interval_warning(const RunResults& r) {
+  const SampleIntervals intervals = sample_intervals(r.samples, r.evaluated_first, r.evaluated_last);
+  if (intervals.even(r.dt)) return "";
+  return fmt::format(
+      "samples lie {:.3g} to {:.3g} us apart in the evaluated stretch: its means count each of them alike, "
+      "and "
+      "its third octaves are left out; one output.history_interval for the whole run gives both",
+      1e6 * intervals.least, 1e6 * intervals.most);
+}
+
 std::string hourglass_warning(const std::string& body, const DeformationEnergy& energy) {
   const double whole = energy.strain + energy.hourglass;
   if (whole <= 0 || energy.hourglass <= kHourglass * whole) return "";
@@ -88,6 +107,7 @@ std::string hourglass_warning(const std::string& body, const DeformationEnergy& 
 void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<std::string>& warnings) {
   if (model.contact) {
     warnings.push_back(empty_warning(r));
+    warnings.push_back(interval_warning(r));
     warnings.push_back(steadiness_warning(model, r));
   }
   warnings.push_back(balance_warning(model, r));

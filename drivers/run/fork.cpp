@@ -61,9 +61,13 @@ Found find_state(const Place& place, const Progress& progress) {
   require_run_folder(place.folder, "--from: ");
   std::vector<std::string> refused;
   std::optional<Found> found = newest(place.folder, std::numeric_limits<std::int64_t>::max(), refused);
+  std::string newest_time;
   if (found && place.time) {
-    const std::int64_t last = steps_until(*place.time, sealed_value<double>(found->content, "results/dt"));
+    const double dt = sealed_value<double>(found->content, "results/dt");
+    const std::int64_t last = steps_until(*place.time, dt);
     if (found->steps > last) {
+      newest_time =
+          fmt::format("; its newest is that of {:.6g} ms", 1e3 * dt * static_cast<double>(found->steps));
       found.reset();
       refused.clear();
       found = newest(place.folder, last, refused);
@@ -80,9 +84,9 @@ Found find_state(const Place& place, const Progress& progress) {
                     "--from out",
                     until, place.folder.string(), fmt::join(refused, "; ")));
   throw InputError(
-      fmt::format("--from: {} has no state{} to begin with; a run keeps one for good where its scene has "
+      fmt::format("--from: {} has no state{} to begin with{}; a run keeps one for good where its scene has "
                   "[forks], and its last two checkpoints until it is finished",
-                  place.folder.string(), until));
+                  place.folder.string(), until, newest_time));
 }
 
 /// Text of the file that a value names; empty if it names none.

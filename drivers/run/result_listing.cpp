@@ -18,6 +18,7 @@
 #include "io/files/step_files.hpp"
 #include "io/report/figure_files.hpp"
 #include "io/text/json.hpp"
+#include "io/text/text.hpp"
 
 namespace tread {
 
@@ -86,9 +87,7 @@ std::vector<ResultItem> columns_of(const fs::path& path) {
   std::uint64_t rows = 0;
   for (std::string line; std::getline(file, line);) ++rows;
   std::vector<ResultItem> items;
-  for (std::size_t first = 0; first <= header.size();) {
-    const std::size_t end = std::min(header.find(',', first), header.size());
-    const std::string head = header.substr(first, end - first);
+  for (const std::string& head : csv_cells(header)) {
     const std::size_t bracket = head.find(" [");
     const bool stated = bracket != std::string::npos && head.ends_with(']');
     items.push_back({stated ? head.substr(0, bracket) : head,
@@ -96,7 +95,6 @@ std::vector<ResultItem> columns_of(const fs::path& path) {
                      "text",
                      stated ? head.substr(bracket + 2, head.size() - bracket - 3) : "",
                      ""});
-    first = end + 1;
   }
   return items;
 }

@@ -1,5 +1,6 @@
 #include "io/files/share_folder.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <system_error>
 
@@ -36,15 +37,25 @@ std::vector<fs::path> scene_folders() {
   return folders;
 }
 
-}  // namespace
-
-std::vector<std::string> shipped_scenes() {
+/// Names of the TOML files in a folder beneath those of the scenes, in alphabetical order.
+std::vector<std::string> shipped_in(const fs::path& below) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (const fs::path& folder : scene_folders())
-    for (const fs::directory_entry& file : fs::directory_iterator(folder, ignored))
-      if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+    for (const fs::directory_entry& file : fs::directory_iterator(folder / below, ignored))
+      if (file.path().extension() == ".toml") names.push_back((below / file.path().stem()).string());
+  std::sort(names.begin(), names.end());
   return names;
+}
+
+}  // namespace
+
+std::vector<std::string> shipped_scenes() {
+  return shipped_in({});
+}
+
+std::vector<std::string> shipped_studies() {
+  return shipped_in("studies");
 }
 
 fs::path find_scene(const fs::path& stated) {

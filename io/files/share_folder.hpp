@@ -27,4 +27,7 @@ std::filesystem::path find_scene(const std::filesystem::path& stated);
 /// Names of the shipped scenes, "tyre".
 std::vector<std::string> shipped_scenes();
 
+/// Names of the shipped studies, "studies/contact_loss".
+std::vector<std::string> shipped_studies();
+
 }  // namespace tread

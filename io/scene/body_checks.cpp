@@ -29,6 +29,12 @@ void check_disc(const Scene& scene, const std::string& table, Require require) {
   require(!scene.wheel || scene.wheel->shape == "half_wheelset", {key, "wheel.shape"},
           "\"disc\" is a part of a half wheelset, and wheel.shape is \"tyre\", a ring without a disc; state "
           "wheel.shape = \"half_wheelset\"");
+  if (!scene.wheel) return;
+  const WheelSpec& wheel = *scene.wheel;
+  require(!wheel.brake_rings, {"wheel.brake_rings", key},
+          "the rings lie on the disc, which the file replaces; state false");
+  require(wheel.web_offset == 0 && wheel.web_wave == 0, {"wheel.web_offset", "wheel.web_wave", key},
+          "the web is a part of the disc, which the file replaces; state 0");
 }
 
 void check_web_and_foot(const Scene& scene, const std::string& table, Require require) {

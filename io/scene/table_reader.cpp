@@ -68,15 +68,8 @@ std::string listed_units(const std::vector<std::string>& texts) {
 /// "; a comma separates columns ..." where commas split the numbers of a line that other separators divide
 /// into as many cells as there are columns, else "".
 std::string comma_hint(const std::string& line, std::size_t columns) {
-  std::string text = line.substr(0, line.find('#'));
-  bool inside = false;  // a number
-  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
-  for (std::size_t i = 1; i < text.size(); ++i) {
-    if (text[i] != ',' || !digit(i - 1) || !digit(i + 1)) continue;
-    text[i] = '.';
-    inside = true;
-  }
-  if (!inside || table_cells(text).size() != columns) return "";
+  const std::string text = with_decimal_points(line);
+  if (text.empty() || table_cells(text).size() != columns) return "";
   return "; a comma separates columns: write decimal points, not commas";
 }
 

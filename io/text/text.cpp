@@ -37,4 +37,30 @@ std::string csv_cell(const std::string& text) {
   return text.find_first_of(",\"\n") == std::string::npos ? text : fmt::format("\"{}\"", quoted);
 }
 
+std::vector<std::string> csv_cells(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+std::string with_decimal_points(const std::string& line) {
+  std::string text = line.substr(0, line.find('#'));
+  bool inside = false;  // a number
+  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] != ',' || !digit(i - 1) || !digit(i + 1)) continue;
+    text[i] = '.';
+    inside = true;
+  }
+  return inside ? text : "";
+}
+
 }  // namespace tread

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tread {
 
@@ -14,6 +15,12 @@ std::string lower_case(std::string_view text);
 
 /// A cell of a CSV file, quoted if necessary.
 std::string csv_cell(const std::string& text);
+
+/// The cells of a line of such a file.
+std::vector<std::string> csv_cells(const std::string& line);
+
+/// The line, up to a '#', with points in place of commas between digits; empty where it has none.
+std::string with_decimal_points(const std::string& line);
 
 /// The text as one word of a shell, in quotes where the shell would change it.
 std::string shell_word(const std::string& text);

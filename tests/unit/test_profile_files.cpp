@@ -259,6 +259,8 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
       {"a.ban", "MPTypeNo=299\n\n1 2\n2 3\n", false, "a.ban: 2 points: a profile needs at least 10"},
       {"a.ban", "Rail=L\n\n" + rows(changed(rail(), 1, 0, 1e-4)), false,
        "a.ban: the middle lies 0.0011 mm from the line between the ends: is it a whole rail head?"},
+      {"a.csv", "y;z\n-35;-9,9\n-34;-7,5\n", false,
+       "a.csv:2: \"-35;-9,9\": a comma separates columns: write decimal points, not commas"},
       {"a.rai", "a rail\n500\n" + r, false, "a.rai: the header announces 500 rows, the file holds "},
       {"a.rai", "a rail\n" + r + "end\n", false,
        ": \"end\": expected a row of 2 numbers as the first row has"},

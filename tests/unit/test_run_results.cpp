@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drivers/engine/model.hpp"
+#include "drivers/results/force_spectrum.hpp"
 #include "drivers/results/resolution.hpp"
 #include "drivers/results/run_results.hpp"
 #include "drivers/results/run_warnings.hpp"
@@ -44,6 +45,8 @@ TEST(CreepageOfWork, IsAbsentWithoutForceOrWay) {
 
 TEST(Traction, IsSteadyIfItsHalvesAgree) {
   RunResults results;
+  EXPECT_FALSE(traction_is_steady(results));  // without a sample
+  results.steady_samples = 1;
   results.traction_coefficient = 0.3;
   results.traction_drift = 0.0149;
   EXPECT_TRUE(traction_is_steady(results));
@@ -96,6 +99,20 @@ TEST(Warnings, EnergiesThatDoNotBalance) {
   EXPECT_EQ(run_warnings(model, results).size(), before);
   results.energy_error = 0.6;
   EXPECT_EQ(run_warnings(model, results).size(), before + 1);
+}
+
+TEST(Warnings, SamplesWhoseIntervalChanges) {
+  std::vector<Sample> samples(200);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].time = 1e-5 * (i < 100 ? 2.0 * static_cast<double>(i) : 100.0 + static_cast<double>(i));
+    samples[i].wheel_x = 50 * samples[i].time;
+    samples[i].vertical_force = i % 3 == 0 ? 1 : 0;
+  }
+  constexpr double kStep = 1e-6;
+  EXPECT_FALSE(sample_intervals(samples, 0, 1).even(kStep));
+  EXPECT_TRUE(sample_intervals(samples, 0, 0.08).even(kStep));
+  EXPECT_TRUE(force_spectrum(samples, 0, 1, kStep).square.empty());
+  EXPECT_FALSE(force_spectrum(samples, 0, 0.08, kStep).square.empty());
 }
 
 TEST(Warnings, NameTheDampingWhoseLossNoEnergyCounts) {

@@ -28,12 +28,15 @@ bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Kind of a file: by the options, its suffix or its own words.
+/// Kind of a file: by the options, its suffix, or the first word that `tread profile -o` writes.
 bool is_wheel(const std::string& name, std::optional<bool> wanted) {
   if (wanted) return *wanted;
   const std::string suffix = lower_case(std::filesystem::path(name).extension().string());
   if (suffix == ".prw" || suffix == ".whl") return true;
   if (suffix == ".prr" || suffix == ".ban") return false;
+  const std::string text = read_table_text(name);
+  if (text.starts_with("# wheel:")) return true;
+  if (text.starts_with("# rail:")) return false;
   throw InputError(fmt::format("{}: the suffix does not tell what it is; state --wheel or --rail", name));
 }
 

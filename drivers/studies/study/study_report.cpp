@@ -49,7 +49,8 @@ std::string group_of(const StudyPlan& plan, const PlannedPoint& point, const std
   std::string group;
   for (const std::string& key : varied_keys(plan))
     if (key != abscissa)
-      group += fmt::format("{}{} = {}", group.empty() ? "" : ", ", key, value_text(point, key));
+      group += fmt::format("{}{} = {}{}", group.empty() ? "" : ", ", key, value_text(point, key),
+                           number_of(point, key) && unit_of(key) != "-" ? " " + unit_of(key) : "");
   return group;
 }
 
