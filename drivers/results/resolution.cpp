@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/point_scatter.hpp"
 #include "core/travel.hpp"
 #include "drivers/engine/sections.hpp"
 #include "drivers/engine/surfaces.hpp"
@@ -208,6 +209,16 @@ std::string surface_warning(const Model& model, const std::string& name, const S
   return length ? length_warning("surface." + name, *length, model.sizes.contact, "it") : "";
 }
 
+/// Sentence where a profile's points scatter. `table`: "wheel" or "rail".
+std::string profile_warning(const char* table, const std::vector<double>& y, const std::vector<double>& z) {
+  const double scatter = point_scatter(y, z).value_or(0);
+  if (scatter < kRoughProfile) return "";
+  return fmt::format(
+      "the points of {}.profile scatter by {:.2g} um about a smooth line, and pressures with them; "
+      "{}.profile_smoothing = \"{:.2g} mm\" smooths it",
+      table, 1e6 * scatter, table, 1e3 * smoothing_of(scatter));
+}
+
 /// Sentence where the histories have hardly a sample.
 std::string history_warning(const Scene& scene) {
   constexpr double kFewest = 10;
@@ -231,6 +242,10 @@ std::vector<std::string> resolution_warnings(const Model& model) {
   std::vector<std::string> warnings;
   if (!model.contact) return warnings;
   warnings.push_back(history_warning(model.scene));
+  const WheelSpec& wheel = *model.scene.wheel;
+  const RailSpec& rail = *model.scene.rail;
+  warnings.push_back(profile_warning("wheel", wheel.profile_y, wheel.profile_z));
+  warnings.push_back(profile_warning("rail", rail.profile_y, rail.profile_z));
   warnings.push_back(patch_warning(model));
   warnings.push_back(place_warning(model.scene));
   if (model.scene.corrugation) warnings.push_back(start_warning(model));

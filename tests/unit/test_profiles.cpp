@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/plane_curve.hpp"
+#include "core/geometry/point_scatter.hpp"
 #include "core/geometry/profiles.hpp"
 
 namespace tread {
@@ -205,6 +206,23 @@ TEST(Crowned, IsTheCircleItSays) {
     EXPECT_NEAR(curve.at(curve.at_x(y)).position.y, std::sqrt(0.09 - y * y) - 0.3, 1e-14);
   EXPECT_NEAR(curve.length(), 2 * 0.3 * std::asin(0.1), 1e-15);
   EXPECT_EQ(crowned(60 * mm, 0).surface.at(0.01).position.y, 0);
+}
+
+TEST(PointScatter, IsThatOfTheNoise) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 1);
+  for (const double deviation : {0.0, 0.3e-6, 5e-6}) {
+    std::vector<double> y;
+    std::vector<double> z;
+    for (int i = 0; i < 600; ++i) {
+      y.push_back((i == 0 ? 0 : y.back()) + (i % 3 + 1) * 0.1 * mm);
+      const double radius = i < 300 ? 13 * mm : 300 * mm;  // a corner in curvature
+      const double beside = y.back() - 60 * mm;
+      z.push_back(beside * beside / (2 * radius) + deviation * noise(random));
+    }
+    EXPECT_NEAR(point_scatter(y, z).value(), deviation, 0.15 * deviation + 1e-12);
+  }
+  EXPECT_FALSE(point_scatter({1, 2, 3, 4}, {1, 2, 3, 4}));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/geometry/point_scatter.hpp"
 #include "core/geometry/section_constants.hpp"
 #include "core/millimetre.hpp"
 #include "drivers/studies/profile/profile_figures.hpp"
@@ -52,6 +53,11 @@ std::vector<Line> listing(const ShownProfile& profile) {
     if (!profile.file->side.empty()) lines.push_back({"Side", profile.file->side + ", as the file states"});
     lines.push_back({"Changes", end == std::string::npos ? "none" : reading.substr(end + 2)});
     lines.push_back({"Kept", fmt::format("{} points", profile.file->y.size())});
+    if (const double scatter = point_scatter(profile.file->y, profile.file->z).value_or(0);
+        scatter >= kRoughProfile)
+      lines.push_back(
+          {"Scatter", fmt::format("{:.2g} um about a smooth line; --smoothing \"{:.2g} mm\" smooths it",
+                                  1e6 * scatter, 1e3 * smoothing_of(scatter))});
   }
   lines.push_back({"y", fmt::format("{:.2f} ... {:.2f} mm", m.left / mm, m.right / mm)});
   lines.push_back({"z", fmt::format("{:.2f} ... {:.2f} mm", m.low / mm, m.high / mm)});
