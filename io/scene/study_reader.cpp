@@ -218,8 +218,9 @@ class StudyReader {
         std::all_of(name.begin(), name.end(), plain))
       return;
     report(at, "point.name",
-           fmt::format("\"{}\" cannot name a folder: use letters, digits and . _ + - = , (at most {})", name,
-                       kLongestName));
+           fmt::format("\"{}\" cannot name a folder: use letters, digits and . _ + - = , (at most {}), "
+                       "neither . nor - first",
+                       name, kLongestName));
   }
 
   void make_points() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -26,11 +27,23 @@ std::string unit_of(const Hdf5File& file, const std::string& dataset) {
 }
 
 std::vector<double> values_of(const Hdf5File& file, const std::string& dataset) {
-  if (file.type(dataset) == "double") return file.read<double>(dataset);
-  if (file.type(dataset) != "float")
-    throw InputError(fmt::format("dataset '{}' does not hold floating-point numbers", dataset));
-  const std::vector<float> values = file.read<float>(dataset);
-  return {values.begin(), values.end()};
+  std::vector<double> values;
+  if (file.type(dataset) == "double") {
+    values = file.read<double>(dataset);
+  } else if (file.type(dataset) == "float") {
+    const std::vector<float> floats = file.read<float>(dataset);
+    values.assign(floats.begin(), floats.end());
+  } else {
+    throw InputError(
+        fmt::format("dataset '{}' does not hold floating-point numbers as this machine has them; write it as "
+                    "little-endian float64",
+                    dataset));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw InputError(fmt::format("dataset '{}': value {} is {}, and every place of the map needs a number",
+                                   dataset, i, values[i]));
+  return values;
 }
 
 std::string text_of(const Hdf5File& file) {

@@ -88,6 +88,8 @@ std::string advice_text(const Advice& advice) {
     if (advice.nearest)
       text += fmt::format("; the nearest, {}, is {} off", advice.nearest->point,
                           percent_text(error_of(*advice.nearest, advice.quantity).value_or(0)));
+    else
+      text += "; its runs have no error of that quantity: do they reach the stretch that is evaluated?";
     return text + "\n" + measured_text(advice);
   }
   text += fmt::format("{}, which was {} off\n", advice.row->point,
