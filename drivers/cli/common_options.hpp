@@ -47,7 +47,7 @@ CLI::Option* add_cost_option(CLI::App& command, std::string& cost);
 void add_study_options(CLI::App& command, StudyOptions& options);
 
 /// Lets an option that names a scene or a study take the name of a shipped one, too. Files that are there
-/// come first.
+/// come first. `names`: those that a misspelt one may mean.
 CLI::Option* or_shipped(CLI::Option* option, std::vector<std::string> (*names)());
 
 /// InputError where the path that or_shipped() left leads to no file, or to a study.
