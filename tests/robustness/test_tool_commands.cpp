@@ -168,7 +168,11 @@ TEST_F(Commands, ProfileShowsWritesAndMeets) {
   EXPECT_EQ(again.code, 0) << again.errors;
   EXPECT_TRUE(has(again.out, "\"mirrored\": false")) << again.out;
   EXPECT_TRUE(has(again.out, "\"largest_deviation_m\": 9.")) << again.out;
-  EXPECT_TRUE(has(call("profile " + clean.string()).errors, "state --wheel or --rail"));
+  EXPECT_TRUE(has(call("profile " + clean.string()).out, "clean.txt, wheel"));  // by its first line
+  std::string untitled = content("clean.txt");
+  untitled.erase(0, untitled.find('\n') + 1);
+  std::ofstream(folder_ / "untitled.txt") << untitled;
+  EXPECT_TRUE(has(call("profile " + (folder_ / "untitled.txt").string()).errors, "state --wheel or --rail"));
   EXPECT_TRUE(
       has(call(fmt::format("profile {} --rail --section 60E3", clean.string())).errors, "choose from"));
   EXPECT_EQ(call(fmt::format("profile {} --rail --wheel", clean.string())).code, 2);
