@@ -23,7 +23,7 @@ struct SampleIntervals {
   bool even(double dt) const { return most - least < 1.5 * dt; }
 };
 
-/// Of the samples with the wheel between two places [m], but for the last of all.
+/// Intervals of the samples with the wheel between two places [m], the last of all aside.
 SampleIntervals sample_intervals(const std::vector<Sample>& samples, double first, double last);
 
 /// Spectrum of F_N with the wheel between two places [m], in steps of dt [s]; without lines where fewer than

@@ -225,8 +225,7 @@ std::string history_warning(const Scene& scene) {
   if (!scene.motion || scene.motion->duration >= kFewest * scene.output.history_interval) return "";
   return fmt::format(
       "output.history_interval = {:.4g} ms gives fewer than {:g} samples of a run of {:.4g} ms: state a "
-      "shorter "
-      "one",
+      "shorter one",
       1e3 * scene.output.history_interval, kFewest, 1e3 * scene.motion->duration);
 }
 

@@ -52,14 +52,7 @@ std::string balance_warning(const Model& model, const RunResults& r) {
 
 std::string steadiness_warning(const Model& model, const RunResults& r) {
   const bool driven = !model.torque.empty() && full_torque(model) != 0;
-  if (r.steady_samples == 0)
-    return fmt::format(
-        "no sample lies in the steady stretch, which ends at x = {:.6g} m: its values in the summary are 0 "
-        "and "
-        "no results; a later corrugation.start or solution_zone.start, or a longer motion.duration, gives it "
-        "the way",
-        r.steady_last);
-  if (!driven || traction_is_steady(r)) return "";
+  if (!driven || r.steady_samples == 0 || traction_is_steady(r)) return "";
   if (traction_slides(r))
     return fmt::format(
         "the whole patch slides in {:.0f} % of the samples of the steady stretch (x = {:.3f} to {:.3f} m): "
@@ -84,14 +77,23 @@ std::string empty_warning(const RunResults& r) {
       r.evaluated_first, r.evaluated_last);
 }
 
+/// Sentence where no sample lies in the steady stretch.
+std::string empty_steady_warning(const RunResults& r) {
+  if (r.steady_samples > 0) return "";
+  return fmt::format(
+      "no sample lies in the steady stretch, which ends at x = {:.6g} m: its values in the summary are 0 and "
+      "no results; a later corrugation.start or solution_zone.start, or a longer motion.duration, gives it "
+      "the way",
+      r.steady_last);
+}
+
 /// Sentence where the interval of samples changes along the evaluated stretch.
 std::string interval_warning(const RunResults& r) {
   const SampleIntervals intervals = sample_intervals(r.samples, r.evaluated_first, r.evaluated_last);
   if (intervals.even(r.dt)) return "";
   return fmt::format(
       "samples lie {:.3g} to {:.3g} us apart in the evaluated stretch: its means count each of them alike, "
-      "and "
-      "its third octaves are left out; one output.history_interval for the whole run gives both",
+      "and its third octaves are left out; one output.history_interval for the whole run gives both",
       1e6 * intervals.least, 1e6 * intervals.most);
 }
 
@@ -108,6 +110,7 @@ void add_rolling_warnings(const Model& model, const RunResults& r, std::vector<s
   if (model.contact) {
     warnings.push_back(empty_warning(r));
     warnings.push_back(interval_warning(r));
+    warnings.push_back(empty_steady_warning(r));
     warnings.push_back(steadiness_warning(model, r));
   }
   warnings.push_back(balance_warning(model, r));

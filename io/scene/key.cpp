@@ -29,7 +29,7 @@ void TableNames::add(std::string_view table) {
 
 std::string Condition::why_idle() const {
   if (needs_table()) return fmt::format("has no effect without [{}]", key);
-  return fmt::format("has {} with {} = {}", excludes ? "no effect" : "an effect only", key, alternatives());
+  return fmt::format("has {} with {} = {}", negated ? "no effect" : "an effect only", key, alternatives());
 }
 
 std::optional<double> number_at(const Field& field) {

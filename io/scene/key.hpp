@@ -48,12 +48,12 @@ struct Bounds {
 };
 
 /// The key has an effect only where the table `key` is present (no `values`), the text key `key` has one of
-/// these values, or another one with `excludes`, or, with `names_file`, that text key names a file.
+/// these values, or none with `negated`, or, with `names_file`, that text key names a file.
 struct Condition {
   std::string key;
   std::vector<std::string> values;
   bool names_file = false;
-  bool excludes = false;
+  bool negated = false;
 
   bool needs_table() const { return values.empty() && !names_file; }
   /// The values, "\"sine\" or \"random\"", or "a file".

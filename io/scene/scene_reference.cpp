@@ -86,7 +86,7 @@ std::string meaning_of(const Key& key) {
   const Condition& condition = key.only_with;
   return text + (condition.needs_table()
                      ? fmt::format(" (only with `[{}]`)", condition.key)
-                     : fmt::format(" ({} with `{} = {}`)", condition.excludes ? "not" : "only", condition.key,
+                     : fmt::format(" ({} with `{} = {}`)", condition.negated ? "not" : "only", condition.key,
                                    condition.alternatives()));
 }
 

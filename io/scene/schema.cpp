@@ -117,7 +117,7 @@ bool applies(const Key& key, const Scene& scene) {
   const std::string& value = *std::get<std::string*>(other->locate(copy));
   const std::vector<std::string>& values = key.only_with.names_file ? other->allowed : key.only_with.values;
   const bool listed = std::find(values.begin(), values.end(), value) != values.end();
-  return listed != (key.only_with.names_file || key.only_with.excludes);
+  return listed != (key.only_with.names_file || key.only_with.negated);
 }
 
 std::string names_in(std::string_view table) {
