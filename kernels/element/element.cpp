@@ -156,31 +156,63 @@ HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Mat
   return result;
 }
 
+namespace {
+
+/// C over the amplitudes of h1, d02, d13, h4 in place of those of h1, h2 = d02 + d13, h3 = d02 - d13, h4.
+HourglassMatrix in_kernel_modes(HourglassMatrix c) {
+  for (auto& row : c)
+    for (std::size_t i = 0; i < 12; i += 4) {
+      const double h2 = row[i + 1], h3 = row[i + 2];
+      row[i + 1] = h2 + h3;
+      row[i + 2] = h2 - h3;
+    }
+  for (std::size_t i = 0; i < 12; i += 4)
+    for (std::size_t column = 0; column < 12; ++column) {
+      const double h2 = c[i + 1][column], h3 = c[i + 2][column];
+      c[i + 1][column] = h2 + h3;
+      c[i + 2][column] = h2 - h3;
+    }
+  return c;
+}
+
+}  // namespace
+
 template <class Real>
 SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
                                      const Material& material) {
   SweptConstants<Real> c{};
   const auto real = [](double value) { return static_cast<Real>(value); };
-  constexpr std::size_t kAlong[4] = {mode_xi, mode_h2, mode_h3, mode_h4};
-  constexpr std::size_t kAcross[3] = {mode_eta, mode_zeta, mode_h1};
-  for (std::size_t m = 0; m < 3; ++m) {
-    c.gradient_x[m] = real(geometry.gradient[kAlong[m]].x);
-    c.gradient_y[m] = real(geometry.gradient[kAcross[m]].y);
-    c.gradient_z[m] = real(geometry.gradient[kAcross[m]].z);
-    c.position_y[m] = real(geometry.position[kAcross[m]].y);
-    c.position_z[m] = real(geometry.position[kAcross[m]].z);
-  }
-  for (std::size_t m = 0; m < 4; ++m) c.position_x[m] = real(geometry.position[kAlong[m]].x);
+  // Gradients by s02, s13 (d02, d13) follow those by eta, zeta (h3, h2); positions go the other way.
+  const auto set = [&](Real* gradient, Real* position, Mode difference, Mode sum, int axis) {
+    const double g_difference = geometry.gradient[difference][axis], g_sum = geometry.gradient[sum][axis];
+    const double x_difference = geometry.position[difference][axis], x_sum = geometry.position[sum][axis];
+    gradient[0] = real(g_sum + g_difference);
+    gradient[1] = real(g_sum - g_difference);
+    position[0] = real((x_sum + x_difference) / 2);
+    position[1] = real((x_sum - x_difference) / 2);
+  };
+  set(c.gradient_x + 1, c.position_x + 1, mode_h3, mode_h2, 0);
+  set(c.gradient_y, c.position_y, mode_eta, mode_zeta, 1);
+  set(c.gradient_z, c.position_z, mode_eta, mode_zeta, 2);
+  c.gradient_x[0] = real(geometry.gradient[mode_xi].x);
+  c.gradient_y[2] = real(geometry.gradient[mode_h1].y);
+  c.gradient_z[2] = real(geometry.gradient[mode_h1].z);
+  c.position_x[0] = real(geometry.position[mode_xi].x);
+  c.position_x[3] = real(geometry.position[mode_h4].x);
+  c.position_y[2] = real(geometry.position[mode_h1].y);
+  c.position_z[2] = real(geometry.position[mode_h1].z);
   c.inverse_volume = real(1 / geometry.volume);
   c.lambda = real(material.lame_lambda() * geometry.volume);
   c.mu = real(material.shear_modulus() * geometry.volume);
 
+  const HourglassMatrix matrix = in_kernel_modes(hourglass);
   enum : std::size_t { x1, x2, x3, x4, y1, y2, y3, y4, z1, z2, z3, z4 };
-  const auto entry = [&](std::size_t a, std::size_t b) { return real(hourglass[a][b]); };
+  const auto entry = [&](std::size_t row, std::size_t column) { return real(matrix[row][column]); };
   HourglassConstants<Real>& h = c.hourglass;
   constexpr std::size_t kEven[4] = {x2, x3, y1, z1};
   constexpr std::size_t kOdd[5] = {x1, y2, z2, y3, z3};
-  for (std::size_t a = 0; a < 4; ++a) h.even_diagonal[a] = entry(kEven[a], kEven[a]);
+  for (std::size_t k = 0; k < 4; ++k) h.even_diagonal[k] = entry(kEven[k], kEven[k]);
+  h.x2_x3 = entry(x2, x3);
   h.x2_y1 = entry(x2, y1);
   h.x2_z1 = entry(x2, z1);
   h.x3_y1 = entry(x3, y1);
@@ -188,9 +220,10 @@ SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const Hour
   h.y1_z1 = entry(y1, z1);
   h.x4 = entry(x4, x4);
   std::size_t upper = 0;
-  for (std::size_t a = 0; a < 5; ++a) {
-    h.odd_diagonal[a] = entry(kOdd[a], kOdd[a]);
-    for (std::size_t b = a + 1; b < 5; ++b) h.odd_upper[upper++] = entry(kOdd[a], kOdd[b]);
+  for (std::size_t row = 0; row < 5; ++row) {
+    h.odd_diagonal[row] = entry(kOdd[row], kOdd[row]);
+    for (std::size_t column = row + 1; column < 5; ++column)
+      h.odd_upper[upper++] = entry(kOdd[row], kOdd[column]);
   }
   h.y4 = entry(y4, y4);
   h.z4 = entry(z4, z4);

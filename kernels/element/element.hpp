@@ -23,6 +23,11 @@ inline constexpr int kHourglassModes = 4;
 /// Modes that mean gradients see: h4 has none, in any shape.
 inline constexpr int kGradientModes = 6;
 
+/// The kernels' modes: the sums s and differences d of both ends, along the diagonals of the quad from corner
+/// 0 to 2 and from 1 to 3, stand for eta = s02 - s13, zeta = s02 + s13, h2 = d02 + d13 and h3 = d02 - d13,
+/// which would take four operations more a component each way.
+enum KernelMode { kernel_xi, kernel_s02, kernel_s13, kernel_h1, kernel_d02, kernel_d13, kernel_h4 };
+
 using HexNodes = std::array<Vec3, 8>;
 
 /// Value of a base vector at a node: +1 or -1.
@@ -51,11 +56,12 @@ HexNodes swept_nodes(const Section& section, int quad, Sweep sweep, double pitch
 using HourglassMatrix = std::array<std::array<double, 12>, 12>;
 HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material);
 
-/// The entries of HourglassMatrix that the symmetry of a swept element leaves.
+/// The entries that the symmetry of a swept element leaves of HourglassMatrix, in the kernels' modes: x1 ...
+/// x4 are component x of h1, d02, d13, h4.
 template <class Real>
 struct HourglassConstants {
   Real even_diagonal[4];  ///< of (x2, x3, y1, z1)
-  Real x2_y1, x2_z1, x3_y1, x3_z1, y1_z1;
+  Real x2_x3, x2_y1, x2_z1, x3_y1, x3_z1, y1_z1;
   Real x4;
   Real odd_diagonal[5];  ///< of (x1, y2, z2, y3, z3)
   Real odd_upper[10];    ///< their upper triangle by rows
@@ -63,15 +69,15 @@ struct HourglassConstants {
 };
 
 /// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the
-/// modes (xi, h2, h3) only, d/dy and d/dz to (eta, zeta, h1) only. In extruded elements the gradients of h1
-/// and the positions of h2, h3, h4 vanish too. Aligned, so that a card loads 16 bytes at once.
+/// modes (xi, d02, d13) only, d/dy and d/dz to (s02, s13, h1) only. In extruded elements the gradients of h1
+/// and the positions of d02, d13, h4 vanish too. Aligned, so that a card loads 16 bytes at once.
 template <class Real>
 struct alignas(16) SweptConstants {
-  Real gradient_x[3];  ///< of xi, h2, h3 [1/m]
-  Real gradient_y[3];  ///< of eta, zeta, h1 [1/m]
+  Real gradient_x[3];  ///< of xi, d02, d13 [1/m]
+  Real gradient_y[3];  ///< of s02, s13, h1 [1/m]
   Real gradient_z[3];
-  Real position_x[4];  ///< of xi, h2, h3, h4 [m]
-  Real position_y[3];  ///< of eta, zeta, h1 [m]
+  Real position_x[4];  ///< of xi, d02, d13, h4 [m]
+  Real position_y[3];  ///< of s02, s13, h1 [m]
   Real position_z[3];
   Real lambda, mu;      ///< Lame's constants times the volume [N m]
   Real inverse_volume;  ///< [1/m3]

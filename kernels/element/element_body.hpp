@@ -4,7 +4,7 @@
 // instruction set.
 //
 // A quad's eight nodal values enter as s_j = left + right and d_j = right - left at its four corners j, which
-// is the first stage of the butterfly to the modal amplitudes.
+// is the first stage on the way to the amplitudes of KernelMode.
 
 #include "core/inline.hpp"
 #include "kernels/element/element.hpp"
@@ -20,41 +20,33 @@ struct Strain {
   V q[3][kHourglassModes];
 };
 
-/// Modal amplitudes A_m of one component, m as in Mode.
+/// Amplitudes of one component, by KernelMode.
 template <class V>
 TREAD_INLINE void to_modes(const V (&s)[4], const V (&d)[4], V (&a)[kModes]) {
-  const V s10 = s[1] - s[0];
-  const V s23 = s[2] - s[3];
-  a[mode_eta] = s10 + s23;
-  a[mode_h1] = s23 - s10;
-  a[mode_zeta] = (s[2] + s[3]) - (s[1] + s[0]);
-  const V d10 = d[1] - d[0];
-  const V d23 = d[2] - d[3];
-  a[mode_h3] = d10 + d23;
-  a[mode_h4] = d23 - d10;
-  const V front = d[1] + d[0];
-  const V back = d[2] + d[3];
-  a[mode_xi] = back + front;
-  a[mode_h2] = back - front;
+  a[kernel_s02] = s[2] - s[0];
+  a[kernel_s13] = s[3] - s[1];
+  a[kernel_h1] = (s[0] + s[2]) - (s[1] + s[3]);
+  a[kernel_d02] = d[2] - d[0];
+  a[kernel_d13] = d[3] - d[1];
+  const V d02 = d[0] + d[2];
+  const V d13 = d[1] + d[3];
+  a[kernel_xi] = d02 + d13;
+  a[kernel_h4] = d02 - d13;
 }
 
 /// Transpose of to_modes.
 template <class V>
 TREAD_INLINE void from_modes(const V (&a)[kModes], V (&s)[4], V (&d)[4]) {
-  const V p = a[mode_eta] - a[mode_h1];
-  const V r = a[mode_eta] + a[mode_h1];
-  s[0] = -p - a[mode_zeta];
-  s[1] = p - a[mode_zeta];
-  s[2] = r + a[mode_zeta];
-  s[3] = a[mode_zeta] - r;
-  const V front = a[mode_xi] - a[mode_h2];
-  const V back = a[mode_xi] + a[mode_h2];
-  const V dp = a[mode_h3] - a[mode_h4];
-  const V dr = a[mode_h3] + a[mode_h4];
-  d[0] = front - dp;
-  d[1] = front + dp;
-  d[2] = back + dr;
-  d[3] = back - dr;
+  s[0] = a[kernel_h1] - a[kernel_s02];
+  s[1] = -(a[kernel_h1] + a[kernel_s13]);
+  s[2] = a[kernel_h1] + a[kernel_s02];
+  s[3] = a[kernel_s13] - a[kernel_h1];
+  const V d02 = a[kernel_xi] + a[kernel_h4];
+  const V d13 = a[kernel_xi] - a[kernel_h4];
+  d[0] = d02 - a[kernel_d02];
+  d[1] = d13 - a[kernel_d13];
+  d[2] = d02 + a[kernel_d02];
+  d[3] = d13 + a[kernel_d13];
 }
 
 /// Strains of the elements of one (quad, pitch class): the shape is symmetric about xi = 0. In extruded
@@ -65,19 +57,20 @@ struct SweptElement {
 
   template <class V>
   TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {
-    const V x = c.gradient_x[0] * a[mode_xi] + c.gradient_x[1] * a[mode_h2] + c.gradient_x[2] * a[mode_h3];
-    V y = c.gradient_y[0] * a[mode_eta] + c.gradient_y[1] * a[mode_zeta];
-    V z = c.gradient_z[0] * a[mode_eta] + c.gradient_z[1] * a[mode_zeta];
+    const V x =
+        c.gradient_x[0] * a[kernel_xi] + c.gradient_x[1] * a[kernel_d02] + c.gradient_x[2] * a[kernel_d13];
+    V y = c.gradient_y[0] * a[kernel_s02] + c.gradient_y[1] * a[kernel_s13];
+    V z = c.gradient_z[0] * a[kernel_s02] + c.gradient_z[1] * a[kernel_s13];
     if constexpr (sweep == Sweep::revolved) {
-      y += c.gradient_y[2] * a[mode_h1];
-      z += c.gradient_z[2] * a[mode_h1];
+      y += c.gradient_y[2] * a[kernel_h1];
+      z += c.gradient_z[2] * a[kernel_h1];
     }
     e.g[i][0] = x;
     e.g[i][1] = y;
     e.g[i][2] = z;
-    e.q[i][0] = a[mode_h1] - c.position_y[2] * y - c.position_z[2] * z;
+    e.q[i][0] = a[kernel_h1] - c.position_y[2] * y - c.position_z[2] * z;
     for (int m = 1; m < kHourglassModes; ++m) {
-      e.q[i][m] = a[mode_h1 + m];
+      e.q[i][m] = a[kernel_h1 + m];
       if constexpr (sweep == Sweep::revolved) e.q[i][m] -= c.position_x[m] * x;
     }
   }
@@ -90,14 +83,14 @@ struct SweptElement {
     const V z = f.g[i][2] - c.position_z[2] * f.q[i][0];
     if constexpr (sweep == Sweep::revolved)
       x -= c.position_x[1] * f.q[i][1] + c.position_x[2] * f.q[i][2] + c.position_x[3] * f.q[i][3];
-    a[mode_xi] = c.gradient_x[0] * x;
-    a[mode_h2] = f.q[i][1] + c.gradient_x[1] * x;
-    a[mode_h3] = f.q[i][2] + c.gradient_x[2] * x;
-    a[mode_h4] = f.q[i][3];
-    a[mode_eta] = c.gradient_y[0] * y + c.gradient_z[0] * z;
-    a[mode_zeta] = c.gradient_y[1] * y + c.gradient_z[1] * z;
-    a[mode_h1] = f.q[i][0];
-    if constexpr (sweep == Sweep::revolved) a[mode_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
+    a[kernel_xi] = c.gradient_x[0] * x;
+    a[kernel_d02] = f.q[i][1] + c.gradient_x[1] * x;
+    a[kernel_d13] = f.q[i][2] + c.gradient_x[2] * x;
+    a[kernel_h4] = f.q[i][3];
+    a[kernel_s02] = c.gradient_y[0] * y + c.gradient_z[0] * z;
+    a[kernel_s13] = c.gradient_y[1] * y + c.gradient_z[1] * z;
+    a[kernel_h1] = f.q[i][0];
+    if constexpr (sweep == Sweep::revolved) a[kernel_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
   }
 
   template <int first>
@@ -134,26 +127,30 @@ struct PerturbedElement {
   TREAD_INLINE PerturbedElement(const SweptConstants<Real>& swept, const V (&shift)[3][kModes]) {
     for (int m = 0; m < kModes; ++m)
       for (int j = 0; j < 3; ++j) position[m][j] = shift[j][m];
-    constexpr int kAcross[3] = {mode_eta, mode_zeta, mode_h1};
+    constexpr int kAcross[3] = {kernel_s02, kernel_s13, kernel_h1};
     for (int m = 0; m < 3; ++m) {
       position[kAcross[m]][1] += swept.position_y[m];
       position[kAcross[m]][2] += swept.position_z[m];
     }
-    constexpr int kAlong[4] = {mode_xi, mode_h2, mode_h3, mode_h4};
+    constexpr int kAlong[4] = {kernel_xi, kernel_d02, kernel_d13, kernel_h4};
     for (int m = 0; m < 4; ++m) position[kAlong[m]][0] += swept.position_x[m];
+    // In these modes the triple products of element_geometry are half as large.
     V thirds[3][3];
     for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < 3; ++j) thirds[k][j] = Real(1) / 3 * position[mode_h1 + k][j];
-    for (int k = 0; k < 3; ++k) {
-      const int k1 = (k + 1) % 3;
-      const int k2 = (k + 2) % 3;
-      add_products(position[k1], position[k2], position[mode_h1 + k2], thirds[k1], gradient[k]);
-      add_products(position[k2], thirds[k1], thirds[k2], position[k1], gradient[mode_h1 + k]);
-    }
-    V triple = position[mode_xi][0] * gradient[mode_xi][0] + position[mode_h1][0] * gradient[mode_h1][0];
+      for (int j = 0; j < 3; ++j) thirds[k][j] = Real(1) / 3 * position[kernel_h1 + k][j];
+    const auto &xi = position[kernel_xi], &s02 = position[kernel_s02], &s13 = position[kernel_s13];
+    const auto &d02 = position[kernel_d02], &d13 = position[kernel_d13];
+    const auto &h1_3 = thirds[0], &d02_3 = thirds[1], &d13_3 = thirds[2];
+    add_products(s02, s13, d02, d13_3, gradient[kernel_xi]);
+    add_products(s13, xi, d13, h1_3, gradient[kernel_s02]);
+    add_products(xi, s02, d02, h1_3, gradient[kernel_s13]);
+    add_products(s13, d02_3, s02, d13_3, gradient[kernel_h1]);
+    add_products(d13_3, xi, h1_3, s13, gradient[kernel_d02]);
+    add_products(xi, d02_3, h1_3, s02, gradient[kernel_d13]);
+    V triple = xi[0] * gradient[kernel_xi][0] + position[kernel_h1][0] * gradient[kernel_h1][0];
     for (int j = 1; j < 3; ++j)
-      triple += position[mode_xi][j] * gradient[mode_xi][j] + position[mode_h1][j] * gradient[mode_h1][j];
-    volume_ratio = triple * (swept.inverse_volume / 64);
+      triple += xi[j] * gradient[kernel_xi][j] + position[kernel_h1][j] * gradient[kernel_h1][j];
+    volume_ratio = triple * (swept.inverse_volume / 32);
     const V inverse = 1 / triple;
     for (auto& mode : gradient)
       for (V& value : mode) value *= inverse;
@@ -166,8 +163,8 @@ struct PerturbedElement {
       e.g[i][j] = sum;
     }
     for (int m = 0; m < kHourglassModes; ++m) {
-      const V(&x)[3] = position[mode_h1 + m];
-      e.q[i][m] = a[mode_h1 + m] - x[0] * e.g[i][0] - x[1] * e.g[i][1] - x[2] * e.g[i][2];
+      const V(&x)[3] = position[kernel_h1 + m];
+      e.q[i][m] = a[kernel_h1 + m] - x[0] * e.g[i][0] - x[1] * e.g[i][1] - x[2] * e.g[i][2];
     }
   }
 
@@ -175,10 +172,10 @@ struct PerturbedElement {
     V t[3];
     for (int j = 0; j < 3; ++j) {
       t[j] = f.g[i][j];
-      for (int m = 0; m < kHourglassModes; ++m) t[j] -= position[mode_h1 + m][j] * f.q[i][m];
+      for (int m = 0; m < kHourglassModes; ++m) t[j] -= position[kernel_h1 + m][j] * f.q[i][m];
     }
     for (int m = 0; m < kModes; ++m) {
-      a[m] = m < mode_h1 ? V{} : f.q[i][m < mode_h1 ? 0 : m - mode_h1];
+      a[m] = m < kernel_h1 ? V{} : f.q[i][m < kernel_h1 ? 0 : m - kernel_h1];
       if (m < kGradientModes) a[m] += gradient[m][0] * t[0] + gradient[m][1] * t[1] + gradient[m][2] * t[2];
     }
   }
@@ -239,8 +236,8 @@ TREAD_INLINE void stress_forces(const SweptConstants<Real>& c, const Strain<V>& 
 template <class V, class Real>
 TREAD_INLINE void hourglass_forces(const HourglassConstants<Real>& c, const Strain<V>& e, Strain<V>& f) {
   const V &x2 = e.q[0][1], &x3 = e.q[0][2], &y1 = e.q[1][0], &z1 = e.q[2][0];
-  f.q[0][1] = c.even_diagonal[0] * x2 + c.x2_y1 * y1 + c.x2_z1 * z1;
-  f.q[0][2] = c.even_diagonal[1] * x3 + c.x3_y1 * y1 + c.x3_z1 * z1;
+  f.q[0][1] = c.even_diagonal[0] * x2 + c.x2_x3 * x3 + c.x2_y1 * y1 + c.x2_z1 * z1;
+  f.q[0][2] = c.even_diagonal[1] * x3 + c.x2_x3 * x2 + c.x3_y1 * y1 + c.x3_z1 * z1;
   f.q[1][0] = c.even_diagonal[2] * y1 + c.x2_y1 * x2 + c.x3_y1 * x3 + c.y1_z1 * z1;
   f.q[2][0] = c.even_diagonal[3] * z1 + c.x2_z1 * x2 + c.x3_z1 * x3 + c.y1_z1 * y1;
   f.q[0][3] = c.x4 * e.q[0][3];

@@ -117,9 +117,11 @@ class HexElements {
     rotation(axes);
     for (int i = 0; i < 3; ++i) scale[i] = load<V>(&pack_.shapes.scale[i][lane_]);
     V q[3][kHourglassModes];
+    V in_modes[3][kHourglassModes];
+    for (int i = 0; i < 3; ++i) by_directions(e.q[i], in_modes[i]);
     for (int i = 0; i < 3; ++i)
       for (int m = 0; m < kHourglassModes; ++m)
-        q[i][m] = axes[0][i] * e.q[0][m] + axes[1][i] * e.q[1][m] + axes[2][i] * e.q[2][m];
+        q[i][m] = axes[0][i] * in_modes[0][m] + axes[1][i] * in_modes[1][m] + axes[2][i] * in_modes[2][m];
     V f[3][kHourglassModes];
     const V squares = scale[0] * scale[0] + scale[1] * scale[1] + scale[2] * scale[2];
     const V trace = scale[0] * q[0][0] + scale[1] * q[1][1] + scale[2] * q[2][2];
@@ -132,9 +134,19 @@ class HexElements {
               scale[i] * (material_.plate * (scale[i] * q[i][j]) + material_.plate_nu * (scale[j] * q[j][i]));
       f[i][3] = material_.youngs_third * (scale[i] * (scale[i] * q[i][3]));
     }
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3; ++i) {
       for (int m = 0; m < kHourglassModes; ++m)
-        force.q[i][m] = axes[i][0] * f[0][m] + axes[i][1] * f[1][m] + axes[i][2] * f[2][m];
+        in_modes[i][m] = axes[i][0] * f[0][m] + axes[i][1] * f[1][m] + axes[i][2] * f[2][m];
+      by_directions(in_modes[i], force.q[i]);
+    }
+  }
+
+  /// From h1, d02, d13, h4 to h1, h2, h3, h4: amplitudes one way, forces the other, which is its transpose.
+  TREAD_INLINE static void by_directions(const V (&from)[kHourglassModes], V (&to)[kHourglassModes]) {
+    to[0] = from[0];
+    to[1] = from[1] + from[2];
+    to[2] = from[1] - from[2];
+    to[3] = from[3];
   }
 
   const HexView& view_;

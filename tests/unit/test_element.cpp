@@ -85,6 +85,27 @@ TEST(ElementGeometry, TurnedInsideOutIsSeen) {
   EXPECT_LT(element_geometry(nodes).volume, 0);
 }
 
+double mode_sum(Mode mode, const std::array<double, 8>& u) {
+  double sum = 0;
+  for (int node = 0; node < 8; ++node) sum += mode_value(mode, node) * u[index(node)];
+  return sum;
+}
+
+void to_kernel_modes(const std::array<double, 8>& u, double (&a)[kModes]) {
+  double s[4];
+  double d[4];
+  for (std::size_t j = 0; j < 4; ++j) {
+    s[j] = u[j + 4] + u[j];
+    d[j] = u[j + 4] - u[j];
+  }
+  to_modes(s, d, a);
+}
+
+/// Amplitudes of h1, h2, h3, h4 from those of the kernels' modes.
+std::array<double, 4> by_directions(const double (&q)[kHourglassModes]) {
+  return {q[0], q[1] + q[2], q[1] - q[2], q[3]};
+}
+
 class SweptSymmetry : public testing::TestWithParam<Sweep> {
  protected:
   SweptSymmetry()
@@ -125,11 +146,18 @@ TEST_P(SweptSymmetry, HourglassConstantsHoldTheWholeMatrix) {
     Strain<double> force{};
     strain.q[column / 4][column % 4] = 1;
     hourglass_forces(constants.hourglass, strain, force);
-    for (int row = 0; row < 12; ++row) {
-      EXPECT_NEAR(force.q[row / 4][row % 4], matrix[index(row)][index(column)], 1e-14 * scale)
-          << row << " " << column;
-      EXPECT_NEAR(matrix[index(row)][index(column)], matrix[index(column)][index(row)], 1e-14 * scale);
+    const std::array<double, 4> moved = by_directions(strain.q[column / 4]);
+    for (int i = 0; i < 3; ++i) {
+      double in_modes[kHourglassModes] = {};
+      for (int m = 0; m < kHourglassModes; ++m)
+        for (int n = 0; n < kHourglassModes; ++n)
+          in_modes[m] += matrix[index(4 * i + m)][index(column / 4 * 4 + n)] * moved[index(n)];
+      const std::array<double, 4> wanted = by_directions(in_modes);  // the transpose of the amplitudes' sums
+      for (int m = 0; m < kHourglassModes; ++m)
+        EXPECT_NEAR(force.q[i][m], wanted[index(m)], 1e-14 * scale) << 4 * i + m << " " << column;
     }
+    for (int row = 0; row < 12; ++row)
+      EXPECT_NEAR(matrix[index(row)][index(column)], matrix[index(column)][index(row)], 1e-14 * scale);
   }
 }
 
@@ -155,20 +183,49 @@ INSTANTIATE_TEST_SUITE_P(Sweeps, SweptSymmetry, testing::Values(Sweep::extruded,
                            return sweep.param == Sweep::extruded ? "extruded" : "revolved";
                          });
 
-TEST(ElementBody, ModesAreTheSumsOverTheNodes) {
-  const double u[8] = {1, -2, 3, 5, -7, 11, 13, -17};
-  double s[4];
-  double d[4];
+TEST(ElementBody, ModesOfDiagonalsMakeTheSumsOverTheNodes) {
+  const std::array<double, 8> u = {1, -2, 3, 5, -7, 11, 13, -17};
   double a[kModes];
-  for (int j = 0; j < 4; ++j) {
-    s[j] = u[j + 4] + u[j];
-    d[j] = u[j + 4] - u[j];
+  to_kernel_modes(u, a);
+  EXPECT_EQ(a[kernel_xi], mode_sum(mode_xi, u));
+  EXPECT_EQ(a[kernel_s02] - a[kernel_s13], mode_sum(mode_eta, u));
+  EXPECT_EQ(a[kernel_s02] + a[kernel_s13], mode_sum(mode_zeta, u));
+  EXPECT_EQ(a[kernel_h1], mode_sum(mode_h1, u));
+  EXPECT_EQ(a[kernel_d02] + a[kernel_d13], mode_sum(mode_h2, u));
+  EXPECT_EQ(a[kernel_d02] - a[kernel_d13], mode_sum(mode_h3, u));
+  EXPECT_EQ(a[kernel_h4], mode_sum(mode_h4, u));
+}
+
+TEST(ElementBody, StrainsAreThoseOfTheElementsGeometry) {
+  const HexNodes nodes = distorted_hexahedron();
+  const ElementGeometry shape = element_geometry(nodes);
+  SweptConstants<double> no_shape{};
+  no_shape.inverse_volume = 1;
+  double positions[3][kModes];
+  for (int j = 0; j < 3; ++j) {
+    std::array<double, 8> x{};
+    for (std::size_t node = 0; node < 8; ++node) x[node] = nodes[node][j];
+    to_kernel_modes(x, positions[j]);
   }
-  to_modes(s, d, a);
-  for (int m = 0; m < kModes; ++m) {
-    double sum = 0;
-    for (int node = 0; node < 8; ++node) sum += mode_value(static_cast<Mode>(m), node) * u[node];
-    EXPECT_EQ(a[m], sum) << m;
+  const PerturbedElement<double, double> element(no_shape, positions);
+  EXPECT_NEAR(element.volume_ratio, shape.volume, 1e-13 * shape.volume);
+
+  const std::array<double, 8> u = {1, -2, 3, 5, -7, 11, 13, -17};
+  double a[kModes];
+  to_kernel_modes(u, a);
+  Strain<double> strain{};
+  element.strain(1, a, strain);
+  for (int j = 0; j < 3; ++j) {
+    double gradient = 0;
+    for (int m = 0; m < kGradientModes; ++m)
+      gradient += shape.gradient[index(m)][j] * mode_sum(static_cast<Mode>(m), u);
+    EXPECT_NEAR(strain.g[1][j], gradient, 1e-13 * 17);
+  }
+  const std::array<double, 4> q = by_directions(strain.q[1]);
+  for (int m = 0; m < kHourglassModes; ++m) {
+    double amplitude = mode_sum(static_cast<Mode>(mode_h1 + m), u);
+    for (int j = 0; j < 3; ++j) amplitude -= strain.g[1][j] * shape.position[index(mode_h1 + m)][j];
+    EXPECT_NEAR(q[index(m)], amplitude, 1e-12) << m;
   }
 }
 
