@@ -37,7 +37,7 @@ struct BlockData {
         u(made_up_field<U>(mesh, kDisplacement)),
         v(made_up_field<Real>(mesh, kVelocity)),
         f(made_up_field<Real>(mesh, kForce)),
-        inverse_mass(static_cast<std::size_t>(mesh.slots), Real(1e5)),
+        inverse_mass(made_up_inverse_mass<Real>(mesh)),
         update(mesh, inverse_mass.data()) {
     mesh.blocks.front().vertical_only = variant.vertical_only;
     internal.set_finite_rotation(0, variant.finite_rotation);

@@ -99,7 +99,19 @@ AlignedVector<Real> made_up_field(const Mesh& mesh, double size) {
   return field;
 }
 
+template <class Real>
+AlignedVector<Real> made_up_inverse_mass(const Mesh& mesh) {
+  AlignedVector<Real> inverse_mass(static_cast<std::size_t>(mesh.slots), 0);
+  for (const SweptBlock& block : mesh.blocks)
+    for_each_node(block, [&](std::int64_t slot, const Vec3& /*value*/) {
+      inverse_mass[static_cast<std::size_t>(block.base + slot)] = Real(1e5);
+    });
+  return inverse_mass;
+}
+
 template AlignedVector<double> made_up_field<double>(const Mesh& mesh, double size);
 template AlignedVector<float> made_up_field<float>(const Mesh& mesh, double size);
+template AlignedVector<double> made_up_inverse_mass<double>(const Mesh& mesh);
+template AlignedVector<float> made_up_inverse_mass<float>(const Mesh& mesh);
 
 }  // namespace tread

@@ -27,4 +27,8 @@ MadeUpTie made_up_tie(std::int64_t elements);
 template <class Real>
 AlignedVector<Real> made_up_field(const Mesh& mesh, double size);
 
+/// 1e5 / kg for every node; unused lanes do not move.
+template <class Real>
+AlignedVector<Real> made_up_inverse_mass(const Mesh& mesh);
+
 }  // namespace tread

@@ -23,17 +23,13 @@ void run_element(const Element& element, const SweptConstants<Counted>& constant
   for (int i = first; i < 3; ++i) {
     const Counted s[kCorners] = {};
     const Counted d[kCorners] = {};
-    Counted a[kModes] = {};
-    to_modes(s, d, a);
-    element.strain(i, a, strain);
+    element.strain(i, s, d, strain);
   }
   strain_forces<finite_rotation, first>(constants, element, strain, force);
   for (int i = first; i < 3; ++i) {
-    Counted a[kModes] = {};
     Counted s[kCorners] = {};
     Counted d[kCorners] = {};
-    element.forces(i, force, a);
-    from_modes(a, s, d);
+    element.forces(i, force, s, d);
     Counted sum = 0;
     for (int j = 0; j < kCorners; ++j) sum += s[j] + d[j];
   }

@@ -125,23 +125,19 @@ class BlockElements {
   AlignedVector<LaneShifts<Real>> shifts_;
 };
 
-/// Modal amplitudes of component i of sums and differences at the four corners.
+/// Component i of values at the four corners.
 template <class Real>
-void component_modes(int i, const Real (&s)[4][3], const Real (&d)[4][3], Real (&a)[kModes]) {
-  const Real sum[4] = {s[0][i], s[1][i], s[2][i], s[3][i]};
-  const Real difference[4] = {d[0][i], d[1][i], d[2][i], d[3][i]};
-  to_modes(sum, difference, a);
-}
+struct CornerComponent {
+  Real value[4];
+  CornerComponent(int i, const Real (&at)[4][3]) : value{at[0][i], at[1][i], at[2][i], at[3][i]} {}
+};
 
 /// Strain of sums and differences at the four corners.
 template <class Element, class Real>
 Strain<Real> element_strain(const Element& element, const Real (&s)[4][3], const Real (&d)[4][3]) {
   Strain<Real> result;
-  for (int i = 0; i < 3; ++i) {
-    Real a[kModes];
-    component_modes(i, s, d, a);
-    element.strain(i, a, result);
-  }
+  for (int i = 0; i < 3; ++i)
+    element.strain(i, CornerComponent<Real>(i, s).value, CornerComponent<Real>(i, d).value, result);
   return result;
 }
 
@@ -149,11 +145,9 @@ Strain<Real> element_strain(const Element& element, const Real (&s)[4][3], const
 template <class Element, class Real>
 void element_forces(const Element& element, const Strain<Real>& force, Real (&s)[4][3], Real (&d)[4][3]) {
   for (int i = 0; i < 3; ++i) {
-    Real a[kModes];
     Real sum[4];
     Real difference[4];
-    element.forces(i, force, a);
-    from_modes(a, sum, difference);
+    element.forces(i, force, sum, difference);
     for (int j = 0; j < 4; ++j) {
       s[j][i] = sum[j];
       d[j][i] = difference[j];
@@ -193,7 +187,8 @@ void BlockElements<Real>::with_element(const ElementPlace& at, const Visit& visi
                    node < 4 ? at.station : far_station(swept, at.station), i);
     };
     spread(at, at_node, s, d);
-    for (int i = 0; i < 3; ++i) component_modes(i, s, d, shifts[i]);
+    for (int i = 0; i < 3; ++i)
+      to_modes(CornerComponent<Real>(i, s).value, CornerComponent<Real>(i, d).value, shifts[i]);
     visit(PerturbedElement<Real, Real>(constants, shifts));
   } else if (swept.sweep == Sweep::revolved) {
     visit(SweptElement<Sweep::revolved, Real>{constants});

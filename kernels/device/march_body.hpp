@@ -210,9 +210,9 @@ class March {
     for (int i = 0; i < 3; ++i) value[i] = shift.shift[i][lane];
   }
 
-  /// Modal amplitudes of the components, from the first one on, of the values at a quad's nodes.
+  /// take(component, sums, differences) of the values at a quad's nodes, components from the first one on.
   template <int from, class Take>
-  TREAD_INLINE static void amplitudes(const MarchQuad& quad, int lane, Real* values, const Take& take) {
+  TREAD_INLINE static void with_corners(const MarchQuad& quad, int lane, Real* values, const Take& take) {
     const NodeValues<Real> node[4] = {
         NodeValues<Real>(values, quad.node[0], lane), NodeValues<Real>(values, quad.node[1], lane),
         NodeValues<Real>(values, quad.node[2], lane), NodeValues<Real>(values, quad.node[3], lane)};
@@ -223,9 +223,7 @@ class March {
         s[j] = node[j][i];
         d[j] = node[j][3 + i];
       }
-      Real a[kModes];
-      to_modes(s, d, a);
-      take(i, a);
+      take(i, s, d);
     }
   }
 
@@ -271,8 +269,9 @@ class March {
     const SweptConstants<Real> constants = block_.constants[place];
     Strain<Real> strain;
     Strain<Real> force;
-    amplitudes<first>(quad, lane, room_.values,
-                      [&](int i, const Real(&a)[kModes]) { element.strain(i, a, strain); });
+    with_corners<first>(quad, lane, room_.values, [&](int i, const Real(&s)[4], const Real(&d)[4]) {
+      element.strain(i, s, d, strain);
+    });
     if constexpr (kLinear) {
       strain_forces<finite_rotation, first>(constants, element, strain, force);
     } else {
@@ -281,8 +280,9 @@ class March {
       auto state = load_state<State, kValues, Real>(fields_.state + of_state * kLanes + lane);
       Strain<Real> rate;
       if (fields_.added != nullptr)
-        amplitudes<first>(quad, lane, room_.rates,
-                          [&](int i, const Real(&a)[kModes]) { element.strain(i, a, rate); });
+        with_corners<first>(quad, lane, room_.rates, [&](int i, const Real(&s)[4], const Real(&d)[4]) {
+          element.strain(i, s, d, rate);
+        });
       law_forces<finite_rotation>(constants, law, element, strain, fields_.added != nullptr ? &rate : nullptr,
                                   state, force);
       if (own && quad.own != 0) store_state<kValues>(fields_.moved_state + of_state * kLanes + lane, state);
@@ -308,9 +308,7 @@ class March {
       }
       Real s[4];
       Real d[4];
-      Real a[kModes];
-      element.forces(i, force, a);
-      from_modes(a, s, d);
+      element.forces(i, force, s, d);
       for (int j = 0; j < 4; ++j) {
         if (quad.node[j] >= part_.own_nodes) continue;
         sums[j][i] = before[j] * kept[j] + s[j];

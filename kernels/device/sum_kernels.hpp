@@ -161,13 +161,12 @@ struct SumElements {
   static constexpr int kValues = kStateValues<Law>;
   using State = typename Law<Real>::template State<U>;
 
-  /// Amplitudes of what value(section node, group, row, lane, component) gives at both ends of an element.
+  /// Sums and differences, [component][corner], of what value(section node, tile, lane, component) gives at
+  /// both ends of an element.
   template <class V, class Value>
-  TREAD_BODY void amplitudes(const Tile& tile, int number, int quad, int lane, const Value& value,
-                             V (&of_modes)[3][kModes]) const {
+  TREAD_BODY void ends(const Tile& tile, int number, int quad, int lane, const Value& value, V (&s)[3][4],
+                       V (&d)[3][4]) const {
     const bool inside = lane + 1 < tile.elements;
-    V s[3][4];
-    V d[3][4];
     for (int j = 0; j < 4; ++j) {
       const int node = task.corner[4 * quad + j];
       V sums[3];
@@ -187,7 +186,6 @@ struct SumElements {
         d[c][j] = differences[c];
       }
     }
-    for (int c = 0; c < 3; ++c) to_modes(s[c], d[c], of_modes[c]);
   }
 
   TREAD_BODY std::int64_t at(int node, int tile, int lane, int c) const {
@@ -200,13 +198,16 @@ struct SumElements {
     const std::int64_t place = std::int64_t{tile.pitch_class} * task.block.quads + quad;
     const SweptConstants<Real>& constants = task.block.constants[place];
     if (task.block.perturbs(task.block.row_of(number), quad)) {
+      U s[3][4];
+      U d[3][4];
       U shifts[3][kModes];
-      amplitudes(
+      ends(
           tile, number, quad, lane,
           [&](int node, int of_tile, int of_lane, int c) {
             return static_cast<U>(task.block.shift(task.block.row_of(of_tile), node).shift[c][of_lane]);
           },
-          shifts);
+          s, d);
+      for (int c = 0; c < 3; ++c) to_modes(s[c], d[c], shifts[c]);
       add(tile, number, quad, lane, place, PerturbedElement<U, Real>(constants, shifts), sum);
     } else {
       add(tile, number, quad, lane, place, SweptElement<sweep, Real>{constants}, sum);
@@ -216,10 +217,11 @@ struct SumElements {
   template <class Element, class Value>
   TREAD_BODY Strain<U> strain_of(const Tile& tile, int number, int quad, int lane, const Element& element,
                                  const Value& value) const {
-    U of_modes[3][kModes];
-    amplitudes(tile, number, quad, lane, value, of_modes);
+    U s[3][4];
+    U d[3][4];
+    ends(tile, number, quad, lane, value, s, d);
     Strain<U> strain;
-    for (int c = 0; c < 3; ++c) element.strain(c, of_modes[c], strain);
+    for (int c = 0; c < 3; ++c) element.strain(c, s[c], d[c], strain);
     return strain;
   }
 

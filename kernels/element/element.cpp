@@ -158,21 +158,32 @@ HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Mat
 
 namespace {
 
-/// C over the amplitudes of h1, d02, d13, h4 in place of those of h1, h2 = d02 + d13, h3 = d02 - d13, h4.
-HourglassMatrix in_kernel_modes(HourglassMatrix c) {
-  for (auto& row : c)
-    for (std::size_t i = 0; i < 12; i += 4) {
-      const double h2 = row[i + 1], h3 = row[i + 2];
-      row[i + 1] = h2 + h3;
-      row[i + 2] = h2 - h3;
-    }
-  for (std::size_t i = 0; i < 12; i += 4)
-    for (std::size_t column = 0; column < 12; ++column) {
-      const double h2 = c[i + 1][column], h3 = c[i + 2][column];
-      c[i + 1][column] = h2 + h3;
-      c[i + 2][column] = h2 - h3;
-    }
-  return c;
+/// Of the modes s02, s13 or d02, d13.
+struct ByDiagonals {
+  Vec3 along02, along13;
+};
+
+ByDiagonals positions_by_diagonals(const ElementGeometry& geometry, Mode difference, Mode sum) {
+  const Vec3 a = geometry.position[difference], b = geometry.position[sum];
+  return {0.5 * (b + a), 0.5 * (b - a)};
+}
+
+ByDiagonals gradients_by_diagonals(const ElementGeometry& geometry, Mode difference, Mode sum) {
+  const Vec3 a = geometry.gradient[difference], b = geometry.gradient[sum];
+  return {b + a, b - a};
+}
+
+/// C over gap, d02, d13 and h4 in place of h1 = gap / gap_by_h1, h2 = d02 + d13, h3 = d02 - d13 and h4.
+HourglassMatrix in_kernel_modes(const HourglassMatrix& c, double gap_by_h1) {
+  const double from[4][4] = {{1 / gap_by_h1, 0, 0, 0}, {0, 1, 1, 0}, {0, 1, -1, 0}, {0, 0, 0, 1}};
+  HourglassMatrix result{};
+  for (std::size_t row = 0; row < 12; ++row)
+    for (std::size_t column = 0; column < 12; ++column)
+      for (std::size_t m = 0; m < 4; ++m)
+        for (std::size_t n = 0; n < 4; ++n)
+          result[row][column] +=
+              from[m][row % 4] * c[row / 4 * 4 + m][column / 4 * 4 + n] * from[n][column % 4];
+  return result;
 }
 
 }  // namespace
@@ -182,30 +193,39 @@ SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const Hour
                                      const Material& material) {
   SweptConstants<Real> c{};
   const auto real = [](double value) { return static_cast<Real>(value); };
-  // Gradients by s02, s13 (d02, d13) follow those by eta, zeta (h3, h2); positions go the other way.
-  const auto set = [&](Real* gradient, Real* position, Mode difference, Mode sum, int axis) {
-    const double g_difference = geometry.gradient[difference][axis], g_sum = geometry.gradient[sum][axis];
-    const double x_difference = geometry.position[difference][axis], x_sum = geometry.position[sum][axis];
-    gradient[0] = real(g_sum + g_difference);
-    gradient[1] = real(g_sum - g_difference);
-    position[0] = real((x_sum + x_difference) / 2);
-    position[1] = real((x_sum - x_difference) / 2);
+  const Vec3 x_h1 = geometry.position[mode_h1], g_h1 = geometry.gradient[mode_h1];
+  const ByDiagonals x_s = positions_by_diagonals(geometry, mode_eta, mode_zeta);
+  const ByDiagonals x_d = positions_by_diagonals(geometry, mode_h3, mode_h2);
+  ByDiagonals g_s = gradients_by_diagonals(geometry, mode_eta, mode_zeta);
+  const ByDiagonals g_d = gradients_by_diagonals(geometry, mode_h3, mode_h2);
+
+  // The gap is h1 / 2 + (crossing[0] - 1/2) s02 - (crossing[1] - 1/2) s13 and zero for linear fields.
+  const auto cross_x = [](const Vec3& a, const Vec3& b) { return a.y * b.z - a.z * b.y; };
+  const double area = cross_x(x_s.along02, x_s.along13);
+  const double off02 = -cross_x(x_h1, x_s.along13) / (2 * area);
+  const double off13 = -cross_x(x_h1, x_s.along02) / (2 * area);
+  g_s.along02 -= 2 * off02 * g_h1;
+  g_s.along13 += 2 * off13 * g_h1;
+  const double gap_by_h1 = 0.5 / (1 - dot(x_h1, g_h1));
+  c.crossing[0] = real(0.5 + off02);
+  c.crossing[1] = real(0.5 + off13);
+  c.gap_by_h1 = real(gap_by_h1);
+
+  const auto set = [&](Real* to, std::initializer_list<double> values) {
+    std::transform(values.begin(), values.end(), to, real);
   };
-  set(c.gradient_x + 1, c.position_x + 1, mode_h3, mode_h2, 0);
-  set(c.gradient_y, c.position_y, mode_eta, mode_zeta, 1);
-  set(c.gradient_z, c.position_z, mode_eta, mode_zeta, 2);
-  c.gradient_x[0] = real(geometry.gradient[mode_xi].x);
-  c.gradient_y[2] = real(geometry.gradient[mode_h1].y);
-  c.gradient_z[2] = real(geometry.gradient[mode_h1].z);
-  c.position_x[0] = real(geometry.position[mode_xi].x);
-  c.position_x[3] = real(geometry.position[mode_h4].x);
-  c.position_y[2] = real(geometry.position[mode_h1].y);
-  c.position_z[2] = real(geometry.position[mode_h1].z);
+  set(c.gradient_x, {geometry.gradient[mode_xi].x, g_d.along02.x, g_d.along13.x});
+  set(c.gradient_y, {g_s.along02.y, g_s.along13.y, 2 * g_h1.y});
+  set(c.gradient_z, {g_s.along02.z, g_s.along13.z, 2 * g_h1.z});
+  set(c.position_x,
+      {geometry.position[mode_xi].x, x_d.along02.x, x_d.along13.x, geometry.position[mode_h4].x});
+  set(c.position_y, {x_s.along02.y, x_s.along13.y, x_h1.y});
+  set(c.position_z, {x_s.along02.z, x_s.along13.z, x_h1.z});
   c.inverse_volume = real(1 / geometry.volume);
   c.lambda = real(material.lame_lambda() * geometry.volume);
   c.mu = real(material.shear_modulus() * geometry.volume);
 
-  const HourglassMatrix matrix = in_kernel_modes(hourglass);
+  const HourglassMatrix matrix = in_kernel_modes(hourglass, gap_by_h1);
   enum : std::size_t { x1, x2, x3, x4, y1, y2, y3, y4, z1, z2, z3, z4 };
   const auto entry = [&](std::size_t row, std::size_t column) { return real(matrix[row][column]); };
   HourglassConstants<Real>& h = c.hourglass;

@@ -23,9 +23,9 @@ inline constexpr int kHourglassModes = 4;
 /// Modes that mean gradients see: h4 has none, in any shape.
 inline constexpr int kGradientModes = 6;
 
-/// The kernels' modes: the sums s and differences d of both ends, along the diagonals of the quad from corner
-/// 0 to 2 and from 1 to 3, stand for eta = s02 - s13, zeta = s02 + s13, h2 = d02 + d13 and h3 = d02 - d13,
-/// which would take four operations more a component each way.
+/// The kernels' modes: of the sums s and differences d of both ends, the differences along the diagonals of
+/// the quad, from corner 0 to 2 and from 1 to 3, which take fewer operations than eta = s02 - s13,
+/// zeta = s02 + s13, h2 = d02 + d13 and h3 = d02 - d13.
 enum KernelMode { kernel_xi, kernel_s02, kernel_s13, kernel_h1, kernel_d02, kernel_d13, kernel_h4 };
 
 using HexNodes = std::array<Vec3, 8>;
@@ -57,7 +57,7 @@ using HourglassMatrix = std::array<std::array<double, 12>, 12>;
 HourglassMatrix hourglass_matrix(const HexNodes& swept, double volume, const Material& material);
 
 /// The entries that the symmetry of a swept element leaves of HourglassMatrix, in the kernels' modes: x1 ...
-/// x4 are component x of h1, d02, d13, h4.
+/// x4 are component x of the gap, d02, d13, h4.
 template <class Real>
 struct HourglassConstants {
   Real even_diagonal[4];  ///< of (x2, x3, y1, z1)
@@ -69,16 +69,20 @@ struct HourglassConstants {
 };
 
 /// Constants shared by all elements of (quad, pitch class). The symmetry about xi = 0 couples d/dx to the
-/// modes (xi, d02, d13) only, d/dy and d/dz to (s02, s13, h1) only. In extruded elements the gradients of h1
-/// and the positions of d02, d13, h4 vanish too. Aligned, so that a card loads 16 bytes at once.
+/// modes (xi, d02, d13) only, d/dy and d/dz to (s02, s13, gap) only. In extruded elements the gradients of
+/// the gap and the positions of d02, d13, h4 vanish too. Aligned, so that a card loads 16 bytes at once.
 template <class Real>
 struct alignas(16) SweptConstants {
   Real gradient_x[3];  ///< of xi, d02, d13 [1/m]
-  Real gradient_y[3];  ///< of s02, s13, h1 [1/m]
+  Real gradient_y[3];  ///< of s02, s13, gap [1/m]
   Real gradient_z[3];
   Real position_x[4];  ///< of xi, d02, d13, h4 [m]
   Real position_y[3];  ///< of s02, s13, h1 [m]
   Real position_z[3];
+  /// Place on either diagonal of the quad where they cross, from corner 0 and 1. The gap between both
+  /// diagonals' values there, s0 + crossing[0] s02 - (s1 + crossing[1] s13), is q of h1 times gap_by_h1. [-]
+  Real crossing[2];
+  Real gap_by_h1;
   Real lambda, mu;      ///< Lame's constants times the volume [N m]
   Real inverse_volume;  ///< [1/m3]
   HourglassConstants<Real> hourglass;

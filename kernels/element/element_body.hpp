@@ -20,18 +20,35 @@ struct Strain {
   V q[3][kHourglassModes];
 };
 
-/// Amplitudes of one component, by KernelMode.
+/// Amplitudes that the differences of both ends have, by KernelMode.
 template <class V>
-TREAD_INLINE void to_modes(const V (&s)[4], const V (&d)[4], V (&a)[kModes]) {
-  a[kernel_s02] = s[2] - s[0];
-  a[kernel_s13] = s[3] - s[1];
-  a[kernel_h1] = (s[0] + s[2]) - (s[1] + s[3]);
+TREAD_INLINE void to_modes_along(const V (&d)[4], V (&a)[kModes]) {
   a[kernel_d02] = d[2] - d[0];
   a[kernel_d13] = d[3] - d[1];
   const V d02 = d[0] + d[2];
   const V d13 = d[1] + d[3];
   a[kernel_xi] = d02 + d13;
   a[kernel_h4] = d02 - d13;
+}
+
+/// Amplitudes of one component, by KernelMode.
+template <class V>
+TREAD_INLINE void to_modes(const V (&s)[4], const V (&d)[4], V (&a)[kModes]) {
+  a[kernel_s02] = s[2] - s[0];
+  a[kernel_s13] = s[3] - s[1];
+  a[kernel_h1] = (s[0] - s[1]) + (s[2] - s[3]);
+  to_modes_along(d, a);
+}
+
+/// Transpose of to_modes_along.
+template <class V>
+TREAD_INLINE void from_modes_along(const V (&a)[kModes], V (&d)[4]) {
+  const V d02 = a[kernel_xi] + a[kernel_h4];
+  const V d13 = a[kernel_xi] - a[kernel_h4];
+  d[0] = d02 - a[kernel_d02];
+  d[1] = d13 - a[kernel_d13];
+  d[2] = d02 + a[kernel_d02];
+  d[3] = d13 + a[kernel_d13];
 }
 
 /// Transpose of to_modes.
@@ -41,12 +58,7 @@ TREAD_INLINE void from_modes(const V (&a)[kModes], V (&s)[4], V (&d)[4]) {
   s[1] = -(a[kernel_h1] + a[kernel_s13]);
   s[2] = a[kernel_h1] + a[kernel_s02];
   s[3] = a[kernel_s13] - a[kernel_h1];
-  const V d02 = a[kernel_xi] + a[kernel_h4];
-  const V d13 = a[kernel_xi] - a[kernel_h4];
-  d[0] = d02 - a[kernel_d02];
-  d[1] = d13 - a[kernel_d13];
-  d[2] = d02 + a[kernel_d02];
-  d[3] = d13 + a[kernel_d13];
+  from_modes_along(a, d);
 }
 
 /// Strains of the elements of one (quad, pitch class): the shape is symmetric about xi = 0. In extruded
@@ -55,20 +67,26 @@ template <Sweep sweep, class Real>
 struct SweptElement {
   const SweptConstants<Real>& c;
 
+  /// Of component i of a field, whose sums and differences are s and d.
   template <class V>
-  TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {
+  TREAD_INLINE void strain(int i, const V (&s)[4], const V (&d)[4], Strain<V>& e) const {
+    V a[kModes];
+    to_modes_along(d, a);
+    const V s02 = s[2] - s[0];
+    const V s13 = s[3] - s[1];
+    const V gap = (s[0] - s[1]) + c.crossing[0] * s02 - c.crossing[1] * s13;
     const V x =
         c.gradient_x[0] * a[kernel_xi] + c.gradient_x[1] * a[kernel_d02] + c.gradient_x[2] * a[kernel_d13];
-    V y = c.gradient_y[0] * a[kernel_s02] + c.gradient_y[1] * a[kernel_s13];
-    V z = c.gradient_z[0] * a[kernel_s02] + c.gradient_z[1] * a[kernel_s13];
+    V y = c.gradient_y[0] * s02 + c.gradient_y[1] * s13;
+    V z = c.gradient_z[0] * s02 + c.gradient_z[1] * s13;
     if constexpr (sweep == Sweep::revolved) {
-      y += c.gradient_y[2] * a[kernel_h1];
-      z += c.gradient_z[2] * a[kernel_h1];
+      y += c.gradient_y[2] * gap;
+      z += c.gradient_z[2] * gap;
     }
     e.g[i][0] = x;
     e.g[i][1] = y;
     e.g[i][2] = z;
-    e.q[i][0] = a[kernel_h1] - c.position_y[2] * y - c.position_z[2] * z;
+    e.q[i][0] = gap;
     for (int m = 1; m < kHourglassModes; ++m) {
       e.q[i][m] = a[kernel_h1 + m];
       if constexpr (sweep == Sweep::revolved) e.q[i][m] -= c.position_x[m] * x;
@@ -77,20 +95,25 @@ struct SweptElement {
 
   /// Transpose of `strain`.
   template <class V>
-  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&a)[kModes]) const {
+  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&s)[4], V (&d)[4]) const {
     V x = f.g[i][0];
-    const V y = f.g[i][1] - c.position_y[2] * f.q[i][0];
-    const V z = f.g[i][2] - c.position_z[2] * f.q[i][0];
-    if constexpr (sweep == Sweep::revolved)
+    const V y = f.g[i][1];
+    const V z = f.g[i][2];
+    V gap = f.q[i][0];
+    if constexpr (sweep == Sweep::revolved) {
       x -= c.position_x[1] * f.q[i][1] + c.position_x[2] * f.q[i][2] + c.position_x[3] * f.q[i][3];
+      gap += c.gradient_y[2] * y + c.gradient_z[2] * z;
+    }
+    s[2] = c.gradient_y[0] * y + c.gradient_z[0] * z + c.crossing[0] * gap;
+    s[3] = c.gradient_y[1] * y + c.gradient_z[1] * z - c.crossing[1] * gap;
+    s[0] = gap - s[2];
+    s[1] = -(gap + s[3]);
+    V a[kModes];
     a[kernel_xi] = c.gradient_x[0] * x;
     a[kernel_d02] = f.q[i][1] + c.gradient_x[1] * x;
     a[kernel_d13] = f.q[i][2] + c.gradient_x[2] * x;
     a[kernel_h4] = f.q[i][3];
-    a[kernel_s02] = c.gradient_y[0] * y + c.gradient_z[0] * z;
-    a[kernel_s13] = c.gradient_y[1] * y + c.gradient_z[1] * z;
-    a[kernel_h1] = f.q[i][0];
-    if constexpr (sweep == Sweep::revolved) a[kernel_h1] += c.gradient_y[2] * y + c.gradient_z[2] * z;
+    from_modes_along(a, d);
   }
 
   template <int first>
@@ -123,8 +146,10 @@ struct PerturbedElement {
   V position[kModes][3];
   V gradient[kGradientModes][3];
   V volume_ratio;  ///< by the volume of the swept shape
+  Real gap_by_h1;
 
-  TREAD_INLINE PerturbedElement(const SweptConstants<Real>& swept, const V (&shift)[3][kModes]) {
+  TREAD_INLINE PerturbedElement(const SweptConstants<Real>& swept, const V (&shift)[3][kModes])
+      : gap_by_h1(swept.gap_by_h1) {
     for (int m = 0; m < kModes; ++m)
       for (int j = 0; j < 3; ++j) position[m][j] = shift[j][m];
     constexpr int kAcross[3] = {kernel_s02, kernel_s13, kernel_h1};
@@ -156,7 +181,9 @@ struct PerturbedElement {
       for (V& value : mode) value *= inverse;
   }
 
-  TREAD_INLINE void strain(int i, const V (&a)[kModes], Strain<V>& e) const {
+  TREAD_INLINE void strain(int i, const V (&s)[4], const V (&d)[4], Strain<V>& e) const {
+    V a[kModes];
+    to_modes(s, d, a);
     for (int j = 0; j < 3; ++j) {
       V sum = gradient[0][j] * a[0];
       for (int m = 1; m < kGradientModes; ++m) sum += gradient[m][j] * a[m];
@@ -166,18 +193,22 @@ struct PerturbedElement {
       const V(&x)[3] = position[kernel_h1 + m];
       e.q[i][m] = a[kernel_h1 + m] - x[0] * e.g[i][0] - x[1] * e.g[i][1] - x[2] * e.g[i][2];
     }
+    e.q[i][0] *= gap_by_h1;
   }
 
-  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&a)[kModes]) const {
+  TREAD_INLINE void forces(int i, const Strain<V>& f, V (&s)[4], V (&d)[4]) const {
+    const V q[kHourglassModes] = {gap_by_h1 * f.q[i][0], f.q[i][1], f.q[i][2], f.q[i][3]};
     V t[3];
     for (int j = 0; j < 3; ++j) {
       t[j] = f.g[i][j];
-      for (int m = 0; m < kHourglassModes; ++m) t[j] -= position[kernel_h1 + m][j] * f.q[i][m];
+      for (int m = 0; m < kHourglassModes; ++m) t[j] -= position[kernel_h1 + m][j] * q[m];
     }
+    V a[kModes];
     for (int m = 0; m < kModes; ++m) {
-      a[m] = m < kernel_h1 ? V{} : f.q[i][m < kernel_h1 ? 0 : m - kernel_h1];
+      a[m] = m < kernel_h1 ? V{} : q[m < kernel_h1 ? 0 : m - kernel_h1];
       if (m < kGradientModes) a[m] += gradient[m][0] * t[0] + gradient[m][1] * t[1] + gradient[m][2] * t[2];
     }
+    from_modes(a, s, d);
   }
 
   /// The material constants hold the swept volume; the hourglass stiffness stays that of the swept shape.

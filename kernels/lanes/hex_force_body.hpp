@@ -12,6 +12,7 @@ namespace {
 constexpr SweptConstants<double> kNoShape = [] {
   SweptConstants<double> constants{};
   constants.inverse_volume = 1;
+  constants.gap_by_h1 = 1;
   return constants;
 }();
 
@@ -27,7 +28,7 @@ class HexElements {
 
   TREAD_INLINE Strain<V> strain() const {
     Strain<V> e;
-    for (int i = 0; i < 3; ++i) element_.strain(i, displacement_.value[i], e);
+    for (int i = 0; i < 3; ++i) element_.strain(i, displacement_.sum[i], displacement_.difference[i], e);
     return e;
   }
 
@@ -40,9 +41,7 @@ class HexElements {
     for (int i = 0; i < 3; ++i) {
       V s[4];
       V d[4];
-      V a[kModes];
-      element_.forces(i, force, a);
-      from_modes(a, s, d);
+      element_.forces(i, force, s, d);
       for (int j = 0; j < 4; ++j) {
         value[j][i] = s[j] - d[j];
         value[j + 4][i] = s[j] + d[j];
@@ -73,19 +72,24 @@ class HexElements {
     }
   };
 
-  /// Modal amplitudes of the corners' values, [component][mode].
+  /// Sums and differences of the corners' values at both ends, [component][corner of the quad].
+  struct Ends {
+    V sum[3][4];
+    V difference[3][4];
+    TREAD_INLINE explicit Ends(const V (&at)[8][3]) {
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j) {
+          sum[i][j] = at[j][i] + at[j + 4][i];
+          difference[i][j] = at[j + 4][i] - at[j][i];
+        }
+    }
+  };
+
+  /// Modal amplitudes of the same, [component][mode].
   struct Amplitudes {
     V value[3][kModes];
-    TREAD_INLINE explicit Amplitudes(const V (&at)[8][3]) {
-      for (int i = 0; i < 3; ++i) {
-        V s[4];
-        V d[4];
-        for (int j = 0; j < 4; ++j) {
-          s[j] = at[j][i] + at[j + 4][i];
-          d[j] = at[j + 4][i] - at[j][i];
-        }
-        to_modes(s, d, value[i]);
-      }
+    TREAD_INLINE explicit Amplitudes(const Ends& ends) {
+      for (int i = 0; i < 3; ++i) to_modes(ends.sum[i], ends.difference[i], value[i]);
     }
   };
 
@@ -95,7 +99,7 @@ class HexElements {
         material_(view.materials[pack.shapes.material]),
         lane_(lane),
         displacement_(corners.displacement),
-        element_(kNoShape, Amplitudes(corners.position).value) {}
+        element_(kNoShape, Amplitudes(Ends(corners.position)).value) {}
 
   /// Matrix of the element's rotation: [component][local axis].
   TREAD_INLINE void rotation(V (&axes)[3][3]) const {
@@ -153,7 +157,7 @@ class HexElements {
   const Pack& pack_;
   const HexMaterial& material_;
   int lane_;
-  Amplitudes displacement_;
+  Ends displacement_;
   PerturbedElement<V, double> element_;
 };
 

@@ -80,8 +80,12 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
       for (int lane = 0; lane < kAbreast; lane += kWidth) {
         Register shift[3][kModes];
         const FrontPlan::Quad& quad = elements_.quads[index];
-        for (int i = 0; i < 3; ++i)
-          amplitudes([&](int j) { return shift_corner(quad.slot[j], lane) + i * kAbreast; }, shift[i]);
+        for (int i = 0; i < 3; ++i) {
+          Register s[4];
+          Register d[4];
+          load_corners([&](int j) { return shift_corner(quad.slot[j], lane) + i * kAbreast; }, s, d);
+          to_modes(s, d, shift[i]);
+        }
         visit(lane, PerturbedElement<Register, Real>(constants, shift));
       }
     } else {
@@ -95,17 +99,13 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
             corner(quad.slot[3], lane)};
   }
 
-  /// Modal amplitudes of a component whose sums at the quad's corners stand at `sums(corner)`, and whose
-  /// differences three rows behind.
+  /// Sums and differences of a component that stand at `sums(corner)`, the differences three rows behind.
   template <class Sums>
-  TREAD_INLINE void amplitudes(const Sums& sums, Register (&a)[kModes]) const {
-    Register s[4];
-    Register d[4];
+  TREAD_INLINE static void load_corners(const Sums& sums, Register (&s)[4], Register (&d)[4]) {
     for (int j = 0; j < 4; ++j) {
       s[j] = load<Register>(sums(j));
       d[j] = load<Register>(sums(j) + 3 * kAbreast);
     }
-    to_modes(s, d, a);
   }
 
   /// Deformation by the displacements, or by the nodes' values from another row on.
@@ -115,9 +115,10 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     const std::array<Real*, 4> at = corners(quad, lane);
     Strain<Register> strain;
     for (int i = first; i < 3; ++i) {
-      Register a[kModes];
-      amplitudes([&](int j) { return at[j] + (row + i) * kAbreast; }, a);
-      element.strain(i, a, strain);
+      Register s[4];
+      Register d[4];
+      load_corners([&](int j) { return at[j] + (row + i) * kAbreast; }, s, d);
+      element.strain(i, s, d, strain);
     }
     return strain;
   }
@@ -143,9 +144,7 @@ class TileLoop : TileFront<Real, U, sweep, damped, !Law<Real>::kLinear, first> {
     for (int i = first; i < 3; ++i) {
       Register s[4];
       Register d[4];
-      Register a[kModes];
-      element.forces(i, force, a);
-      from_modes(a, s, d);
+      element.forces(i, force, s, d);
       for (int j = 0; j < 4; ++j) {
         Real* const fs = at[j] + (6 + i) * kAbreast;
         Real* const fd = at[j] + (9 + i) * kAbreast;

@@ -91,19 +91,63 @@ double mode_sum(Mode mode, const std::array<double, 8>& u) {
   return sum;
 }
 
-void to_kernel_modes(const std::array<double, 8>& u, double (&a)[kModes]) {
-  double s[4];
-  double d[4];
-  for (std::size_t j = 0; j < 4; ++j) {
-    s[j] = u[j + 4] + u[j];
-    d[j] = u[j + 4] - u[j];
+struct Ends {
+  double sum[4];
+  double difference[4];
+  explicit Ends(const std::array<double, 8>& u) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      sum[j] = u[j + 4] + u[j];
+      difference[j] = u[j + 4] - u[j];
+    }
   }
-  to_modes(s, d, a);
+};
+
+constexpr std::array<double, 8> kField = {1, -2, 3, 5, -7, 11, 13, -17};
+
+/// Expects the mean gradient and the hourglass amplitudes of `kField`. [theory.md, eqs. 2 and 3]
+template <class Element>
+void expect_strain(const Element& element, const ElementGeometry& shape, double gap_by_h1) {
+  const Ends ends(kField);
+  Strain<double> strain{};
+  element.strain(1, ends.sum, ends.difference, strain);
+  for (int j = 0; j < 3; ++j) {
+    double gradient = 0;
+    for (int m = 0; m < kGradientModes; ++m)
+      gradient += shape.gradient[index(m)][j] * mode_sum(static_cast<Mode>(m), kField);
+    EXPECT_NEAR(strain.g[1][j], gradient, 1e-13 * norm(shape.gradient[0]) * 17);
+  }
+  const double(&q)[kHourglassModes] = strain.q[1];
+  const double in_modes[kHourglassModes] = {q[0] / gap_by_h1, q[1] + q[2], q[1] - q[2], q[3]};
+  for (int m = 0; m < kHourglassModes; ++m) {
+    double amplitude = mode_sum(static_cast<Mode>(mode_h1 + m), kField);
+    for (int j = 0; j < 3; ++j) amplitude -= strain.g[1][j] * shape.position[index(mode_h1 + m)][j];
+    EXPECT_NEAR(in_modes[m], amplitude, 1e-12) << m;
+  }
 }
 
-/// Amplitudes of h1, h2, h3, h4 from those of the kernels' modes.
-std::array<double, 4> by_directions(const double (&q)[kHourglassModes]) {
-  return {q[0], q[1] + q[2], q[1] - q[2], q[3]};
+/// Expects that forces do the work of their strain on the field.
+template <class Element>
+void expect_transpose(const Element& element) {
+  const Ends ends(kField);
+  Strain<double> strain{};
+  Strain<double> force{};
+  for (int j = 0; j < 3; ++j) force.g[1][j] = 1 + 0.3 * j;
+  for (int m = 0; m < kHourglassModes; ++m) force.q[1][m] = 0.2 - 0.7 * m;
+  element.strain(1, ends.sum, ends.difference, strain);
+  double inside = 0;
+  double scale = 0;
+  const auto add = [&](double work) {
+    inside += work;
+    scale += std::abs(work);
+  };
+  for (int j = 0; j < 3; ++j) add(force.g[1][j] * strain.g[1][j]);
+  for (int m = 0; m < kHourglassModes; ++m) add(force.q[1][m] * strain.q[1][m]);
+  double s[4];
+  double d[4];
+  element.forces(1, force, s, d);
+  double outside = 0;
+  for (int j = 0; j < 4; ++j) outside += s[j] * ends.sum[j] + d[j] * ends.difference[j];
+  EXPECT_NEAR(inside, outside, 1e-13 * scale);
 }
 
 class SweptSymmetry : public testing::TestWithParam<Sweep> {
@@ -146,36 +190,38 @@ TEST_P(SweptSymmetry, HourglassConstantsHoldTheWholeMatrix) {
     Strain<double> force{};
     strain.q[column / 4][column % 4] = 1;
     hourglass_forces(constants.hourglass, strain, force);
-    const std::array<double, 4> moved = by_directions(strain.q[column / 4]);
-    for (int i = 0; i < 3; ++i) {
-      double in_modes[kHourglassModes] = {};
-      for (int m = 0; m < kHourglassModes; ++m)
-        for (int n = 0; n < kHourglassModes; ++n)
-          in_modes[m] += matrix[index(4 * i + m)][index(column / 4 * 4 + n)] * moved[index(n)];
-      const std::array<double, 4> wanted = by_directions(in_modes);  // the transpose of the amplitudes' sums
-      for (int m = 0; m < kHourglassModes; ++m)
-        EXPECT_NEAR(force.q[i][m], wanted[index(m)], 1e-14 * scale) << 4 * i + m << " " << column;
+    // The amplitudes of h1, h2, h3, h4 by those of the kernels; forces go the other way.
+    const double from[4][4] = {{1 / constants.gap_by_h1, 0, 0, 0}, {0, 1, 1, 0}, {0, 1, -1, 0}, {0, 0, 0, 1}};
+    for (int row = 0; row < 12; ++row) {
+      double wanted = 0;
+      for (int m = 0; m < 4; ++m)
+        for (int n = 0; n < 4; ++n)
+          wanted += from[m][row % 4] * matrix[index(row / 4 * 4 + m)][index(column / 4 * 4 + n)] *
+                    from[n][column % 4];
+      EXPECT_NEAR(force.q[row / 4][row % 4], wanted, 1e-13 * scale) << row << " " << column;
     }
     for (int row = 0; row < 12; ++row)
       EXPECT_NEAR(matrix[index(row)][index(column)], matrix[index(column)][index(row)], 1e-14 * scale);
   }
 }
 
-TEST_P(SweptSymmetry, PerturbedBodyGivesTheSameStrains) {
+TEST_P(SweptSymmetry, StrainsAreThoseOfTheGeometry) {
   const auto constants = swept_constants<double>(
       shape_, hourglass_matrix(nodes_, shape_.volume, samples::steel()), samples::steel());
-  const double a[kModes] = {1, 2, -3, 4, 5, -6, 7};
-  Strain<double> swept{};
-  Strain<double> perturbed{};
-  if (GetParam() == Sweep::revolved)
-    SweptElement<Sweep::revolved, double>{constants}.strain(0, a, swept);
-  else
-    SweptElement<Sweep::extruded, double>{constants}.strain(0, a, swept);
-  const PerturbedElement<double, double> element(constants, {});
-  element.strain(0, a, perturbed);
-  EXPECT_NEAR(element.volume_ratio, 1, 1e-14);
-  for (int j = 0; j < 3; ++j) EXPECT_NEAR(swept.g[0][j], perturbed.g[0][j], 1e-12 * std::abs(swept.g[0][0]));
-  for (int m = 0; m < kHourglassModes; ++m) EXPECT_NEAR(swept.q[0][m], perturbed.q[0][m], 1e-12);
+  const PerturbedElement<double, double> perturbed(constants, {});
+  EXPECT_NEAR(perturbed.volume_ratio, 1, 1e-14);
+  expect_strain(perturbed, shape_, constants.gap_by_h1);
+  expect_transpose(perturbed);
+  if (GetParam() == Sweep::revolved) {
+    const SweptElement<Sweep::revolved, double> swept{constants};
+    expect_strain(swept, shape_, constants.gap_by_h1);
+    expect_transpose(swept);
+  } else {
+    EXPECT_EQ(constants.gap_by_h1, 0.5);
+    const SweptElement<Sweep::extruded, double> swept{constants};
+    expect_strain(swept, shape_, constants.gap_by_h1);
+    expect_transpose(swept);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sweeps, SweptSymmetry, testing::Values(Sweep::extruded, Sweep::revolved),
@@ -184,49 +230,35 @@ INSTANTIATE_TEST_SUITE_P(Sweeps, SweptSymmetry, testing::Values(Sweep::extruded,
                          });
 
 TEST(ElementBody, ModesOfDiagonalsMakeTheSumsOverTheNodes) {
-  const std::array<double, 8> u = {1, -2, 3, 5, -7, 11, 13, -17};
+  const Ends ends(kField);
   double a[kModes];
-  to_kernel_modes(u, a);
-  EXPECT_EQ(a[kernel_xi], mode_sum(mode_xi, u));
-  EXPECT_EQ(a[kernel_s02] - a[kernel_s13], mode_sum(mode_eta, u));
-  EXPECT_EQ(a[kernel_s02] + a[kernel_s13], mode_sum(mode_zeta, u));
-  EXPECT_EQ(a[kernel_h1], mode_sum(mode_h1, u));
-  EXPECT_EQ(a[kernel_d02] + a[kernel_d13], mode_sum(mode_h2, u));
-  EXPECT_EQ(a[kernel_d02] - a[kernel_d13], mode_sum(mode_h3, u));
-  EXPECT_EQ(a[kernel_h4], mode_sum(mode_h4, u));
+  to_modes(ends.sum, ends.difference, a);
+  EXPECT_EQ(a[kernel_xi], mode_sum(mode_xi, kField));
+  EXPECT_EQ(a[kernel_s02] - a[kernel_s13], mode_sum(mode_eta, kField));
+  EXPECT_EQ(a[kernel_s02] + a[kernel_s13], mode_sum(mode_zeta, kField));
+  EXPECT_EQ(a[kernel_h1], mode_sum(mode_h1, kField));
+  EXPECT_EQ(a[kernel_d02] + a[kernel_d13], mode_sum(mode_h2, kField));
+  EXPECT_EQ(a[kernel_d02] - a[kernel_d13], mode_sum(mode_h3, kField));
+  EXPECT_EQ(a[kernel_h4], mode_sum(mode_h4, kField));
 }
 
-TEST(ElementBody, StrainsAreThoseOfTheElementsGeometry) {
+TEST(ElementBody, StrainsOfAnyShapeAreThoseOfTheGeometry) {
   const HexNodes nodes = distorted_hexahedron();
   const ElementGeometry shape = element_geometry(nodes);
   SweptConstants<double> no_shape{};
   no_shape.inverse_volume = 1;
+  no_shape.gap_by_h1 = 0.4;
   double positions[3][kModes];
   for (int j = 0; j < 3; ++j) {
     std::array<double, 8> x{};
     for (std::size_t node = 0; node < 8; ++node) x[node] = nodes[node][j];
-    to_kernel_modes(x, positions[j]);
+    const Ends ends(x);
+    to_modes(ends.sum, ends.difference, positions[j]);
   }
   const PerturbedElement<double, double> element(no_shape, positions);
   EXPECT_NEAR(element.volume_ratio, shape.volume, 1e-13 * shape.volume);
-
-  const std::array<double, 8> u = {1, -2, 3, 5, -7, 11, 13, -17};
-  double a[kModes];
-  to_kernel_modes(u, a);
-  Strain<double> strain{};
-  element.strain(1, a, strain);
-  for (int j = 0; j < 3; ++j) {
-    double gradient = 0;
-    for (int m = 0; m < kGradientModes; ++m)
-      gradient += shape.gradient[index(m)][j] * mode_sum(static_cast<Mode>(m), u);
-    EXPECT_NEAR(strain.g[1][j], gradient, 1e-13 * 17);
-  }
-  const std::array<double, 4> q = by_directions(strain.q[1]);
-  for (int m = 0; m < kHourglassModes; ++m) {
-    double amplitude = mode_sum(static_cast<Mode>(mode_h1 + m), u);
-    for (int j = 0; j < 3; ++j) amplitude -= strain.g[1][j] * shape.position[index(mode_h1 + m)][j];
-    EXPECT_NEAR(q[index(m)], amplitude, 1e-12) << m;
-  }
+  expect_strain(element, shape, no_shape.gap_by_h1);
+  expect_transpose(element);
 }
 
 TEST(ElementBody, BackwardStagesAreTransposes) {
