@@ -163,14 +163,8 @@ struct ByDiagonals {
   Vec3 along02, along13;
 };
 
-ByDiagonals positions_by_diagonals(const ElementGeometry& geometry, Mode difference, Mode sum) {
-  const Vec3 a = geometry.position[difference], b = geometry.position[sum];
-  return {0.5 * (b + a), 0.5 * (b - a)};
-}
-
-ByDiagonals gradients_by_diagonals(const ElementGeometry& geometry, Mode difference, Mode sum) {
-  const Vec3 a = geometry.gradient[difference], b = geometry.gradient[sum];
-  return {b + a, b - a};
+ByDiagonals by_diagonals(const Vec3& difference, const Vec3& sum, double scale) {
+  return {scale * (sum + difference), scale * (sum - difference)};
 }
 
 /// C over gap, d02, d13 and h4 in place of h1 = gap / gap_by_h1, h2 = d02 + d13, h3 = d02 - d13 and h4.
@@ -186,49 +180,14 @@ HourglassMatrix in_kernel_modes(const HourglassMatrix& c, double gap_by_h1) {
   return result;
 }
 
-}  // namespace
-
+/// `matrix`: in the kernels' modes.
 template <class Real>
-SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
-                                     const Material& material) {
-  SweptConstants<Real> c{};
-  const auto real = [](double value) { return static_cast<Real>(value); };
-  const Vec3 x_h1 = geometry.position[mode_h1], g_h1 = geometry.gradient[mode_h1];
-  const ByDiagonals x_s = positions_by_diagonals(geometry, mode_eta, mode_zeta);
-  const ByDiagonals x_d = positions_by_diagonals(geometry, mode_h3, mode_h2);
-  ByDiagonals g_s = gradients_by_diagonals(geometry, mode_eta, mode_zeta);
-  const ByDiagonals g_d = gradients_by_diagonals(geometry, mode_h3, mode_h2);
-
-  // The gap is h1 / 2 + (crossing[0] - 1/2) s02 - (crossing[1] - 1/2) s13 and zero for linear fields.
-  const auto cross_x = [](const Vec3& a, const Vec3& b) { return a.y * b.z - a.z * b.y; };
-  const double area = cross_x(x_s.along02, x_s.along13);
-  const double off02 = -cross_x(x_h1, x_s.along13) / (2 * area);
-  const double off13 = -cross_x(x_h1, x_s.along02) / (2 * area);
-  g_s.along02 -= 2 * off02 * g_h1;
-  g_s.along13 += 2 * off13 * g_h1;
-  const double gap_by_h1 = 0.5 / (1 - dot(x_h1, g_h1));
-  c.crossing[0] = real(0.5 + off02);
-  c.crossing[1] = real(0.5 + off13);
-  c.gap_by_h1 = real(gap_by_h1);
-
-  const auto set = [&](Real* to, std::initializer_list<double> values) {
-    std::transform(values.begin(), values.end(), to, real);
-  };
-  set(c.gradient_x, {geometry.gradient[mode_xi].x, g_d.along02.x, g_d.along13.x});
-  set(c.gradient_y, {g_s.along02.y, g_s.along13.y, 2 * g_h1.y});
-  set(c.gradient_z, {g_s.along02.z, g_s.along13.z, 2 * g_h1.z});
-  set(c.position_x,
-      {geometry.position[mode_xi].x, x_d.along02.x, x_d.along13.x, geometry.position[mode_h4].x});
-  set(c.position_y, {x_s.along02.y, x_s.along13.y, x_h1.y});
-  set(c.position_z, {x_s.along02.z, x_s.along13.z, x_h1.z});
-  c.inverse_volume = real(1 / geometry.volume);
-  c.lambda = real(material.lame_lambda() * geometry.volume);
-  c.mu = real(material.shear_modulus() * geometry.volume);
-
-  const HourglassMatrix matrix = in_kernel_modes(hourglass, gap_by_h1);
+HourglassConstants<Real> hourglass_constants(const HourglassMatrix& matrix) {
   enum : std::size_t { x1, x2, x3, x4, y1, y2, y3, y4, z1, z2, z3, z4 };
-  const auto entry = [&](std::size_t row, std::size_t column) { return real(matrix[row][column]); };
-  HourglassConstants<Real>& h = c.hourglass;
+  const auto entry = [&](std::size_t row, std::size_t column) {
+    return static_cast<Real>(matrix[row][column]);
+  };
+  HourglassConstants<Real> h;
   constexpr std::size_t kEven[4] = {x2, x3, y1, z1};
   constexpr std::size_t kOdd[5] = {x1, y2, z2, y3, z3};
   for (std::size_t k = 0; k < 4; ++k) h.even_diagonal[k] = entry(kEven[k], kEven[k]);
@@ -248,6 +207,49 @@ SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const Hour
   h.y4 = entry(y4, y4);
   h.z4 = entry(z4, z4);
   h.y4_z4 = entry(y4, z4);
+  return h;
+}
+
+}  // namespace
+
+template <class Real>
+SweptConstants<Real> swept_constants(const ElementGeometry& geometry, const HourglassMatrix& hourglass,
+                                     const Material& material) {
+  SweptConstants<Real> c{};
+  const auto real = [](double value) { return static_cast<Real>(value); };
+  const auto& x = geometry.position;
+  const auto& g = geometry.gradient;
+  const ByDiagonals x_s = by_diagonals(x[mode_eta], x[mode_zeta], 0.5);
+  const ByDiagonals x_d = by_diagonals(x[mode_h3], x[mode_h2], 0.5);
+  ByDiagonals g_s = by_diagonals(g[mode_eta], g[mode_zeta], 1);
+  const ByDiagonals g_d = by_diagonals(g[mode_h3], g[mode_h2], 1);
+
+  // The gap is h1 / 2 + (crossing[0] - 1/2) s02 - (crossing[1] - 1/2) s13 and zero for linear fields.
+  const auto cross_x = [](const Vec3& a, const Vec3& b) { return a.y * b.z - a.z * b.y; };
+  const double area = cross_x(x_s.along02, x_s.along13);
+  const double off02 = -cross_x(x[mode_h1], x_s.along13) / (2 * area);
+  const double off13 = -cross_x(x[mode_h1], x_s.along02) / (2 * area);
+  g_s.along02 -= 2 * off02 * g[mode_h1];
+  g_s.along13 += 2 * off13 * g[mode_h1];
+  const double gap_by_h1 = 0.5 / (1 - dot(x[mode_h1], g[mode_h1]));
+  c.crossing[0] = real(0.5 + off02);
+  c.crossing[1] = real(0.5 + off13);
+  c.gap_by_h1 = real(gap_by_h1);
+
+  const auto set = [&](Real* to, std::initializer_list<double> values) {
+    std::transform(values.begin(), values.end(), to, real);
+  };
+  set(c.gradient_x, {g[mode_xi].x, g_d.along02.x, g_d.along13.x});
+  set(c.gradient_y, {g_s.along02.y, g_s.along13.y, 2 * g[mode_h1].y});
+  set(c.gradient_z, {g_s.along02.z, g_s.along13.z, 2 * g[mode_h1].z});
+  set(c.position_x, {x[mode_xi].x, x_d.along02.x, x_d.along13.x, x[mode_h4].x});
+  set(c.position_y, {x_s.along02.y, x_s.along13.y, x[mode_h1].y});
+  set(c.position_z, {x_s.along02.z, x_s.along13.z, x[mode_h1].z});
+  c.inverse_volume = real(1 / geometry.volume);
+  c.lambda = real(material.lame_lambda() * geometry.volume);
+  c.mu = real(material.shear_modulus() * geometry.volume);
+
+  c.hourglass = hourglass_constants<Real>(in_kernel_modes(hourglass, gap_by_h1));
   return c;
 }
 
