@@ -45,12 +45,15 @@ struct MonotoneCubicView {
   }
 };
 
-/// Piecewise cubic through `y` over the increasing `x`, with a continuous first derivative; flat at both
-/// ends.
+/// Slopes of a curve at both ends.
+enum class CurveEnds { flat, straight };
+
+/// Piecewise cubic through `y` over the increasing `x`, with a continuous first derivative. Straight ends
+/// have the slope of their piece's secant.
 class MonotoneCubic {
  public:
   MonotoneCubic() = default;
-  MonotoneCubic(std::vector<double> x, std::vector<double> y);
+  MonotoneCubic(std::vector<double> x, std::vector<double> y, CurveEnds ends = CurveEnds::flat);
 
   /// Value at a place within the ends.
   double value(double x) const { return view().value(x); }

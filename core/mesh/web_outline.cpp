@@ -53,8 +53,9 @@ WebOutline::WebOutline(const std::vector<double>& y, const std::vector<double>& 
   same("hub", radius.front(), back.front());
   same("rim", radius[up - 1], back.back());
   const auto split = static_cast<std::ptrdiff_t>(up);
-  gauge_ = MonotoneCubic({radius.begin(), radius.begin() + split}, {across.begin(), across.begin() + split});
-  field_ = MonotoneCubic(std::move(back), {across.rbegin(), across.rend() - split});
+  gauge_ = MonotoneCubic({radius.begin(), radius.begin() + split}, {across.begin(), across.begin() + split},
+                         CurveEnds::straight);
+  field_ = MonotoneCubic(std::move(back), {across.rbegin(), across.rend() - split}, CurveEnds::straight);
   hub_ = std::max(gauge_.first(), field_.first());
   rim_ = std::min(gauge_.last(), field_.last());
   if (gauge_.value(hub_) > field_.value(hub_)) std::swap(gauge_, field_);

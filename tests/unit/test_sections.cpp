@@ -379,6 +379,15 @@ TEST(WheelSection, OutlineOfAWebIsTheSameWeb) {
   EXPECT_EQ(make_wheel_sections(lma(), drawn, size).disc.p, b.p);
 }
 
+TEST(WheelSection, StraightFacesOfAnOutlineStayStraight) {
+  const WebOutline cone({0, 0.02, 0.05, 0.03}, {0.15, 0.36, 0.36, 0.15});
+  for (const double r : {0.15, 0.17, 0.255, 0.35}) {
+    const double shift = 0.02 * (r - 0.15) / 0.21;
+    EXPECT_NEAR(cone.at(r).gauge, shift, 1e-12) << r;
+    EXPECT_NEAR(cone.at(r).field, 0.03 + shift, 1e-12) << r;
+  }
+}
+
 TEST(WheelSection, DrawnWebsAreWellShapedAndNested) {
   for (const double coarse : {9.0, 13.0, 18.0})
     for (const double hub : {140.0, 150.0, 200.0})
