@@ -89,6 +89,7 @@ class AbaqusMesh {
     leave();
     const KeywordLine keyword = keyword_of(line);
     card_ = nullptr;
+    note_scope(keyword.name);
     if (keyword.name == "*node") return begin_nodes(keyword);
     if (keyword.name == "*element") return begin_elements(keyword);
     if (keyword.name == "*nset") return begin_set(keyword, source_.node_sets, "nset");
@@ -103,6 +104,30 @@ class AbaqusMesh {
                                             "*end assembly", "*end instance", "*preprint"};
     if (std::find(std::begin(kSilent), std::end(kSilent), keyword.name) == std::end(kSilent))
       ++source_.ignored[upper(keyword.name)];
+  }
+
+  /// Sets of *PART or *INSTANCE end where those of *ASSEMBLY begin.
+  void note_scope(const std::string& name) {
+    if (name == "*assembly" || name == "*end instance") {
+      in_assembly_ = true;
+      inner_node_sets_ = source_.node_sets.size();
+      inner_element_sets_ = source_.element_sets.size();
+    }
+    if (name == "*instance" || name == "*end assembly") in_assembly_ = false;
+  }
+
+  /// Returns true after a fault if a set of *ASSEMBLY has the name of one of its part.
+  bool clashes(const std::vector<MeshSource::Set>& sets, const std::string& name) {
+    const std::size_t inner = &sets == &source_.node_sets ? inner_node_sets_ : inner_element_sets_;
+    for (std::size_t i = 0; in_assembly_ && i < inner; ++i)
+      if (lower_case(sets[i].name) == lower_case(name)) {
+        fault("sets of one name",
+              fmt::format("the set {} of *ASSEMBLY has the name of one of its part in line "
+                          "{}: rename one of them",
+                          shown(name), sets[i].line));
+        return true;
+      }
+    return false;
   }
 
   static std::string upper(std::string text) {
@@ -126,6 +151,10 @@ class AbaqusMesh {
   }
 
   void begin_nodes(const KeywordLine& keyword) {
+    if (in_assembly_) {  // reference points, with numbers of their own
+      ++source_.ignored["*NODE in *ASSEMBLY"];
+      return;
+    }
     if (const std::string system = lower_case(keyword.text("system")); !system.empty() && system != "r")
       fault("keywords that cannot be read",
             "*NODE with SYSTEM is not read; write the places in Cartesian axes");
@@ -170,6 +199,11 @@ class AbaqusMesh {
     if (name.empty())
       return fault("sets without a name",
                    fmt::format("*{0} has no name: expected {0}=NAME", upper(parameter)));
+    if (in_assembly_ && keyword.value("instance") == nullptr) {  // of reference points
+      ++source_.ignored[fmt::format("*{} in *ASSEMBLY without INSTANCE", upper(parameter))];
+      return;
+    }
+    if (clashes(sets, name)) return;
     sets_ = &sets;
     set_ = *open(sets, name);
     if (const std::string* of = keyword.value("elset"); of != nullptr && &sets == &source_.node_sets)
@@ -185,6 +219,7 @@ class AbaqusMesh {
       ++source_.ignored["*SURFACE"];
       return;
     }
+    if (clashes(source_.node_sets, name)) return;
     sets_ = &source_.node_sets;
     source_.node_sets.push_back({name, lines_.number()});
     set_ = source_.node_sets.size() - 1;
@@ -318,6 +353,8 @@ class AbaqusMesh {
   bool hexahedra_ = false;
   std::int64_t part_ = 0;
   int parts_ = 0, instances_ = 0;
+  bool in_assembly_ = false;  ///< and in no instance of it
+  std::size_t inner_node_sets_ = 0, inner_element_sets_ = 0;
   std::optional<std::size_t> collected_;  ///< set that takes up the nodes or elements
   std::vector<MeshSource::Set>* sets_ = nullptr;
   std::size_t set_ = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <sstream>
@@ -37,14 +38,25 @@ std::vector<std::string> words_of(const std::string& line) {
   return words;
 }
 
+/// Returns true for a word of a header that names a column, its unit or its side.
+bool is_column_word(const std::string& word) {
+  return word == "x" || word == "y" || word == "z" || word == "left" || word == "right" ||
+         units().contains(word);
+}
+
+/// Returns true if "in" is the unit there, and no preposition: in brackets, or where columns alone are named.
+bool states_inches(const std::string& line, const std::vector<std::string>& words) {
+  const std::string text = lower_case(line);
+  return text.find("[in]") != std::string::npos || text.find("(in)") != std::string::npos ||
+         std::all_of(words.begin(), words.end(), is_column_word);
+}
+
 /// Throws InputError for a header of names, units and sides alone, "z [mm]; y [mm]", with names out of order.
 void require_order(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   for (const std::string& word : words) {
-    if (word == "x" || word == "y" || word == "z")
-      names.push_back(word);
-    else if (!units().contains(word) && word != "left" && word != "right")
-      return;
+    if (!is_column_word(word)) return;
+    if (word == "x" || word == "y" || word == "z") names.push_back(word);
   }
   if (names.size() > 1) require_column_order(names, kProfileNames);
 }
@@ -72,7 +84,8 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
     if (line.empty() || line.starts_with('#') || line.starts_with('!')) continue;
     const std::vector<double> row = leading_numbers(line, 6);
     if (columns == 0 && row.size() < 2) {
-      announced = row.size() == 1 && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
+      const bool count = line.find_first_not_of("0123456789") == std::string::npos;
+      announced = count && row[0] > 0 && row[0] < 1e7 ? static_cast<std::size_t>(row[0]) : 0;
       const std::vector<std::string> words = words_of(line);
       try {
         require_order(words);
@@ -80,6 +93,7 @@ FilePoints read_column_profile(const std::string& text, std::vector<LineFault>& 
         faults.push_back({number, error.what()});
       }
       for (const std::string& word : words) {
+        if (word == "in" && !states_inches(line, words)) continue;
         if (const auto unit = units().find(word); unit != units().end()) {
           scale = unit->second.metres;
           points.units = unit->second.name;

@@ -1,11 +1,27 @@
 #include "io/profiles/profile_format.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "io/profiles/column_profile.hpp"
 #include "io/profiles/miniprof_profile.hpp"
 #include "io/profiles/simpack_profile.hpp"
 #include "io/text/text.hpp"
 
 namespace tread {
+
+namespace {
+
+/// Returns true for a first line that is a title or a count although it begins with a number: "60E1 worn",
+/// "45". A row that is cut off or holds something else, "12.5,abc", is none.
+bool is_title(const std::string& line) {
+  const std::vector<double> numbers = leading_numbers(line, 2);
+  if (numbers.empty()) return true;
+  const std::size_t word = std::min(line.find_first_of(" \t"), line.size());
+  return numbers.size() == 1 && line.find_first_of(".,;+-\t", 0) >= word;
+}
+
+}  // namespace
 
 ProfileFormat profile_format(const std::string& text, const std::filesystem::path& path) {
   const std::string suffix = lower_case(path.extension().string());
@@ -20,7 +36,8 @@ ProfileFormat profile_format(const std::string& text, const std::filesystem::pat
         line.starts_with("miniprof") || line.starts_with("#miniwheelprof"))
       return ProfileFormat::miniprof;
     if (line.empty() || line.starts_with('#')) continue;
-    if (!leading_numbers(line, 2).empty()) return first ? ProfileFormat::two_columns : ProfileFormat::columns;
+    if (first && !is_title(line)) return ProfileFormat::two_columns;
+    if (!first && !leading_numbers(line, 2).empty()) return ProfileFormat::columns;
     first = false;
   }
   return ProfileFormat::two_columns;

@@ -23,6 +23,7 @@ constexpr double kGap = 16;     // space between panels
 constexpr double kBottom = 46;  // space for tick labels and the label of the abscissa
 constexpr std::size_t kGroups = 1000;
 constexpr int kColours = 6;
+constexpr double kSameValue = 1e-12;  // difference by size: smaller ones are no range
 
 /// A linear map from values to pixels.
 struct Scale {
@@ -44,9 +45,10 @@ struct Extent {
   /// Range of positive length, for any added values.
   Range range() const {
     if (low > high) return {0, 1};
-    if (low == high)
-      return {low - (low == 0 ? 1 : std::abs(low) / 10), high + (low == 0 ? 1 : std::abs(low) / 10)};
-    return {low, high};
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low > kSameValue * size) return {low, high};
+    const double room = size == 0 ? 1 : size / 10;
+    return {low - room, high + room};
   }
 };
 
@@ -63,8 +65,11 @@ int tick_count(double height) {
 }
 
 Range x_range(const Figure& figure) {
-  if (figure.x_range) return *figure.x_range;
   Extent extent;
+  if (figure.x_range) {  // a wheel that rolls back ends before its start
+    for (const double x : *figure.x_range) extent.add(x);
+    return extent.range();
+  }
   for (const Panel& panel : figure.panels)
     for (const Series& series : panel.series)
       for (const double x : series.x) extent.add(x);
@@ -280,6 +285,7 @@ std::vector<std::size_t> thinned(std::span<const double> values, std::size_t gro
 }
 
 std::vector<double> ticks(double low, double high, int count) {
+  if (!(high - low > kSameValue * std::max(std::abs(low), std::abs(high)))) return {low};
   const double step = tick_step(low, high, count);
   std::vector<double> values;
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)

@@ -36,9 +36,8 @@ std::optional<double> number_at(const Field& field) {
   if (const auto* value = std::get_if<double*>(&field)) return **value;
   if (const auto* value = std::get_if<int*>(&field)) return **value;
   if (const auto* value = std::get_if<std::optional<double>*>(&field)) return **value;
-  if (const auto* value = std::get_if<DampingField>(&field)) {
-    return std::max(*value->high_frequency_fraction, *value->rayleigh_beta);
-  }
+  if (const auto* value = std::get_if<DampingField>(&field))
+    return *value->rayleigh_beta != 0 ? *value->rayleigh_beta : *value->high_frequency_fraction;
   return std::nullopt;
 }
 

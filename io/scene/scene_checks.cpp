@@ -258,6 +258,16 @@ class Checker {
             fmt::format("{}, x = {:.6g} m, is not on the rail, {:.6g} m to {:.6g} m", point, x, left, right));
   }
 
+  /// The depths of a file, some of them at least.
+  void check_file_on_rail(const RailSpec& rail, const SurfaceSpec& surface, const std::string& table) {
+    const double first = surface.at + surface.file_x.front(), last = surface.at + surface.file_x.back();
+    const double left = -rail.origin, right = rail.length - rail.origin;
+    require(
+        last >= left && first <= right, {table + ".at", table + ".file", table},
+        fmt::format("the file's depths, x = {:.6g} m to {:.6g} m, are not on the rail, {:.6g} m to {:.6g} m",
+                    first, last, left, right));
+  }
+
   void check_probe(const std::string& table, const ProbeSpec& probe) {
     require(scene_.motion.has_value(), {table}, "a probe needs [motion]: histories follow a motion");
     if (probe.body == "rail") {
@@ -331,7 +341,10 @@ class Checker {
       require(surface.wavelength <= surface.length + kLengthTolerance,
               {table + ".wavelength", table + ".length"}, "not one wave fits into the length");
     if (!surface.on_wheel()) {
-      check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
+      if (surface.file_x.empty())
+        check_on_rail(*scene_.rail, surface.at, {table + ".at", table}, "the depth's place");
+      else
+        check_file_on_rail(*scene_.rail, surface, table);
       return;
     }
     const double diameter = scene_.wheel->diameter;

@@ -39,9 +39,9 @@ constexpr std::array<Symbol, 10> kSymbols{{
 constexpr std::array<std::pair<char, int>, 8> kPrefixes{
     {{'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'d', -1}, {'k', 3}, {'M', 6}, {'G', 9}}};
 
-constexpr std::array<const Quantity*, 13> kQuantities{
+constexpr std::array<const Quantity*, 14> kQuantities{
     &kLength,    &kTime,           &kSpeed,  &kAcceleration, &kMass,      &kDensity, &kForce,
-    &kStiffness, &kViscousDamping, &kTorque, &kStress,       &kFrequency, &kData};
+    &kStiffness, &kViscousDamping, &kTorque, &kStress,       &kFrequency, &kData,    &kWear};
 
 /// Typographic signs of unit names in ASCII.
 std::string in_ascii(std::string_view text) {

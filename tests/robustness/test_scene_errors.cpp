@@ -523,6 +523,17 @@ TEST_F(Files, MeasuredDepths) {
                 "angles are for [surface] with kind = \"profile\" on the wheel");
 }
 
+TEST_F(Files, DepthsOfAFileLieOnTheRail) {
+  write("track.txt", "# x [m]  d [mm]\n350.2 0\n350.6 0.1\n351 0\n");
+  const auto at = [&](const std::string& place) {
+    return scene_error(
+        write("at.toml",
+              kBase + "[surface.a]\nkind = \"profile\"\nfile = \"track.txt\"\nat = \"" + place + "\"\n"));
+  };
+  EXPECT_EQ(at("-347.8 m"), "accepted");
+  expect_part(at("2.4 m"), "the file's depths, x = 352.6 m to 353.4 m, are not on the rail, -6.1 m to 9.1 m");
+}
+
 /// The header's names tell that the columns stand in another order.
 TEST_F(Files, ColumnsInAnotherOrder) {
   const auto refusal = [&](const std::string& keys, const std::string& rows) {

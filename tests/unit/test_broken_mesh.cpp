@@ -175,6 +175,13 @@ std::vector<Broken> broken_abaqus() {
        "*Instance, name=a, part=b\n1., 0., 0.\n*NSET",
        -1,
        {"the instance is moved"}},
+      {"sets of one name",
+       file,
+       "*NSET",
+       "*Nset, nset=twin\n101\n*Assembly, name=a\n*Instance, name=i, part=p\n*End Instance\n"
+       "*Nset, nset=Twin, instance=i\n102\n*End Assembly\n*NSET",
+       -1,
+       {"the set Twin of *ASSEMBLY has the name of one of its part"}},
       {"unknown set",
        file,
        "LEFT END,",

@@ -86,6 +86,9 @@ TEST(ImportedMesh, NamesWhatItLeavesOut) {
   noted(files()[0], "set \"5\": 1 of 3 elements belong to the mesh");
   noted(files()[3], "not read: $NodeData");
   noted(files()[4], "not read: *SOLID SECTION");
+  MeshFile with_point = files()[4];
+  with_point.text += "*Assembly, name=a\n*Node\n101, 7., 7., 7.\n*Nset, nset=point\n101\n*End Assembly\n";
+  noted(with_point, "not read: *NODE in *ASSEMBLY, *NSET in *ASSEMBLY without INSTANCE, *SOLID SECTION");
 }
 
 TEST(ImportedMesh, TakesPartsByNameNumberOrSet) {

@@ -149,6 +149,9 @@ TEST(ProfileFiles, RailInEveryFormatIsTheSame) {
       {"r.ban", "MPTypeNo=299\nColumnDef=Y,X\n\n" + rows({exact.z, exact.y}), kRail},
       {"r.ban", "MPTypeNo=299\n\n" + rows(reversed(changed(exact, 1, -7, -1))), shifted},
       {"r.rai", "a rail [mm]\n  12\n" + rows(exact, " 0 0"), kRail},
+      {"r.txt", "60E1 worn, mm\nmeasured in depot\n" + rows(exact), kRail},
+      {"r.txt", "60 E1 new\n" + rows(exact), kRail},
+      {"r.txt", "a rail\n2024 rail 3\n" + rows(exact), kRail},
       {"r.txt", rows(reversed(changed(exact, 1, 0, -1))), kRail},
   };
   for (const auto& file : files) {
@@ -265,6 +268,8 @@ TEST(ProfileFiles, BrokenOnesAreRefusedWithPlaceAndReason) {
       {"a.rai", "a rail\n" + r + "end\n", false,
        ": \"end\": expected a row of 2 numbers as the first row has"},
       {"a.txt", "0 0\n1 1\n2 x\n", false, "a.txt:3: \"x\" is not a number"},
+      {"a.txt", "12.5 abc\n" + r, false, "a.txt:1: \"abc\" is not a number"},
+      {"a.csv", "12;abc\n" + r, false, "a.csv:1: "},
   };
   for (const auto& file : files) {
     SCOPED_TRACE(file.message);

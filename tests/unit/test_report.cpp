@@ -51,6 +51,11 @@ TEST(Chart, TicksAreRound) {
   EXPECT_NEAR(odd.back(), 2.9, 1e-12);
 }
 
+TEST(Chart, ValuesThatDifferByRoundingHaveOneTick) {
+  for (const double value : {0.3, 83.3, -8340.0, 1e5})
+    EXPECT_EQ(ticks(value, std::nextafter(value, 1e9), 7), std::vector<double>{value});
+}
+
 Figure one_curve(std::vector<double> x, std::vector<double> y) {
   Figure figure;
   figure.title = "F_N < 200 kN";

@@ -208,6 +208,12 @@ TEST(SceneReader, DampingHasTwoNames) {
   expect_round_trip(resolved);
 }
 
+TEST(SceneReader, DampingIsNotNegative) {
+  for (const char* damping : {"{ kind = \"rayleigh_beta\", value = \"-1e-8 s\" }",
+                              "{ kind = \"high_frequency_fraction\", value = -0.1 }"})
+    EXPECT_THROW(resolve(kBase + "[material.steel]\ndamping = " + damping + "\n"), InputError) << damping;
+}
+
 const std::string kWheelSteel =
     "[material.wheel_steel]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\ndensity = \"2700 kg/m3\"\n"
     "damping = { kind = \"rayleigh_beta\", value = \"1e-8 s\" }\n";
