@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -25,10 +27,13 @@ namespace {
 constexpr const char* kRequest = "request";
 constexpr const char* kStatus = "status.json";
 
-/// Locks the folder. Throws ResourceError if another process owns it.
+/// Locks the folder. Throws ResourceError if another process owns it, for longer than is_taken() does.
 FileLock take(const fs::path& folder) {
-  std::optional<FileLock> lock = FileLock::try_folder(folder);
-  if (lock) return std::move(*lock);
+  constexpr int kAttempts = 10;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (attempt > 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (std::optional<FileLock> lock = FileLock::try_folder(folder)) return std::move(*lock);
+  }
   throw ResourceError(fmt::format(
       "another process works on {}: `tread ctl {} status` shows it, `tread ctl {} stop` ends it; or "
       "choose another folder",

@@ -36,6 +36,8 @@
 #include "io/report/figure_files.hpp"
 #include "io/report/plain_text.hpp"
 #include "io/scene/schema.hpp"
+#include "io/text/text.hpp"
+#include "io/text/text_file.hpp"
 #include "kernels/device/device.hpp"
 
 namespace tread {
@@ -251,7 +253,7 @@ void refuse_to_overwrite(const RunSession& session, const ResolvedScene& resolve
 /// Anything else would make it another run.
 void refuse_other_keys(const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
-    const std::string key = text.substr(0, text.find('='));
+    const std::string key(trimmed(std::string_view(text).substr(0, text.find('='))));
     const std::optional<Key> known = find_key(key);
     if (!known || key.starts_with(kProbeTables) ||
         !known->effects.only({Effect::duration, Effect::output, Effect::process, Effect::stop}))
@@ -386,6 +388,7 @@ void resume_run(const RunOptions& options) {
                       options.overrides.front(), options.output.string()));
     session.progress.say(fmt::format("{} holds a finished run: see {}", options.output.string(),
                                      (session.folder / "report.html").string()));
+    if (options.json) fmt::print("{}", read_text_file(session.folder / "summary.json", 1 << 24));
     return;
   }
   const std::optional<CheckpointFolder::Found> found = find_checkpoint(session);

@@ -123,6 +123,12 @@ TEST_F(Develop, BeginsWithTheStateOfAnotherRun) {
     EXPECT_TRUE(content_of(folder_ / name) == content_of(root_ / "whole" / name)) << name;
 }
 
+TEST_F(Develop, ForgetsAStartThatFailed) {
+  EXPECT_EQ(call(develop(folder_, 1, kCorrugation + kWear, "--from elsewhere")), 2) << errors();
+  ASSERT_EQ(call(develop(folder_, 1, kCorrugation + kWear)), 0) << errors();
+  EXPECT_FALSE(fs::exists(folder_ / "from.txt"));
+}
+
 TEST_F(Develop, KeepsWhatItBeganWith) {
   const std::string from = fmt::format("--from {}", (root_ / "whole/passage-0000").string());
   ASSERT_EQ(call(develop(folder_, 1, kCorrugation + kWear, from)), 0) << errors();

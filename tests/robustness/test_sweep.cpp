@@ -144,8 +144,9 @@ TEST_F(Sweep, JobArrayRunsResumesAndQueuesAgain) {
       << errors();
   EXPECT_TRUE(has(content_of(script), "--set 'output.progress_interval=2 ms'` without"))
       << content_of(script);
-  ASSERT_EQ(sweep(file, "--slurm " + script.string()), 0) << errors();
+  ASSERT_EQ(sweep(file, "-t 1 --slurm " + script.string()), 0) << errors();
   const std::string text = content_of(script);
+  EXPECT_TRUE(has(text, "place=( -t 1 )")) << text;
   EXPECT_TRUE(has(text, "#SBATCH --array=0-1\n")) << text;
   EXPECT_FALSE(fs::exists(runs_ / "mu=0.1" / "summary.json"));
   fs::create_directory(program_.folder / "bin");

@@ -170,7 +170,10 @@ DevelopmentFolder::DevelopmentFolder(const fs::path& path, const ResolvedScene& 
   keep_scene(folder_.path(), resolved);
   const bool begun = fs::exists(work_path(0)) || fs::exists(run_path(0) / kCheckpointFolder);
   options_.from = start_of(folder_.path(), options_.from, begun);
-  if (!options_.from.empty()) write_text_file(folder_ / kStart, options_.from);
+  if (!options_.from.empty())
+    write_text_file(folder_ / kStart, options_.from);
+  else
+    fs::remove(folder_ / kStart);  // of a call that began nothing
   const std::string smooth = smooth_scene(resolved);
   write_text_file(folder_ / kSmoothScene, smooth + (options_.from.empty() ? fork_table(scene_) : ""));
   write_text_file(folder_ / kPassageScene, smooth);

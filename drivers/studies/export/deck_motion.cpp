@@ -90,6 +90,7 @@ std::int64_t write_static_curve(DeckModel& deck, KeywordDeck& out) {
 /// Values of a function of time over the deck's duration, and at the ends of its ramps.
 std::vector<std::array<double, 2>> sampled(double duration, double ramp, int ramps,
                                            const std::function<double(double)>& value) {
+  if (ramp <= 0) return {{0, value(0)}, {2 * duration, value(0)}};
   constexpr int kPoints = 20;  // in each ramp
   std::vector<std::array<double, 2>> points;
   for (int i = 0; i <= kPoints * ramps; ++i) {

@@ -68,7 +68,8 @@ class Fit {
     CurveFit fit;
     double squares = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double value = value_at(curve.x, curve.force, x[i]);
+      // Its first and last sample are up to a step within the run's.
+      const double value = value_at(curve.x, curve.force, std::clamp(x[i], curve.x.front(), curve.x.back()));
       fit.values.push_back(value);
       squares += (value - force_[i]) * (value - force_[i]);
     }

@@ -88,7 +88,7 @@ MultibodyResult run_multibody(const MultibodyModel& model, const MultibodyStep& 
   ModalPassage passage(track, model.vehicle, model.start, r.dt, wheel);
   roll(passage, model, model.speed, model.end, [&](double x, double roughness) {
     ++r.steps;
-    if (x >= 0)
+    if (x >= std::min(0.0, model.scene.start_x()))
       r.samples.push_back(
           {passage.time(), x, passage.force(), passage.wheel(), passage.rail(), passage.sprung(), roughness});
   });

@@ -15,11 +15,20 @@ namespace tread {
 
 namespace {
 
-/// An element of the array: the folder of its run and the words after "tread run".
+std::string shell_words(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += " " + shell_word(word);
+  return text;
+}
+
+/// An element of the array: the folder of its run, the words after "tread", threads and device for resuming,
+/// and whether a failed run begins anew.
 std::string element(const StudyPlan& plan, const PlannedPoint& point, std::size_t number) {
-  std::string words;
-  for (const std::string& word : point_arguments(plan, point, plan.threads)) words += " " + shell_word(word);
-  return fmt::format("{}) folder={} words=({} ) ;;\n", number, shell_word(point.folder.string()), words);
+  const bool anew = point.status.state == PointState::failed && point.status.anew;
+  return fmt::format("{}) folder={} words=({} ) place=({} ) anew={} ;;\n", number,
+                     shell_word(point.folder.string()),
+                     shell_words(point_arguments(plan, point, plan.threads)),
+                     shell_words(place_arguments(plan, plan.threads)), anew ? 1 : 0);
 }
 
 }  // namespace
@@ -42,9 +51,12 @@ tread={program}
 case ${{SLURM_ARRAY_TASK_ID:?it is an element of a job array}} in
 {elements}*) echo "there is no element $SLURM_ARRAY_TASK_ID" >&2; exit 2 ;;
 esac
-if [[ -d $folder/checkpoint || -e $folder/summary.json ]]; then # of a finished run it says so
-  words=(resume "$folder")
+if ((anew)) && [[ -e $folder/failed.json ]]; then
+  : # queued again, it goes on
+elif [[ -d $folder/checkpoint || -e $folder/summary.json ]]; then # of a finished run it says so
+  words=(resume "$folder" "${{place[@]}}")
 fi
+rm -f "$folder/failed.json"
 "$tread" "${{words[@]}}" &
 run=$!
 trap 'kill -TERM $run' TERM

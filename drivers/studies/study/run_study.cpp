@@ -166,7 +166,7 @@ std::optional<Error> shortfall(const StudyPlan& plan, const std::string& stopped
     else if (point.status.state != PointState::done)
       ++left;
   }
-  if (!stopped_by.empty())
+  if (!stopped_by.empty() && left > 0)
     return Interrupted(fmt::format("stopped by {}; nothing is lost: `{}` goes on with {} points", stopped_by,
                                    resume_command, left));
   if (failed > 0)

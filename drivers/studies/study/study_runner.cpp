@@ -40,13 +40,18 @@ int count(const StudyPlan& plan, PointState state) {
 
 }  // namespace
 
-std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count,
-                                         int card) {
-  const PointStatus& status = point.status;
+std::vector<std::string> place_arguments(const StudyPlan& plan, int count, int card) {
   std::vector<std::string> place;
   if (count > 0) place = {"-t", std::to_string(count)};
   const std::string device = card < 0 ? plan.device : fmt::format("gpu:{}", card);
   if (!device.empty()) place.insert(place.end(), {"--device", device});
+  return place;
+}
+
+std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int count,
+                                         int card) {
+  const PointStatus& status = point.status;
+  const std::vector<std::string> place = place_arguments(plan, count, card);
   const bool failed = status.state == PointState::failed;
   std::vector<std::string> arguments;
   if (status.state == PointState::interrupted || (failed && !status.anew)) {
@@ -192,6 +197,9 @@ void StudyRunner::obey() {
   const std::optional<RunRequest> request = folder_->take_request();
   if (request == RunRequest::stop) stop("tread ctl");
   checkpoint = checkpoint || request == RunRequest::checkpoint;
+  if (request == RunRequest::frame)
+    for (const Running& running : running_)
+      if (owns_folder(running)) leave(running, RunRequest::frame);
   if (!checkpoint) return;
   for (const Running& running : running_) {
     if (plan_->launcher.empty())

@@ -67,6 +67,9 @@ class StudyRunner {
   std::string stopped_by_;
 };
 
+/// Threads and device of a run on a command line; as point_arguments().
+std::vector<std::string> place_arguments(const StudyPlan& plan, int threads, int card = -1);
+
 /// Command line of a point after "tread"; `threads` of 0 are not stated. `card`: in place of the plan's
 /// device unless below 0.
 std::vector<std::string> point_arguments(const StudyPlan& plan, const PlannedPoint& point, int threads,
