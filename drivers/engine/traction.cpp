@@ -31,12 +31,7 @@ double full_torque(const Model& model) {
   return *motion->traction_mu * model.wheel_load() * model.wheel_radius() * spin_up(model);
 }
 
-double steady_traction(const Model& model) {
-  const std::optional<MotionSpec>& motion = model.scene.motion;
-  const bool steady = motion && motion->ramp == 0 && motion->speed > 0 && model.scene.start() != "rigid";
-  if (!steady || !model.contact || model.torque.empty()) return 0;
-  const double force = full_torque(model) / (model.wheel_radius() * spin_up(model));
-  const double traction = force / model.wheel_load();
+void require_grip(const Model& model, double traction) {
   const double x = model.scene.start_x();
   const double friction = model.contact->friction_at_rest(x);
   constexpr double kRounding = 1e-9;
@@ -46,6 +41,15 @@ double steady_traction(const Model& model) {
         "coefficient of friction is {:.4g} at x = {:.4g} m, where it starts: its patch would slide; state a "
         "smaller motion.traction.mu or torque, or a ramp above 0",
         traction, friction, x));
+}
+
+double steady_traction(const Model& model) {
+  const std::optional<MotionSpec>& motion = model.scene.motion;
+  const bool steady = motion && motion->ramp == 0 && motion->speed > 0 && model.scene.start() != "rigid";
+  if (!steady || !model.contact || model.torque.empty()) return 0;
+  const double force = full_torque(model) / (model.wheel_radius() * spin_up(model));
+  const double traction = force / model.wheel_load();
+  require_grip(model, traction);
   return traction;
 }
 
@@ -59,7 +63,7 @@ double start_creepage(const Model& model, double traction) {
                                        model.wheel_radius(),
                                        model.hertz_radius_y,
                                        load,
-                                       model.scene.contact->largest_friction(),
+                                       model.contact->friction_at_rest(model.scene.start_x()),
                                        std::abs(traction) * load,
                                        cell};
   return std::copysign(half_space::steady_summary(rolling, cell).creepage, traction);

@@ -119,10 +119,10 @@ SteadyReference reference_of(const TyreOnBlock& bodies, const HalfSpace& half_sp
   const ShearPeak box = largest_shear(half_space, h, row_aside(bodies));
   reference.max_shear = box.shear;
   // Elements stand beside the axis when nodes stand on it; the largest stress is near the largest shear.
-  reference.von_mises =
-      half_space::largest_box_stress({half_space.grid(), half_space.contact.pressure,
-                                      half_space.state.tractions, bodies.elastic.rail.poissons_ratio},
-                                     {box.x, 0.5 * h, 0, h, h, h}, 0.5 * patch.semi_axis_x);
+  reference.von_mises = half_space::largest_box_stress(
+      {half_space.grid(), half_space.contact.pressure, half_space.state.tractions,
+       bodies.elastic.rail.poissons_ratio},
+      {box.x, 0.5 * h - row_aside(bodies), 0, h, h, h}, 0.5 * patch.semi_axis_x);
   return reference;
 }
 

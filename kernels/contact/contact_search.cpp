@@ -150,8 +150,11 @@ std::optional<ContactSearch::Aim> ContactSearch::aim_at(const BodyFrame& wheel, 
   aim.first_station = low.station;
   aim.last_station = std::min(high.station + 1, low.station + static_cast<int>(columns_.size()));
   const double slope = 1.5 * half / options_.wheel_radius + surfaces_.corrugation().steepest() +
-                       surfaces_.rail_depth().steepest() + surfaces_.wheel_depth().steepest();
-  aim.closing_speed = norm(wheel.velocity) * slope + 5;
+                       surfaces_.rail_depth().steepest();
+  // Depths of the wheel pass a place of the rail with the rim, which may spin.
+  const double passing = std::abs(wheel.velocity.x - wheel.spin * options_.wheel_radius);
+  const double speed = norm(wheel.velocity);
+  aim.closing_speed = speed * slope + std::max(speed, passing) * surfaces_.wheel_depth().steepest() + 5;
   aim.margin = aim.closing_speed * dt;
   return aim;
 }

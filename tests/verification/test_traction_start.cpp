@@ -88,6 +88,11 @@ TEST(TractionStart, StatesTheCreepage) {
   EXPECT_GT(creepage, 1e-4);
   EXPECT_LT(creepage, 5e-3);
   EXPECT_EQ(start_creepage(model, -0.2), -creepage);
+  Scene slippery = scene_of(0.15);
+  slippery.contact->friction_law = "table";
+  slippery.contact->friction_x = {0, 1};
+  slippery.contact->friction_at_x = {0.2, 0.5};
+  EXPECT_GT(start_creepage(Model(slippery), 0.15), 1.1 * start_creepage(model, 0.15));
   EXPECT_EQ(start_creepage(Model(scene_of(0.2, {"motion.creepage=0.001"})), 0.2), 0.001);
 }
 

@@ -13,7 +13,6 @@ constexpr int kCreepagePoints = 28;            ///< [paper, section 4.2]
 /// Creepage of a rim at the speed `rim` against an axle at `speed`, over their mean. Without a rolling speed
 /// there is none: at rest, or when the rim runs backwards as fast as the axle forwards. [paper, eq. (3)]
 double creepage_of(double rim, double speed) {
-  constexpr double kLeastSpeed = 1e-3;  // [m/s]
   const double rolling = 0.5 * (rim + speed);
   return std::abs(rolling) > kLeastSpeed ? (rim - speed) / rolling : 0.0;
 }
@@ -112,7 +111,8 @@ void WheelMotion::end_sample(const StepState& step, Sample& sample) const {
   const MeanMotion mean = relative_to_frame(motion);
   sample.wheel_speed = motion.wheel.velocity.x + mean.velocity.x;
   sample.wheel_spin = motion.wheel.spin + mean.spin;
-  sample.lateral_creepage = sample.wheel_speed != 0 ? mean.velocity.y / std::abs(sample.wheel_speed) : 0.0;
+  const double speed = std::abs(sample.wheel_speed);
+  sample.lateral_creepage = speed > kLeastSpeed ? mean.velocity.y / speed : 0.0;
   sample.creepage_node = creepage(creepage_points_.front(), motion, mean);
   double sum = 0;
   for (const CreepagePoint& point : creepage_points_) sum += creepage(point, motion, mean);

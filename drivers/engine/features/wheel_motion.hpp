@@ -12,6 +12,8 @@
 
 namespace tread {
 
+inline constexpr double kLeastSpeed = 1e-3;  ///< below it nothing rolls [m/s]
+
 /// Parts of the model that carry the wheel; absent ones are null.
 struct WheelParts {
   const SpinningBody& body;

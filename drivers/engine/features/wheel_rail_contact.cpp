@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "drivers/engine/features/wheel_motion.hpp"
+
 namespace tread {
 
 std::vector<PhaseInfo> WheelRailContact::phases() const {
@@ -51,7 +53,7 @@ void WheelRailContact::meet(const StaticStart& start) {
   contact_->begin();
 }
 
-void WheelRailContact::end_sample(const StepState& /*step*/, Sample& sample) const {
+void WheelRailContact::end_sample(const StepState& step, Sample& sample) const {
   const ContactTotals& totals = contact_->totals();
   sample.energy.penalty = totals.penalty_energy;
   sample.energy.frictional_work = contact_->frictional_work();
@@ -64,7 +66,8 @@ void WheelRailContact::end_sample(const StepState& /*step*/, Sample& sample) con
   sample.max_pressure = contact_->nodes().max_pressure();
   sample.max_shear = contact_->nodes().max_shear();
   sample.max_penetration = totals.max_penetration;
-  sample.spin_creepage = -mean_normal().y / contact_->options().wheel_radius;
+  const double speed = step.wheel.velocity.x;
+  sample.spin_creepage = std::abs(speed) > kLeastSpeed ? -mean_normal().y * step.wheel.spin / speed : 0.0;
   const SurfacePair& surfaces = contact_->surfaces();
   sample.corrugation_depth = surfaces.depth_at(sample.wheel_x, surfaces.corrugation().centre());
 }
